@@ -1,0 +1,1 @@
+"""Driving policies for the ego and reference driver models."""

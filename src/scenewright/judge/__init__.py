@@ -1,0 +1,1 @@
+"""Conditions measured over traces, margins, verdict."""

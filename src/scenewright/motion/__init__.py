@@ -1,0 +1,1 @@
+"""Piecewise-polynomial motion profiles, symbolic and numeric."""

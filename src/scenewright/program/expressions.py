@@ -1,0 +1,207 @@
+"""The expressions a program is made of: states of actors, landmarks, arithmetic, comparisons, logic over time.
+
+What enters: nothing. What leaves: frozen nodes that compare by meaning (source spans are carried, not compared).
+Nodes hold no behaviour; parsing, printing, checking, lowering and evaluating live elsewhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Literal
+
+from scenewright.errors import Span
+
+Order = Literal[0, 1, 2]
+ORDER_LETTERS = ("x", "v", "a")
+ComparisonOperator = Literal["==", "<=", ">=", "<", ">"]
+LANDMARKS = (
+    "stop_line",
+    "conflict_point",
+    "intersection",
+    "turn",
+    "turn_start",
+    "turn_end",
+    "junction_start",
+    "junction_end",
+    "route_end",
+)
+
+
+def _span() -> Span | None:
+    return field(default=None, compare=False, repr=False)  # type: ignore[return-value]
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A literal in SI units, exact."""
+
+    value: Fraction
+    span: Span | None = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterRef:
+    """The value of a parameter of the program."""
+
+    name: str
+    span: Span | None = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Landmark:
+    """A named arc length (m) on an actor's route.
+
+    `actor` None means the actor whose position it is compared with; `other` names the second actor of a conflict point
+    where there are more than two.
+    """
+
+    name: str
+    actor: int | None = None
+    other: int | None = None
+    span: Span | None = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Knot:
+    """A knot of the actor whose state is asked for."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class PieceRef:
+    """A whole piece of the actor's sketch, such as ``dec`` or, where there are several, ``dec2``."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Elapsed:
+    """The time (s) from the start of the scenario to a knot of an actor: ``A1(t1)``."""
+
+    actor: int
+    knot: str
+    span: Span | None = _span()
+
+
+# A moment: a knot of the same actor, a knot of another actor, a concrete time, a piece, or (None) the moment of evaluation.
+At = Knot | PieceRef | Elapsed | Number | None
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """Position (order 0, m), speed (1, m/s) or acceleration (2, m/s^2) of an actor along its route."""
+
+    actor: int
+    order: Order
+    at: At
+    span: Span | None = _span()
+
+
+DerivedKind = Literal["gap", "tta", "ttc", "headway"]
+
+
+@dataclass(frozen=True, slots=True)
+class Derived:
+    """A quantity computed from states at one moment.
+
+    ``gap(A0, A1, t)``: how far A1 is ahead of A0 (m, between reference points). ``tta(A0, landmark, t)``: distance over
+    speed (s). ``ttc(A0, A1, t)``: gap over closing speed (s). ``headway(A0, A1, t)``: gap over A0's speed (s).
+    The moment is a knot of the first actor, another actor's knot, or a time.
+    """
+
+    kind: DerivedKind
+    actor: int
+    target: int | Landmark
+    at: At
+    span: Span | None = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Arithmetic:
+    """Sum, difference, product or quotient."""
+
+    operator: Literal["+", "-", "*", "/"]
+    left: Term
+    right: Term
+    span: Span | None = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Negate:
+    """The negative of a term."""
+
+    operand: Term
+    span: Span | None = _span()
+
+
+Term = Number | ParameterRef | Landmark | Elapsed | State | Derived | Arithmetic | Negate
+
+
+@dataclass(frozen=True, slots=True)
+class Compare:
+    """A comparison of two terms of the same dimension."""
+
+    operator: ComparisonOperator
+    left: Term
+    right: Term
+    span: Span | None = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Logic:
+    """``and``, ``or``, ``not`` (one operand) or ``implies`` (two)."""
+
+    operator: Literal["and", "or", "not", "implies"]
+    operands: tuple[Formula, ...]
+    span: Span | None = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Temporal:
+    """``always``, ``never`` or ``eventually`` within ``[start, end]``; states in the body carry no moment of their own."""
+
+    operator: Literal["always", "never", "eventually"]
+    start: Term
+    end: Term
+    body: Formula
+    span: Span | None = _span()
+
+
+Formula = Compare | Logic | Temporal
+Node = Term | Formula
+
+
+def children(node: Node) -> tuple[Node, ...]:
+    """Return the direct sub-expressions of `node`, left to right."""
+    match node:
+        case Arithmetic(left=left, right=right) | Compare(left=left, right=right):
+            return (left, right)
+        case Negate(operand=operand):
+            return (operand,)
+        case Logic(operands=operands):
+            return operands
+        case Temporal(start=start, end=end, body=body):
+            return (start, end, body)
+        case State(at=Elapsed() as at) | Derived(at=Elapsed() as at, target=int()):
+            return (at,)
+        case Derived(target=Landmark() as target, at=at):
+            return (target, at) if isinstance(at, Elapsed) else (target,)
+        case _:
+            return ()
+
+
+def walk(node: Node) -> Iterator[Node]:
+    """Yield `node` and everything below it, depth first, left to right."""
+    yield node
+    for child in children(node):
+        yield from walk(child)
+
+
+def node_ids(root_id: str, node: Node) -> Iterator[tuple[str, Node]]:
+    """Yield every node with a stable id: the constraint's id and the path of child numbers to it (``c3.0.1``)."""
+    yield root_id, node
+    for index, child in enumerate(children(node)):
+        yield from node_ids(f"{root_id}.{index}", child)

@@ -1,0 +1,167 @@
+"""Prints a program in its text form; `text.parse_program` reads it back to equal data.
+
+What enters: a `Program` or one of its expressions. What leaves: text. It decides nothing.
+"""
+
+from __future__ import annotations
+
+from scenewright.program.expressions import (
+    ORDER_LETTERS,
+    Arithmetic,
+    At,
+    Compare,
+    Derived,
+    Elapsed,
+    Knot,
+    Landmark,
+    Logic,
+    Negate,
+    Node,
+    Number,
+    ParameterRef,
+    PieceRef,
+    State,
+    Temporal,
+    Term,
+)
+from scenewright.program.types import (
+    Actor,
+    Constraint,
+    HeadingsRoute,
+    IntentRoute,
+    LanesRoute,
+    Parameter,
+    Program,
+    RouteSpec,
+)
+from scenewright.units import format_fraction
+
+_PRECEDENCE = {"implies": 1, "or": 2, "and": 3, "not": 4, "compare": 5, "+": 6, "-": 6, "*": 7, "/": 7, "neg": 8}
+
+
+def print_program(program: Program) -> str:
+    """Return the text form of `program`; parsing it gives an equal program."""
+    lines = [f'scenario "{_escape(program.name)}"', f'map "{_escape(program.map_name)}"']
+    if program.description is not None:
+        lines += ["description:", f'"{_escape(program.description)}"']
+    if program.parameters:
+        lines += ["", "parameters:"]
+        lines += [_parameter(parameter) for parameter in program.parameters]
+    for actor in program.actors:
+        lines += ["", *_actor(actor)]
+    lines += ["", "Constraints:"]
+    lines += [_constraint(constraint, f"c{index}") for index, constraint in enumerate(program.constraints, start=1)]
+    return "\n".join(lines) + "\n"
+
+
+def print_expression(node: Node) -> str:
+    """Return the text form of one formula or term."""
+    match node:
+        case Number(value=value):
+            return format_fraction(value)
+        case ParameterRef(name=name):
+            return name
+        case Landmark(name=name, actor=actor, other=other):
+            prefix = "" if actor is None else f"A{actor}."
+            return f"{prefix}{name}" + ("" if other is None else f"(A{other})")
+        case Elapsed(actor=actor, knot=knot):
+            return f"A{actor}({knot})"
+        case State(actor=actor, order=order, at=at):
+            return f"A{actor}{ORDER_LETTERS[order]}" + ("" if at is None else f"({_moment(at)})")
+        case Derived(kind=kind, actor=actor, target=target, at=at):
+            aim = f"A{target}" if isinstance(target, int) else print_expression(target)
+            return f"{kind}(A{actor}, {aim}" + ("" if at is None else f", {_moment(at)}") + ")"
+        case Arithmetic(operator=operator, left=left, right=right):
+            rank = _PRECEDENCE[operator]
+            return f"{_wrap(left, rank)} {operator} {_wrap(right, rank + 1)}"
+        case Negate(operand=operand):
+            return f"-{_wrap(operand, _PRECEDENCE['neg'])}"
+        case Compare(operator=operator, left=left, right=right):
+            return f"{print_expression(left)} {operator} {print_expression(right)}"
+        case Logic(operator="not", operands=operands):
+            return f"not {_wrap(operands[0], _PRECEDENCE['not'])}"
+        case Logic(operator=operator, operands=operands):
+            rank = _PRECEDENCE[operator]
+            return f" {operator} ".join(_wrap(operand, rank + 1) for operand in operands)
+        case Temporal(operator=operator, start=start, end=end, body=body):
+            return f"{operator}[{print_expression(start)}, {print_expression(end)}]({print_expression(body)})"
+
+
+def print_route(route: RouteSpec) -> str:
+    """Return the text form of a route specification."""
+    match route:
+        case HeadingsRoute(headings=headings):
+            return ", ".join(headings)
+        case LanesRoute(lanes=lanes):
+            return "lanes " + ", ".join(lanes)
+        case IntentRoute():
+            origin = f" {route.origin}" if route.origin else ""
+            origin += f" headed {route.origin_heading}" if route.origin_heading else ""
+            aim = f" into {route.destination}" if route.destination else ""
+            aim += f" headed {route.destination_heading}" if route.destination_heading else ""
+            return f"from{origin}, {route.turn or 'straight'}{aim}"
+
+
+def _wrap(node: Node, at_least: int) -> str:
+    text = print_expression(node)
+    return text if _rank(node) >= at_least else f"({text})"
+
+
+def _rank(node: Node) -> int:
+    match node:
+        case Arithmetic(operator=operator):
+            return _PRECEDENCE[operator]
+        case Negate():
+            return _PRECEDENCE["neg"]
+        case Compare():
+            return _PRECEDENCE["compare"]
+        case Logic(operator=operator):
+            return _PRECEDENCE[operator]
+        case Number(value=value) if value.denominator != 1 and "/" in format_fraction(value):
+            return _PRECEDENCE["/"]
+        case _:
+            return 9
+
+
+def _moment(at: At) -> str:
+    match at:
+        case Knot(name=name) | PieceRef(name=name):
+            return name
+        case None:
+            return ""
+        case _:
+            return print_expression(at)
+
+
+def _parameter(parameter: Parameter) -> str:
+    text = f"- {parameter.name}"
+    if parameter.value is not None:
+        text += f" = {_decimal(parameter.value)}"
+    if parameter.low is not None and parameter.high is not None:
+        text += f" in [{_decimal(parameter.low)}, {_decimal(parameter.high)}]"
+    return text
+
+
+def _decimal(value: object) -> str:
+    text = format_fraction(value)  # type: ignore[arg-type]
+    return text if "/" not in text else repr(float(value))  # type: ignore[arg-type]
+
+
+def _actor(actor: Actor) -> list[str]:
+    steps = [actor.sketch.knots[0]]
+    for piece, knot in zip(actor.sketch.pieces, actor.sketch.knots[1:], strict=True):
+        steps += [str(piece), knot]
+    return [f"Actor {actor.id} ({actor.name}):", f"- {print_route(actor.route)}", f"- [{', '.join(steps)}]"]
+
+
+def _constraint(constraint: Constraint, automatic_id: str) -> str:
+    label = "" if constraint.id == automatic_id else f"{constraint.id}: "
+    source = "" if constraint.source is None else f"  @{constraint.source.start}..{constraint.source.end}"
+    return f"{label}{print_expression(constraint.formula)}{source}"
+
+
+def _escape(text: str) -> str:
+    return text.replace("\\", "\\\\").replace('"', '\\"')
+
+
+__all__ = ["Term", "print_expression", "print_program", "print_route"]

@@ -1,0 +1,145 @@
+"""What a program's constraints are for: which knots are one instant, which instant is the trigger, which role each plays.
+
+What enters: a `Program`. What leaves: instants (sets of knots at the same moment) and a role for every constraint. It only
+reads the structure of the formulas; values and maps play no part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+
+from scenewright.program.expressions import (
+    Compare,
+    Derived,
+    Elapsed,
+    Formula,
+    Knot,
+    Logic,
+    Node,
+    PieceRef,
+    State,
+    walk,
+)
+from scenewright.program.types import EGO, Constraint, Program
+
+KnotKey = tuple[int, str]
+
+
+class Role(StrEnum):
+    """What part a constraint plays in the story."""
+
+    INITIAL = "initial"
+    TRIGGER = "trigger"
+    INTERACTION = "interaction"
+    OUTCOME = "outcome"
+
+
+@dataclass(frozen=True, slots=True)
+class Structure:
+    """The reading of one program.
+
+    Attributes
+    ----------
+    triggers
+        For each hero id that has one, the instant at which ego and hero meet the trigger: knots of several actors.
+    roles
+        Role of every constraint, by constraint id.
+    """
+
+    triggers: dict[int, frozenset[KnotKey]]
+    roles: dict[str, Role]
+
+    def trigger_knot(self, actor_id: int) -> str | None:
+        """Return the actor's own knot at its trigger, or for the ego the knot of the first trigger; None without one."""
+        for hero, instant in self.triggers.items():
+            if actor_id in (hero, EGO):
+                for owner, knot in sorted(instant):
+                    if owner == actor_id:
+                        return knot
+        return None
+
+
+def read_structure(program: Program) -> Structure:
+    """Find the instants, the triggers and the role of each constraint."""
+    instants = _instants(program)
+    triggers: dict[int, frozenset[KnotKey]] = {}
+    for hero in program.heroes:
+        instant = _trigger_of(program, hero.id, instants)
+        if instant is not None:
+            triggers[hero.id] = instant
+    roles = {constraint.id: _role(constraint, program, triggers) for constraint in program.constraints}
+    return Structure(triggers, roles)
+
+
+def knots_of(formula: Formula) -> Iterator[KnotKey]:
+    """Yield every knot that `formula` speaks of, with the actor it belongs to."""
+    for node in walk(formula):
+        match node:
+            case Elapsed(actor=actor, knot=knot):
+                yield actor, knot
+            case State(actor=actor, at=Knot(name=knot)) | Derived(actor=actor, at=Knot(name=knot)):
+                yield actor, knot
+            case _:
+                pass
+
+
+def synchronised(formula: Formula) -> Iterator[tuple[KnotKey, KnotKey]]:
+    """Yield the pairs of knots that `formula` says are the same moment."""
+    if isinstance(formula, Compare) and formula.operator == "==":
+        left, right = formula.left, formula.right
+        if isinstance(left, Elapsed) and isinstance(right, Elapsed):
+            yield (left.actor, left.knot), (right.actor, right.knot)
+    elif isinstance(formula, Logic) and formula.operator == "and":
+        for operand in formula.operands:
+            yield from synchronised(operand)
+
+
+def _instants(program: Program) -> list[frozenset[KnotKey]]:
+    groups: list[set[KnotKey]] = []
+    for constraint in program.constraints:
+        for pair in synchronised(constraint.formula):
+            touching = [group for group in groups if group & set(pair)]
+            merged = set(pair).union(*touching)
+            groups = [group for group in groups if not group & merged] + [merged]
+    return [frozenset(group) for group in groups]
+
+
+def _trigger_of(program: Program, hero: int, instants: list[frozenset[KnotKey]]) -> frozenset[KnotKey] | None:
+    sketch = program.actor(hero).sketch
+    for knot in sketch.knots[1:]:
+        for instant in instants:
+            if (hero, knot) in instant and any(actor == EGO for actor, _ in instant):
+                return instant
+        if any(_ties_to_ego(constraint.formula, hero, knot) for constraint in program.constraints):
+            return frozenset({(hero, knot)})
+    return None
+
+
+def _ties_to_ego(formula: Formula, hero: int, knot: str) -> bool:
+    """Whether `formula` asks for something of the ego at the hero's knot: ``gap(A0, A1, A1(t1)) == 12``."""
+    for node in walk(formula):
+        if isinstance(node, State | Derived) and node.actor == EGO and node.at == Elapsed(hero, knot):
+            return True
+        if isinstance(node, Derived) and node.actor == hero and node.target == EGO and node.at == Knot(knot):
+            return True
+    return False
+
+
+def _role(constraint: Constraint, program: Program, triggers: dict[int, frozenset[KnotKey]]) -> Role:
+    formula = constraint.formula
+    knots = set(knots_of(formula))
+    starts = {(actor.id, actor.sketch.knots[0]) for actor in program.actors}
+    if knots and knots <= starts:
+        return Role.INITIAL
+    if list(synchronised(formula)) and any(knots <= instant for instant in triggers.values()):
+        return Role.TRIGGER
+    if knots and any(knots <= instant for instant in triggers.values()) and not _speaks_of_pieces(formula):
+        return Role.TRIGGER
+    actors = {actor for actor, _ in knots} | {node.actor for node in walk(formula) if isinstance(node, State | Derived)}
+    return Role.OUTCOME if EGO in actors else Role.INTERACTION
+
+
+def _speaks_of_pieces(formula: Node) -> bool:
+    return any(isinstance(node, State) and isinstance(node.at, PieceRef) for node in walk(formula))

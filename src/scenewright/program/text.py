@@ -1,0 +1,425 @@
+"""Reads the text form of a program (`.scene` files and the paper's pseudocode blocks).
+
+What enters: text. What leaves: a `Program`, or a `ProgramError` with line, column, excerpt and what could have stood there.
+It does not check that names and units make sense (see `check`), and knows no map.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import lru_cache
+from importlib.resources import files
+from typing import Any, cast
+
+from lark import Lark, Token, Transformer, v_args
+from lark.exceptions import UnexpectedCharacters, UnexpectedEOF, UnexpectedInput, UnexpectedToken, VisitError
+from lark.tree import Meta
+
+from scenewright.errors import Place, ProgramError, Span
+from scenewright.program.expressions import (
+    LANDMARKS,
+    Arithmetic,
+    Compare,
+    ComparisonOperator,
+    Derived,
+    Elapsed,
+    Formula,
+    Knot,
+    Landmark,
+    Logic,
+    Negate,
+    Node,
+    Number,
+    Order,
+    ParameterRef,
+    PieceRef,
+    State,
+    Temporal,
+    Term,
+    walk,
+)
+from scenewright.program.types import (
+    DEFAULT_MAP,
+    Actor,
+    Constraint,
+    HeadingsRoute,
+    IntentRoute,
+    LanesRoute,
+    Parameter,
+    PieceKind,
+    Program,
+    Sketch,
+)
+from scenewright.units import UNITS, unit_of_name
+
+JUST_BEFORE_M = Fraction(5)  # the paper's convention: "just before L" is L - 5.0 m
+
+_TERMINAL_NAMES = {
+    "STATE": "a state such as A1x(t1)",
+    "NAME": "a name",
+    "NUMBER": "a number",
+    "ACTOR": "an actor such as A1",
+    "_NL": "the end of the line",
+    "COMPARATOR": "one of == <= >= < >",
+    "LPAR": "'('",
+    "RPAR": "')'",
+    "LSQB": "'['",
+    "RSQB": "']'",
+    "COMMA": "','",
+    "HEADING": "a heading N, E, S or W",
+    "INTEGER": "a whole number",
+    "UNIT": "a unit",
+    "LABEL": "a label such as c1:",
+    "DERIVED": "gap, tta, ttc or headway",
+    "TEMPORAL": "always, never or eventually",
+    "$END": "the end of the text",
+    "COLON": "':'",
+    "STRING": "a quoted text",
+}
+
+
+def parse_program(text: str, name: str = "program") -> Program:
+    """Parse the text form of a program.
+
+    Parameters
+    ----------
+    text
+        A `.scene` text or one of the paper's pseudocode blocks.
+    name
+        What to call the text in messages, and the program where the text gives no name.
+
+    Returns
+    -------
+    Program
+        With spans into `text`. Parameters that are used but not declared are added as open ones.
+
+    Raises
+    ------
+    ProgramError
+        Where the text is not a program.
+
+    Examples
+    --------
+    >>> program = parse_program("Actor 0:\\n- W\\n- [t0, go, t1]\\nConstraints:\\nA0v(t0) == 5 m/s\\n")
+    >>> len(program.constraints)
+    1
+    """
+    if not text.strip():
+        raise ProgramError(
+            "the program is empty",
+            place=Place(name),
+            expected="actors, then constraints",
+            fix="see 'scenewright translate --help' for an example",
+        )
+    if "\n" not in text[len(text.rstrip()) :]:
+        text += "\n"
+    try:
+        tree = _parser().parse(text)
+        return _Builder(text, name).transform(tree)  # type: ignore[no-any-return]
+    except UnexpectedInput as error:
+        raise _syntax_error(error, text, name) from None
+    except VisitError as error:
+        if isinstance(error.orig_exc, ProgramError):
+            raise error.orig_exc from None
+        raise
+
+
+@lru_cache(maxsize=1)
+def _parser() -> Lark:
+    grammar = files("scenewright.program").joinpath("scene.lark").read_text(encoding="utf-8")
+    return Lark(grammar, parser="lalr", propagate_positions=True, maybe_placeholders=True)
+
+
+def _syntax_error(error: UnexpectedInput, text: str, name: str) -> ProgramError:
+    start = error.pos_in_stream if error.pos_in_stream is not None and error.pos_in_stream >= 0 else len(text.rstrip())
+    accepted: set[str] = set()
+    width = 1
+    if isinstance(error, UnexpectedToken):
+        accepted = set(error.accepts or error.expected)
+        if error.token.type == "$END":
+            start = len(text.rstrip())
+        elif error.token.type != "_NL":
+            width = max(1, len(str(error.token)))
+    elif isinstance(error, UnexpectedCharacters):
+        accepted = set(error.allowed or ())
+    elif isinstance(error, UnexpectedEOF):
+        accepted = set(error.expected)
+    line_end = text.find("\n", start)
+    found = text[start : start + width].strip() or "the end of the line"
+    expected = sorted(_TERMINAL_NAMES.get(item, item.lower()) for item in accepted)
+    return ProgramError(
+        "this is not a program",
+        place=Place(name, text, Span(start, min(start + width, line_end if line_end > start else start + width))),
+        found=repr(found) if found != "the end of the line" else found,
+        expected=", ".join(expected[:8]) or None,
+        fix="compare with a working program: 'scenewright translate \"...\"' prints one",
+    )
+
+
+def _constant(node: Any) -> Fraction | None:
+    return node.value if isinstance(node, Number) else None
+
+
+def negate(operand: Term, span: Span | None = None) -> Term:
+    """Return the negative of a term; numbers are negated in place so that printing and parsing agree."""
+    if isinstance(operand, Number):
+        return Number(-operand.value, span)
+    return Negate(operand, span)
+
+
+@v_args(meta=True)
+class _Builder(Transformer[Token, Any]):
+    """Turns the parse tree into typed data, bottom up."""
+
+    def __init__(self, text: str, name: str) -> None:
+        super().__init__()
+        self._text = text
+        self._name = name
+
+    def _place(self, span: Span) -> Place:
+        return Place(self._name, self._text, span)
+
+    @staticmethod
+    def _span(meta: Meta) -> Span:
+        return Span(meta.start_pos, meta.end_pos)
+
+    # -- headers ----------------------------------------------------------------------------------------------------
+    def scenario(self, meta: Meta, items: list[Any]) -> tuple[str, str]:
+        return "name", _unquote(items[0])
+
+    def map(self, meta: Meta, items: list[Any]) -> tuple[str, str]:
+        token = items[0]
+        return "map", _unquote(token) if token.type == "STRING" else str(token)
+
+    def description(self, meta: Meta, items: list[Any]) -> tuple[str, str]:
+        quoted = next(item for item in items if item is not None and item.type == "STRING")
+        return "description", _unquote(quoted)
+
+    def parameters(self, meta: Meta, items: list[Any]) -> tuple[str, list[Parameter]]:
+        return "parameters", [item for item in items if isinstance(item, Parameter)]
+
+    def parameter(self, meta: Meta, items: list[Any]) -> Parameter:
+        name, value, low, high = items
+        span = Span(name.start_pos, name.end_pos)
+        numbers = []
+        for number in (value, low, high):
+            numbers.append(self._in_own_unit(str(name), number, span) if number is not None else None)
+        return Parameter(str(name), *numbers, span=span)
+
+    def _in_own_unit(self, name: str, number: tuple[Fraction, str | None], span: Span) -> Fraction:
+        value, symbol = number
+        own = unit_of_name(name)
+        if symbol is None or own is None:
+            return value
+        unit = UNITS[symbol]
+        if unit.dimension != own.dimension:
+            raise ProgramError(
+                f"parameter {name} is a {own.dimension}, its value is a {unit.dimension}",
+                place=self._place(span),
+                found=symbol,
+                expected=f"a unit of {own.dimension}, such as {own.symbol}",
+            )
+        return value * unit.si_factor / own.si_factor
+
+    def signed_number(self, meta: Meta, items: list[Any]) -> tuple[Fraction, str | None]:
+        minus, number, unit = items
+        return (-Fraction(number) if minus else Fraction(number)), unit
+
+    def unit(self, meta: Meta, items: list[Any]) -> str:
+        return str(items[0])
+
+    # -- actors -----------------------------------------------------------------------------------------------------
+    def actor(self, meta: Meta, items: list[Any]) -> Actor:
+        parts = [item for item in items if not (isinstance(item, Token) and item.type == "_NL")]
+        number, name, route, sketch = parts
+        actor_id = int(number)
+        default = "ego" if actor_id == 0 else "hero" if actor_id == 1 else f"hero{actor_id}"
+        return Actor(actor_id, str(name) if name else default, route, sketch, self._span(meta))
+
+    def headings(self, meta: Meta, items: list[Any]) -> HeadingsRoute:
+        return HeadingsRoute(tuple(str(item) for item in items))
+
+    def lanes(self, meta: Meta, items: list[Any]) -> LanesRoute:
+        return LanesRoute(tuple(str(item) for item in items))
+
+    def intent(self, meta: Meta, items: list[Any]) -> IntentRoute:
+        origin, origin_heading, turn, destination, destination_heading = (str(i) if i else None for i in items)
+        return IntentRoute(cast(Any, origin), cast(Any, turn), cast(Any, destination), origin_heading, destination_heading)
+
+    def sketch(self, meta: Meta, items: list[Any]) -> Sketch:
+        names = [str(item) for item in items]
+        knots, pieces = tuple(names[0::2]), tuple(names[1::2])
+        if len(names) % 2 == 0:
+            raise ProgramError(
+                "a motion sketch begins and ends with a knot",
+                place=self._place(self._span(meta)),
+                expected="knots and pieces in turn, such as [t0, go, t1, dec, t2]",
+            )
+        known = {str(kind) for kind in PieceKind}
+        for item in items[1::2]:
+            if str(item) not in known:
+                raise ProgramError(
+                    f"'{item}' is not a piece of motion",
+                    place=self._place(Span(item.start_pos, item.end_pos)),
+                    found=str(item),
+                    expected="go, acc, dec or stop",
+                )
+        if len(set(knots)) != len(knots):
+            raise ProgramError("a knot's name occurs twice", place=self._place(self._span(meta)), fix="number the knots")
+        return Sketch(knots, tuple(PieceKind(piece) for piece in pieces))
+
+    # -- constraints ------------------------------------------------------------------------------------------------
+    def constraints(self, meta: Meta, items: list[Any]) -> tuple[str, list[tuple[Any, ...]]]:
+        return "constraints", [item for item in items if isinstance(item, tuple)]
+
+    def constraint(self, meta: Meta, items: list[Any]) -> tuple[Any, ...]:
+        label, formula, start, end = items[:4]
+        source = Span(int(start), int(end)) if start is not None else None
+        span = formula.span or self._span(meta)
+        return (str(label)[:-1] if label else None, formula, source, span)
+
+    def implication(self, meta: Meta, items: list[Any]) -> Formula:
+        return Logic("implies", (items[0], items[1]), self._span(meta))
+
+    def disjunction(self, meta: Meta, items: list[Any]) -> Formula:
+        return Logic("or", tuple(items), self._span(meta))
+
+    def conjunction(self, meta: Meta, items: list[Any]) -> Formula:
+        return Logic("and", tuple(items), self._span(meta))
+
+    def negated(self, meta: Meta, items: list[Any]) -> Formula:
+        return Logic("not", (items[0],), self._span(meta))
+
+    def temporal(self, meta: Meta, items: list[Any]) -> Formula:
+        operator, start, end, body = items
+        return Temporal(cast(Any, str(operator)), start, end, body, self._span(meta))
+
+    def comparison(self, meta: Meta, items: list[Any]) -> Formula:
+        span = self._span(meta)
+        pairs = [
+            Compare(cast(ComparisonOperator, str(items[i + 1])), items[i], items[i + 2], span)
+            for i in range(0, len(items) - 2, 2)
+        ]
+        return pairs[0] if len(pairs) == 1 else Logic("and", tuple(pairs), span)
+
+    # -- terms ------------------------------------------------------------------------------------------------------
+    def sum(self, meta: Meta, items: list[Any]) -> Term:
+        return self._fold(items)
+
+    def product(self, meta: Meta, items: list[Any]) -> Term:
+        return self._fold(items)
+
+    @staticmethod
+    def _fold(items: list[Any]) -> Term:
+        result: Term = items[0]
+        for operator, right in zip(items[1::2], items[2::2], strict=True):
+            span = result.span.union(right.span) if result.span and right.span else None
+            left_value, right_value = _constant(result), _constant(right)
+            if str(operator) == "/" and left_value is not None and right_value:
+                result = Number(left_value / right_value, span)
+            else:
+                result = Arithmetic(cast(Any, str(operator)), result, right, span)
+        return result
+
+    def negate(self, meta: Meta, items: list[Any]) -> Term:
+        return negate(items[-1], self._span(meta))
+
+    def number(self, meta: Meta, items: list[Any]) -> Number:
+        value, unit = Fraction(items[0]), items[1]
+        return Number(value * UNITS[unit].si_factor if unit else value, self._span(meta))
+
+    def state(self, meta: Meta, items: list[Any]) -> State:
+        token, at = items
+        letter = str(token)[-1]
+        return State(int(str(token)[1:-1]), cast(Order, "xva".index(letter)), at, self._span(meta))
+
+    def at(self, meta: Meta, items: list[Any]) -> Any:
+        return items[0]
+
+    def moment_name(self, meta: Meta, items: list[Any]) -> Knot | PieceRef:
+        name = str(items[0])
+        stem = name.rstrip("0123456789")
+        return PieceRef(name) if stem in {str(kind) for kind in PieceKind} else Knot(name)
+
+    def elapsed(self, meta: Meta, items: list[Any]) -> Elapsed:
+        return Elapsed(int(str(items[0])[1:]), str(items[1]), self._span(meta))
+
+    def derived(self, meta: Meta, items: list[Any]) -> Derived:
+        kind, actor, target, at = items
+        return Derived(cast(Any, str(kind)), int(str(actor)[1:]), target, at, self._span(meta))
+
+    def target_actor(self, meta: Meta, items: list[Any]) -> int:
+        return int(str(items[0])[1:])
+
+    def landmark_of(self, meta: Meta, items: list[Any]) -> Landmark:
+        actor, name, other = items
+        self._known_landmark(name)
+        return Landmark(str(name), int(actor[1:]), int(other[1:]) if other else None, self._span(meta))
+
+    def _known_landmark(self, name: Token) -> None:
+        if str(name) not in LANDMARKS:
+            raise ProgramError(
+                f"'{name}' is not a landmark",
+                place=self._place(Span(cast(int, name.start_pos), cast(int, name.end_pos))),
+                found=str(name),
+                expected=", ".join(LANDMARKS),
+            )
+
+    def just_before(self, meta: Meta, items: list[Any]) -> Term:
+        span = self._span(meta)
+        return Arithmetic("-", items[0], Number(JUST_BEFORE_M, span), span)
+
+    def name(self, meta: Meta, items: list[Any]) -> Term:
+        name, span = str(items[0]), self._span(meta)
+        if name in LANDMARKS:
+            return Landmark(name, span=span)
+        if unit_of_name(name) is None:
+            raise ProgramError(
+                f"'{name}' is neither a landmark nor a parameter",
+                place=self._place(span),
+                found=name,
+                expected=f"a landmark ({', '.join(LANDMARKS)}) or a parameter whose name ends in its unit",
+                fix="end the name in _m, _s, _mps or _mpss if it is a parameter",
+            )
+        return ParameterRef(name, span)
+
+    # -- the whole --------------------------------------------------------------------------------------------------
+    def start(self, meta: Meta, items: list[Any]) -> Program:
+        fields: dict[str, Any] = {"name": self._name, "map": DEFAULT_MAP, "description": None}
+        declared: list[Parameter] = []
+        rows: list[tuple[Any, ...]] = []
+        actors: list[Actor] = []
+        for item in items:
+            if isinstance(item, Actor):
+                actors.append(item)
+            elif isinstance(item, tuple) and item[0] == "parameters":
+                declared = item[1]
+            elif isinstance(item, tuple) and item[0] == "constraints":
+                rows = item[1]
+            elif isinstance(item, tuple):
+                fields[item[0]] = item[1]
+        constraints = tuple(
+            Constraint(label or f"c{index}", formula, source, span)
+            for index, (label, formula, source, span) in enumerate(rows, start=1)
+        )
+        parameters = _with_used_parameters(declared, constraints)
+        return Program(
+            fields["name"], tuple(actors), constraints, parameters, fields["map"], fields["description"]
+        )
+
+
+def _with_used_parameters(declared: list[Parameter], constraints: tuple[Constraint, ...]) -> tuple[Parameter, ...]:
+    known = {parameter.name for parameter in declared}
+    result = list(declared)
+    for constraint in constraints:
+        node: Node
+        for node in walk(constraint.formula):
+            if isinstance(node, ParameterRef) and node.name not in known:
+                known.add(node.name)
+                result.append(Parameter(node.name, span=node.span))
+    return tuple(result)
+
+
+def _unquote(token: Token) -> str:
+    body = str(token)[1:-1]
+    return body.replace('\\"', '"').replace("\\\\", "\\")

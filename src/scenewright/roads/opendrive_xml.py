@@ -1,0 +1,389 @@
+"""Read an OpenDRIVE file (1.4 to 1.8) into records, and refuse what is broken with line, finding and remedy.
+
+What enters: a path. What leaves: an `OpenDriveRecord`. This module does not sample geometry or link lanes, and it reads
+no elevation: the world is flat here.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+from lxml import etree
+
+from scenewright.errors import MapError, Place
+from scenewright.roads.opendrive_records import (
+    ConnectionRecord,
+    Cubic,
+    LaneRecord,
+    OpenDriveRecord,
+    RoadLink,
+    RoadRecord,
+    RoadTypeRecord,
+    SectionRecord,
+    StopLineRecord,
+)
+from scenewright.roads.reference_line import Geometry, Shape
+
+Element = etree._Element
+
+_SPEED_UNITS_MPS = {"m/s": 1.0, "km/h": 1.0 / 3.6, "kmh": 1.0 / 3.6, "kph": 1.0 / 3.6, "mph": 0.44704}
+_SHAPE_ATTRIBUTES: dict[Shape, tuple[str, ...]] = {
+    "line": (),
+    "arc": ("curvature",),
+    "spiral": ("curvStart", "curvEnd"),
+    "poly3": ("a", "b", "c", "d"),
+    "paramPoly3": ("aU", "bU", "cU", "dU", "aV", "bV", "cV", "dV"),
+}
+_STOP_LINE_SIGNAL = "294"  # German road-marking catalogue, the one OpenDRIVE exporters use
+
+
+def read_opendrive(source: Path) -> OpenDriveRecord:
+    """Read a file.
+
+    Parameters
+    ----------
+    source
+        Path of an ``.xodr`` file.
+
+    Raises
+    ------
+    MapError
+        If the file is missing, is not XML, is not OpenDRIVE, or contradicts itself.
+    """
+    return _FileReader(source.name).read(_parse_xml(source))
+
+
+def _parse_xml(source: Path) -> Element:
+    place = Place(source.name)
+    parser = etree.XMLParser(resolve_entities=False, no_network=True, remove_comments=True, remove_pis=True)
+    try:
+        text = source.read_bytes()
+    except OSError as fault:
+        raise MapError(
+            "the map file cannot be read",
+            place=Place(str(source)),
+            found=fault.strerror or str(fault),
+            expected="a readable OpenDRIVE file",
+            fix="check the path; `scenewright maps` lists the maps that come with Scenewright",
+        ) from fault
+    try:
+        root = etree.fromstring(text, parser)
+    except etree.XMLSyntaxError as fault:
+        raise MapError(
+            "the map file is not well-formed XML",
+            place=Place(source.name, line=fault.lineno or None),
+            found=(fault.msg or "an empty file").split(" (")[0],
+            expected="an OpenDRIVE file: XML with the root element <OpenDRIVE>",
+            fix="export the map again, or give a file that ends in .xodr",
+        ) from fault
+    name = etree.QName(root).localname
+    if name != "OpenDRIVE":
+        raise MapError(
+            "the map file is XML, but not OpenDRIVE",
+            place=Place(place.name, line=root.sourceline),
+            found=f"root element <{name}>",
+            expected="root element <OpenDRIVE>",
+            fix="convert the map to OpenDRIVE (.xodr) first",
+        )
+    for element in root.iter():
+        if isinstance(element.tag, str):  # files of version 1.8 may carry a namespace; the names stay the same
+            element.tag = etree.QName(element).localname
+    return root
+
+
+class _FileReader:
+    """Holds the file's name for messages; every method turns one kind of element into its record."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def fault(self, message: str, at: Element, *, found: str, expected: str, fix: str) -> MapError:
+        return MapError(
+            message, place=Place(self.name, line=at.sourceline), found=found, expected=expected, fix=fix
+        )
+
+    def text(self, at: Element, attribute: str) -> str:
+        value = at.get(attribute)
+        if value is None:
+            raise self.fault(
+                f"<{at.tag}> lacks the attribute {attribute!r}",
+                at,
+                found="attributes " + (", ".join(str(key) for key in at.attrib) or "none"),
+                expected=f'{attribute}="..."',
+                fix=f"add {attribute} to this <{at.tag}> or export the map again",
+            )
+        return value
+
+    def number(self, at: Element, attribute: str, default: float | None = None) -> float:
+        if default is not None and at.get(attribute) is None:
+            return default
+        text = self.text(at, attribute)
+        try:
+            value = float(text)
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value):
+            raise self.fault(
+                f"{attribute} of <{at.tag}> is not a number",
+                at,
+                found=repr(text),
+                expected="a finite number",
+                fix="correct the value or export the map again",
+            )
+        return value
+
+    def integer(self, at: Element, attribute: str) -> int:
+        value = self.number(at, attribute)
+        if value != int(value):
+            raise self.fault(
+                f"{attribute} of <{at.tag}> is not a whole number",
+                at,
+                found=repr(at.get(attribute)),
+                expected="a whole number",
+                fix="correct the value or export the map again",
+            )
+        return int(value)
+
+    def length(self, at: Element) -> float:
+        value = self.number(at, "length")
+        if value <= 0.0:
+            raise self.fault(
+                f"<{at.tag}> has no length",
+                at,
+                found=f"length {value:g} m",
+                expected="a length above 0 m",
+                fix=f"remove this <{at.tag}> or correct its length",
+            )
+        return value
+
+    def child(self, at: Element, tag: str) -> Element:
+        found = at.find(tag)
+        if found is None:
+            raise self.fault(
+                f"<{at.tag}> lacks <{tag}>",
+                at,
+                found="children " + (", ".join(f"<{child.tag}>" for child in at) or "none"),
+                expected=f"<{tag}>",
+                fix="complete the element or export the map again",
+            )
+        return found
+
+    def read(self, root: Element) -> OpenDriveRecord:
+        roads = tuple(self.road(road) for road in root.findall("road"))
+        if not roads:
+            raise self.fault(
+                "the map has no roads",
+                root,
+                found="no <road>",
+                expected="at least one <road>",
+                fix="export the map with its roads",
+            )
+        seen: dict[str, int] = {}
+        for element, record in zip(root.findall("road"), roads, strict=True):
+            if record.id in seen:
+                raise self.fault(
+                    f"two roads have the id {record.id!r}",
+                    element,
+                    found=f"the first stands in line {seen[record.id]}",
+                    expected="one road for each id",
+                    fix="rename one of them and the links to it",
+                )
+            seen[record.id] = record.line
+        connections = [
+            self.connection(junction, connection)
+            for junction in root.findall("junction")
+            for connection in junction.findall("connection")
+        ]
+        return OpenDriveRecord(roads, tuple(record for record in connections if record is not None))
+
+    def road(self, at: Element) -> RoadRecord:
+        length = self.length(at)
+        junction = at.get("junction", "-1")
+        lanes = self.child(at, "lanes")
+        link = at.find("link")
+        return RoadRecord(
+            id=self.text(at, "id"),
+            name=at.get("name", ""),
+            length_m=length,
+            junction_id=None if junction == "-1" else junction,
+            right_hand=at.get("rule", "RHT") != "LHT",
+            geometries=self.plan_view(self.child(at, "planView"), length),
+            lane_offsets=self.cubics(lanes, "laneOffset", "s"),
+            sections=self.sections(lanes, length),
+            types=self.types(at),
+            predecessor=None if link is None else self.road_link(link.find("predecessor")),
+            successor=None if link is None else self.road_link(link.find("successor")),
+            stop_lines=self.stop_lines(at),
+            user_kind=next((data.get("value") for data in at.findall("userData") if data.get("code") == "kind"), None),
+            line=at.sourceline or 0,
+        )
+
+    def plan_view(self, at: Element, road_length: float) -> tuple[Geometry, ...]:
+        pieces = sorted((self.geometry(piece) for piece in at.findall("geometry")), key=lambda piece: piece.s_m)
+        total = sum(piece.length_m for piece in pieces)
+        if abs(total - road_length) > max(0.1, 0.001 * road_length):
+            raise self.fault(
+                "the road's length and the length of its reference line differ",
+                at,
+                found=f"road {road_length:g} m, geometry {total:g} m in {len(pieces)} pieces",
+                expected="equal lengths",
+                fix="correct the road's length attribute or complete its <planView>",
+            )
+        for before, after in zip(pieces, pieces[1:], strict=False):
+            end = before.poses(np.array([before.length_m]))[0]
+            jump = math.hypot(after.x_m - end[0], after.y_m - end[1])
+            if jump > 0.5:
+                raise MapError(
+                    "the road's reference line jumps",
+                    place=Place(self.name, line=after.line),
+                    found=f"a gap of {jump:.2f} m before this <geometry>",
+                    expected="a piece that starts where the one before ends",
+                    fix="correct x and y of this <geometry> or the length of the one before",
+                )
+        return tuple(pieces)
+
+    def geometry(self, at: Element) -> Geometry:
+        length = self.length(at)
+        for shape, attributes in _SHAPE_ATTRIBUTES.items():
+            piece = at.find(shape)
+            if piece is None:
+                continue
+            values = tuple(self.number(piece, attribute) for attribute in attributes)
+            if shape == "paramPoly3":
+                values += (length if piece.get("pRange") == "arcLength" else 1.0,)
+            x, y, heading, s = (self.number(at, attribute) for attribute in ("x", "y", "hdg", "s"))
+            return Geometry(s, x, y, heading, length, shape, values, at.sourceline or 0)
+        raise self.fault(
+            "the geometry has a shape that is not known",
+            at,
+            found=", ".join(f"<{child.tag}>" for child in at) or "an empty <geometry>",
+            expected="one of " + ", ".join(f"<{shape}>" for shape in _SHAPE_ATTRIBUTES),
+            fix="export the map with one of these shapes",
+        )
+
+    def cubics(self, at: Element, tag: str, start: str) -> tuple[Cubic, ...]:
+        found = [
+            Cubic(self.number(item, start), *(self.number(item, name) for name in ("a", "b", "c", "d")))
+            for item in at.findall(tag)
+        ]
+        return tuple(sorted(found, key=lambda cubic: cubic.start_m))
+
+    def sections(self, lanes: Element, road_length: float) -> tuple[SectionRecord, ...]:
+        elements = lanes.findall("laneSection")
+        if not elements:
+            self.child(lanes, "laneSection")
+        starts = [self.number(element, "s") for element in elements]
+        ends = [*starts[1:], road_length]
+        for element, start, end in zip(elements, starts, ends, strict=True):
+            if not end > start:
+                raise self.fault(
+                    "the lane section has no length",
+                    element,
+                    found=f"it starts at s = {start:g} m and ends at s = {end:g} m",
+                    expected="sections in order of s, all inside the road",
+                    fix="remove the section or correct its s",
+                )
+        return tuple(
+            SectionRecord(start, end, self.lanes(element), element.sourceline or 0)
+            for element, start, end in zip(elements, starts, ends, strict=True)
+        )
+
+    def lanes(self, section: Element) -> tuple[LaneRecord, ...]:
+        records = [
+            self.lane(lane, side) for side in ("left", "right") for lane in section.findall(f"{side}/lane")
+        ]
+        return tuple(sorted(records, key=lambda record: record.number))
+
+    def lane(self, at: Element, side: str) -> LaneRecord:
+        number = self.integer(at, "id")
+        if (number > 0) != (side == "left") or number == 0:
+            raise self.fault(
+                f"lane {number} stands on the wrong side",
+                at,
+                found=f"id {number} under <{side}>",
+                expected="positive ids under <left>, negative ids under <right>",
+                fix="correct the lane's id",
+            )
+        link = at.find("link")
+        speed = at.find("speed")
+        return LaneRecord(
+            number=number,
+            type=at.get("type", "none"),
+            widths=self.cubics(at, "width", "sOffset"),
+            borders=self.cubics(at, "border", "sOffset"),
+            predecessor=None if link is None else self.lane_link(link, "predecessor", number),
+            successor=None if link is None else self.lane_link(link, "successor", number),
+            speed_limit_mps=None if speed is None else self.speed_limit(speed),
+            line=at.sourceline or 0,
+        )
+
+    def lane_link(self, link: Element, tag: str, number: int) -> int | None:
+        target = link.find(tag)
+        if target is None:
+            return None
+        other = self.integer(target, "id")
+        if other == 0:
+            raise self.fault(
+                f"lane {number} is linked to the centre lane",
+                target,
+                found=f"<{tag} id=\"0\"/>",
+                expected="the id of a lane that can be driven, or no link",
+                fix="remove this link or give the lane that it leads to",
+            )
+        return other
+
+    def types(self, road: Element) -> tuple[RoadTypeRecord, ...]:
+        records = []
+        for item in road.findall("type"):
+            speed = item.find("speed")
+            limit = None if speed is None else self.speed_limit(speed)
+            records.append(RoadTypeRecord(self.number(item, "s", 0.0), item.get("type", ""), limit))
+        return tuple(sorted(records, key=lambda record: record.start_m))
+
+    def speed_limit(self, at: Element) -> float | None:
+        if at.get("max") in {"no limit", "undefined"}:
+            return None
+        unit = at.get("unit", "m/s")
+        if unit not in _SPEED_UNITS_MPS:
+            raise self.fault(
+                "the speed's unit is not known",
+                at,
+                found=repr(unit),
+                expected="one of " + ", ".join(_SPEED_UNITS_MPS),
+                fix="correct the unit",
+            )
+        value = self.number(at, "max") * _SPEED_UNITS_MPS[unit]
+        return value if value > 0.0 else None
+
+    def road_link(self, at: Element | None) -> RoadLink | None:
+        if at is None:
+            return None
+        kind = at.get("elementType", "road")
+        return RoadLink(kind, self.text(at, "elementId"), at.get("contactPoint"), at.sourceline or 0)
+
+    def stop_lines(self, road: Element) -> tuple[StopLineRecord, ...]:
+        found = [signal for signal in road.findall("signals/signal") if signal.get("type") == _STOP_LINE_SIGNAL]
+        for item in road.findall("objects/object"):
+            words = " ".join(item.get(key, "") for key in ("type", "subtype", "name")).lower()
+            if "stopline" in words.replace(" ", "").replace("_", ""):
+                found.append(item)
+        return tuple(self.stop_line(item) for item in found)
+
+    def stop_line(self, at: Element) -> StopLineRecord:
+        orientation = at.get("orientation", "none")
+        validity = at.find("validity")
+        lanes = None if validity is None else (self.integer(validity, "fromLane"), self.integer(validity, "toLane"))
+        return StopLineRecord(
+            self.number(at, "s"), along=orientation != "-", against=orientation != "+", lanes=lanes
+        )
+
+    def connection(self, junction: Element, at: Element) -> ConnectionRecord | None:
+        connecting = at.get("connectingRoad") or at.get("linkedRoad")
+        incoming = at.get("incomingRoad")
+        if connecting is None or incoming is None:  # virtual connections have neither and carry no lanes
+            return None
+        links = tuple((self.integer(link, "from"), self.integer(link, "to")) for link in at.findall("laneLink"))
+        contact = at.get("contactPoint", "start")
+        return ConnectionRecord(self.text(junction, "id"), incoming, connecting, contact, links, at.sourceline or 0)

@@ -1,0 +1,1 @@
+"""Run pages and reports for people to look at."""

@@ -1,0 +1,1 @@
+"""The method measured: benchmarks, sweeps, coverage."""

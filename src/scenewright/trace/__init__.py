@@ -1,0 +1,1 @@
+"""States over time: the model of a trace, and its file."""

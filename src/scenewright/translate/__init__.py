@@ -1,0 +1,1 @@
+"""From a description to a program: the offline translator, the language-model translator, repair."""
