@@ -1,0 +1,39 @@
+"""What all tests share: the folder of maps and texts beside the clone, the system's Chromium, Hypothesis profiles."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+import hypothesis
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+
+# The same examples every time where a failure must be repeatable by others; fresh ones where somebody is looking.
+hypothesis.settings.register_profile("ci", deadline=None, derandomize=True)
+hypothesis.settings.register_profile("dev", deadline=None)
+hypothesis.settings.load_profile("ci" if os.environ.get("CI") else "dev")
+
+
+@pytest.fixture(scope="session")
+def shared_dir() -> Path:
+    """Return the folder `shared` beside the clone, which holds maps and texts that are not ours to keep in it."""
+    path = ROOT.parent / "shared"
+    if not path.is_dir():
+        pytest.skip("no folder 'shared' beside the clone")
+    return path
+
+
+@pytest.fixture(scope="session")
+def chromium() -> str:
+    """Return the path of the system's Chromium."""
+    for name in BROWSERS:
+        if path := shutil.which(name):
+            return path
+    reason = f"none of {', '.join(BROWSERS)} is on the PATH"
+    if os.environ.get("SCENEWRIGHT_REQUIRE_BROWSER") == "1":
+        pytest.fail(f"{reason}, and SCENEWRIGHT_REQUIRE_BROWSER=1 asks for one")
+    pytest.skip(reason)
