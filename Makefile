@@ -1,7 +1,8 @@
 # Everything a newcomer needs: `make demo` to see it work, `make test` to see it tested. `make` alone lists all targets.
 #
 # Set-ups are recorded by stamp files in the virtual environment and redone only when a lock or pyproject.toml changes.
-# uv installs where it is on the PATH, pip otherwise or where uv fails; both check the hashes in the locks.
+# uv installs where it is on the PATH, pip otherwise or where uv fails; both check the hashes in the locks. Byte-code is
+# written at install (as pip does): the command then starts fast even where Python may not write it later.
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
@@ -23,13 +24,13 @@ define install
 	@echo "setting up from $(1)"
 	@set -e; \
 	by_uv() { \
-		uv pip install --quiet --python $(PY) --require-hashes -r $(1) && \
+		uv pip install --quiet --compile-bytecode --python $(PY) --require-hashes -r $(1) && \
 		uv pip install --quiet --python $(PY) --no-deps --no-build-isolation -e . ; }; \
 	by_pip() { \
 		{ $(PY) -m pip --version || $(PY) -m ensurepip; } >/dev/null 2>&1 || { \
 			echo "pip is missing from $(VENV) and cannot be added: install the venv package of your Python" >&2; exit 1; }; \
-		$(PY) -m pip install --quiet --no-input --disable-pip-version-check --require-hashes -r $(1) && \
-		$(PY) -m pip install --quiet --no-input --disable-pip-version-check --no-deps --no-build-isolation -e . ; }; \
+		$(PY) -m pip install -qq --no-input --disable-pip-version-check --require-hashes -r $(1) && \
+		$(PY) -m pip install -qq --no-input --disable-pip-version-check --no-deps --no-build-isolation -e . ; }; \
 	if [ -n "$(UV)" ]; then by_uv || { echo "uv could not install; trying pip" >&2; by_pip; }; else by_pip; fi
 	@touch $@
 endef
