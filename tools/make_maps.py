@@ -1,7 +1,7 @@
 """Write the maps that come with Scenewright.
 
-What enters: the numbers below. What leaves: ``src/scenewright/roads/maps/*.xodr``, the same bytes every time. The shipped
-files are what counts; run this only to change them: ``python tools/make_maps.py``.
+What enters: the numbers below. What leaves: ``src/scenewright/roads/maps/*.xodr``, the same bytes every time. The
+shipped files are what counts; run this only to change them: ``python tools/make_maps.py``.
 """
 
 from __future__ import annotations
@@ -112,18 +112,21 @@ def center(mark: str) -> str:
     return f'        <center><lane id="0" type="none" level="false"><link/>{MARK.format(mark)}</lane></center>\n'
 
 
-def arm(road_id: int, name: str, length: float, end: str, kind: tuple[str, int], pose: tuple[float, float, float]) -> str:
+def arm(
+    road_id: int, name: str, length: float, end: str, kind: tuple[str, int], pose: tuple[float, float, float]
+) -> str:
     link = f'      <{end} elementType="junction" elementId="100"/>\n'
     lanes = (
         '      <laneSection s="0">\n'
-        f"        <left>{lane(1, '', 'solid')}</left>\n{center('broken')}        <right>{lane(-1, '', 'solid')}</right>\n"
+        f"        <left>{lane(1, '', 'solid')}</left>\n{center('broken')}"
+        f"        <right>{lane(-1, '', 'solid')}</right>\n"
         "      </laneSection>\n"
     )
     signals = ""
     if kind[0] == "lowSpeed":
         signals = (
-            f'    <signals>\n      <signal s="{STOP_LINE_M}" t="{LANE_WIDTH_M / 2}" id="1" name="stop line" dynamic="no" '
-            'orientation="-" zOffset="0" country="DE" countryRevision="2017" type="294" subtype="-1" '
+            f'    <signals>\n      <signal s="{STOP_LINE_M}" t="{LANE_WIDTH_M / 2}" id="1" name="stop line" '
+            'dynamic="no" orientation="-" zOffset="0" country="DE" countryRevision="2017" type="294" subtype="-1" '
             f'width="{LANE_WIDTH_M}" height="0.5">\n        <validity fromLane="1" toLane="1"/>\n      </signal>\n'
             "    </signals>\n"
         )
@@ -168,7 +171,8 @@ def connecting_road(road_id: int, origin: str, destination: str, turn: str) -> t
         f"{center('none')}        <right>{lane(-1, lane_link, 'none')}</right>\n      </laneSection>\n"
     )
     connection = (
-        f'    <connection id="{road_id - 10}" incomingRoad="{from_id}" connectingRoad="{road_id}" contactPoint="start">\n'
+        f'    <connection id="{road_id - 10}" incomingRoad="{from_id}" connectingRoad="{road_id}" '
+        'contactPoint="start">\n'
         f'      <laneLink from="{lane_in}" to="-1"/>\n    </connection>\n'
     )
     return road(road_id, f"from {origin} to {destination}", 100, length, link, kind, plan, lanes), connection
@@ -190,7 +194,7 @@ def t_intersection() -> str:
     north = BOUNDARY_M + DRIVEWAY_M
     return (
         '<?xml version="1.0" encoding="UTF-8"?>\n<OpenDRIVE>\n'
-        f'  <header revMajor="1" revMinor="6" name="t_intersection" version="1.00" date="2026-01-01T00:00:00" '
+        f'  <header revMajor="1" revMinor="7" name="t_intersection" version="1.00" date="2026-01-01T00:00:00" '
         f'north="{north}" south="{-LANE_WIDTH_M}" east="{far}" west="{-far}" vendor="Scenewright">\n'
         "    <geoReference><![CDATA[+proj=tmerc +lat_0=0 +lon_0=0 +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m +no_defs]]>"
         "</geoReference>\n  </header>\n"

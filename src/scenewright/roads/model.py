@@ -12,11 +12,10 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from scenewright.roads.polyline import FloatArray, Turn, chord_heading_rad, polyline_arc_lengths
+
 LaneKind = Literal["road", "driveway"]
-Turn = Literal["left", "right", "straight"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,12 +62,12 @@ class Lane:
     @property
     def start_heading_rad(self) -> float:
         """Heading at the lane's first point."""
-        return _heading_rad(self.centerline_xy[0], self.centerline_xy[1])
+        return chord_heading_rad(self.centerline_xy[0], self.centerline_xy[1])
 
     @property
     def end_heading_rad(self) -> float:
         """Heading at the lane's last point."""
-        return _heading_rad(self.centerline_xy[-2], self.centerline_xy[-1])
+        return chord_heading_rad(self.centerline_xy[-2], self.centerline_xy[-1])
 
     def outline(self) -> FloatArray:
         """Return the lane's polygon, left edge forwards then right edge backwards, shape (2N, 2), metres."""
@@ -124,13 +123,3 @@ class RoadMap:
     def junction_ids(self) -> tuple[str, ...]:
         """Return the ids of the junctions that lanes pass through, in the order of the lanes."""
         return tuple(dict.fromkeys(lane.junction_id for lane in self.lanes.values() if lane.junction_id is not None))
-
-
-def polyline_arc_lengths(points_xy: FloatArray) -> FloatArray:
-    """Return the cumulative chord length at every point of a polyline, shape (N,), metres."""
-    steps = np.diff(points_xy, axis=0)
-    return np.concatenate([[0.0], np.cumsum(np.hypot(steps[:, 0], steps[:, 1]))])
-
-
-def _heading_rad(start: FloatArray, end: FloatArray) -> float:
-    return float(np.arctan2(end[1] - start[1], end[0] - start[0]))

@@ -77,7 +77,7 @@ def load_opendrive(source: Path) -> RoadMap:
 def _directed_arcs(
     record: OpenDriveRecord, lanes: dict[str, Lane], map_name: str, notes: list[str]
 ) -> list[tuple[str, str]]:
-    """Turn every stated touch of two lane ends into (before, after); the file may state it once, twice or against traffic."""
+    """Turn every stated touch of two lane ends into (before, after); files state some touches twice."""
     roads = {road.id: road for road in record.roads}
     arcs: dict[tuple[str, str], None] = {}
     touches = [*_section_touches(record), *_road_touches(record, roads, map_name)]
@@ -165,9 +165,7 @@ def _port_at(road: RoadRecord, number: int, end: End) -> _Port:
     return _Port(road, 0 if end == "start" else len(road.sections) - 1, number, end)
 
 
-def _no_such_road(
-    map_name: str, line: int, what: str, road_id: str, roads: dict[str, RoadRecord]
-) -> MapError:
+def _no_such_road(map_name: str, line: int, what: str, road_id: str, roads: dict[str, RoadRecord]) -> MapError:
     return MapError(
         f"{what} a road that does not exist",
         place=Place(map_name, line=line),

@@ -7,12 +7,14 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
 from scenewright.errors import MapError, Place
-from scenewright.roads.model import FloatArray, Lane, LaneKind, Turn, polyline_arc_lengths
+from scenewright.roads.model import Lane, LaneKind
 from scenewright.roads.opendrive_records import LaneRecord, RoadRecord, SectionRecord, evaluate_cubics
+from scenewright.roads.polyline import FloatArray, polyline_arc_lengths, turn_of
 from scenewright.roads.reference_line import poses_along
 
 DRIVING_TYPES = frozenset({"driving", "entry", "exit", "onRamp", "offRamp", "connectingRamp"})
@@ -21,7 +23,6 @@ _DRIVEWAY_NAME = re.compile(r"drive\s?way|parking|car\s?park|service", re.IGNORE
 _STEP_CURVED_M = 0.5
 _STEP_STRAIGHT_M = 2.0
 _NARROWEST_M = 0.5
-_TURN_FROM_RAD = np.radians(30.0)
 
 
 def lane_id(road_id: str, section: int, number: int) -> str:
@@ -85,7 +86,7 @@ def _sample_points(road: RoadRecord, section: SectionRecord) -> FloatArray:
     )
     starts = [geometry.s_m for geometry in road.geometries]
     points: list[float] = []
-    for low, high in zip(inside, inside[1:], strict=False):
+    for low, high in pairwise(inside):
         if high - low < 1e-6:
             continue
         piece = road.geometries[max(0, int(np.searchsorted(starts, low + 1e-6)) - 1)]
@@ -99,7 +100,8 @@ def _outer_edge(
 ) -> FloatArray:
     if record.widths:
         # A fitted taper may dip a little below zero; edges must never cross.
-        return inner + side * np.maximum(evaluate_cubics(record.widths, ds_m), 0.0)
+        width: FloatArray = np.maximum(evaluate_cubics(record.widths, ds_m), 0.0)
+        return inner + side * width
     if record.borders:
         return offset + evaluate_cubics(record.borders, ds_m)
     if record.type not in DRIVING_TYPES:
@@ -124,9 +126,7 @@ def _lane(
     outer: FloatArray,
 ) -> Lane:
     normal = np.column_stack([-np.sin(poses[:, 2]), np.cos(poses[:, 2])])
-    center, near, far = (
-        poses[:, :2] + t[:, None] * normal for t in (0.5 * (inner + outer), inner, outer)
-    )
+    center, near, far = (poses[:, :2] + t[:, None] * normal for t in (0.5 * (inner + outer), inner, outer))
     along = runs_along(road, record.number)
     if not along:
         center, near, far = center[::-1], near[::-1], far[::-1]
@@ -150,22 +150,6 @@ def _lane(
         speed_limit_mps=limit,
         stop_line_s_m=_stop_line_s_m(road, section, record.number, s_m, center),
     )
-
-
-def turned_rad(centerline_xy: FloatArray) -> float:
-    """Return by how much a line turns from its first to its last piece, left positive, windings counted."""
-    steps = np.diff(centerline_xy, axis=0)
-    steps = steps[np.hypot(steps[:, 0], steps[:, 1]) > 1e-3]
-    headings = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
-    return float(headings[-1] - headings[0]) if len(headings) else 0.0
-
-
-def turn_of(centerline_xy: FloatArray) -> Turn:
-    """Name the way a line turns; less than 30 degrees is straight."""
-    turned = turned_rad(centerline_xy)
-    if abs(turned) < _TURN_FROM_RAD:
-        return "straight"
-    return "left" if turned > 0 else "right"
 
 
 def _kind(road: RoadRecord, section: SectionRecord) -> LaneKind:

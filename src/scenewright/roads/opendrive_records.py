@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scenewright.roads.model import FloatArray
+from scenewright.roads.polyline import FloatArray
 from scenewright.roads.reference_line import Geometry
 
 

@@ -7,6 +7,7 @@ no elevation: the world is flat here.
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -93,6 +94,10 @@ def _parse_xml(source: Path) -> Element:
     return root
 
 
+def _tag(at: Element) -> str:
+    return str(at.tag)
+
+
 class _FileReader:
     """Holds the file's name for messages; every method turns one kind of element into its record."""
 
@@ -100,19 +105,17 @@ class _FileReader:
         self.name = name
 
     def fault(self, message: str, at: Element, *, found: str, expected: str, fix: str) -> MapError:
-        return MapError(
-            message, place=Place(self.name, line=at.sourceline), found=found, expected=expected, fix=fix
-        )
+        return MapError(message, place=Place(self.name, line=at.sourceline), found=found, expected=expected, fix=fix)
 
     def text(self, at: Element, attribute: str) -> str:
         value = at.get(attribute)
         if value is None:
             raise self.fault(
-                f"<{at.tag}> lacks the attribute {attribute!r}",
+                f"<{_tag(at)}> lacks the attribute {attribute!r}",
                 at,
                 found="attributes " + (", ".join(str(key) for key in at.attrib) or "none"),
                 expected=f'{attribute}="..."',
-                fix=f"add {attribute} to this <{at.tag}> or export the map again",
+                fix=f"add {attribute} to this <{_tag(at)}> or export the map again",
             )
         return value
 
@@ -126,7 +129,7 @@ class _FileReader:
             value = math.nan
         if not math.isfinite(value):
             raise self.fault(
-                f"{attribute} of <{at.tag}> is not a number",
+                f"{attribute} of <{_tag(at)}> is not a number",
                 at,
                 found=repr(text),
                 expected="a finite number",
@@ -138,7 +141,7 @@ class _FileReader:
         value = self.number(at, attribute)
         if value != int(value):
             raise self.fault(
-                f"{attribute} of <{at.tag}> is not a whole number",
+                f"{attribute} of <{_tag(at)}> is not a whole number",
                 at,
                 found=repr(at.get(attribute)),
                 expected="a whole number",
@@ -150,11 +153,11 @@ class _FileReader:
         value = self.number(at, "length")
         if value <= 0.0:
             raise self.fault(
-                f"<{at.tag}> has no length",
+                f"<{_tag(at)}> has no length",
                 at,
                 found=f"length {value:g} m",
                 expected="a length above 0 m",
-                fix=f"remove this <{at.tag}> or correct its length",
+                fix=f"remove this <{_tag(at)}> or correct its length",
             )
         return value
 
@@ -162,9 +165,9 @@ class _FileReader:
         found = at.find(tag)
         if found is None:
             raise self.fault(
-                f"<{at.tag}> lacks <{tag}>",
+                f"<{_tag(at)}> lacks <{tag}>",
                 at,
-                found="children " + (", ".join(f"<{child.tag}>" for child in at) or "none"),
+                found="children " + (", ".join(f"<{_tag(child)}>" for child in at) or "none"),
                 expected=f"<{tag}>",
                 fix="complete the element or export the map again",
             )
@@ -231,7 +234,7 @@ class _FileReader:
                 expected="equal lengths",
                 fix="correct the road's length attribute or complete its <planView>",
             )
-        for before, after in zip(pieces, pieces[1:], strict=False):
+        for before, after in pairwise(pieces):
             end = before.poses(np.array([before.length_m]))[0]
             jump = math.hypot(after.x_m - end[0], after.y_m - end[1])
             if jump > 0.5:
@@ -258,7 +261,7 @@ class _FileReader:
         raise self.fault(
             "the geometry has a shape that is not known",
             at,
-            found=", ".join(f"<{child.tag}>" for child in at) or "an empty <geometry>",
+            found=", ".join(f"<{_tag(child)}>" for child in at) or "an empty <geometry>",
             expected="one of " + ", ".join(f"<{shape}>" for shape in _SHAPE_ATTRIBUTES),
             fix="export the map with one of these shapes",
         )
@@ -291,9 +294,7 @@ class _FileReader:
         )
 
     def lanes(self, section: Element) -> tuple[LaneRecord, ...]:
-        records = [
-            self.lane(lane, side) for side in ("left", "right") for lane in section.findall(f"{side}/lane")
-        ]
+        records = [self.lane(lane, side) for side in ("left", "right") for lane in section.findall(f"{side}/lane")]
         return tuple(sorted(records, key=lambda record: record.number))
 
     def lane(self, at: Element, side: str) -> LaneRecord:
@@ -328,7 +329,7 @@ class _FileReader:
             raise self.fault(
                 f"lane {number} is linked to the centre lane",
                 target,
-                found=f"<{tag} id=\"0\"/>",
+                found=f'<{tag} id="0"/>',
                 expected="the id of a lane that can be driven, or no link",
                 fix="remove this link or give the lane that it leads to",
             )
@@ -375,9 +376,7 @@ class _FileReader:
         orientation = at.get("orientation", "none")
         validity = at.find("validity")
         lanes = None if validity is None else (self.integer(validity, "fromLane"), self.integer(validity, "toLane"))
-        return StopLineRecord(
-            self.number(at, "s"), along=orientation != "-", against=orientation != "+", lanes=lanes
-        )
+        return StopLineRecord(self.number(at, "s"), along=orientation != "-", against=orientation != "+", lanes=lanes)
 
     def connection(self, junction: Element, at: Element) -> ConnectionRecord | None:
         connecting = at.get("connectingRoad") or at.get("linkedRoad")

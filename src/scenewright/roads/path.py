@@ -1,7 +1,7 @@
 """A smooth path by arc length, and Frenet coordinates on it.
 
 What enters: points along a line. What leaves: poses, curvature and the way between map and path coordinates, as plain
-floats in a few microseconds a call, since planners and simulators ask for one pose at a time. It knows nothing of lanes.
+floats in a few microseconds a call: planners and simulators ask for one pose at a time. It knows nothing of lanes.
 """
 
 from __future__ import annotations
@@ -12,11 +12,12 @@ from math import atan2, cos, hypot, pi, sin, sqrt
 
 import numpy as np
 
-from scenewright.roads.model import FloatArray, polyline_arc_lengths
+from scenewright.roads.polyline import FloatArray, polyline_arc_lengths
 
 _MIN_SPACING_M = 0.25  # closer points would turn rounding in a map file into kinks
 _NEAR_M = 10.0  # how far the foot point may lie from where the caller expects it
 _STEP_LIMIT_M = 2.0
+_GAUSS_NODES, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(5)
 
 Segment = tuple[float, float, float, float, float, float, float, float]
 
@@ -127,8 +128,8 @@ class Path:
 
     def _derivatives(self, s_m: float) -> tuple[float, float, float, float, float, float]:
         knots = self.knots_m
-        if 0.0 <= s_m < knots[-1]:
-            index = bisect_right(knots, s_m) - 1
+        if 0.0 <= s_m <= knots[-1]:
+            index = min(bisect_right(knots, s_m), len(knots) - 1) - 1
             t = s_m - knots[index]
             ax, bx, cx, dx, ay, by, cy, dy = self.segments[index]
             return (
@@ -145,7 +146,14 @@ class Path:
         norm = hypot(tx, ty)
         tx, ty = tx / norm, ty / norm
         over = s_m if s_m < 0.0 else s_m - knots[-1]
-        return ax + t * (bx + t * (cx + t * dx)) + over * tx, ay + t * (by + t * (cy + t * dy)) + over * ty, tx, ty, 0.0, 0.0
+        return (
+            ax + t * (bx + t * (cx + t * dx)) + over * tx,
+            ay + t * (by + t * (cy + t * dy)) + over * ty,
+            tx,
+            ty,
+            0.0,
+            0.0,
+        )
 
     def _foot(self, x_m: float, y_m: float, guess_m: float) -> float | None:
         """Newton's method for the foot of the perpendicular; None where it does not settle."""
@@ -213,9 +221,6 @@ def _spline(along_m: FloatArray, values: FloatArray) -> FloatArray:
     return np.column_stack(
         [values[:-1], slope - h * (2.0 * m[:-1] + m[1:]) / 6.0, m[:-1] / 2.0, np.diff(m) / (6.0 * h)]
     )
-
-
-_GAUSS_NODES, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(5)
 
 
 def _arc_lengths(along_m: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:

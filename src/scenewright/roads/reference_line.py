@@ -11,7 +11,7 @@ from typing import Literal
 
 import numpy as np
 
-from scenewright.roads.model import FloatArray
+from scenewright.roads.polyline import FloatArray
 
 Shape = Literal["line", "arc", "spiral", "poly3", "paramPoly3"]
 
@@ -78,7 +78,7 @@ def _spiral(geometry: Geometry, along_m: FloatArray) -> _Local:
     def heading(t: FloatArray) -> FloatArray:
         return start * t + 0.5 * rate * t * t
 
-    # Fresnel integrals by Gauss quadrature on short panels: exact to rounding for any road, and without scipy's start-up.
+    # Fresnel integrals by Gauss quadrature on short panels: exact to rounding, without scipy's start-up.
     panels = max(1, int(np.ceil(geometry.length_m / 2.0)))
     fraction = (np.arange(panels)[:, None] + 0.5 * (_GAUSS_NODES + 1.0)[None, :]).ravel() / panels
     weight = np.tile(_GAUSS_WEIGHTS, panels) * 0.5 / panels
