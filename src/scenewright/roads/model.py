@@ -33,7 +33,7 @@ class Lane:
     centerline_xy, left_edge_xy, right_edge_xy
         Points in metres, shape (N, 2), in driving direction; left and right as the driver sees them.
     width_m
-        Median width.
+        Width where the lane is widest; most lanes have the same width everywhere.
     successors, predecessors
         Ids of the lanes that follow and precede in driving direction.
     left_neighbor, right_neighbor

@@ -145,7 +145,7 @@ def _lane(
         centerline_xy=center,
         left_edge_xy=left,
         right_edge_xy=right,
-        width_m=float(np.median(np.abs(outer - inner))),
+        width_m=float(np.max(np.abs(outer - inner))),
         length_m=length_m,
         speed_limit_mps=limit,
         stop_line_s_m=_stop_line_s_m(road, section, record.number, s_m, center),

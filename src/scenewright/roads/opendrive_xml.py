@@ -212,7 +212,7 @@ class _FileReader:
             length_m=length,
             junction_id=None if junction == "-1" else junction,
             right_hand=at.get("rule", "RHT") != "LHT",
-            geometries=self.plan_view(self.child(at, "planView"), length),
+            geometries=self.plan_view(at, length),
             lane_offsets=self.cubics(lanes, "laneOffset", "s"),
             sections=self.sections(lanes, length),
             types=self.types(at),
@@ -223,13 +223,16 @@ class _FileReader:
             line=at.sourceline or 0,
         )
 
-    def plan_view(self, at: Element, road_length: float) -> tuple[Geometry, ...]:
-        pieces = sorted((self.geometry(piece) for piece in at.findall("geometry")), key=lambda piece: piece.s_m)
+    def plan_view(self, road: Element, road_length: float) -> tuple[Geometry, ...]:
+        pieces = sorted(
+            (self.geometry(piece) for piece in self.child(road, "planView").findall("geometry")),
+            key=lambda piece: piece.s_m,
+        )
         total = sum(piece.length_m for piece in pieces)
         if abs(total - road_length) > max(0.1, 0.001 * road_length):
             raise self.fault(
                 "the road's length and the length of its reference line differ",
-                at,
+                road,
                 found=f"road {road_length:g} m, geometry {total:g} m in {len(pieces)} pieces",
                 expected="equal lengths",
                 fix="correct the road's length attribute or complete its <planView>",

@@ -31,10 +31,10 @@ class Path:
     Examples
     --------
     >>> path = Path.from_points([[0.0, 0.0], [5.0, 0.0], [10.0, 0.0]])
-    >>> path.pose(4.0)
-    (4.0, 0.0, 0.0)
-    >>> path.to_frenet(12.0, 1.0)
-    (12.0, 1.0, 0.0)
+    >>> [round(value, 6) for value in path.pose(4.0)]
+    [4.0, 0.0, 0.0]
+    >>> [round(value, 6) for value in path.to_frenet(12.0, 1.0)]
+    [12.0, 1.0, 0.0]
     """
 
     knots_m: tuple[float, ...]

@@ -1,7 +1,7 @@
 """Routes: ways through a map along its lanes, with headings, a turn, and landmarks as arc lengths.
 
-What enters: a `RoadMap`. What leaves: `Route` objects, always in the same order, and a search among them. A route passes
-one junction, from the very beginning of its approach arm to the end of its exit arm. U-turns are left out.
+What enters: a `RoadMap`. What leaves: `Route` objects, always in the same order, and a search among them. A route
+passes one junction, from the very beginning of its approach arm to the end of its exit arm. U-turns are left out.
 """
 
 from __future__ import annotations

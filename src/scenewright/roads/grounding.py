@@ -1,0 +1,249 @@
+"""Puts a program on a map: routes for its actors, arc lengths for its landmarks, numbers for its parameters.
+
+What enters: a `Program`, a `RoadMap`, values for parameters. What leaves: a `Scene`, all that later stages need to know of
+the map. It raises where the map lacks a route or a landmark; it decides nothing about motion.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from fractions import Fraction
+
+from scenewright.errors import MapError, ParameterError, Place
+from scenewright.program.evaluate import landmark_owner
+from scenewright.program.expressions import (
+    Arithmetic,
+    Compare,
+    Derived,
+    Landmark,
+    Negate,
+    Node,
+    ParameterRef,
+    PieceRef,
+    State,
+    walk,
+)
+from scenewright.program.types import EGO, Actor, HeadingsRoute, LanesRoute, Parameter, Program
+from scenewright.roads.conflicts import Conflict, find_conflict, shared_offset_m
+from scenewright.roads.model import RoadMap
+from scenewright.roads.routes import Route, find_route
+from scenewright.units import decimal_fraction
+
+VEHICLE_LENGTH_M = 4.5
+VEHICLE_WIDTH_M = 1.9
+_CONFLICT_NAMES = ("conflict_point", "intersection", "turn")
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """A program on a map.
+
+    Attributes
+    ----------
+    routes
+        By actor id.
+    landmarks_m
+        Arc lengths by actor id and name; conflict names are those with the actor's partner (the ego, or for the ego the
+        first hero).
+    parameters
+        SI values by name; an open parameter is absent.
+    """
+
+    program: Program
+    road_map: RoadMap
+    routes: Mapping[int, Route]
+    landmarks_m: Mapping[int, Mapping[str, float]]
+    parameters: Mapping[str, Fraction]
+    notes: tuple[str, ...] = ()
+
+    def landmark_m(self, actor: int, name: str, other: int | None = None) -> float:
+        """Return a landmark's arc length (m) on the route of `actor`; raises MapError where there is none."""
+        if other is not None and name in _CONFLICT_NAMES:
+            conflict = find_conflict(self.routes[actor], self.routes[other])
+            if conflict is None:
+                raise _no_conflict(self.program, actor, other)
+            return conflict.s_a_m
+        try:
+            return self.landmarks_m[actor][name]
+        except KeyError:
+            raise _no_landmark(self.program, actor, name, self.landmarks_m[actor]) from None
+
+    def offset_m(self, actor: int, other: int) -> float:
+        """Return what to add to the arc length of `other` to compare it with that of `actor`; raises MapError where the
+        two never share a lane.
+        """
+        if actor == other:
+            return 0.0
+        offset = shared_offset_m(self.routes[actor], self.routes[other])
+        if offset is None:
+            a, b = self.program.actor(actor), self.program.actor(other)
+            raise MapError(
+                f"the distance between {a.name} and {b.name} is not defined: their routes share no lane",
+                place=Place(self.road_map.name),
+                found=f"{self.routes[actor]} and {self.routes[other]}",
+                fix="measure each distance to the conflict point instead",
+            )
+        return offset
+
+    def conflict(self, actor: int, other: int) -> Conflict | None:
+        """Return the conflict of two actors' routes, or None where they never meet."""
+        return find_conflict(self.routes[actor], self.routes[other])
+
+    def open_parameters(self) -> tuple[Parameter, ...]:
+        """Return the parameters without a value: the solver chooses them."""
+        return tuple(p for p in self.program.parameters if p.name not in self.parameters)
+
+
+def ground(program: Program, road_map: RoadMap, values: Mapping[str, float | str | Fraction] | None = None) -> Scene:
+    """Put `program` on `road_map` with parameter `values` (in the unit of each name).
+
+    Raises
+    ------
+    MapError
+        Where a route or a landmark is not to be had on this map.
+    ParameterError
+        For an unknown parameter, one that is not a finite number, or one out of its range.
+    """
+    routes = {actor.id: _route(actor, road_map) for actor in program.actors}
+    parameters = parameter_values(program, values or {})
+    parameters, notes = _signed_decelerations(program, parameters)
+    landmarks = {actor.id: _landmarks(program, actor, routes) for actor in program.actors}
+    scene = Scene(program, road_map, routes, landmarks, parameters, notes)
+    for constraint in program.constraints:
+        for node in walk(constraint.formula):
+            _check_node(scene, node)
+    return scene
+
+
+def parameter_values(program: Program, values: Mapping[str, float | str | Fraction]) -> dict[str, Fraction]:
+    """Return the SI value of every parameter that is given here or in the program."""
+    known = {parameter.name: parameter for parameter in program.parameters}
+    for name in values:
+        if name not in known:
+            near = get_close_matches(name, known, n=1)
+            raise ParameterError(
+                f"there is no parameter {name}",
+                found=name,
+                expected=", ".join(known) or "a scenario with parameters (this one has none)",
+                fix=f"did you mean {near[0]}?" if near else None,
+            )
+    result: dict[str, Fraction] = {}
+    for parameter in known.values():
+        value = _number(parameter.name, values[parameter.name]) if parameter.name in values else parameter.value
+        if value is None:
+            continue
+        low, high = parameter.bounds()
+        if not low <= value <= high:
+            raise ParameterError(
+                f"parameter {parameter.name} is out of range",
+                found=f"{float(value):g} {parameter.unit.symbol}",
+                expected=f"{float(low):g} to {float(high):g} {parameter.unit.symbol}",
+            )
+        result[parameter.name] = value * parameter.unit.si_factor
+    return result
+
+
+def _number(name: str, value: float | str | Fraction) -> Fraction:
+    try:
+        if isinstance(value, Fraction):
+            return value
+        if not math.isfinite(float(value)):
+            raise ValueError
+        return decimal_fraction(value)
+    except ValueError:
+        raise ParameterError(
+            f"parameter {name} is not a number", found=str(value), expected="a finite number", fix=f"-p {name}=12.5"
+        ) from None
+
+
+def _route(actor: Actor, road_map: RoadMap) -> Route:
+    spec = actor.route
+    try:
+        if isinstance(spec, HeadingsRoute):
+            return find_route(road_map, headings=spec.headings)
+        if isinstance(spec, LanesRoute):
+            return find_route(road_map, lanes=spec.lanes)
+        return find_route(
+            road_map,
+            origin_kind=spec.origin,
+            turn=spec.turn,
+            destination_kind=spec.destination,
+            origin_heading=spec.origin_heading,
+            destination_heading=spec.destination_heading,
+        )
+    except MapError as error:
+        error.message = f"{actor.name} (A{actor.id}): {error.message}"
+        error.args = (error.message,)
+        raise
+
+
+def _landmarks(program: Program, actor: Actor, routes: Mapping[int, Route]) -> dict[str, float]:
+    landmarks = dict(routes[actor.id].landmarks)
+    others = [hero.id for hero in program.heroes] if actor.is_ego else [EGO]
+    conflict = find_conflict(routes[actor.id], routes[others[0]]) if others and others[0] in routes else None
+    if conflict is not None:
+        for name in _CONFLICT_NAMES:
+            landmarks[name] = conflict.s_a_m
+    elif "junction_start" in landmarks:
+        landmarks["intersection"] = landmarks["turn"] = landmarks["junction_start"]
+    return landmarks
+
+
+def _check_node(scene: Scene, node: Node) -> None:
+    if not isinstance(node, Compare):
+        return
+    owner = landmark_owner(node)
+    aims = {id(part.target): part.actor for part in walk(node) if isinstance(part, Derived)}
+    for part in walk(node):
+        if isinstance(part, Landmark):
+            holder = part.actor if part.actor is not None else aims.get(id(part), owner)
+            if holder is not None:
+                scene.landmark_m(holder, part.name, part.other)
+        elif isinstance(part, Derived) and isinstance(part.target, int):
+            scene.offset_m(part.actor, part.target)
+        elif isinstance(part, Arithmetic) and isinstance(part.left, State) and isinstance(part.right, State):
+            if part.left.order == part.right.order == 0:
+                scene.offset_m(part.left.actor, part.right.actor)
+
+
+def _signed_decelerations(
+    program: Program, parameters: dict[str, Fraction]
+) -> tuple[dict[str, Fraction], tuple[str, ...]]:
+    """Give a deceleration parameter the sign that its comparison needs: people write both ``3`` and ``-3``."""
+    result, notes = dict(parameters), []
+    for constraint in program.constraints:
+        formula = constraint.formula
+        if not (isinstance(formula, Compare) and isinstance(formula.left, State) and formula.left.order == 2):
+            continue
+        if not (isinstance(formula.left.at, PieceRef) and formula.left.at.name.startswith("dec")):
+            continue
+        right = formula.right
+        negated = isinstance(right, Negate)
+        reference = right.operand if isinstance(right, Negate) else right
+        if isinstance(reference, ParameterRef) and reference.name in result:
+            size = abs(result[reference.name])
+            wanted = size if negated else -size
+            if wanted != result[reference.name]:
+                notes.append(f"{reference.name} is a deceleration: read as {float(wanted):g} m/s^2")
+                result[reference.name] = wanted
+    return result, tuple(notes)
+
+
+def _no_landmark(program: Program, actor: int, name: str, there_are: Mapping[str, float]) -> MapError:
+    return MapError(
+        f"{program.actor(actor).name}'s route has no {name.replace('_', ' ')}",
+        place=Place(program.map_name),
+        found=name,
+        expected=", ".join(sorted(there_are)),
+        fix="choose one of these landmarks, or routes that meet"
+        if "conflict" in name
+        else "choose one of these landmarks",
+    )
+
+
+def _no_conflict(program: Program, actor: int, other: int) -> MapError:
+    a, b = program.actor(actor).name, program.actor(other).name
+    return MapError(f"the routes of {a} and {b} never meet: there is no conflict point", place=Place(program.map_name))
