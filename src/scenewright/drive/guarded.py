@@ -1,0 +1,227 @@
+"""A policy in a cage: whatever it does wrong becomes one error that says which policy, when, and what.
+
+What enters: any policy. What leaves: a policy that returns a plain finite acceleration or a plausible `EgoMotion`, or
+raises `PolicyError`. What is odd but can be driven (commands that no car can follow, broken promises) is kept as
+findings.
+"""
+
+from __future__ import annotations
+
+import traceback
+from dataclasses import dataclass, field
+from math import hypot, isfinite
+from typing import NoReturn
+
+import numpy as np
+
+from scenewright.drive.protocol import EgoMotion, EgoPolicy, EgoStart, Envelope, Observation
+from scenewright.errors import PolicyError
+
+ACCEL_MIN_MPSS, ACCEL_MAX_MPSS = -12.0, 8.0  # what tyres and engines can do at most
+SPEED_MAX_MPS = 100.0
+_TELEPORT_MARGIN_M = 1.0
+_OFF_ROUTE_M = 5.0
+_ROLL_BACK_MPS = 0.05  # rounding in a vehicle model, not reversing
+_PROMISE_SLACK = 1e-6
+
+
+@dataclass(slots=True)
+class GuardedPolicy:
+    """Wraps a policy.
+
+    Attributes
+    ----------
+    policy, name
+        The policy, and what messages call it.
+    findings
+        What was odd since the last `reset`, one sentence each, each kind once with its first time.
+    """
+
+    policy: EgoPolicy
+    name: str = "ego"
+    findings: list[str] = field(init=False, default_factory=list)
+    _start: EgoStart | None = field(init=False, default=None, repr=False)
+    _near_s_m: float = field(init=False, default=0.0, repr=False)
+    _seen: set[str] = field(init=False, default_factory=set, repr=False)
+    _envelope: Envelope | None = field(init=False, default=None, repr=False)
+
+    @property
+    def envelope(self) -> Envelope | None:
+        """The promise that the policy makes, or None.
+
+        Raises
+        ------
+        PolicyError
+            If it is not an `Envelope` of finite numbers in order.
+        """
+        promise: object = None
+        try:
+            promise = getattr(self.policy, "envelope", None)
+        except Exception as error:  # a property of the user's may do anything
+            self._raised("its envelope", error)
+        if promise is None:
+            return None
+        if not isinstance(promise, Envelope) or not _makes_sense(promise):
+            raise PolicyError(
+                f"the envelope of policy {self.name!r} makes no sense",
+                found=repr(promise),
+                expected="Envelope(speed_max_mps >= 0, accel_min_mpss <= 0, accel_max_mpss >= 0), all finite",
+                fix="correct the envelope, or leave it out: it is optional",
+            )
+        return promise
+
+    def preferred_speed_mps(self, start: EgoStart) -> float | None:
+        """Return the speed in m/s that the policy would hold by itself, or None where it does not say."""
+        ask = getattr(self.policy, "preferred_speed_mps", None)
+        if ask is None:
+            return None
+        try:
+            speed_mps = ask(start)
+        except Exception as error:  # a user's policy may raise anything
+            self._raised("preferred_speed_mps()", error)
+        if speed_mps is None:
+            return None
+        if not _is_number(speed_mps) or not 0.0 <= speed_mps <= SPEED_MAX_MPS:
+            raise PolicyError(
+                f"preferred_speed_mps() of policy {self.name!r} is not a speed",
+                found=repr(speed_mps),
+                expected=f"a number from 0 to {SPEED_MAX_MPS:g} m/s, or None",
+                fix="return None where there is no such speed",
+            )
+        return float(speed_mps)
+
+    def reset(self, start: EgoStart) -> None:
+        """Reset the policy and forget all findings.
+
+        Raises
+        ------
+        PolicyError
+            If the policy raises, or its envelope makes no sense.
+        """
+        self._start, self._near_s_m = start, start.s_m
+        self.findings.clear()
+        self._seen.clear()
+        try:
+            self.policy.reset(start)
+        except Exception as error:  # a user's policy may raise anything
+            self._raised("reset()", error)
+        self._envelope = self.envelope
+
+    def step(self, observation: Observation, dt_s: float) -> float | EgoMotion:
+        """Return what the policy does in the next `dt_s` seconds, as plain finite numbers.
+
+        Raises
+        ------
+        PolicyError
+            If the policy raises, returns anything but a finite number or an `EgoMotion`, jumps, reverses, or
+            leaves its route by more than 5 m.
+        """
+        try:
+            action: object = self.policy.step(observation, dt_s)
+        except Exception as error:  # a user's policy may raise anything
+            self._raised(f"step() at {observation.time_s:.2f} s", error)
+        if isinstance(action, EgoMotion):
+            return self._checked_motion(action, observation, dt_s)
+        if not _is_number(action):
+            raise self._fault(
+                "returned something that is not a motion", observation.time_s, repr(action),
+                "a finite acceleration in m/s^2, or an EgoMotion", "return a number from step() in every case",
+            )  # fmt: skip
+        return self._checked_accel(float(action), observation)  # type: ignore[arg-type]
+
+    def _checked_accel(self, accel_mpss: float, observation: Observation) -> float:
+        clipped_mpss = min(ACCEL_MAX_MPSS, max(ACCEL_MIN_MPSS, accel_mpss))
+        if clipped_mpss != accel_mpss:
+            self._find(
+                "clipped", observation.time_s,
+                f"asked for {accel_mpss:.1f} m/s^2 and got {clipped_mpss:.1f} m/s^2, the most that a car can do",
+            )  # fmt: skip
+        promise = self._envelope
+        if promise is not None:
+            # A standing car does not roll back, so braking at standstill moves nothing and breaks no promise.
+            moves = accel_mpss > 0.0 or observation.ego.speed_mps > 0.0
+            low_mpss, high_mpss = promise.accel_min_mpss - _PROMISE_SLACK, promise.accel_max_mpss + _PROMISE_SLACK
+            if moves and not low_mpss <= accel_mpss <= high_mpss:
+                self._find(
+                    "accel", observation.time_s,
+                    f"asked for {accel_mpss:.2f} m/s^2, but its envelope promises "
+                    f"{promise.accel_min_mpss:g} to {promise.accel_max_mpss:g} m/s^2",
+                )  # fmt: skip
+            self._check_speed(observation.ego.speed_mps, observation.time_s, promise)
+        return clipped_mpss
+
+    def _check_speed(self, speed_mps: float, time_s: float, promise: Envelope) -> None:
+        if speed_mps > promise.speed_max_mps + 1e-3:
+            self._find(
+                "speed", time_s,
+                f"drives {speed_mps:.2f} m/s, but its envelope promises at most {promise.speed_max_mps:.2f} m/s",
+            )  # fmt: skip
+
+    def _checked_motion(self, motion: EgoMotion, observation: Observation, dt_s: float) -> EgoMotion:
+        time_s, ego = observation.time_s, observation.ego
+        numbers = (motion.x_m, motion.y_m, motion.heading_rad, motion.speed_mps)
+        if not all(map(_is_number, numbers)):
+            raise self._fault(
+                "returned a motion that is not made of finite numbers", time_s, repr(motion),
+                "finite x_m, y_m, heading_rad and speed_mps", "check the vehicle model for a division by zero",
+            )  # fmt: skip
+        x_m, y_m, heading_rad, speed_mps = map(float, numbers)
+        if not -_ROLL_BACK_MPS <= speed_mps <= SPEED_MAX_MPS:
+            raise self._fault(
+                "returned a speed that the ego cannot have", time_s, f"{speed_mps:g} m/s",
+                f"0 to {SPEED_MAX_MPS:g} m/s along its heading", "stop at 0: an ego does not reverse",
+            )  # fmt: skip
+        moved_m = hypot(x_m - ego.x_m, y_m - ego.y_m)
+        reach_m = max(speed_mps, ego.speed_mps) * dt_s + _TELEPORT_MARGIN_M
+        if moved_m > reach_m:
+            raise self._fault(
+                "jumped", time_s, f"{moved_m:.2f} m from where the ego was",
+                f"at most {reach_m:.2f} m at {max(speed_mps, ego.speed_mps):.1f} m/s in {dt_s:g} s",
+                "move from observation.ego, by the speed that is returned",
+            )  # fmt: skip
+        self._check_on_route(x_m, y_m, time_s)
+        if self._envelope is not None:
+            self._check_speed(speed_mps, time_s, self._envelope)
+        return EgoMotion(x_m, y_m, heading_rad, max(0.0, speed_mps))
+
+    def _check_on_route(self, x_m: float, y_m: float, time_s: float) -> None:
+        if self._start is None:
+            return
+        self._near_s_m, d_m, _ = self._start.route.path.to_frenet(x_m, y_m, near_s_m=self._near_s_m)
+        if abs(d_m) > _OFF_ROUTE_M:
+            raise self._fault(
+                "left its route", time_s, f"{abs(d_m):.1f} m beside it at s = {self._near_s_m:.1f} m",
+                f"at most {_OFF_ROUTE_M:g} m", "follow start.route.path; the scenario is defined on that route",
+            )  # fmt: skip
+
+    def _find(self, kind: str, time_s: float, text: str) -> None:
+        if kind not in self._seen:
+            self._seen.add(kind)
+            self.findings.append(f"policy {self.name!r} at {time_s:.2f} s: {text}")
+
+    def _fault(self, what: str, time_s: float, found: str, expected: str, fix: str) -> PolicyError:
+        return PolicyError(f"policy {self.name!r} {what} at {time_s:.2f} s", found=found, expected=expected, fix=fix)
+
+    def _raised(self, where: str, error: Exception) -> NoReturn:
+        frames = traceback.extract_tb(error.__traceback__)
+        last = frames[-1] if frames else None
+        line = f" (line {last.lineno} of {last.filename.rsplit('/', 1)[-1]}: {last.line})" if last else ""
+        first_line = str(error).splitlines()[0] if str(error) else "no message"
+        raise PolicyError(
+            f"policy {self.name!r} raised an exception in {where}",
+            found=f"{type(error).__name__}: {first_line}{line}",
+            fix="correct the policy; run it alone with the same observation to see the whole traceback",
+        ) from error
+
+
+def _makes_sense(promise: Envelope) -> bool:
+    numbers = (promise.speed_max_mps, promise.accel_min_mpss, promise.accel_max_mpss)
+    if not all(map(_is_number, numbers)):
+        return False
+    return promise.speed_max_mps >= 0.0 and promise.accel_min_mpss <= 0.0 <= promise.accel_max_mpss
+
+
+def _is_number(value: object) -> bool:
+    if isinstance(value, bool | np.bool_) or not isinstance(value, float | int | np.floating | np.integer):
+        return False
+    return isfinite(value)

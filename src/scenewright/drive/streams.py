@@ -1,0 +1,178 @@
+"""The streams of traffic that meet the ego's route, and who in them may be on the way there.
+
+What enters: the ego's route and map once, then the others' places and headings. What leaves: for every other vehicle
+the streams that it may belong to, and how far along them it is. Where a vehicle really goes is not known here: it
+belongs to every stream that its place and heading allow. What to do about it is not decided here either (see `driver`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import cos, pi, sin
+
+from scenewright.drive.protocol import EgoStart, VehicleState
+from scenewright.roads import Path, Route, all_routes, find_conflict
+from scenewright.roads.path import wrap_rad
+
+_LANE_REACH_M = 2.0
+_HEADING_REACH_RAD = 0.5
+_STANDING_MPS = 0.3
+_ELSEWHERE_M = 6.0
+_SIDE_MARGIN_M = 0.2
+_LOOK_AGAIN_S = 0.2  # a vehicle that is elsewhere does not come here at once
+_TURN_RANK = {"straight": 0, "right": 1, "left": 2}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stream:
+    """Traffic on one route that crosses the ego's or merges with it.
+
+    Attributes
+    ----------
+    path
+        Where this traffic goes.
+    ego_in_m, ego_out_m
+        Arc lengths on the ego's route between which its centre is where it could touch this traffic.
+    in_m, out_m
+        The same for this traffic, on its path.
+    ego_yields
+        Whether this traffic has the right of way.
+    merges
+        Whether the ego goes on in the same lane as this traffic.
+    """
+
+    path: Path
+    ego_in_m: float
+    ego_out_m: float
+    in_m: float
+    out_m: float
+    ego_yields: bool
+    merges: bool
+
+
+@dataclass(slots=True, eq=False)
+class Foot:
+    """Where a vehicle is in relation to one path, refreshed as seldom as that allows."""
+
+    path: Path
+    s_m: float | None = None
+    d_m: float = 0.0
+    heading_error_rad: float = 0.0
+    again_s: float = -1.0
+
+    def look(self, vehicle: VehicleState, time_s: float) -> bool:
+        """Bring the foot point up to date; return False where the vehicle was far off at the last look, just before."""
+        if time_s < self.again_s:
+            return False
+        self.s_m, self.d_m, self.heading_error_rad = self.path.to_frenet(
+            vehicle.x_m, vehicle.y_m, vehicle.heading_rad, near_s_m=self.s_m
+        )
+        if abs(self.d_m) > _ELSEWHERE_M:
+            self.again_s = time_s + _LOOK_AGAIN_S
+        return True
+
+
+@dataclass(slots=True, eq=False)
+class Approach:
+    """One vehicle as a member of one stream."""
+
+    stream: Stream
+    foot: Foot
+    accepted: bool = False  # the ego has decided to go before this vehicle
+
+    def look(self, vehicle: VehicleState, time_s: float) -> bool:
+        """Return whether the vehicle may be in this stream now, in front of or within the place of conflict."""
+        foot = self.foot
+        if not foot.look(vehicle, time_s):
+            return False
+        if abs(foot.d_m) > _LANE_REACH_M or abs(foot.heading_error_rad) > _HEADING_REACH_RAD:
+            foot.again_s = time_s + _LOOK_AGAIN_S
+            return False
+        assert foot.s_m is not None
+        return foot.s_m < self.stream.out_m
+
+
+@dataclass(slots=True, eq=False)
+class Neighbour:
+    """What the driver remembers of one other vehicle."""
+
+    on_ego_path: Foot
+    approaches: tuple[Approach, ...]
+    stands_since_s: float | None = None
+
+    def watch(self, vehicle: VehicleState, time_s: float) -> None:
+        """Note since when the vehicle stands."""
+        if vehicle.speed_mps >= _STANDING_MPS:
+            self.stands_since_s = None
+        elif self.stands_since_s is None:
+            self.stands_since_s = time_s
+
+    def gap_ahead_m(self, vehicle: VehicleState, ego: VehicleState, ego_s_m: float, time_s: float) -> float | None:
+        """Return the free distance to this vehicle in metres where its box is in the ego's way, else None."""
+        foot = self.on_ego_path
+        if not foot.look(vehicle, time_s) or foot.s_m is None or foot.s_m <= ego_s_m:
+            return None
+        across, along = abs(sin(foot.heading_error_rad)), abs(cos(foot.heading_error_rad))
+        half_across_m = 0.5 * (vehicle.length_m * across + vehicle.width_m * along)
+        if abs(foot.d_m) >= half_across_m + 0.5 * ego.width_m + _SIDE_MARGIN_M:
+            return None
+        half_along_m = 0.5 * (vehicle.length_m * along + vehicle.width_m * across)
+        return foot.s_m - ego_s_m - half_along_m - 0.5 * ego.length_m
+
+    def speed_along_mps(self, vehicle: VehicleState) -> float:
+        """Return the vehicle's speed along the ego's path; negative where it comes towards the ego."""
+        return vehicle.speed_mps * cos(self.on_ego_path.heading_error_rad)
+
+
+@dataclass(slots=True, eq=False)
+class Surroundings:
+    """The streams that meet the ego's route, and the neighbours seen so far."""
+
+    ego_path: Path
+    streams: tuple[Stream, ...]
+    neighbours: dict[str, Neighbour] = field(default_factory=dict)
+
+    def neighbour(self, vehicle: VehicleState, time_s: float) -> Neighbour:
+        """Return what is remembered of a vehicle, brought up to date."""
+        known = self.neighbours.get(vehicle.name)
+        if known is None:
+            approaches = tuple(Approach(stream, Foot(stream.path)) for stream in self.streams)
+            known = self.neighbours[vehicle.name] = Neighbour(Foot(self.ego_path), approaches)
+        known.watch(vehicle, time_s)
+        return known
+
+
+def surroundings_of(start: EgoStart) -> Surroundings:
+    """Find the streams that cross the ego's route or merge with it; geometry only, done once before a run."""
+    ego, lanes = start.route, start.road_map.lanes
+    junctions = {lanes[name].junction_id for name in ego.lanes} - {None}
+    streams = []
+    for route in all_routes(start.road_map):
+        if not any(lanes[name].junction_id in junctions for name in route.lanes):
+            continue
+        conflict = find_conflict(ego, route)
+        if conflict is None or conflict.kind == "following":
+            continue
+        (ego_in_m, ego_out_m), (in_m, out_m) = conflict.zone_a_m, conflict.zone_b_m
+        merges = conflict.kind == "merging"
+        streams.append(Stream(route.path, ego_in_m, ego_out_m, in_m, out_m, yields(ego, route), merges))
+    return Surroundings(ego.path, tuple(streams))
+
+
+def yields(ego: Route, other: Route) -> bool:
+    """Return whether traffic on one route owes the right of way to traffic on another, in right-hand traffic.
+
+    Driveways yield to roads, left turns to oncoming traffic, turns to those that go straight on; else the one from
+    the right goes first.
+    """
+    if ego.origin_kind != other.origin_kind:
+        return ego.origin_kind == "driveway"
+    rank, other_rank = _TURN_RANK[ego.turn], _TURN_RANK[other.turn]
+    if rank != other_rank:
+        return rank > other_rank
+    towards_rad = wrap_rad(_entry_heading_rad(other) - _entry_heading_rad(ego))
+    return 0.25 * pi < towards_rad < 0.75 * pi  # comes from the right, that is: drives to the left
+
+
+def _entry_heading_rad(route: Route) -> float:
+    return route.path.pose(route.landmarks.get("junction_start", 0.0))[2]
