@@ -1,1 +1,1 @@
-"""Piecewise-polynomial motion profiles, symbolic and numeric."""
+"""Piecewise-polynomial motion, symbolic and numeric from one source."""

@@ -131,7 +131,8 @@ def _parser() -> Lark:
 
 
 def _syntax_error(error: UnexpectedInput, text: str, name: str) -> ProgramError:
-    start = error.pos_in_stream if error.pos_in_stream is not None and error.pos_in_stream >= 0 else len(text.rstrip())
+    position = error.pos_in_stream
+    start = len(text.rstrip()) if position is None or position < 0 else position
     accepted: set[str] = set()
     width = 1
     if isinstance(error, UnexpectedToken):
@@ -201,10 +202,8 @@ class _Builder(Transformer[Token, Any]):
     def parameter(self, meta: Meta, items: list[Any]) -> Parameter:
         name, value, low, high = items
         span = Span(name.start_pos, name.end_pos)
-        numbers = []
-        for number in (value, low, high):
-            numbers.append(self._in_own_unit(str(name), number, span) if number is not None else None)
-        return Parameter(str(name), *numbers, span=span)
+        own = [None if n is None else self._in_own_unit(str(name), n, span) for n in (value, low, high)]
+        return Parameter(str(name), own[0], own[1], own[2], span)
 
     def _in_own_unit(self, name: str, number: tuple[Fraction, str | None], span: Span) -> Fraction:
         value, symbol = number
@@ -244,7 +243,9 @@ class _Builder(Transformer[Token, Any]):
 
     def intent(self, meta: Meta, items: list[Any]) -> IntentRoute:
         origin, origin_heading, turn, destination, destination_heading = (str(i) if i else None for i in items)
-        return IntentRoute(cast(Any, origin), cast(Any, turn), cast(Any, destination), origin_heading, destination_heading)
+        return IntentRoute(
+            cast(Any, origin), cast(Any, turn), cast(Any, destination), origin_heading, destination_heading
+        )
 
     def sketch(self, meta: Meta, items: list[Any]) -> Sketch:
         names = [str(item) for item in items]
@@ -265,7 +266,9 @@ class _Builder(Transformer[Token, Any]):
                     expected="go, acc, dec or stop",
                 )
         if len(set(knots)) != len(knots):
-            raise ProgramError("a knot's name occurs twice", place=self._place(self._span(meta)), fix="number the knots")
+            raise ProgramError(
+                "a knot's name occurs twice", place=self._place(self._span(meta)), fix="number the knots"
+            )
         return Sketch(knots, tuple(PieceKind(piece) for piece in pieces))
 
     # -- constraints ------------------------------------------------------------------------------------------------
@@ -403,9 +406,7 @@ class _Builder(Transformer[Token, Any]):
             for index, (label, formula, source, span) in enumerate(rows, start=1)
         )
         parameters = _with_used_parameters(declared, constraints)
-        return Program(
-            fields["name"], tuple(actors), constraints, parameters, fields["map"], fields["description"]
-        )
+        return Program(fields["name"], tuple(actors), constraints, parameters, fields["map"], fields["description"])
 
 
 def _with_used_parameters(declared: list[Parameter], constraints: tuple[Constraint, ...]) -> tuple[Parameter, ...]:

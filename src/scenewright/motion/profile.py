@@ -1,0 +1,154 @@
+"""Concrete motion along one axis: what a plan or a prediction says an actor does.
+
+What enters: a start state and accelerations with durations. What leaves: position, speed and acceleration at any instant,
+when a place is passed, and bounds over spans. Speed is continuous by construction; it never reverses.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from dataclasses import dataclass
+
+STANDSTILL_MPS = 1e-6
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """A stretch of constant acceleration: from `start_s` on for `duration_s`, beginning with `s_m` and `speed_mps`."""
+
+    start_s: float
+    duration_s: float
+    s_m: float
+    speed_mps: float
+    accel_mpss: float
+    piece: int = 0
+
+    @property
+    def end_s(self) -> float:
+        """When the segment ends (s)."""
+        return self.start_s + self.duration_s
+
+    @property
+    def end_speed_mps(self) -> float:
+        """Speed at the end of the segment (m/s)."""
+        return max(0.0, self.speed_mps + self.accel_mpss * self.duration_s)
+
+    @property
+    def end_s_m(self) -> float:
+        """Arc length at the end of the segment (m)."""
+        return self.s_m + (self.speed_mps + 0.5 * self.accel_mpss * self.duration_s) * self.duration_s
+
+
+class Profile:
+    """Segments one after another; before the first and after the last the speed holds.
+
+    Parameters
+    ----------
+    segments
+        Consecutive segments, at least one; each begins where and how fast the one before it ends.
+    knot_times_s
+        When the actor's knots are passed (s), by knot name.
+    """
+
+    __slots__ = ("_starts", "knot_times_s", "segments")
+
+    def __init__(self, segments: tuple[Segment, ...], knot_times_s: dict[str, float] | None = None) -> None:
+        if not segments:
+            raise ValueError("a profile has at least one segment")
+        self.segments = segments
+        self.knot_times_s = knot_times_s or {}
+        self._starts = [segment.start_s for segment in segments]
+
+    @property
+    def start_s(self) -> float:
+        """When the profile begins (s)."""
+        return self._starts[0]
+
+    @property
+    def end_s(self) -> float:
+        """When the last segment ends (s); afterwards the speed holds."""
+        return self.segments[-1].end_s
+
+    def state(self, time_s: float) -> tuple[float, float, float]:
+        """Return position (m), speed (m/s) and acceleration (m/s^2) at `time_s`, right-continuous."""
+        index = bisect_right(self._starts, time_s) - 1
+        if index < 0:
+            first = self.segments[0]
+            return first.s_m + first.speed_mps * (time_s - first.start_s), first.speed_mps, 0.0
+        segment = self.segments[index]
+        elapsed = time_s - segment.start_s
+        if elapsed < segment.duration_s:
+            speed = segment.speed_mps + segment.accel_mpss * elapsed
+            position = segment.s_m + (segment.speed_mps + 0.5 * segment.accel_mpss * elapsed) * elapsed
+            return position, max(0.0, speed), segment.accel_mpss
+        speed = segment.end_speed_mps
+        return segment.end_s_m + speed * (elapsed - segment.duration_s), speed, 0.0
+
+    def time_at(self, s_m: float, after_s: float = -math.inf) -> float | None:
+        """Return the first instant not before `after_s` at which position `s_m` is reached, or None if never."""
+        begin = max(after_s, self.start_s)
+        if self.state(begin)[0] >= s_m:
+            return begin if self.state(begin)[0] - s_m < 1e-6 else None
+        for segment in self.segments:
+            if segment.end_s <= begin or segment.end_s_m < s_m:
+                continue
+            return segment.start_s + _reach(s_m - segment.s_m, segment.speed_mps, segment.accel_mpss)
+        last = self.segments[-1]
+        if last.end_speed_mps <= STANDSTILL_MPS:
+            return None
+        return max(last.end_s, begin) + (s_m - self.state(max(last.end_s, begin))[0]) / last.end_speed_mps
+
+    def cut(self, time_s: float) -> Profile:
+        """Return the same motion from `time_s` on, beginning with a segment that starts exactly there."""
+        position, speed, accel = self.state(time_s)
+        rest: list[Segment] = []
+        for segment in self.segments:
+            if segment.end_s <= time_s:
+                continue
+            if segment.start_s <= time_s:
+                rest.append(Segment(time_s, segment.end_s - time_s, position, speed, accel, segment.piece))
+            else:
+                rest.append(segment)
+        if not rest:
+            rest.append(Segment(time_s, 0.0, position, speed, 0.0, self.segments[-1].piece))
+        return Profile(tuple(rest), self.knot_times_s)
+
+    def accelerations(self) -> tuple[float, float]:
+        """Return the smallest and largest acceleration of the whole profile (m/s^2)."""
+        values = [segment.accel_mpss for segment in self.segments]
+        return min(values), max(values)
+
+
+def chain(start_s: float, s_m: float, speed_mps: float, moves: list[tuple[float, float, int]]) -> tuple[Segment, ...]:
+    """Return the segments that start with a state and carry out ``(duration_s, accel_mpss, piece)`` one after another.
+
+    A move that would reverse stops at standstill and waits for the rest of its duration.
+    """
+    segments: list[Segment] = []
+    for duration_s, accel, piece in moves:
+        if duration_s <= 0.0:
+            continue
+        if accel < 0 and speed_mps + accel * duration_s < -1e-9:
+            braking_s = speed_mps / -accel
+            parts = [(braking_s, accel), (duration_s - braking_s, 0.0)]
+        else:
+            parts = [(duration_s, accel)]
+        for part_s, part_accel in parts:
+            if part_s <= 0.0:
+                continue
+            segment = Segment(start_s, part_s, s_m, speed_mps, part_accel, piece)
+            segments.append(segment)
+            start_s, s_m, speed_mps = segment.end_s, segment.end_s_m, segment.end_speed_mps
+            if speed_mps < STANDSTILL_MPS:
+                speed_mps = 0.0
+    if not segments:
+        segments.append(Segment(start_s, 0.0, s_m, speed_mps, 0.0, moves[-1][2] if moves else 0))
+    return tuple(segments)
+
+
+def _reach(distance_m: float, speed_mps: float, accel_mpss: float) -> float:
+    """Return the time to cover `distance_m` >= 0 from `speed_mps` at constant acceleration (known to be reached)."""
+    root = math.sqrt(max(0.0, speed_mps * speed_mps + 2.0 * accel_mpss * distance_m))
+    denominator = speed_mps + root
+    return 2.0 * distance_m / denominator if denominator > 0.0 else 0.0

@@ -1,0 +1,248 @@
+"""Checks that a program makes sense by itself: names, knots, pieces, units, and comparisons of like with like.
+
+What enters: a `Program` and the text it was read from, if any. What leaves: nothing, or a `ProgramError` that points at the
+fault. What depends on a map (routes, which landmarks there are) is checked when the program is grounded.
+"""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+
+from scenewright.errors import Place, ProgramError, Span
+from scenewright.program.evaluate import landmark_owner
+from scenewright.program.expressions import (
+    LANDMARKS,
+    Arithmetic,
+    At,
+    Compare,
+    Derived,
+    Elapsed,
+    Formula,
+    Knot,
+    Landmark,
+    Logic,
+    Negate,
+    Number,
+    ParameterRef,
+    PieceRef,
+    State,
+    Temporal,
+    Term,
+    walk,
+)
+from scenewright.program.printer import print_expression
+from scenewright.program.types import EGO, Actor, Constraint, Program
+from scenewright.units import unit_of_name
+
+# A dimension as exponents of metre and second; None is a bare number, which goes with anything.
+Powers = tuple[int, int] | None
+_LENGTH, _TIME, _SPEED, _ACCELERATION = (1, 0), (0, 1), (1, -1), (1, -2)
+_OF_ORDER = (_LENGTH, _SPEED, _ACCELERATION)
+_OF_DIMENSION = {"length": _LENGTH, "time": _TIME, "speed": _SPEED, "acceleration": _ACCELERATION}
+_OF_DERIVED = {"gap": _LENGTH, "tta": _TIME, "ttc": _TIME, "headway": _TIME}
+_NAMES = {
+    _LENGTH: "a length (m)",
+    _TIME: "a time (s)",
+    _SPEED: "a speed (m/s)",
+    _ACCELERATION: "an acceleration (m/s^2)",
+    (0, 0): "a bare number",
+}
+
+
+def check_program(program: Program, text: str | None = None, name: str = "program") -> None:
+    """Raise `ProgramError` at the first fault of `program`; `text` is what spans point into."""
+    _Checker(program, text, name).check()
+
+
+class _Checker:
+    def __init__(self, program: Program, text: str | None, name: str) -> None:
+        self.program = program
+        self.text = text
+        self.name = name
+        self.actors = {actor.id: actor for actor in program.actors}
+        self.parameters = {parameter.name: parameter for parameter in program.parameters}
+
+    def check(self) -> None:
+        self._check_actors()
+        self._check_parameters()
+        seen: set[str] = set()
+        for constraint in self.program.constraints:
+            if constraint.id in seen:
+                raise self._error(f"two constraints are called {constraint.id}", constraint.span, fix="rename one")
+            seen.add(constraint.id)
+            self._check_constraint(constraint)
+
+    def _error(
+        self,
+        message: str,
+        span: Span | None,
+        found: str | None = None,
+        expected: str | None = None,
+        fix: str | None = None,
+    ) -> ProgramError:
+        return ProgramError(message, place=Place(self.name, self.text, span), found=found, expected=expected, fix=fix)
+
+    def _check_actors(self) -> None:
+        if len(self.actors) != len(self.program.actors):
+            raise self._error(
+                "two actors have the same number", self.program.actors[-1].span, fix="number them 0, 1, 2"
+            )
+        if EGO not in self.actors:
+            raise self._error("there is no ego", None, expected="an 'Actor 0', the vehicle under test")
+        if len(self.actors) < 2:
+            raise self._error("there is nobody but the ego", None, expected="an 'Actor 1' that interacts with it")
+        names = [actor.name for actor in self.program.actors]
+        for actor in self.program.actors:
+            if names.count(actor.name) > 1:
+                raise self._error(f"two actors are called {actor.name}", actor.span, fix="give them different names")
+
+    def _check_parameters(self) -> None:
+        for parameter in self.program.parameters:
+            if unit_of_name(parameter.name) is None:
+                raise self._error(
+                    f"parameter {parameter.name} has no unit",
+                    parameter.span,
+                    found=parameter.name,
+                    expected="a name that ends in _m, _s, _mps or _mpss (or _ft, _mph, _kmph)",
+                )
+            low, high = parameter.bounds()
+            if low > high:
+                raise self._error(f"the range of {parameter.name} is empty", parameter.span, found=f"[{low}, {high}]")
+
+    def _check_constraint(self, constraint: Constraint) -> None:
+        formula = constraint.formula
+        for node in walk(formula):
+            match node:
+                case State(actor=actor, at=at) | Derived(actor=actor, at=at):
+                    self._check_moment(self._actor(actor, node.span), at, node.span)
+                    if isinstance(node, Derived) and isinstance(node.target, int):
+                        self._actor(node.target, node.span)
+                case Elapsed(actor=actor, knot=knot):
+                    self._check_knot(self._actor(actor, node.span), knot, node.span)
+                case ParameterRef(name=name) if name not in self.parameters:
+                    raise self._error(f"parameter {name} is not declared", node.span)
+                case Landmark(name=name) if name not in LANDMARKS:
+                    raise self._error(
+                        f"'{name}' is not a landmark", node.span, found=name, expected=", ".join(LANDMARKS)
+                    )
+                case _:
+                    pass
+        self._check_formula(formula, inside_temporal=False)
+
+    def _actor(self, actor_id: int, span: Span | None) -> Actor:
+        if actor_id not in self.actors:
+            there_are = ", ".join(f"A{i} ({actor.name})" for i, actor in sorted(self.actors.items()))
+            raise self._error(f"there is no actor {actor_id}", span, found=f"A{actor_id}", expected=there_are)
+        return self.actors[actor_id]
+
+    def _check_knot(self, actor: Actor, knot: str, span: Span | None) -> None:
+        if knot not in actor.sketch.knots:
+            near = get_close_matches(knot, actor.sketch.knots, n=1)
+            raise self._error(
+                f"{actor.name} (A{actor.id}) has no knot {knot}",
+                span,
+                found=knot,
+                expected=", ".join(actor.sketch.knots),
+                fix=f"did you mean {near[0]}?" if near else f"add {knot} to the sketch of A{actor.id}",
+            )
+
+    def _check_moment(self, actor: Actor, at: At, span: Span | None) -> None:
+        if isinstance(at, Knot):
+            self._check_knot(actor, at.name, span)
+        elif isinstance(at, PieceRef):
+            try:
+                actor.sketch.piece_index(at.name)
+            except KeyError:
+                raise self._error(
+                    f"{actor.name} (A{actor.id}) has no piece {at.name}",
+                    span,
+                    found=at.name,
+                    expected=", ".join(actor.sketch.piece_names()),
+                ) from None
+
+    def _check_formula(self, formula: Formula, inside_temporal: bool) -> None:
+        match formula:
+            case Compare(left=left, right=right):
+                self._check_comparison(formula, left, right)
+                if not inside_temporal:
+                    for node in walk(formula):
+                        if isinstance(node, State | Derived) and node.at is None:
+                            raise self._error(
+                                f"{print_expression(node)} has no moment",
+                                node.span,
+                                expected=f"a knot or a time, such as A{node.actor}v(t1) or A{node.actor}v(3.4)",
+                            )
+            case Logic(operands=operands):
+                for operand in operands:
+                    self._check_formula(operand, inside_temporal)
+            case Temporal(start=start, end=end, body=body):
+                for bound in (start, end):
+                    self._expect(bound, _TIME, self._powers(bound), formula.span)
+                self._check_formula(body, inside_temporal=True)
+
+    def _check_comparison(self, compare: Compare, left: Term, right: Term) -> None:
+        left_powers, right_powers = self._powers(left), self._powers(right)
+        if left_powers is not None and right_powers is not None and left_powers != right_powers:
+            raise self._error(
+                "two different things are compared",
+                compare.span,
+                found=f"{print_expression(left)} is {_name(left_powers)}, "
+                f"{print_expression(right)} is {_name(right_powers)}",
+                expected="the same kind of quantity on both sides",
+            )
+        bare = [n for n in walk(compare) if isinstance(n, Landmark) and n.actor is None]
+        derived = {id(n.target) for n in walk(compare) if isinstance(n, Derived)}
+        loose = [n for n in bare if id(n) not in derived]
+        if loose and landmark_owner(compare) is None:
+            raise self._error(
+                f"on whose route is {loose[0].name}?",
+                loose[0].span or compare.span,
+                found=print_expression(compare),
+                expected=f"the position of one actor, or a name with its actor such as A1.{loose[0].name}",
+            )
+
+    def _expect(self, term: Term, wanted: Powers, found: Powers, span: Span | None) -> None:
+        if found is not None and found != wanted:
+            raise self._error(f"{print_expression(term)} is {_name(found)}", term.span or span, expected=_name(wanted))
+
+    def _powers(self, term: Term) -> Powers:
+        match term:
+            case Number():
+                return None
+            case ParameterRef(name=name):
+                unit = unit_of_name(name)
+                return _OF_DIMENSION[unit.dimension] if unit else None
+            case Landmark():
+                return _LENGTH
+            case Elapsed():
+                return _TIME
+            case State(order=order):
+                return _OF_ORDER[order]
+            case Derived(kind=kind):
+                return _OF_DERIVED[kind]
+            case Negate(operand=operand):
+                return self._powers(operand)
+            case Arithmetic(operator=operator, left=left, right=right):
+                return self._combined(term, operator, self._powers(left), self._powers(right))
+            case _:
+                return None
+
+    def _combined(self, term: Arithmetic, operator: str, left: Powers, right: Powers) -> Powers:
+        if operator in "+-":
+            if left is not None and right is not None and left != right:
+                raise self._error(
+                    f"{print_expression(term)} adds different things",
+                    term.span,
+                    found=f"{_name(left)} and {_name(right)}",
+                    expected="the same kind of quantity on both sides",
+                )
+            return left if left is not None else right
+        if left is None and right is None:
+            return None
+        a, b = left or (0, 0), right or (0, 0)
+        sign = 1 if operator == "*" else -1
+        return a[0] + sign * b[0], a[1] + sign * b[1]
+
+
+def _name(powers: Powers) -> str:
+    return "a bare number" if powers is None else _NAMES.get(powers, f"m^{powers[0]} s^{powers[1]}")

@@ -1,0 +1,189 @@
+"""Evaluates terms and formulas of a program on given motions: the independent check of every solution.
+
+What enters: an expression and a `World` that knows states, knots, landmarks and parameters. What leaves: numbers, and for
+formulas the margin by which they hold. It shares no code with the lowering to solver formulas.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Protocol
+
+from scenewright.program.expressions import (
+    Arithmetic,
+    At,
+    Compare,
+    Derived,
+    Elapsed,
+    Formula,
+    Knot,
+    Landmark,
+    Logic,
+    Negate,
+    Number,
+    Order,
+    ParameterRef,
+    PieceRef,
+    State,
+    Temporal,
+    Term,
+    walk,
+)
+
+_TEMPORAL_STEP_S = 0.02
+
+
+class World(Protocol):
+    """What the values of a program's terms are taken from. Lengths in m, times in s."""
+
+    def state(self, actor: int, order: Order, time_s: float) -> float:
+        """Return position, speed or acceleration of `actor` at an instant."""
+        ...
+
+    def state_on_piece(self, actor: int, order: Order, piece: str) -> float:
+        """Return the value that a state has all through a piece (its acceleration, the speed of a `go` or `stop`)."""
+        ...
+
+    def knot_time_s(self, actor: int, knot: str) -> float:
+        """Return when `actor` passes `knot`; infinite where it never does."""
+        ...
+
+    def landmark_m(self, actor: int, name: str, other: int | None) -> float:
+        """Return the arc length of a landmark on the route of `actor`."""
+        ...
+
+    def parameter(self, name: str) -> float:
+        """Return a parameter's SI value."""
+        ...
+
+    def offset_m(self, actor: int, other: int) -> float:
+        """Return what to add to the arc length of `other` to compare it with that of `actor`."""
+        ...
+
+
+def landmark_owner(compare: Compare) -> int | None:
+    """Return the one actor whose position `compare` speaks of, or None where there is none or more than one."""
+    owners = {node.actor for node in walk(compare) if isinstance(node, State) and node.order == 0}
+    if not owners:
+        owners = {node.actor for node in walk(compare) if isinstance(node, State)}
+    return owners.pop() if len(owners) == 1 else None
+
+
+def difference(compare: Compare, world: World, now_s: float | None = None) -> float:
+    """Return left minus right (SI), NaN-free: a comparison with an undefined value gives infinity."""
+    owner = landmark_owner(compare)
+    left = term_value(compare.left, world, owner, now_s)
+    right = term_value(compare.right, world, owner, now_s)
+    if math.isinf(left) and math.isinf(right) and left == right:
+        return 0.0
+    return left - right
+
+
+def violation(formula: Formula, world: World, now_s: float | None = None) -> float:
+    """Return by how much `formula` is violated (SI of its comparison); zero or less where it holds."""
+    match formula:
+        case Compare(operator="=="):
+            return abs(difference(formula, world, now_s))
+        case Compare(operator="<=" | "<"):
+            return difference(formula, world, now_s)
+        case Compare():
+            return -difference(formula, world, now_s)
+        case Logic(operator="and", operands=operands):
+            return max(violation(operand, world, now_s) for operand in operands)
+        case Logic(operator="or", operands=operands):
+            return min(violation(operand, world, now_s) for operand in operands)
+        case Logic(operator="not", operands=operands):
+            return -violation(operands[0], world, now_s)
+        case Logic(operands=(left, right)):
+            return min(-violation(left, world, now_s), violation(right, world, now_s))
+        case Temporal(operator=operator, start=start, end=end, body=body):
+            first, last = term_value(start, world, None, now_s), term_value(end, world, None, now_s)
+            count = max(2, math.ceil((last - first) / _TEMPORAL_STEP_S) + 1) if last > first else 1
+            times = [first + (last - first) * i / max(1, count - 1) for i in range(count)]
+            values = [violation(body, world, time_s) for time_s in times]
+            if operator == "always":
+                return max(values)
+            return min(values) if operator == "eventually" else -min(values)
+        case _:
+            raise TypeError(f"not a formula: {formula!r}")
+
+
+def term_value(term: Term, world: World, owner: int | None = None, now_s: float | None = None) -> float:
+    """Return the SI value of `term`; `owner` is the actor that bare landmarks belong to, `now_s` the moment inside a
+    temporal operator.
+    """
+    match term:
+        case Number(value=value):
+            return float(value)
+        case ParameterRef(name=name):
+            return world.parameter(name)
+        case Landmark(name=name, actor=actor, other=other):
+            holder = actor if actor is not None else owner
+            if holder is None:
+                raise ValueError(f"landmark {name} belongs to no one")
+            return world.landmark_m(holder, name, other)
+        case Elapsed(actor=actor, knot=knot):
+            return world.knot_time_s(actor, knot)
+        case State(actor=actor, order=order, at=PieceRef(name=piece)):
+            return world.state_on_piece(actor, order, piece)
+        case State(actor=actor, order=order, at=at):
+            return world.state(actor, order, moment_s(at, actor, world, now_s))
+        case Derived():
+            return _derived(term, world, now_s)
+        case Negate(operand=operand):
+            return -term_value(operand, world, owner, now_s)
+        case Arithmetic(operator="-", left=State(order=0) as left, right=State(order=0) as right):
+            # Positions of two actors are compared on the lanes that they share.
+            shift = world.offset_m(left.actor, right.actor) if left.actor != right.actor else 0.0
+            return term_value(left, world, owner, now_s) - term_value(right, world, owner, now_s) - shift
+        case Arithmetic(operator=operator, left=left_term, right=right_term):
+            left_value = term_value(left_term, world, owner, now_s)
+            right_value = term_value(right_term, world, owner, now_s)
+            return _apply(operator, left_value, right_value)
+        case _:
+            raise TypeError(f"not a term: {term!r}")
+
+
+def moment_s(at: At, actor: int, world: World, now_s: float | None) -> float:
+    """Return the time (s) that a moment stands for."""
+    match at:
+        case Knot(name=name):
+            return world.knot_time_s(actor, name)
+        case Elapsed(actor=other, knot=knot):
+            return world.knot_time_s(other, knot)
+        case Number(value=value):
+            return float(value)
+        case None if now_s is not None:
+            return now_s
+        case _:
+            raise ValueError("a state without a moment stands only inside always, never or eventually")
+
+
+def _derived(term: Derived, world: World, now_s: float | None) -> float:
+    time_s = moment_s(term.at, term.actor, world, now_s)
+    position = world.state(term.actor, 0, time_s)
+    speed = world.state(term.actor, 1, time_s)
+    if isinstance(term.target, Landmark):
+        holder = term.target.actor if term.target.actor is not None else term.actor
+        distance = world.landmark_m(holder, term.target.name, term.target.other) - position
+        return _ratio(distance, speed)
+    gap = world.state(term.target, 0, time_s) + world.offset_m(term.actor, term.target) - position
+    if term.kind == "gap":
+        return gap
+    if term.kind == "headway":
+        return _ratio(gap, speed)
+    return _ratio(gap, speed - world.state(term.target, 1, time_s))
+
+
+def _ratio(numerator: float, denominator: float) -> float:
+    return numerator / denominator if denominator > 1e-9 else math.inf
+
+
+def _apply(operator: str, left: float, right: float) -> float:
+    if operator == "+":
+        return left + right
+    if operator == "-":
+        return left - right
+    if operator == "*":
+        return left * right
+    return left / right if right else math.inf

@@ -1,0 +1,357 @@
+"""Builds the problem of one re-solve: the rest of every hero's motion, given where all are and where the ego will be.
+
+What enters: a scene, a `Situation`, a `Manner`. What leaves: a `Problem` and how to read a model of it back as profiles.
+History is fixed, the ego is a prediction, and what of a hero's motion has a known duration makes linear conditions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from scenewright.motion.algebra import Condition, Symbol, Value, compare, disjunction, pin, smt
+from scenewright.motion.profile import Profile, chain
+from scenewright.motion.sketched import SketchedMotion
+from scenewright.program.expressions import Compare, Elapsed, Formula, PieceRef, State, walk
+from scenewright.program.structure import Role, Structure, knots_of
+from scenewright.program.types import EGO, Actor, Constraint, PieceKind
+from scenewright.roads.grounding import Scene
+from scenewright.solve.limits import BRAKE_MAX_MPSS, Limits, Manner
+from scenewright.solve.lowering import Lowering, NotYet
+from scenewright.solve.problem import Problem
+from scenewright.solve.views import KnownView, MotionView, SketchedView
+
+# An ego knot that is not in sight is taken to come this much later (s).
+_OUT_OF_SIGHT_S = 60.0
+_START_MARGIN_M = 3.0
+_SETTLE_S = Fraction(1, 2)
+_SETTLED_MPSS = Fraction(2, 5)
+_SHORTEST_S = Fraction(1, 20)
+_LONGEST_S = Fraction(90)
+
+
+@dataclass(frozen=True, slots=True)
+class HeroState:
+    """Where a hero is: exactly, at `time_s`, within piece `piece` of its sketch; `knots_s` are the knots behind it."""
+
+    time_s: float
+    s_m: float
+    speed_mps: float
+    piece: int
+    knots_s: Mapping[str, float]
+    history: Profile
+
+
+@dataclass(frozen=True, slots=True)
+class Situation:
+    """All that a re-solve starts from.
+
+    Attributes
+    ----------
+    time_s
+        Now.
+    ego
+        The ego's past and predicted motion, with the times of its knots, past and predicted, in `ego_knots_s`.
+    heroes
+        The state of every hero by id; one that has not started yet (its first state is still free) is absent.
+    trigger_s
+        For each hero that has a trigger ahead: the instant it is planned for.
+    """
+
+    time_s: float
+    ego: Profile
+    ego_knots_s: Mapping[str, float]
+    heroes: Mapping[int, HeroState]
+    trigger_s: Mapping[int, float]
+
+
+@dataclass(frozen=True, slots=True)
+class _Stretch:
+    """A stretch of constant acceleration: the piece it belongs to, its duration if known, the knot at its end if any."""
+
+    piece: int
+    duration_s: Fraction | None
+    end_knot: str | None
+    approach: bool = False
+    settled: bool = False
+
+
+class HeroProblem:
+    """One problem over the rest of the motion of all heroes."""
+
+    def __init__(
+        self,
+        scene: Scene,
+        structure: Structure,
+        limits: Mapping[int, Limits],
+        situation: Situation,
+        manner: Manner,
+        tolerance: Fraction = Fraction(0),
+    ) -> None:
+        self.scene = scene
+        self.structure = structure
+        self.limits = limits
+        self.situation = situation
+        self.manner = manner
+        self.tolerance = tolerance
+        self.problem = Problem()
+        self.asserted: list[Constraint] = []
+        self._stretches: dict[int, list[_Stretch]] = {}
+        self._views: dict[int, MotionView] = {EGO: self._ego_view()}
+        self._parameters: dict[str, Value] = dict(scene.parameters)
+        for hero in scene.program.heroes:
+            self._views[hero.id] = self._add_hero(hero)
+        self._add_constraints()
+
+    # -- the ego ----------------------------------------------------------------------------------------------------
+    def _ego_view(self) -> MotionView:
+        knots = dict(self.situation.ego_knots_s)
+        later = self.situation.time_s + _OUT_OF_SIGHT_S
+        for knot in self.scene.program.ego.sketch.knots:
+            knots.setdefault(knot, later)
+        return KnownView(self.situation.ego, knots)
+
+    # -- heroes -----------------------------------------------------------------------------------------------------
+    def _add_hero(self, hero: Actor) -> MotionView:
+        state = self.situation.heroes.get(hero.id)
+        stretches = self._plan_stretches(hero, state)
+        self._stretches[hero.id] = stretches
+        problem, prefix = self.problem, f"a{hero.id}"
+        start, position, speed = self._first_state(hero, state)
+        positions: list[Value] = [position]
+        speeds: list[Value] = [speed]
+        durations: list[Value] = []
+        knots: dict[str, int] = {}
+        pieces: dict[int, tuple[int, int]] = {}
+        if state is None:
+            knots[hero.sketch.knots[0]] = 0
+        for k, stretch in enumerate(stretches):
+            duration: Value
+            if stretch.duration_s is None:
+                duration = problem.unknown(f"{prefix}d{k}")
+                shortest = _SHORTEST_S if stretch.piece != (state.piece if state else -1) else Fraction(0)
+                problem.bound(duration, shortest, _LONGEST_S, f"{hero.name}'s pieces take some time")
+            else:
+                duration = stretch.duration_s
+            next_speed = problem.unknown(f"{prefix}v{k + 1}")
+            next_position = problem.unknown(f"{prefix}x{k + 1}")
+            self._add_stretch(hero, stretch, positions[-1], speeds[-1], next_position, next_speed, duration)
+            positions.append(next_position)
+            speeds.append(next_speed)
+            durations.append(duration)
+            first = pieces.get(stretch.piece, (k, k))[0]
+            pieces[stretch.piece] = (first, k)
+            if stretch.end_knot is not None:
+                knots[stretch.end_knot] = k + 1
+        motion = SketchedMotion(start, tuple(positions), tuple(speeds), tuple(durations), (None,) * len(durations))
+        past = KnownView(state.history, state.knots_s) if state else None
+        return SketchedView(motion, knots, pieces, past)
+
+    def _first_state(self, hero: Actor, state: HeroState | None) -> tuple[Value, Value, Value]:
+        """Return time, position and speed to go on from: what they are, or free within the route."""
+        if state is not None:
+            return pin(state.time_s), pin(state.s_m), pin(state.speed_mps)
+        position, speed = self.problem.unknown(f"a{hero.id}x0"), self.problem.unknown(f"a{hero.id}v0")
+        self.problem.bound(position, pin(_START_MARGIN_M), None, f"{hero.name} starts on its route")
+        self._bound_speed(hero, speed, at_trigger=False, start=position)
+        return Fraction(0), position, speed
+
+    def _plan_stretches(self, hero: Actor, state: HeroState | None) -> list[_Stretch]:
+        sketch = hero.sketch
+        first = state.piece if state else 0
+        trigger = self.structure.trigger_knot(hero.id)
+        trigger_index = sketch.knots.index(trigger) if trigger in sketch.knots else 0
+        stretches: list[_Stretch] = []
+        for piece in range(first, len(sketch.pieces)):
+            knot = sketch.knots[piece + 1]
+            approach = piece < trigger_index and sketch.pieces[piece] is PieceKind.GO
+            planned = self.situation.trigger_s.get(hero.id)
+            if approach and piece + 1 == trigger_index and piece == first and planned is not None:
+                stretches += self._approach(piece, pin(planned) - pin(self.situation.time_s), knot)
+            elif approach:
+                stretches += [_Stretch(piece, None, None, True), _Stretch(piece, None, knot, True, True)]
+            else:
+                stretches.append(_Stretch(piece, None, knot))
+        return stretches
+
+    def _approach(self, piece: int, rest_s: Fraction, knot: str) -> list[_Stretch]:
+        """Divide the time that is left before the trigger into steps, the last one settled where that is asked for."""
+        steps, settle = self.manner.steps, self.manner.settle
+        if rest_s <= 0:
+            return []
+        if steps == 1 or rest_s < Fraction(1, 5):
+            return [_Stretch(piece, rest_s, knot, True, settle and steps == 1)]
+        if not settle:
+            return _even(piece, rest_s, steps, knot)
+        hold_s = max(_SETTLE_S, rest_s * Fraction(2, 5)) if steps == 2 else _SETTLE_S
+        hold_s = min(hold_s, rest_s * Fraction(1, 2))
+        return [*_even(piece, rest_s - hold_s, steps - 1, None), _Stretch(piece, hold_s, knot, True, True)]
+
+    def _add_stretch(
+        self, hero: Actor, stretch: _Stretch, x0: Value, v0: Value, x1: Symbol, v1: Symbol, duration: Value
+    ) -> None:
+        problem, manner = self.problem, self.manner
+        problem.require(compare("==", 2 * (x1 - x0), (v0 + v1) * duration), "the laws of motion")
+        at_trigger = not stretch.approach or stretch.end_knot is not None
+        self._bound_speed(hero, v1, at_trigger=at_trigger, start=x0)
+        kind = hero.sketch.pieces[stretch.piece]
+        change = v1 - v0
+        label = f"{hero.name}'s {kind} piece"
+        if stretch.approach:
+            up, down = Fraction(str(manner.approach_accel_mpss)), Fraction(str(manner.approach_brake_mpss))
+            if stretch.settled:
+                # The gentlest shapes hold their speed at the end; the others only settle.
+                limit = Fraction(0) if manner.steps <= 2 else _SETTLED_MPSS
+                up, down = min(up, limit), min(down, limit)
+            self._require_rate(change, duration, -down, up, f"{hero.name}'s acceleration limits")
+            if stretch.end_knot is not None:
+                self._bound_trigger_speed(hero, stretch.piece, v1)
+        elif kind is PieceKind.GO:
+            problem.require(compare("==", v1, v0), f"{hero.name} holds its speed in a go piece")
+        elif kind is PieceKind.STOP:
+            problem.require(compare("==", v0, Fraction(0)), label)
+            problem.require(compare("==", v1, Fraction(0)), label)
+            low, high = manner.stop_s
+            problem.require(compare(">=", duration, self._stop_rest(hero, stretch, low)), label)
+            problem.require(compare("<=", duration, pin(high)), label)
+        else:
+            given = _rate_is_given(self.scene, hero, stretch.piece)
+            low, high = manner.dec_mpss if kind is PieceKind.DEC else manner.acc_mpss
+            if given:
+                low, high = 0.05, BRAKE_MAX_MPSS if kind is PieceKind.DEC else self.limits[hero.id].accel_max_mpss
+            sign = -1 if kind is PieceKind.DEC else 1
+            rates = sorted((sign * pin(low), sign * pin(high)))
+            origin = f"{hero.name} {'brakes' if sign < 0 else 'accelerates'} at {low:g} to {high:g} m/s^2"
+            self._require_rate(change, duration, rates[0], rates[1], origin)
+
+    def _stop_rest(self, hero: Actor, stretch: _Stretch, standing_s: float) -> Fraction:
+        """Return how much longer the hero must stand: what it has stood already counts."""
+        state = self.situation.heroes.get(hero.id)
+        if state is None or state.piece != stretch.piece:
+            return pin(standing_s)
+        since = state.knots_s.get(hero.sketch.knots[stretch.piece], state.time_s)
+        return max(Fraction(0), pin(standing_s) - (pin(state.time_s) - pin(since)))
+
+    def _require_rate(self, change: Value, duration: Value, low: Fraction, high: Fraction, origin: str) -> None:
+        if low == high:
+            self.problem.require(compare("==", change, low * duration), origin)
+            return
+        self.problem.require(compare(">=", change, low * duration), origin)
+        self.problem.require(compare("<=", change, high * duration), origin)
+
+    def _bound_speed(self, hero: Actor, speed: Symbol, *, at_trigger: bool, start: Value) -> None:
+        limits, natural = self.limits[hero.id], self.manner.natural_speed
+        top = pin(limits.natural_speed_mps if natural else limits.speed_max_mps)
+        self.problem.bound(speed, 0, top, f"{hero.name} drives at 0 to {float(top):.1f} m/s")
+        turn_end = self.scene.routes[hero.id].landmarks.get("turn_end")
+        turn_top = pin(limits.natural_turn_speed_mps if natural else limits.turn_speed_max_mps)
+        if at_trigger and turn_end is not None and turn_top < top:
+            beyond = compare(">=", start, pin(turn_end))
+            origin = f"{hero.name} turns at up to {float(turn_top):.1f} m/s"
+            self.problem.require(disjunction([beyond, f"(<= {speed.text} {smt(turn_top)})"]), origin)
+
+    def _bound_trigger_speed(self, hero: Actor, piece: int, speed: Symbol) -> None:
+        following = hero.sketch.pieces[piece + 1] if piece + 1 < len(hero.sketch.pieces) else PieceKind.GO
+        least = self.manner.trigger_speed_mps
+        if following is PieceKind.ACC and not self.manner.natural_speed:
+            least = 0.0  # it may wait at its place and set off when the moment comes
+        self.problem.bound(speed, pin(least), None, f"{hero.name} moves at {least:g} m/s or more at its trigger")
+
+    # -- the program's constraints ----------------------------------------------------------------------------------
+    def _add_constraints(self) -> None:
+        lowering = Lowering(self.scene, self._views, self._parameters)
+        for constraint in self.scene.program.constraints:
+            if not self._concerns(constraint):
+                continue
+            role = self.structure.roles[constraint.id]
+            margin = self.manner.outcome_margin_s if role is Role.OUTCOME else 0.0
+            tolerance = self.tolerance if role is Role.TRIGGER else Fraction(0)
+            try:
+                self.problem.require(self._lower(lowering, constraint.formula, tolerance, margin), constraint.id)
+                self.asserted.append(constraint)
+            except NotYet:
+                continue
+
+    @staticmethod
+    def _lower(lowering: Lowering, formula: Formula, tolerance: Fraction, margin_s: float) -> Condition:
+        match formula:
+            case Compare(operator="<" | "<=", left=Elapsed(actor=hero) as left, right=Elapsed(actor=other) as right) if (
+                hero != EGO and other == EGO and margin_s
+            ):
+                first, second = lowering.term(left, None)[0], lowering.term(right, None)[0]
+                return compare("<=", first + pin(margin_s), second)
+            case _:
+                return lowering.condition(formula, tolerance)
+
+    def _concerns(self, constraint: Constraint) -> bool:
+        """Whether `constraint` still says something about a hero's motion to come."""
+        role = self.structure.roles[constraint.id]
+        if role is Role.OUTCOME and not self.manner.outcome and _speaks_of_ego(constraint.formula):
+            return False
+        ahead = False
+        for actor, knot in knots_of(constraint.formula):
+            view = self._views.get(actor)
+            if isinstance(view, SketchedView) and knot in view.knots:
+                ahead = True
+        for node in walk(constraint.formula):
+            if isinstance(node, State) and not isinstance(node.at, Elapsed) and node.actor != EGO:
+                view = self._views.get(node.actor)
+                if isinstance(node.at, PieceRef) and isinstance(view, SketchedView):
+                    index = self.scene.program.actor(node.actor).sketch.piece_index(node.at.name)
+                    state = self.situation.heroes.get(node.actor)
+                    ahead = ahead or (index in view.pieces and (state is None or state.piece != index))
+        return ahead
+
+    # -- reading a model back ---------------------------------------------------------------------------------------
+    def profiles(self, model: Mapping[str, Fraction]) -> dict[int, Profile]:
+        """Return the heroes' motions that a model stands for, continued from their true states without a jump."""
+        result: dict[int, Profile] = {}
+        for hero in self.scene.program.heroes:
+            result[hero.id] = self._profile(hero, model)
+        return result
+
+    def _profile(self, hero: Actor, model: Mapping[str, Fraction]) -> Profile:
+        prefix, state = f"a{hero.id}", self.situation.heroes.get(hero.id)
+        speed = float(model[f"{prefix}v0"]) if state is None else state.speed_mps
+        position = float(model[f"{prefix}x0"]) if state is None else state.s_m
+        now = 0.0 if state is None else state.time_s
+        knots = {hero.sketch.knots[0]: 0.0} if state is None else dict(state.knots_s)
+        previous = speed if state is None else float(pin(state.speed_mps))
+        moves: list[tuple[float, float, int]] = []
+        for k, stretch in enumerate(self._stretches[hero.id]):
+            known = stretch.duration_s
+            duration = float(known if known is not None else model.get(f"{prefix}d{k}", Fraction(0)))
+            following = float(model.get(f"{prefix}v{k + 1}", Fraction(0)))
+            accel = (following - previous) / duration if duration > 1e-9 else 0.0
+            if hero.sketch.pieces[stretch.piece] is PieceKind.STOP:
+                accel = 0.0
+            moves.append((duration, accel, stretch.piece))
+            previous = following
+            now += duration
+            if stretch.end_knot is not None:
+                knots[stretch.end_knot] = now
+        start = 0.0 if state is None else state.time_s
+        return Profile(chain(start, position, speed, moves), knots)
+
+
+def _even(piece: int, rest_s: Fraction, steps: int, knot: str | None) -> list[_Stretch]:
+    part = rest_s / steps
+    return [_Stretch(piece, part, knot if k == steps - 1 else None, True) for k in range(steps)]
+
+
+def _rate_is_given(scene: Scene, hero: Actor, piece: int) -> bool:
+    for constraint in scene.program.constraints:
+        for node in walk(constraint.formula):
+            if isinstance(node, State) and node.actor == hero.id and node.order == 2 and isinstance(node.at, PieceRef):
+                if hero.sketch.piece_index(node.at.name) == piece and _is_equality(constraint.formula):
+                    return True
+    return False
+
+
+def _is_equality(formula: Formula) -> bool:
+    return isinstance(formula, Compare) and formula.operator == "=="
+
+
+def _speaks_of_ego(formula: Formula) -> bool:
+    return any(actor == EGO for actor, _ in knots_of(formula))

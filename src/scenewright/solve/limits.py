@@ -1,0 +1,108 @@
+"""What a vehicle can do, and what it would do of itself: bounds in steps from natural to its whole authority.
+
+What enters: a route and its speed limits. What leaves: `Limits` (never exceeded) and `Manner`s (how gently to try first).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from scenewright.roads.model import RoadMap
+from scenewright.roads.routes import Route
+
+ACCEL_MAX_MPSS = 4.0
+BRAKE_MAX_MPSS = 8.0
+LATERAL_MAX_MPSS = 6.0
+SPEED_OVER_LIMIT = 1.3
+DEFAULT_SPEED_LIMIT_MPS = 50 / 3.6
+# Slower than this, "begins to brake" cannot be seen and "drives" is not driving.
+MOVING_MPS = 1.0
+STANDSTILL_MIN_S = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """Bounds on an actor's motion that no plan exceeds.
+
+    Attributes
+    ----------
+    speed_max_mps, turn_speed_max_mps
+        On the way, and from the trigger to the end of a turn (lateral acceleration at the tightest curve).
+    natural_speed_mps, natural_turn_speed_mps
+        What a driver would choose.
+    """
+
+    speed_max_mps: float
+    turn_speed_max_mps: float
+    natural_speed_mps: float
+    natural_turn_speed_mps: float
+    accel_max_mpss: float = ACCEL_MAX_MPSS
+    brake_max_mpss: float = BRAKE_MAX_MPSS
+    lateral_max_mpss: float = LATERAL_MAX_MPSS
+
+
+@dataclass(frozen=True, slots=True)
+class Manner:
+    """How an actor may move in one attempt at a plan; each list of attempts goes from natural to whole authority.
+
+    Attributes
+    ----------
+    approach_accel_mpss, approach_brake_mpss
+        While it works its way to the trigger.
+    steps
+        Stretches of constant acceleration before the trigger; the last is a settled one where `settle` is set.
+    dec_mpss, acc_mpss, stop_s
+        Ranges of braking, accelerating and standing pieces.
+    trigger_speed_mps
+        Smallest speed at the trigger.
+    natural_speed
+        Whether speeds stay at what a driver would choose.
+    outcome
+        Whether the prediction of the ego must already promise the outcome (who goes first); without it the actor does
+        what it can and the ego decides.
+    outcome_margin_s
+        By how much the prediction must promise it.
+    """
+
+    name: str
+    approach_accel_mpss: float
+    approach_brake_mpss: float
+    steps: int
+    settle: bool
+    dec_mpss: tuple[float, float]
+    acc_mpss: tuple[float, float]
+    stop_s: tuple[float, float]
+    trigger_speed_mps: float
+    natural_speed: bool
+    outcome: bool = True
+    outcome_margin_s: float = 0.8
+
+
+STEADY = Manner("steady", 0.0, 0.0, 1, True, (1.8, 3.2), (1.2, 2.5), (0.6, 1.2), 2.0, True)
+GENTLE = Manner("gentle", 1.0, 1.2, 2, True, (1.0, 4.0), (1.0, 2.5), (0.6, 1.5), 1.5, True)
+FIRM = Manner("firm", 2.5, 3.0, 3, True, (0.6, 6.0), (0.6, 3.5), (0.5, 3.0), MOVING_MPS, False)
+WHOLE = Manner("whole", ACCEL_MAX_MPSS, 6.0, 5, True, (0.3, 8.0), (0.3, 4.0), (0.5, 20.0), MOVING_MPS, False, True, 0.3)
+URGENT = Manner("urgent", ACCEL_MAX_MPSS, 8.0, 4, False, (0.3, 8.0), (0.3, 4.0), (0.5, 90.0), MOVING_MPS, False, True, 0.05)
+
+
+def limits_on(route: Route, road_map: RoadMap) -> Limits:
+    """Return the limits of a vehicle on `route`: from the approach's speed limit and the tightest curve of the turn."""
+    approach = road_map.lanes[route.lanes[0]].speed_limit_mps or DEFAULT_SPEED_LIMIT_MPS
+    tightest = _tightest_curvature(route)
+    turn = (LATERAL_MAX_MPSS / tightest) ** 0.5 if tightest > 1e-3 else float("inf")
+    comfortable = (2.5 / tightest) ** 0.5 if tightest > 1e-3 else float("inf")
+    speed_max = max(SPEED_OVER_LIMIT * approach, 8.0)
+    return Limits(
+        speed_max_mps=speed_max,
+        turn_speed_max_mps=min(turn, speed_max),
+        natural_speed_mps=approach,
+        natural_turn_speed_mps=min(comfortable, approach),
+    )
+
+
+def _tightest_curvature(route: Route) -> float:
+    start, end = route.landmarks.get("turn_start"), route.landmarks.get("turn_end")
+    if start is None or end is None or route.turn == "straight":
+        return 0.0
+    steps = max(2, int((end - start) / 0.5))
+    return max(abs(route.path.curvature(start + (end - start) * i / steps)) for i in range(steps + 1))

@@ -1,0 +1,253 @@
+"""Lowers a program's constraints, on a scene, to conditions over the actors' motions.
+
+What enters: formulas of a program and a view of every actor's motion. What leaves: conditions for a solver, or truth values
+where everything is known. Divisions are multiplied out (accelerations, times to arrival), so that what is linear stays so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+
+from scenewright.motion.algebra import (
+    Condition,
+    Symbol,
+    Value,
+    compare,
+    conjunction,
+    disjunction,
+    negation,
+    pin,
+)
+from scenewright.motion.sketched import ONE, Ratio
+from scenewright.program.evaluate import landmark_owner
+from scenewright.program.expressions import (
+    Arithmetic,
+    At,
+    Compare,
+    Derived,
+    Elapsed,
+    Formula,
+    Knot,
+    Landmark,
+    Logic,
+    Negate,
+    Node,
+    Number,
+    ParameterRef,
+    PieceRef,
+    State,
+    Temporal,
+    Term,
+    walk,
+)
+from scenewright.roads.grounding import Scene
+from scenewright.solve.views import MotionView, SketchedView
+
+# One unit of tolerance by what is compared: the tight tolerances of the contract (m, s, m/s, m/s^2).
+TIGHT = {"length": Fraction(1, 2), "time": Fraction(1, 10), "speed": Fraction(1, 4), "acceleration": Fraction(1, 4)}
+_OF_ORDER = ("length", "speed", "acceleration")
+_OF_DERIVED = {"gap": "length", "tta": "time", "ttc": "time", "headway": "time"}
+
+
+class NotYet(Exception):
+    """A formula speaks of a moment that is not known in the motions given (the ego is not predicted to get there)."""
+
+
+def compared_dimension(formula: Node) -> str:
+    """Return the dimension of what a comparison compares, told from the first state or derived quantity in it."""
+    for node in walk(formula):
+        if isinstance(node, State):
+            return _OF_ORDER[node.order]
+        if isinstance(node, Derived):
+            return _OF_DERIVED[node.kind]
+    return "time"
+
+
+class Lowering:
+    """Lowers formulas over one set of motions.
+
+    Parameters
+    ----------
+    scene
+        For landmarks and offsets.
+    motions
+        A view of every actor, by id.
+    parameters
+        Values of parameters, known or unknown, by name.
+    """
+
+    def __init__(self, scene: Scene, motions: Mapping[int, MotionView], parameters: Mapping[str, Value]) -> None:
+        self.scene = scene
+        self.motions = motions
+        self.parameters = parameters
+        self._now: tuple[int, int] | None = None
+
+    def condition(self, formula: Formula, tolerance: Fraction = Fraction(0)) -> Condition:
+        """Return `formula` as a condition; equalities may be off by `tolerance` units of `TIGHT`.
+
+        Raises
+        ------
+        NotYet
+            Where a moment in it is not known.
+        """
+        match formula:
+            case Compare():
+                return self._compare(formula, tolerance)
+            case Logic(operator="and", operands=operands):
+                return conjunction([self.condition(operand, tolerance) for operand in operands])
+            case Logic(operator="or", operands=operands):
+                return disjunction([self.condition(operand, tolerance) for operand in operands])
+            case Logic(operator="not", operands=operands):
+                return negation(self.condition(operands[0]))
+            case Logic(operands=(left, right)):
+                return disjunction([negation(self.condition(left)), self.condition(right, tolerance)])
+            case Temporal():
+                return self._temporal(formula)
+            case _:
+                raise TypeError(f"not a formula: {formula!r}")
+
+    def _compare(self, formula: Compare, tolerance: Fraction) -> Condition:
+        owner = landmark_owner(formula)
+        left_num, left_den = self.term(formula.left, owner)
+        right_num, right_den = self.term(formula.right, owner)
+        left, right = left_num * right_den, right_num * left_den
+        common = left_den * right_den
+        positive = [] if not isinstance(common, Symbol) else [compare(">", common, Fraction(0))]
+        if formula.operator == "==" and tolerance:
+            slack = TIGHT[compared_dimension(formula)] * tolerance * common
+            bounds = [compare("<=", left, right + slack), compare(">=", left, right - slack)]
+            return conjunction([*positive, *bounds])
+        return conjunction([*positive, compare(formula.operator, left, right)])
+
+    def term(self, term: Term, owner: int | None) -> Ratio:
+        """Return a term as numerator and positive denominator."""
+        match term:
+            case Number(value=value):
+                return value, ONE
+            case ParameterRef(name=name):
+                return self.parameters[name], ONE
+            case Landmark(name=name, actor=actor, other=other):
+                holder = actor if actor is not None else owner
+                if holder is None:
+                    raise ValueError(f"landmark {name} belongs to no one")
+                return pin(self.scene.landmark_m(holder, name, other)), ONE
+            case Elapsed(actor=actor, knot=knot):
+                return _known(self.motions[actor].time(knot)), ONE
+            case State(actor=actor, order=order, at=PieceRef(name=name)):
+                piece = self.scene.program.actor(actor).sketch.piece_index(name)
+                ratio = self.motions[actor].on_piece(piece, order)
+                if ratio is None:
+                    raise NotYet
+                return ratio
+            case State(actor=actor, order=order, at=at):
+                return self._state(actor, order, at, actor)
+            case Derived():
+                return self._derived(term)
+            case Negate(operand=operand):
+                numerator, denominator = self.term(operand, owner)
+                return -numerator, denominator
+            case Arithmetic():
+                return self._arithmetic(term, owner)
+            case _:
+                raise TypeError(f"not a term: {term!r}")
+
+    def _state(self, actor: int, order: int, at: At, knot_owner: int) -> Ratio:
+        """Return the state of `actor` at a moment; a bare knot in `at` is a knot of `knot_owner`."""
+        motion = self.motions[actor]
+        if at is None:
+            return self._state_now(actor, order)
+        if isinstance(at, Knot) and knot_owner == actor:
+            ratio = motion.at_knot(at.name, order)
+            if ratio is None:
+                raise NotYet
+            return ratio
+        return _known(motion.at_time(self._moment(at, knot_owner), order)), ONE
+
+    def _moment(self, at: At, knot_owner: int) -> Value:
+        match at:
+            case Knot(name=name):
+                return _known(self.motions[knot_owner].time(name))
+            case Elapsed(actor=actor, knot=knot):
+                return _known(self.motions[actor].time(knot))
+            case Number(value=value):
+                return value
+            case _:
+                raise ValueError("a state without a moment stands only inside always, never or eventually")
+
+    def _derived(self, term: Derived) -> Ratio:
+        position = self._state(term.actor, 0, term.at, term.actor)[0]
+        if isinstance(term.target, Landmark):
+            holder = term.target.actor if term.target.actor is not None else term.actor
+            distance = pin(self.scene.landmark_m(holder, term.target.name, term.target.other)) - position
+            return distance, self._state(term.actor, 1, term.at, term.actor)[0]
+        offset = pin(self.scene.offset_m(term.actor, term.target))
+        gap = self._state(term.target, 0, term.at, term.actor)[0] + offset - position
+        if term.kind == "gap":
+            return gap, ONE
+        speed = self._state(term.actor, 1, term.at, term.actor)[0]
+        if term.kind == "headway":
+            return gap, speed
+        return gap, speed - self._state(term.target, 1, term.at, term.actor)[0]
+
+    def _arithmetic(self, term: Arithmetic, owner: int | None) -> Ratio:
+        left_num, left_den = self.term(term.left, owner)
+        right_num, right_den = self.term(term.right, owner)
+        if _are_positions(term) and term.operator == "-":
+            left_state, right_state = term.left, term.right
+            assert isinstance(left_state, State) and isinstance(right_state, State)
+            shift = pin(self.scene.offset_m(left_state.actor, right_state.actor))
+            return left_num - right_num - shift, ONE
+        match term.operator:
+            case "+":
+                return left_num * right_den + right_num * left_den, left_den * right_den
+            case "-":
+                return left_num * right_den - right_num * left_den, left_den * right_den
+            case "*":
+                return left_num * right_num, left_den * right_den
+            case _:
+                return left_num * right_den, left_den * right_num
+
+    def _temporal(self, formula: Temporal) -> Condition:
+        """Lower a condition over an interval to the knots within it, between two knots of one sketched actor.
+
+        Speed is linear and acceleration constant between knots, so a bound on either holds throughout where it holds at
+        the ends of every stretch. Whatever else the body says is checked on the finished plan.
+        """
+        start, end = formula.start, formula.end
+        if not (isinstance(start, Elapsed) and isinstance(end, Elapsed) and start.actor == end.actor):
+            raise NotYet
+        view = self.motions[start.actor]
+        if not isinstance(view, SketchedView) or start.knot not in view.knots or end.knot not in view.knots:
+            raise NotYet
+        conditions = []
+        for index in range(view.knots[start.knot], view.knots[end.knot] + 1):
+            self._now = (start.actor, index)
+            conditions.append(self.condition(formula.body))
+        self._now = None
+        if formula.operator == "always":
+            return conjunction(conditions)
+        anywhere = disjunction(conditions)
+        return anywhere if formula.operator == "eventually" else negation(anywhere)
+
+    def _state_now(self, actor: int, order: int) -> Ratio:
+        view = self.motions[actor]
+        if self._now is None or self._now[0] != actor or not isinstance(view, SketchedView):
+            raise NotYet
+        return view.motion.state_at_knot(self._now[1], order)
+
+
+def _are_positions(term: Arithmetic) -> bool:
+    left, right = term.left, term.right
+    return (
+        isinstance(left, State)
+        and isinstance(right, State)
+        and left.order == right.order == 0
+        and left.actor != right.actor
+    )
+
+
+def _known(value: Value | None) -> Value:
+    if value is None:
+        raise NotYet
+    return value

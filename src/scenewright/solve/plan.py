@@ -1,0 +1,100 @@
+"""A plan: one concrete motion for each orchestrated actor, and what it promises.
+
+What enters: profiles. What leaves: a `Plan` that can be carried out, checked against the program, and written as data.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from scenewright.motion.profile import Profile
+from scenewright.program.expressions import Order
+from scenewright.roads.grounding import Scene
+
+SCHEMA_VERSION = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """Motions by actor id; for the ego what was predicted.
+
+    Attributes
+    ----------
+    tolerance
+        By how many tight tolerances the trigger had to be given up (0: met exactly).
+    manner
+        How far from natural the motion had to go.
+    """
+
+    profiles: Mapping[int, Profile]
+    tolerance: float = 0.0
+    manner: str = ""
+    parameters: Mapping[str, float] = field(default_factory=dict)
+
+    def as_dict(self, scene: Scene) -> dict[str, object]:
+        """Return the plan as plain data (`plan.json`)."""
+        actors: dict[str, object] = {}
+        for actor_id, profile in sorted(self.profiles.items()):
+            actor = scene.program.actor(actor_id)
+            names = actor.sketch.piece_names()
+            knots = []
+            for knot, time_s in profile.knot_times_s.items():
+                s_m, speed, _ = profile.state(time_s)
+                knots.append({"name": knot, "time_s": time_s, "s_m": s_m, "speed_mps": speed})
+            segments = [
+                {
+                    "piece": names[segment.piece] if segment.piece < len(names) else "go",
+                    "start_s": segment.start_s,
+                    "duration_s": segment.duration_s,
+                    "s_m": segment.s_m,
+                    "speed_mps": segment.speed_mps,
+                    "accel_mpss": segment.accel_mpss,
+                }
+                for segment in profile.segments
+            ]
+            actors[actor.name] = {"knots": knots, "segments": segments}
+        return {
+            "schema_version": SCHEMA_VERSION,
+            "manner": self.manner,
+            "tolerance": self.tolerance,
+            "actors": actors,
+        }
+
+
+class PlanWorld:
+    """Evaluates terms of the program on the profiles of a plan (see `program.evaluate.World`)."""
+
+    def __init__(self, scene: Scene, profiles: Mapping[int, Profile], parameters: Mapping[str, float]) -> None:
+        self._scene = scene
+        self._profiles = profiles
+        self._parameters = parameters
+
+    def state(self, actor: int, order: Order, time_s: float) -> float:
+        """Return position, speed or acceleration of `actor` at an instant."""
+        return self._profiles[actor].state(time_s)[order]
+
+    def state_on_piece(self, actor: int, order: Order, piece: str) -> float:
+        """Return the state in the middle of a piece, where it holds all through."""
+        index = self._scene.program.actor(actor).sketch.piece_index(piece)
+        knots = self._scene.program.actor(actor).sketch.knots
+        times = self._profiles[actor].knot_times_s
+        begin, end = times.get(knots[index], math.inf), times.get(knots[index + 1], math.inf)
+        return self.state(actor, order, 0.5 * (begin + end)) if end < math.inf else math.nan
+
+    def knot_time_s(self, actor: int, knot: str) -> float:
+        """Return when `actor` passes `knot`; infinite where it is not known to."""
+        return self._profiles[actor].knot_times_s.get(knot, math.inf)
+
+    def landmark_m(self, actor: int, name: str, other: int | None) -> float:
+        """Return the arc length of a landmark on the route of `actor`."""
+        return self._scene.landmark_m(actor, name, other)
+
+    def parameter(self, name: str) -> float:
+        """Return a parameter's SI value."""
+        return self._parameters[name]
+
+    def offset_m(self, actor: int, other: int) -> float:
+        """Return what to add to the arc length of `other` to compare it with that of `actor`."""
+        return self._scene.offset_m(actor, other)
