@@ -1,0 +1,133 @@
+// What is said in words and numbers: the verdict, the description, conditions, parameters, safety facts, notes.
+
+const VERDICTS = {
+  tight: ['✓', 'Success', 'at tight tolerance'],
+  loose: ['◐', 'Loose success', 'not at tight tolerance'],
+  failed: ['✗', 'Failed', ''],
+  interrupted: ['‖', 'Interrupted', 'the run did not reach its end'],
+  unjudged: ['?', 'Not judged', 'there is no verdict'],
+};
+
+function buildHeader() {
+  document.title = `${VERDICTS[run.outcome.level][1]}: ${run.name}`;
+  const [glyph, words, more] = VERDICTS[run.outcome.level];
+  const { judged, total, tight, loose } = run.outcome;
+  const count = judged ? `${tight} of ${total} conditions tight, ${loose} loose` : '';
+  const detail = [more, count].filter(Boolean).join(' · ');
+  byId('verdict').classList.add(run.outcome.level);
+  byId('verdict').append(
+    make('span', { class: 'glyph', 'aria-hidden': 'true', text: glyph }),
+    make('div', {}, make('strong', { text: words }), make('span', { class: 'count', text: detail })),
+  );
+  byId('name').textContent = run.name;
+  byId('about').append(...run.about.map(([label, value]) => make('div', {}, make('dt', { text: label }), make('dd', { text: value }))));
+  byId('missing').hidden = !run.missing.length;
+  byId('missing').append(...run.missing.map((text) => make('li', { text })));
+  buildDescription();
+}
+
+function buildDescription() {
+  const holder = byId('description');
+  holder.hidden = !run.description.length;
+  for (const clause of run.description) {
+    if (!clause.ids.length) {
+      holder.append(clause.text);
+      continue;
+    }
+    const rows = run.conditions.filter((condition) => clause.ids.includes(condition.owner));
+    const missed = rows.some((condition) => condition.loose === false);
+    const span = make('span', { class: `clause${missed ? ' missed' : ''}`, text: clause.text, title: rows.map((row) => row.text).join('\n') || null });
+    span.dataset.ids = clause.ids.join(' ');
+    span.addEventListener('pointerenter', () => lightUp(clause.ids));
+    span.addEventListener('pointerleave', () => lightUp([]));
+    holder.append(span);
+  }
+}
+
+/** Light the clauses and the table rows of these constraints, and no others. */
+function lightUp(ids) {
+  for (const span of document.querySelectorAll('.clause')) span.classList.toggle('lit', span.dataset.ids.split(' ').some((id) => ids.includes(id)));
+  for (const row of document.querySelectorAll('tr[data-owner]')) row.classList.toggle('lit', ids.includes(row.dataset.owner));
+}
+
+function buildConditions() {
+  const holder = byId('conditions');
+  if (!run.conditions.length) {
+    holder.append(make('p', { class: 'empty', text: run.outcome.judged ? 'The verdict lists no conditions.' : 'The run was not judged.' }));
+    return;
+  }
+  byId('conditions-hint').textContent = 'a row shows its words in the description; its moment jumps there';
+  const heads = [['Kind', ''], ['Condition', ''], ['Required', 'number'], ['Measured', 'number'], ['Error', 'number'], ['Tight', ''], ['Loose', ''], ['Moment', 'number']];
+  const head = make('tr', {}, ...heads.map(([text, kind]) => make('th', { scope: 'col', class: kind || null, text })));
+  const table = make('table', { id: 'condition-table' }, make('thead', {}, head), make('tbody', {}, ...run.conditions.map(conditionRow)));
+  holder.append(table);
+}
+
+function conditionRow(condition) {
+  const text = make('td', {}, make('code', { text: condition.text }), condition.words ? make('span', { class: 'words', text: `“${condition.words}”` }) : null);
+  const known = isNumber(condition.time) && condition.time >= FIRST && condition.time <= LAST;
+  const jump = known ? make('button', { type: 'button', class: 'jump', text: `${fixed(condition.time, 2)} s`, 'aria-label': `Jump to ${fixed(condition.time, 2)} seconds` }) : null;
+  const row = make('tr', { class: known ? 'jumps-to' : null, 'data-owner': condition.owner, 'data-id': condition.id },
+    make('td', {}, make('span', { class: 'kind', text: condition.kind })),
+    text,
+    measuredCell(condition.required, condition.unit, 'required'),
+    measuredCell(condition.measured, condition.unit, 'measured'),
+    measuredCell(condition.error, condition.unit, 'error'),
+    make('td', {}, markOf(condition.tight)),
+    make('td', {}, markOf(condition.loose)),
+    make('td', { class: 'number' }, jump ?? '–'));
+  if (known) row.addEventListener('click', () => jumpTo(condition.time));
+  for (const name of ['pointerenter', 'focusin']) row.addEventListener(name, () => lightUp([condition.owner]));
+  for (const name of ['pointerleave', 'focusout']) row.addEventListener(name, () => lightUp([]));
+  return row;
+}
+
+function measuredCell(value, unit, name) {
+  const cell = make('td', { class: 'number', 'data-cell': name, 'data-value': JSON.stringify(value ?? null), text: brief(value) });
+  if (isNumber(value) && unit) cell.append(' ', make('span', { class: 'unit', text: unit.replace('^2', '²') }));
+  return cell;
+}
+
+function markOf(met) {
+  if (typeof met !== 'boolean') return make('span', { class: 'kind', text: '–' });
+  return make('span', { class: met ? 'met' : 'not-met', text: met ? '✓ met' : '✗ missed' });
+}
+
+function buildParameters() {
+  const holder = byId('parameters');
+  if (!run.parameters.length) {
+    holder.append(make('p', { class: 'empty', text: 'No parameters.' }));
+    return;
+  }
+  const sources = { given: 'given', solver: 'chosen by the solver', program: 'written in the program' };
+  const rows = run.parameters.map(({ name, value, unit, source }) => make('tr', {},
+    make('td', {}, make('code', { text: name })),
+    make('td', { class: 'number', text: (value ?? 'open').replace('-', '−') }, ' ', make('span', { class: 'unit', text: unit.replace('^2', '²') })),
+    make('td', {}, make('span', { class: `source-tag ${source}`, text: sources[source] ?? source }))));
+  holder.append(make('table', {}, make('thead', {}, make('tr', {},
+    make('th', { scope: 'col', text: 'Name' }), make('th', { scope: 'col', class: 'number', text: 'Value' }), make('th', { scope: 'col', text: 'Source' }))),
+  make('tbody', {}, ...rows)));
+}
+
+function buildFacts() {
+  const holder = byId('facts');
+  if (!run.facts.length) {
+    holder.append(make('p', { class: 'empty', text: 'No safety facts were recorded.' }));
+    return;
+  }
+  const rows = run.facts.map(([label, value, unit]) => make('tr', {},
+    make('td', { text: label }),
+    make('td', { class: 'number', text: value.replace(/^-/, '−') }, ' ', make('span', { class: 'unit', text: unit }))));
+  holder.append(make('table', {}, make('tbody', {}, ...rows)));
+}
+
+function buildMore() {
+  const holder = byId('more');
+  if (run.notes.length) {
+    holder.append(make('div', { class: 'panel-head' }, make('h2', { text: 'Findings and notes' })), make('ul', {}, ...run.notes.map((text) => make('li', { text }))));
+  }
+  if (run.program) {
+    holder.append(make('details', {}, make('summary', { text: 'Program (program.scene)' }), make('pre', { class: 'source-text', text: run.program })));
+  }
+  holder.hidden = !holder.childElementCount;
+}

@@ -1,0 +1,311 @@
+"""Everything the run page shows, gathered from a run directory as plain JSON-ready data.
+
+What enters: a run directory, of which only the manifest and the trace must be there. What leaves: a dict without NaN,
+rounded and thinned so that a page stays small. It writes nothing and knows no HTML.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scenewright.errors import InputError, Place, ProgramError
+from scenewright.program.types import Program
+from scenewright.studio.program_data import clauses, condition_times, triggers
+from scenewright.studio.replans_data import read_replans
+from scenewright.studio.scene_data import SceneGeometry, scene_geometry
+from scenewright.trace.files import TRACE_FILE, read_trace
+from scenewright.trace.model import ActorTrace, Trace
+
+Json = dict[str, Any]
+
+MAX_SAMPLES = 2000  # per actor
+_MAX_SAMPLES_IN_ALL = 12_000  # what keeps the page of a run with many actors under a megabyte
+_DEFAULT_SIZE_M = (4.5, 1.9)
+
+
+def collect(run_dir: Path) -> Json:
+    """Gather the page's data.
+
+    Raises
+    ------
+    InputError
+        If the manifest or the trace is missing or broken. Other files may be missing: ``missing`` then says so.
+    """
+    missing: list[str] = []
+    manifest = _manifest(run_dir)
+    trace = read_trace(run_dir / TRACE_FILE)
+    program = _program(run_dir, missing)
+    params = _json(run_dir, "params.json", "the parameters' values", missing) or {}
+    plan = _json(run_dir, "plan.json", "the planned motion", missing) or {}
+    verdict = _json(run_dir, "verdict.json", "the judgement", missing)
+    replans = read_replans(run_dir, missing)
+    scene = scene_geometry(manifest, trace)
+    if scene.problem:
+        missing.append(scene.problem)
+    chosen = _chosen_samples(trace)
+    data: Json = {
+        "schema_version": 1,
+        "name": manifest.get("name") or run_dir.resolve().name,
+        "outcome": _outcome(manifest, verdict),
+        "about": _about(manifest),
+        "description": clauses(program) if program and program.description else _plain(manifest.get("description")),
+        "program": _text(run_dir / "program.scene"),
+        "parameters": _parameters(params),
+        "missing": missing,
+        "notes": [*(manifest.get("findings") or []), *(manifest.get("notes") or [])],
+        "origin": list(scene.origin_xy_m),
+        "map": scene.roads,
+        "time": _numbers(trace.time_s[chosen], 4),
+        "actors": [_actor(name, trace.actors[name], chosen, manifest, plan, scene) for name in trace.actors],
+        "triggers": triggers(program, _knots(manifest), manifest.get("landmarks") or {}) if program else [],
+        "conditions": _conditions(verdict, program, manifest),
+        "facts": _facts((verdict or {}).get("facts") or {}),
+        "replans": replans,
+    }
+    cleaned: Json = _without_nan(data)
+    return cleaned
+
+
+def _manifest(run_dir: Path) -> Json:
+    path = run_dir / "manifest.json"
+    if not path.is_file():
+        raise InputError(
+            "this is not a run directory",
+            place=Place(str(run_dir)),
+            expected="a folder with manifest.json and trace.parquet, as `scenewright run --out DIR` writes it",
+        )
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except (ValueError, OSError) as error:
+        raise InputError("the manifest cannot be read", place=Place(str(path)), found=str(error)) from None
+    if not isinstance(content, dict):
+        raise InputError("the manifest is not an object", place=Place(str(path)), found=type(content).__name__)
+    return content
+
+
+def _json(run_dir: Path, name: str, what: str, missing: list[str]) -> Json | None:
+    path = run_dir / name
+    if not path.is_file():
+        missing.append(f"{name} is missing: {what} cannot be shown")
+        return None
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except (ValueError, OSError):
+        content = None
+    if not isinstance(content, dict):
+        missing.append(f"{name} cannot be read: {what} cannot be shown")
+        return None
+    return content
+
+
+def _text(path: Path) -> str | None:
+    return path.read_text(encoding="utf-8", errors="replace") if path.is_file() else None
+
+
+def _program(run_dir: Path, missing: list[str]) -> Program | None:
+    from scenewright.program.text import parse_program
+
+    text = _text(run_dir / "program.scene")
+    if text is None:
+        missing.append("program.scene is missing: triggers and the clauses of the description cannot be marked")
+        return None
+    try:
+        return parse_program(text, "program.scene")
+    except ProgramError as error:
+        missing.append(f"program.scene cannot be read ({error.message}): triggers and clauses cannot be marked")
+        return None
+
+
+def _plain(description: object) -> list[Json]:
+    return [{"text": str(description), "ids": []}] if description else []
+
+
+def _outcome(manifest: Json, verdict: Json | None) -> Json:
+    """Say in one word how the run went, and how many of its conditions were met."""
+    status = manifest.get("status")
+    success = (verdict or {}).get("success") or {}
+    conditions = (verdict or {}).get("conditions") or []
+    if status == "interrupted":
+        level = "interrupted"
+    elif status == "failed" and not success.get("loose"):
+        level = "failed"
+    elif verdict is None:
+        level = "unjudged"
+    else:
+        level = "tight" if success.get("tight") else "loose" if success.get("loose") else "failed"
+    return {
+        "level": level,
+        "judged": verdict is not None,
+        "total": len(conditions),
+        "tight": sum(bool(c.get("tight")) for c in conditions),
+        "loose": sum(bool(c.get("loose")) for c in conditions),
+    }
+
+
+def _about(manifest: Json) -> list[list[str]]:
+    ego = manifest.get("ego") or {}
+    options = ego.get("options") or {}
+    setting = ", ".join(f"{key}={_shown(value)}" for key, value in sorted(options.items())) if options else ""
+    rates = manifest.get("rates") or {}
+    rows = [
+        ("Ego", f"{ego.get('name', '')}{f' ({setting})' if setting else ''}"),
+        ("Map", (manifest.get("map") or {}).get("name")),
+        ("Mode", manifest.get("mode")),
+        ("Tolerance", manifest.get("tolerance")),
+        ("Seed", manifest.get("seed")),
+        ("Re-solved at", f"{_shown(rates['replan_hz'])} Hz" if rates.get("replan_hz") else None),
+        ("Translator", manifest.get("translator")),
+        ("Version", manifest.get("scenewright_version")),
+    ]
+    return [[label, str(value)] for label, value in rows if value not in (None, "")]
+
+
+def _parameters(params: Json) -> list[Json]:
+    rows = []
+    for name, entry in params.items():
+        given = entry if isinstance(entry, dict) else {"value": entry}
+        value = given.get("value")
+        rows.append(
+            {
+                "name": name,
+                "value": _shown(value) if value is not None else None,
+                "unit": given.get("unit") or "",
+                "source": given.get("source") or "",
+            }
+        )
+    return rows
+
+
+def _knots(manifest: Json) -> dict[str, dict[str, float]]:
+    knots = manifest.get("knots") or {}
+    return {
+        actor: {name: float(t) for name, t in (times or {}).items() if isinstance(t, int | float) and math.isfinite(t)}
+        for actor, times in knots.items()
+    }
+
+
+def _chosen_samples(trace: Trace) -> NDArray[np.intp]:
+    count = len(trace.time_s)
+    kept = min(count, MAX_SAMPLES, max(200, _MAX_SAMPLES_IN_ALL // max(1, len(trace.actors))))
+    return np.unique(np.linspace(0, count - 1, kept).round().astype(np.intp))
+
+
+def _actor(
+    name: str, actor: ActorTrace, chosen: NDArray[np.intp], manifest: Json, plan: Json, scene: SceneGeometry
+) -> Json:
+    size = (manifest.get("vehicles") or {}).get(name) or {}
+    planned = ((plan.get("actors") or {}).get(name) or {}).get("segments") or []
+    origin = scene.origin_xy_m
+    return {
+        "name": name,
+        "length": size.get("length_m", _DEFAULT_SIZE_M[0]),
+        "width": size.get("width_m", _DEFAULT_SIZE_M[1]),
+        "x": _numbers(actor.x_m[chosen] - origin[0], 3),
+        "y": _numbers(actor.y_m[chosen] - origin[1], 3),
+        "heading": _numbers(actor.heading_rad[chosen], 4),
+        "s": _numbers(actor.s_m[chosen], 3),
+        "v": _numbers(actor.speed_mps[chosen], 3),
+        "a": _numbers(actor.accel_mps2[chosen], 3),
+        "knots": [[knot, time] for knot, time in sorted(_knots(manifest).get(name, {}).items(), key=lambda k: k[1])],
+        "plan": [[_rounded(piece.get(key), 4) for key in _PIECE] for piece in planned],
+        "limits": (manifest.get("limits") or {}).get(name) or {},
+        "route": scene.routes.get(name, []),
+        "landmarks": scene.landmarks.get(name, []),
+    }
+
+
+_PIECE = ("start_s", "duration_s", "s_m", "speed_mps", "accel_mpss")
+
+
+def _conditions(verdict: Json | None, program: Program | None, manifest: Json) -> list[Json]:
+    times = condition_times(program, _knots(manifest)) if program else {}
+    words = {c.id: program.words_of(c) for c in program.constraints} if program else {}
+    rows = []
+    for condition in (verdict or {}).get("conditions") or []:
+        identifier = str(condition.get("id", ""))
+        # A condition may judge one side of a constraint: its id is then the constraint's with an ending (`c3.1`).
+        owner = identifier if identifier in words else identifier.split(".")[0]
+        rows.append(
+            {
+                "id": identifier,
+                "owner": owner,
+                "kind": condition.get("kind") or "",
+                "text": condition.get("text") or "",
+                "words": words.get(owner),
+                "required": condition.get("required"),
+                "measured": condition.get("measured"),
+                "error": condition.get("error"),
+                "unit": condition.get("unit") or "",
+                "tight": condition.get("tight"),
+                "loose": condition.get("loose"),
+                "time": condition.get("time_s", times.get(owner)),
+            }
+        )
+    return rows
+
+
+_FACT_UNITS = (("_mpss", "m/s²"), ("_mps2", "m/s²"), ("_mps", "m/s"), ("_rad", "rad"), ("_m", "m"), ("_s", "s"))
+
+
+def _facts(facts: Mapping[str, Any], prefix: str = "") -> list[list[str]]:
+    """Flatten nested facts to rows of label, value and unit; the unit comes from the name's ending."""
+    rows: list[list[str]] = []
+    for name, value in facts.items():
+        label, unit = str(name), ""
+        for ending, symbol in _FACT_UNITS:
+            if label.endswith(ending):
+                label, unit = label.removesuffix(ending), symbol
+                break
+        label = f"{prefix}{label.replace('_', ' ')}"
+        if isinstance(value, Mapping):
+            rows += _facts(value, f"{label}: ")
+        else:
+            rows.append([label, _shown(value), unit if value is not None else ""])
+    return rows
+
+
+def _shown(value: object) -> str:
+    """Return a value as a person reads it: at most four decimals, yes and no, a dash for what is not known."""
+    match value:
+        case None:
+            return "–"
+        case bool():
+            return "yes" if value else "no"
+        case float():
+            return f"{value:.4f}".rstrip("0").rstrip(".") if math.isfinite(value) else "–"
+        case list():
+            return ", ".join(_shown(item) for item in value) or "none"
+        case _:
+            return str(value)
+
+
+def _numbers(values: NDArray[np.float64], digits: int) -> list[float | None]:
+    return [_rounded(value, digits) for value in values.tolist()]
+
+
+def _rounded(value: float | None, digits: int) -> float | None:
+    if value is None or not math.isfinite(value):
+        return None
+    rounded = round(float(value), digits)
+    return int(rounded) if rounded == int(rounded) else rounded
+
+
+def _without_nan(value: Any) -> Any:
+    """Return the same data with None for every number that JSON cannot hold."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, dict):
+        return {str(key): _without_nan(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_without_nan(item) for item in value]
+    return value
+
+
+

@@ -1,0 +1,160 @@
+"""What the page needs of a program: clauses of the description, the moment each condition is about, the triggers.
+
+What enters: a `Program`, the times at which knots were really passed, the landmarks. What leaves: plain data for the page.
+It judges nothing: required and measured values come from the verdict.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from scenewright.program.expressions import (
+    Arithmetic,
+    Compare,
+    Derived,
+    Elapsed,
+    Formula,
+    Knot,
+    Landmark,
+    Node,
+    Number,
+    PieceRef,
+    State,
+    Temporal,
+    walk,
+)
+from scenewright.program.structure import Role, knots_of, read_structure
+from scenewright.program.types import Program
+
+Json = dict[str, Any]
+KnotTimes = Mapping[str, Mapping[str, float]]
+Landmarks = Mapping[str, Mapping[str, float]]
+
+
+def clauses(program: Program) -> list[Json]:
+    """Cut the description into stretches; each names the conditions that came from it.
+
+    Returns
+    -------
+    list of dict
+        ``{"text": str, "ids": [constraint id, ...]}``; the texts joined give the description back.
+    """
+    description = program.description or ""
+    sources = [(c.id, c.source) for c in program.constraints if c.source is not None]
+    cuts = {0, len(description)}
+    for _, source in sources:
+        cuts |= {min(source.start, len(description)), min(source.end, len(description))}
+    edges = sorted(cuts)
+    return [
+        {
+            "text": description[start:end],
+            "ids": [identifier for identifier, source in sources if source.start <= start and end <= source.end],
+        }
+        for start, end in zip(edges, edges[1:], strict=False)
+    ]
+
+
+def condition_times(program: Program, knot_times: KnotTimes) -> dict[str, float]:
+    """Return for each constraint the moment it is about (s), by constraint id, where the run reached it.
+
+    Of several knots the last one counts: an order is decided when the later of the two happens.
+    """
+    found = {}
+    for constraint in program.constraints:
+        moments = list(_moments(constraint.formula, program, knot_times))
+        if moments:
+            found[constraint.id] = max(moments)
+    return found
+
+
+def triggers(program: Program, knot_times: KnotTimes, landmarks: Landmarks) -> list[Json]:
+    """Return the trigger moments that the run reached, with the distances that define them.
+
+    Returns
+    -------
+    list of dict
+        ``{"time_s", "hero", "measures"}``, by time. A measure is ``{"kind": "landmark" or "tta", "actor", "name", "s_m"}``
+        (from the actor to a place on its route) or ``{"kind": "gap", "actor", "target"}``.
+    """
+    structure = read_structure(program)
+    names = {actor.id: actor.name for actor in program.actors}
+    result = []
+    for hero, instant in structure.triggers.items():
+        times = [
+            time for actor, knot in sorted(instant) if (time := _knot_time(names.get(actor), knot, knot_times)) is not None
+        ]
+        if not times:
+            continue
+        measures = []
+        for constraint in program.constraints:
+            if structure.roles[constraint.id] == Role.TRIGGER and set(knots_of(constraint.formula)) <= instant:
+                measures += list(_measures(constraint.formula, names, landmarks))
+        result.append({"time_s": max(times), "hero": names[hero], "measures": measures})
+    return sorted(result, key=lambda trigger: float(trigger["time_s"]))
+
+
+def _moments(formula: Formula, program: Program, knot_times: KnotTimes) -> Iterator[float]:
+    names = {actor.id: actor.name for actor in program.actors}
+    for actor, knot in knots_of(formula):
+        time = _knot_time(names.get(actor), knot, knot_times)
+        if time is not None:
+            yield time
+    for node in walk(formula):
+        match node:
+            case State(actor=owner, at=PieceRef(name=piece)) if owner in names:
+                sketch = program.actor(owner).sketch
+                try:
+                    begins = sketch.knots[sketch.piece_index(piece)]
+                except KeyError:
+                    continue
+                time = _knot_time(names[owner], begins, knot_times)
+                if time is not None:
+                    yield time
+            case State(at=Number(value=value)) | Derived(at=Number(value=value)):
+                yield float(value)
+            case Temporal(start=Number(value=value)):
+                yield float(value)
+            case _:
+                pass
+
+
+def _knot_time(actor: str | None, knot: str, knot_times: KnotTimes) -> float | None:
+    time = knot_times.get(actor or "", {}).get(knot)
+    return float(time) if isinstance(time, int | float) else None
+
+
+def _measures(formula: Formula, names: Mapping[int, str], landmarks: Landmarks) -> Iterator[Json]:
+    for node in walk(formula):
+        match node:
+            case Compare(left=left, right=right):
+                yield from _distance(left, right, names, landmarks)
+                yield from _distance(right, left, names, landmarks)
+            case Derived(kind="tta", actor=actor, target=Landmark() as mark) if actor in names:
+                s_m = _arc_length(mark, actor, names, landmarks)
+                if s_m is not None:
+                    yield {"kind": "tta", "actor": names[actor], "name": mark.name, "s_m": s_m}
+            case Derived(kind="gap" | "headway" | "ttc", actor=actor, target=int(target)) if {actor, target} <= set(names):
+                yield {"kind": "gap", "actor": names[actor], "target": names[target]}
+            case _:
+                pass
+
+
+def _distance(state: Node, place: Node, names: Mapping[int, str], landmarks: Landmarks) -> Iterator[Json]:
+    """Yield the measure of ``A0x(t1) == stop_line - p``, where that is what is compared."""
+    if not (isinstance(state, State) and state.order == 0 and isinstance(state.at, Knot | Elapsed) and state.actor in names):
+        return
+    if not isinstance(place, Landmark | Arithmetic):
+        return
+    marks = [node for node in walk(place) if isinstance(node, Landmark)]
+    if len(marks) == 1 and (s_m := _arc_length(marks[0], state.actor, names, landmarks)) is not None:
+        yield {"kind": "landmark", "actor": names[state.actor], "name": marks[0].name, "s_m": s_m}
+
+
+def _arc_length(mark: Landmark, actor: int, names: Mapping[int, str], landmarks: Landmarks) -> float | None:
+    if mark.actor not in (None, actor):
+        return None  # it lies on another actor's route: there is no stretch of this route to draw
+    known = landmarks.get(names[actor], {})
+    # In a program `turn` means the same place as `intersection`.
+    place = known.get(mark.name, known.get("intersection") if mark.name == "turn" else None)
+    return float(place) if isinstance(place, int | float) else None
