@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from scenewright.drive.options import SPEED_MAX_MPS, require
 from scenewright.drive.protocol import EgoStart, Envelope, Observation
 
-_SPEED_MAX_MPS = 60.0  # the fastest that a program may speak of
 _ACCEL_MPSS = 2.0
 _SAME_SPEED_MPS = 1e-6
 
@@ -30,7 +30,8 @@ class Constant:
     envelope: Envelope = field(init=False)
 
     def __post_init__(self) -> None:
-        speed_max_mps = _SPEED_MAX_MPS if self.speed_mps is None else self.speed_mps
+        require("constant", self, ("speed_mps",), least=0.0)
+        speed_max_mps = SPEED_MAX_MPS if self.speed_mps is None else self.speed_mps
         self.envelope = Envelope(speed_max_mps, 0.0, 0.0, holds_speed=True)
 
     def preferred_speed_mps(self, start: EgoStart) -> float | None:

@@ -25,6 +25,7 @@ from scenewright.drive.streams import Approach, Neighbour, Stream, Surroundings,
 _AT_LINE_M, _AT_LINE_MPS = 1.0, 0.1
 _LINE_MARGIN_M = 0.3  # between bumper and stop line
 _ZONE_MARGIN_M = 0.5
+_ACROSS_MARGIN_M = 1.0
 _PAST_WAITING_M = 0.5
 _HORIZON_S = 4.0
 _CLEARANCE_S = 0.3
@@ -125,7 +126,11 @@ class Driver:
         for other in observation.others:
             neighbour = self._surroundings.neighbour(other, time_s)
             if abs(other.x_m - ego.x_m) + abs(other.y_m - ego.y_m) < _NEAR_M:
-                interaction = min(interaction, self._follow(neighbour, other, ego, s_m, time_s))
+                gap_m = neighbour.gap_ahead_m(other, ego, s_m, time_s)
+                if gap_m is not None and neighbour.lies_across:
+                    accel = min(accel, stopping_accel(speed_mps, gap_m - _ACROSS_MARGIN_M, traits.brake_mpss))
+                elif gap_m is not None:
+                    interaction = min(interaction, self._follow(gap_m, speed_mps, neighbour.speed_along_mps(other)))
             if traits.lawful:
                 accel = min(accel, self._heed(neighbour, other, s_m, speed_mps, time_s))
         return self.bounded(accel + interaction, speed_mps, dt_s)
@@ -152,15 +157,12 @@ class Driver:
             return inf
         return stopping_accel(speed_mps, to_line_m, self.traits.brake_mpss)
 
-    def _follow(self, neighbour: Neighbour, other: VehicleState, ego: VehicleState, s_m: float, time_s: float) -> float:
-        gap_m = neighbour.gap_ahead_m(other, ego, s_m, time_s)
-        if gap_m is None:
-            return 0.0
+    def _follow(self, gap_m: float, speed_mps: float, leader_mps: float) -> float:
         traits = self.traits
         return following_accel(
-            ego.speed_mps,
+            speed_mps,
             gap_m,
-            neighbour.speed_along_mps(other),
+            leader_mps,
             accel_mpss=traits.accel_mpss,
             brake_mpss=traits.brake_mpss,
             headway_s=traits.headway_s,

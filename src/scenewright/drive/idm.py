@@ -11,10 +11,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from scenewright.drive.driver import Driver, Traits, wanted_speeds
+from scenewright.drive.options import SPEED_MAX_MPS, require
 from scenewright.drive.protocol import EgoStart, Envelope, Observation
-from scenewright.errors import PolicyError
 
-_SPEED_MAX_MPS = 60.0  # the fastest that a program may speak of
 _IMPATIENCE = 0.25
 
 
@@ -58,7 +57,7 @@ class Idm:
         require("idm", self, positive, above=0.0)
         require("idm", self, ("headway_s", "standstill_m", "min_stop_s", "critical_gap_s", "patience_s"), least=0.0)
         emergency_mpss = self._traits(self.patience_s).emergency_mpss
-        speed_max_mps = _SPEED_MAX_MPS if self.speed_mps is None else 1.05 * self.speed_mps
+        speed_max_mps = SPEED_MAX_MPS if self.speed_mps is None else 1.05 * self.speed_mps
         self.envelope = Envelope(speed_max_mps, -emergency_mpss, self.accel_mpss)
 
     def preferred_speed_mps(self, start: EgoStart) -> float | None:
@@ -90,26 +89,3 @@ class Idm:
             critical_gap_s=self.critical_gap_s,
             patience_s=patience_s,
         )
-
-
-def require(
-    name: str, policy: object, options: tuple[str, ...], *, above: float | None = None, least: float | None = None
-) -> None:
-    """Refuse options of a policy that are out of range; None passes.
-
-    Raises
-    ------
-    PolicyError
-        If an option is not above `above` or is below `least`.
-    """
-    for option in options:
-        value = getattr(policy, option)
-        if value is None:
-            continue
-        if (above is not None and not value > above) or (least is not None and not value >= least):
-            raise PolicyError(
-                f"option {option!r} of {name!r} is out of range",
-                found=f"{value:g}",
-                expected=f"more than {above:g}" if above is not None else f"{least:g} or more",
-                fix="give a larger value, or leave the option out",
-            )

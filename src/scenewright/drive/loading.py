@@ -86,7 +86,7 @@ def load_policy(spec: str) -> LoadedPolicy:
     ('constant', {'speed_mps': 12.0})
     """
     head, *rest = (part.strip() for part in spec.strip().split(":"))
-    if rest and "=" not in rest[0] and rest[0]:
+    if rest and rest[0] and "=" not in rest[0] and head not in BUILT_IN:
         name, options_text = f"{head}:{rest[0]}", ":".join(rest[1:])
         make = _users_class(head, rest[0])
     else:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from math import cos, pi, sin
 
+from scenewright.drive.boxes import free_way_m
 from scenewright.drive.protocol import EgoStart, VehicleState
 from scenewright.roads import Path, Route, all_routes, find_conflict
 from scenewright.roads.path import wrap_rad
@@ -19,6 +20,10 @@ _HEADING_REACH_RAD = 0.5
 _STANDING_MPS = 0.3
 _ELSEWHERE_M = 6.0
 _SIDE_MARGIN_M = 0.2
+_CROSSING_MPS = 1.0
+_ALONG_COSINE = 0.7
+_NEAR_GAP_M = 6.0
+_CROSSING_CLEARANCE_S = 0.5
 _LOOK_AGAIN_S = 0.2  # a vehicle that is elsewhere does not come here at once
 _TURN_RANK = {"straight": 0, "right": 1, "left": 2}
 
@@ -108,20 +113,38 @@ class Neighbour:
             self.stands_since_s = time_s
 
     def gap_ahead_m(self, vehicle: VehicleState, ego: VehicleState, ego_s_m: float, time_s: float) -> float | None:
-        """Return the free distance to this vehicle in metres where its box is in the ego's way, else None."""
+        """Return the free distance in metres to this vehicle's box, None where it is not in the ego's way.
+
+        Nor is a vehicle that crosses and will be gone in time.
+        """
         foot = self.on_ego_path
         if not foot.look(vehicle, time_s) or foot.s_m is None or foot.s_m <= ego_s_m:
             return None
-        across, along = abs(sin(foot.heading_error_rad)), abs(cos(foot.heading_error_rad))
-        half_across_m = 0.5 * (vehicle.length_m * across + vehicle.width_m * along)
-        if abs(foot.d_m) >= half_across_m + 0.5 * ego.width_m + _SIDE_MARGIN_M:
+        sine, cosine = sin(foot.heading_error_rad), cos(foot.heading_error_rad)
+        across, along = abs(sine), abs(cosine)
+        reach_m = 0.5 * (vehicle.length_m * across + vehicle.width_m * along + ego.width_m) + _SIDE_MARGIN_M
+        if abs(foot.d_m) >= reach_m:
             return None
-        half_along_m = 0.5 * (vehicle.length_m * along + vehicle.width_m * across)
-        return foot.s_m - ego_s_m - half_along_m - 0.5 * ego.length_m
+        gap_m = foot.s_m - ego_s_m - 0.5 * (vehicle.length_m * along + vehicle.width_m * across + ego.length_m)
+        sideways_mps = vehicle.speed_mps * sine
+        if abs(sideways_mps) > _CROSSING_MPS:
+            leaves_s = (reach_m - foot.d_m if sideways_mps > 0.0 else reach_m + foot.d_m) / abs(sideways_mps)
+            if leaves_s + _CROSSING_CLEARANCE_S < gap_m / max(ego.speed_mps, _CROSSING_MPS):
+                return None
+        if gap_m < _NEAR_GAP_M and cosine < _ALONG_COSINE:
+            # Beside a vehicle that lies across a curve, the projection says too little: drive there in thought.
+            reach_m = max(gap_m, 0.0) + vehicle.length_m + ego.length_m
+            return free_way_m(self.on_ego_path.path, ego, ego_s_m, vehicle, reach_m=reach_m)
+        return gap_m
+
+    @property
+    def lies_across(self) -> bool:
+        """Whether the vehicle stands or drives across the ego's path, or against it, rather than along it."""
+        return cos(self.on_ego_path.heading_error_rad) < _ALONG_COSINE
 
     def speed_along_mps(self, vehicle: VehicleState) -> float:
-        """Return the vehicle's speed along the ego's path; negative where it comes towards the ego."""
-        return vehicle.speed_mps * cos(self.on_ego_path.heading_error_rad)
+        """Return the vehicle's speed along the ego's path in m/s, 0 where it comes towards the ego."""
+        return max(0.0, vehicle.speed_mps * cos(self.on_ego_path.heading_error_rad))
 
 
 @dataclass(slots=True, eq=False)
