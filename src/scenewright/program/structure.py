@@ -46,10 +46,22 @@ class Structure:
         For each hero id that has one, the instant at which ego and hero meet the trigger: knots of several actors.
     roles
         Role of every constraint, by constraint id.
+    instants
+        Sets of knots that the program says are the same moment.
     """
 
     triggers: dict[int, frozenset[KnotKey]]
     roles: dict[str, Role]
+    instants: tuple[frozenset[KnotKey], ...]
+
+    def same_moment(self, actor_id: int, knot: KnotKey) -> str | None:
+        """Return the knot of `actor_id` that is the same moment as `knot`, or None where the program names none."""
+        if knot[0] == actor_id:
+            return knot[1]
+        for instant in self.instants:
+            if knot in instant:
+                return next((name for owner, name in sorted(instant) if owner == actor_id), None)
+        return None
 
     def trigger_knot(self, actor_id: int) -> str | None:
         """Return the actor's own knot at its trigger, or for the ego the knot of the first trigger; None without one."""
@@ -70,7 +82,7 @@ def read_structure(program: Program) -> Structure:
         if instant is not None:
             triggers[hero.id] = instant
     roles = {constraint.id: _role(constraint, program, triggers) for constraint in program.constraints}
-    return Structure(triggers, roles)
+    return Structure(triggers, roles, tuple(instants))
 
 
 def knots_of(formula: Formula) -> Iterator[KnotKey]:

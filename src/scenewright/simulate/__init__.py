@@ -1,1 +1,1 @@
-"""The closed loop: built-in simulator, replanner, prediction."""
+"""The closed loop: built-in simulator, prediction of the ego, re-solving."""

@@ -1,12 +1,13 @@
-"""When a motion meets a condition: the instant at which the ego, as predicted, is where a trigger wants it.
+"""When motions meet a condition: the instant at which the ego, as predicted, is where a trigger wants it.
 
-What enters: comparisons that speak of one actor at one knot. What leaves: conditions that are linear in its position and
-speed, and the first time a profile meets them, exactly within each stretch of constant acceleration.
+What enters: equalities that speak of actors' states at one moment. What leaves: conditions that are linear in positions and
+speeds, and the first time at which given motions meet them, exactly within each stretch of constant acceleration.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -14,44 +15,61 @@ from scenewright.motion.algebra import Symbol, Value
 from scenewright.motion.profile import Profile, Segment
 from scenewright.motion.sketched import ONE, Ratio
 from scenewright.program.evaluate import landmark_owner
-from scenewright.program.expressions import Compare, Derived, Elapsed, Knot, State, walk
-from scenewright.program.structure import knots_of
+from scenewright.program.expressions import Compare, Derived, Elapsed, State, walk
+from scenewright.program.structure import KnotKey, Structure, knots_of
 from scenewright.roads.grounding import Scene
 from scenewright.solve.lowering import Lowering, NotYet
 
-_HORIZON_S = 90.0
+HORIZON_S = 90.0
+_LINEAR_SLACK = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class PlaceCondition:
-    """``constant + per_metre * position + per_speed * speed == 0``, for one actor at one of its knots."""
+class LinearCondition:
+    """``constant + sum of per_metre * position + per_speed * speed == 0`` over some actors, at one moment.
+
+    Attributes
+    ----------
+    moments
+        The knots that the constraint speaks of: the same moment, or one knot alone.
+    weights
+        ``(per_metre, per_speed)`` by actor id.
+    """
 
     constraint_id: str
-    actor: int
-    knot: str
+    moments: frozenset[KnotKey]
     constant: float
-    per_metre: float
-    per_speed: float
+    weights: Mapping[int, tuple[float, float]]
 
-    def value(self, s_m: float, speed_mps: float) -> float:
-        """Return the left side for a state."""
-        return self.constant + self.per_metre * s_m + self.per_speed * speed_mps
+    def value(self, states: Mapping[int, tuple[float, float]]) -> float:
+        """Return the left side, given ``(position, speed)`` of every actor in it."""
+        total = self.constant
+        for actor, (per_metre, per_speed) in self.weights.items():
+            total += per_metre * states[actor][0] + per_speed * states[actor][1]
+        return total
 
-    def first_time(self, profile: Profile, after_s: float) -> float | None:
-        """Return the first instant from `after_s` on at which `profile` meets the condition, or None within the horizon."""
-        rest = profile.cut(after_s)
-        last = rest.segments[-1]
-        held = Segment(last.end_s, _HORIZON_S, last.end_s_m, last.end_speed_mps, 0.0)
-        for segment in (*rest.segments, held):
-            elapsed = self._root(segment)
+    def given(self, actor: int, s_m: float, speed_mps: float) -> LinearCondition:
+        """Return the condition on the others where `actor` is in a known state."""
+        per_metre, per_speed = self.weights[actor]
+        rest = {other: weight for other, weight in self.weights.items() if other != actor}
+        constant = self.constant + per_metre * s_m + per_speed * speed_mps
+        return LinearCondition(self.constraint_id, self.moments, constant, rest)
+
+    def first_time(self, profiles: Mapping[int, Profile], after_s: float) -> float | None:
+        """Return the first instant from `after_s` on at which the motions meet the condition; None within the horizon."""
+        for start_s, duration_s, states in _common_stretches([(a, profiles[a]) for a in self.weights], after_s):
+            elapsed = self._root(duration_s, states)
             if elapsed is not None:
-                return segment.start_s + elapsed
+                return start_s + elapsed
         return None
 
-    def _root(self, segment: Segment) -> float | None:
-        c = self.value(segment.s_m, segment.speed_mps)
-        b = self.per_metre * segment.speed_mps + self.per_speed * segment.accel_mpss
-        a = 0.5 * self.per_metre * segment.accel_mpss
+    def _root(self, duration_s: float, states: Mapping[int, tuple[float, float, float]]) -> float | None:
+        c, b, a = self.constant, 0.0, 0.0
+        for actor, (per_metre, per_speed) in self.weights.items():
+            s_m, speed, accel = states[actor]
+            c += per_metre * s_m + per_speed * speed
+            b += per_metre * speed + per_speed * accel
+            a += 0.5 * per_metre * accel
         if abs(c) < 1e-9:
             return 0.0
         if abs(a) < 1e-12:
@@ -60,24 +78,74 @@ class PlaceCondition:
             inside = b * b - 4 * a * c
             if inside < 0:
                 return None
-            root = math.sqrt(inside)
-            q = -0.5 * (b + math.copysign(root, b))
+            q = -0.5 * (b + math.copysign(math.sqrt(inside), b))
             roots = [q / a] + ([c / q] if q else [])
-        fitting = [r for r in roots if -1e-9 <= r <= segment.duration_s + 1e-9]
+        fitting = [root for root in roots if -1e-9 <= root <= duration_s + 1e-9]
         return max(0.0, min(fitting)) if fitting else None
 
 
+def linear_conditions(scene: Scene, structure: Structure) -> tuple[LinearCondition, ...]:
+    """Return the program's equalities over states at one moment that are linear in positions and speeds."""
+    found: list[LinearCondition] = []
+    for constraint in scene.program.constraints:
+        formula = constraint.formula
+        if not isinstance(formula, Compare) or formula.operator != "==":
+            continue
+        moments = frozenset(knots_of(formula))
+        if not moments or not (len(moments) == 1 or any(moments <= instant for instant in structure.instants)):
+            continue
+        if any(isinstance(n, Elapsed) for n in (formula.left, formula.right)):
+            continue
+        condition = _linearised(scene, structure, constraint.id, formula, moments)
+        if condition is not None:
+            found.append(condition)
+    return tuple(found)
+
+
+def _linearised(
+    scene: Scene, structure: Structure, constraint_id: str, formula: Compare, moments: frozenset[KnotKey]
+) -> LinearCondition | None:
+    actors = sorted(_actors_of(formula))
+    zero = {actor: (0, 0) for actor in actors}
+    origin = _probe(scene, structure, formula, zero)
+    if origin is None or not actors:
+        return None
+    weights: dict[int, tuple[float, float]] = {}
+    for actor in actors:
+        metre = _probe(scene, structure, formula, zero | {actor: (1, 0)})
+        speed = _probe(scene, structure, formula, zero | {actor: (0, 1)})
+        if metre is None or speed is None:
+            return None
+        if metre != origin or speed != origin:
+            weights[actor] = (float(metre - origin), float(speed - origin))
+    everything = _probe(scene, structure, formula, {actor: (3, 2) for actor in actors})
+    expected = float(origin) + sum(3 * m + 2 * v for m, v in weights.values())
+    if everything is None or abs(float(everything) - expected) > _LINEAR_SLACK or not weights:
+        return None
+    return LinearCondition(constraint_id, moments, float(origin), weights)
+
+
+def _actors_of(formula: Compare) -> set[int]:
+    actors: set[int] = set()
+    for node in walk(formula):
+        if isinstance(node, State | Derived):
+            actors.add(node.actor)
+        if isinstance(node, Derived) and isinstance(node.target, int):
+            actors.add(node.target)
+    return actors
+
+
 class _Probe:
-    """A motion that is in one given state at every knot: probing with three states tells a linear condition's coefficients."""
+    """A motion that is in one given state at every moment; probing tells a linear condition's weights."""
 
     def __init__(self, s_m: int, speed_mps: int) -> None:
-        self._states = (Fraction(s_m), Fraction(speed_mps), Fraction(0))
+        self._states = (Fraction(s_m), Fraction(speed_mps))
 
     def time(self, knot: str) -> Value | None:
         return None
 
     def at_knot(self, knot: str, order: int) -> Ratio | None:
-        return self._states[order], ONE
+        return (self._states[order], ONE) if order < 2 else None
 
     def at_time(self, time: Value, order: int) -> Value | None:
         return None
@@ -86,42 +154,11 @@ class _Probe:
         return None
 
 
-def place_conditions(scene: Scene, actor: int) -> tuple[PlaceCondition, ...]:
-    """Return the equalities that speak of `actor` alone at one knot and are linear in its position and speed."""
-    found: list[PlaceCondition] = []
-    for constraint in scene.program.constraints:
-        formula = constraint.formula
-        if not isinstance(formula, Compare) or formula.operator != "==" or not _only_speaks_of(formula, actor):
-            continue
-        knots = set(knots_of(formula))
-        if len(knots) != 1:
-            continue
-        probed = [_probe(scene, formula, actor, *state) for state in ((0, 0), (1, 0), (0, 1), (1, 1))]
-        values = [float(value) for value in probed if value is not None]
-        if len(values) < len(probed):
-            continue
-        origin, metre, speed, both = values
-        if abs(both - (metre + speed - origin)) > 1e-9 or metre == origin:
-            continue
-        knot = knots.pop()[1]
-        found.append(PlaceCondition(constraint.id, actor, knot, origin, metre - origin, speed - origin))
-    return tuple(found)
-
-
-def _only_speaks_of(formula: Compare, actor: int) -> bool:
-    for node in walk(formula):
-        if isinstance(node, Elapsed):
-            return False
-        if isinstance(node, State | Derived):
-            if node.actor != actor or not isinstance(node.at, Knot):
-                return False
-            if isinstance(node, Derived) and isinstance(node.target, int):
-                return False
-    return True
-
-
-def _probe(scene: Scene, formula: Compare, actor: int, s_m: int, speed_mps: int) -> Fraction | int | None:
-    lowering = Lowering(scene, {actor: _Probe(s_m, speed_mps)}, scene.parameters)
+def _probe(
+    scene: Scene, structure: Structure, formula: Compare, states: Mapping[int, tuple[int, int]]
+) -> Fraction | int | None:
+    motions = {actor: _Probe(*state) for actor, state in states.items()}
+    lowering = Lowering(scene, structure, motions, scene.parameters)
     try:
         owner = landmark_owner(formula)
         left_num, left_den = lowering.term(formula.left, owner)
@@ -130,3 +167,23 @@ def _probe(scene: Scene, formula: Compare, actor: int, s_m: int, speed_mps: int)
     except (NotYet, KeyError):
         return None
     return None if isinstance(value, Symbol) else value
+
+
+def _common_stretches(
+    profiles: list[tuple[int, Profile]], after_s: float
+) -> Iterator[tuple[float, float, dict[int, tuple[float, float, float]]]]:
+    """Yield stretches in which every profile has one acceleration, to the horizon after the last of them ends."""
+    if len(profiles) == 1:
+        actor, profile = profiles[0]
+        for segment in _with_rest(profile.cut(after_s)):
+            yield segment.start_s, segment.duration_s, {actor: (segment.s_m, segment.speed_mps, segment.accel_mpss)}
+        return
+    breaks = sorted({t for _, p in profiles for s in p.segments for t in (s.start_s, s.end_s) if t > after_s} | {after_s})
+    for begin, end in zip(breaks, [*breaks[1:], breaks[-1] + HORIZON_S], strict=True):
+        yield begin, end - begin, {actor: profile.state(begin) for actor, profile in profiles}
+
+
+def _with_rest(profile: Profile) -> Iterator[Segment]:
+    yield from profile.segments
+    last = profile.segments[-1]
+    yield Segment(last.end_s, HORIZON_S, last.end_s_m, last.end_speed_mps, 0.0)

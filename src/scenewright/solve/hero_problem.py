@@ -260,7 +260,7 @@ class HeroProblem:
 
     # -- the program's constraints ----------------------------------------------------------------------------------
     def _add_constraints(self) -> None:
-        lowering = Lowering(self.scene, self._views, self._parameters)
+        lowering = Lowering(self.scene, self.structure, self._views, self._parameters)
         for constraint in self.scene.program.constraints:
             if not self._concerns(constraint):
                 continue

@@ -41,6 +41,7 @@ from scenewright.program.expressions import (
     Term,
     walk,
 )
+from scenewright.program.structure import Structure
 from scenewright.roads.grounding import Scene
 from scenewright.solve.views import MotionView, SketchedView
 
@@ -69,16 +70,23 @@ class Lowering:
 
     Parameters
     ----------
-    scene
-        For landmarks and offsets.
+    scene, structure
+        For landmarks and offsets, and for which knots are the same moment.
     motions
         A view of every actor, by id.
     parameters
         Values of parameters, known or unknown, by name.
     """
 
-    def __init__(self, scene: Scene, motions: Mapping[int, MotionView], parameters: Mapping[str, Value]) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        structure: Structure,
+        motions: Mapping[int, MotionView],
+        parameters: Mapping[str, Value],
+    ) -> None:
         self.scene = scene
+        self.structure = structure
         self.motions = motions
         self.parameters = parameters
         self._now: tuple[int, int] | None = None
@@ -157,11 +165,14 @@ class Lowering:
         motion = self.motions[actor]
         if at is None:
             return self._state_now(actor, order)
-        if isinstance(at, Knot) and knot_owner == actor:
-            ratio = motion.at_knot(at.name, order)
-            if ratio is None:
-                raise NotYet
-            return ratio
+        if isinstance(at, Knot | Elapsed):
+            named = (at.actor, at.knot) if isinstance(at, Elapsed) else (knot_owner, at.name)
+            own = self.structure.same_moment(actor, named)
+            if own is not None:
+                ratio = motion.at_knot(own, order)
+                if ratio is None:
+                    raise NotYet
+                return ratio
         return _known(motion.at_time(self._moment(at, knot_owner), order)), ONE
 
     def _moment(self, at: At, knot_owner: int) -> Value:

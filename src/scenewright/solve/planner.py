@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from scenewright.motion.profile import Profile
-from scenewright.program.evaluate import difference, violation
+from scenewright.program.evaluate import violation
 from scenewright.program.expressions import Compare
 from scenewright.program.structure import Role, Structure
 from scenewright.program.types import EGO, Constraint
@@ -173,14 +173,8 @@ def check_profiles(
                 off = violation(formula, world)
             except KeyError:
                 continue
-            if off != off or off > allowed * _steepness(formula, world):
+            if off != off or off > allowed:
                 return f"{constraint.id} is off by {off:.4g}"
         elif violation(formula, world) > allowed:
             return f"{constraint.id} does not hold"
     return None
-
-
-def _steepness(formula: Compare, world: PlanWorld) -> float:
-    """Times to arrival magnify rounding at low speeds: what is exact in metres may be off in seconds."""
-    value = abs(difference(formula, world))
-    return max(1.0, value if value < 1.0 else 1.0) if compared_dimension(formula) == "time" else 1.0

@@ -1,0 +1,116 @@
+"""Where and how fast the ego starts: what the program says, and for the rest what its policy would hold by itself.
+
+What enters: the program's conditions on the ego's first state, and the policy. What leaves: candidates, best first. A start
+that the policy would not hold begins the run with a transient that nobody foresaw.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from scenewright.program.types import EGO
+from scenewright.roads.grounding import Scene
+from scenewright.simulate.vehicles import EgoVehicle
+from scenewright.solve.arrival import LinearCondition
+from scenewright.solve.limits import Limits
+
+_RUN_UP_M = 90.0
+_LEAD_S = 8.0
+_STEP_S = 0.05
+_SLOWEST_MPS = 0.5
+# Of the natural speed, for an ego whose speed the orchestrator may choose: natural first.
+_SPEED_SHARES = (1.0, 0.85, 0.7, 0.55, 0.42, 0.32, 0.24, 0.18, 0.13, 0.1)
+
+
+@dataclass(frozen=True, slots=True)
+class EgoFirstState:
+    """A first state of the ego, with the acceleration that it has there when it drives by itself."""
+
+    s_m: float
+    speed_mps: float
+    accel_mpss: float = 0.0
+
+
+def ego_starts(
+    scene: Scene, ego: EgoVehicle, limits: Limits, conditions: tuple[LinearCondition, ...]
+) -> Iterator[EgoFirstState]:
+    """Yield first states that meet the program's conditions at the ego's first knot.
+
+    Several only where the policy leaves its speed to the orchestrator (``constant``): natural speeds first.
+    """
+    first_knot = scene.program.ego.sketch.knots[0]
+    initial = [c for c in conditions if c.moments == {(EGO, first_knot)} and set(c.weights) == {EGO}]
+    speed_given = next((c for c in initial if c.weights[EGO][0] == 0.0), None)
+    place = next((c for c in initial if c.weights[EGO][0] != 0.0), None)
+    if speed_given is not None:
+        speed = -speed_given.constant / speed_given.weights[EGO][1]
+        yield EgoFirstState(_position(scene, place, speed, conditions), speed)
+        return
+    guess = _position(scene, place, limits.natural_turn_speed_mps, conditions)
+    preferred = ego.policy.preferred_speed_mps(ego.start_at(max(0.0, guess), limits.natural_speed_mps))
+    envelope = ego.policy.envelope
+    if preferred is None and envelope is not None and envelope.holds_speed:
+        for share in _SPEED_SHARES:
+            speed = share * limits.natural_turn_speed_mps
+            yield EgoFirstState(_position(scene, place, speed, conditions), speed)
+        return
+    yield _steady(scene, ego, place, conditions, preferred or limits.natural_speed_mps)
+
+
+def _position(
+    scene: Scene, place: LinearCondition | None, speed_mps: float, conditions: tuple[LinearCondition, ...]
+) -> float:
+    """Return where the ego starts at `speed_mps`: as the program says, else so that its trigger comes after a while."""
+    if place is not None:
+        per_metre, per_speed = place.weights[EGO]
+        return -(place.constant + per_speed * speed_mps) / per_metre
+    first_knot = scene.program.ego.sketch.knots[0]
+    for condition in conditions:
+        if set(condition.weights) == {EGO} and (EGO, first_knot) not in condition.moments:
+            per_metre, per_speed = condition.weights[EGO]
+            if per_metre:
+                there = -(condition.constant + per_speed * speed_mps) / per_metre
+                return max(1.0, there - _LEAD_S * speed_mps)
+    landmarks = scene.landmarks_m[EGO]
+    target = landmarks.get("intersection", 0.5 * landmarks["route_end"])
+    return max(1.0, target - _LEAD_S * speed_mps)
+
+
+def _steady(
+    scene: Scene,
+    ego: EgoVehicle,
+    place: LinearCondition | None,
+    conditions: tuple[LinearCondition, ...],
+    speed_mps: float,
+) -> EgoFirstState:
+    """Let the policy drive alone towards its first place and take the state in which it gets there."""
+    target = _position(scene, place, speed_mps, conditions)
+    run_up = min(_RUN_UP_M, target - 1.0)
+    if place is not None and place.weights[EGO][1]:
+        run_up = min(3 * _RUN_UP_M, target - 1.0)
+    if run_up < 1.0:
+        return EgoFirstState(target, speed_mps)
+    ego.reset(target - run_up, speed_mps)
+    before = _miss(ego, place, target)
+    for step in range(int(120.0 / _STEP_S)):
+        last = (ego.s_m, ego.speed_mps)
+        action = ego.decide(step * _STEP_S, (), _STEP_S)
+        ego.advance(action, _STEP_S)
+        after = _miss(ego, place, target)
+        if before < 0.0 <= after:
+            share = -before / (after - before)
+            speed = last[1] + share * (ego.speed_mps - last[1])
+            if speed < _SLOWEST_MPS:
+                break
+            return EgoFirstState(_position(scene, place, speed, conditions) if place else target, speed, ego.accel_mpss)
+        before = after
+    return EgoFirstState(target, speed_mps)
+
+
+def _miss(ego: EgoVehicle, place: LinearCondition | None, target_m: float) -> float:
+    """Return a number that turns from negative to positive when the ego comes to its first place."""
+    if place is None:
+        return ego.s_m - target_m
+    sign = 1.0 if place.weights[EGO][0] > 0 else -1.0
+    return sign * place.value({EGO: (ego.s_m, ego.speed_mps)})

@@ -1,0 +1,164 @@
+"""The built-in simulator: steps the ego's policy and the heroes' motions, re-solves every tick, records what happened.
+
+What enters: a scene, a policy, rates and a seed. What leaves: a `Run` with the trace, the plans and every re-solve. It judges
+nothing. A run that is cut short, by the user or by a policy that fails, keeps what it had.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from scenewright.drive.protocol import VehicleState
+from scenewright.errors import PolicyError
+from scenewright.motion.profile import Profile
+from scenewright.program.types import EGO
+from scenewright.roads.grounding import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, Scene
+from scenewright.simulate.replanner import Replan, Replanner
+from scenewright.simulate.vehicles import EgoVehicle
+from scenewright.solve.plan import Plan
+from scenewright.trace.model import ActorTrace, Trace
+
+DEFAULT_STEP_S = 0.02
+DEFAULT_REPLAN_S = 0.1
+LONGEST_RUN_S = 90.0
+_AFTER_HEROES_S = 2.0
+_WAIT_FOR_EGO_S = 10.0
+_STALLED_S = 20.0
+
+
+@dataclass(frozen=True, slots=True)
+class Rates:
+    """Time step of the simulation and time between re-solves (s); None for the second is open loop."""
+
+    step_s: float = DEFAULT_STEP_S
+    replan_s: float | None = DEFAULT_REPLAN_S
+
+
+@dataclass(slots=True)
+class Run:
+    """What came of one simulation.
+
+    Attributes
+    ----------
+    status
+        ``finished``, ``interrupted`` (by the user) or ``failed`` (by the policy, see `fault`).
+    """
+
+    trace: Trace
+    first_plan: Plan
+    last_plan: Plan
+    replans: list[Replan]
+    status: str
+    fault: PolicyError | None = None
+    ego_knots_s: dict[str, float] = field(default_factory=dict)
+    findings: list[str] = field(default_factory=list)
+
+
+def simulate(
+    scene: Scene,
+    ego: EgoVehicle,
+    replanner: Replanner,
+    rates: Rates,
+    progress: Callable[[float], None] | None = None,
+) -> Run:
+    """Drive the scene from the replanner's first plan on, with `ego` already at its first state.
+
+    Parameters
+    ----------
+    progress
+        Called with the simulated time (s) at every re-solve.
+    """
+    first_plan = replanner.plan
+    heroes = scene.program.heroes
+    paths = {hero.id: scene.routes[hero.id].path for hero in heroes}
+    names = {hero.id: hero.name for hero in heroes}
+    rows: dict[int, list[tuple[float, ...]]] = {EGO: [], **{hero.id: [] for hero in heroes}}
+    times: list[float] = []
+    steps_a_tick = max(1, round(rates.replan_s / rates.step_s)) if rates.replan_s else 0
+    status, fault, step = "finished", None, 0
+    try:
+        while True:
+            time_s = round(step * rates.step_s, 9)
+            if steps_a_tick and step and step % steps_a_tick == 0:
+                replanner.tick(time_s)
+                if progress is not None:
+                    progress(time_s)
+            others = []
+            states: dict[int, tuple[float, float, float]] = {}
+            for hero in heroes:
+                state = replanner.plan.profiles[hero.id].state(time_s)
+                states[hero.id] = state
+                x_m, y_m, heading = paths[hero.id].pose(state[0])
+                others.append(
+                    VehicleState(
+                        names[hero.id], x_m, y_m, heading, state[1], state[2], VEHICLE_LENGTH_M, VEHICLE_WIDTH_M,
+                        None, None,
+                    )
+                )  # fmt: skip
+            action = ego.decide(time_s, tuple(others), rates.step_s)
+            times.append(time_s)
+            rows[EGO].append((ego.s_m, ego.d_m, *ego.pose, ego.speed_mps, ego.accel_mpss))
+            for hero in heroes:
+                rows[hero.id].append(states[hero.id])
+            if _is_over(scene, replanner, ego, time_s):
+                break
+            ego.advance(action, rates.step_s)
+            step += 1
+            replanner.observe((round(step * rates.step_s, 9), ego.s_m, ego.speed_mps, ego.accel_mpss))
+    except KeyboardInterrupt:
+        status = "interrupted"
+    except PolicyError as error:
+        status, fault = "failed", error
+    trace = _trace(scene, times, rows)
+    findings = list(ego.policy.findings)
+    return Run(
+        trace, first_plan, replanner.plan, replanner.records, status, fault, dict(replanner.ego_knots_s), findings
+    )
+
+
+def _is_over(scene: Scene, replanner: Replanner, ego: EgoVehicle, time_s: float) -> bool:
+    """Whether all that the program tells of has happened, or will not happen any more."""
+    if time_s >= LONGEST_RUN_S:
+        return True
+    profiles = replanner.plan.profiles
+    last_knot_s = max(max(profiles[hero.id].knot_times_s.values()) for hero in scene.program.heroes)
+    end_m = ego.route.landmarks["route_end"]
+    if ego.s_m >= end_m - 3.0 or _any_at_end(scene, profiles, time_s):
+        return True
+    if time_s < last_knot_s + _AFTER_HEROES_S:
+        return _stalled(replanner, time_s)
+    passed = ego.s_m > ego.route.landmarks.get("junction_end", end_m) + 5.0
+    return passed or time_s >= last_knot_s + _WAIT_FOR_EGO_S
+
+
+def _any_at_end(scene: Scene, profiles: Mapping[int, Profile], time_s: float) -> bool:
+    for hero in scene.program.heroes:
+        if profiles[hero.id].state(time_s)[0] >= scene.routes[hero.id].landmarks["route_end"] - 3.0:
+            return True
+    return False
+
+
+def _stalled(replanner: Replanner, time_s: float) -> bool:
+    """Whether the ego has stood so long that waiting for it makes no sense."""
+    return replanner.ego_stood_s(time_s) > _STALLED_S
+
+
+def _trace(scene: Scene, times: list[float], rows: dict[int, list[tuple[float, ...]]]) -> Trace:
+    count = min(len(times), *(len(values) for values in rows.values()))
+    time_s = np.asarray(times[:count])
+    actors: dict[str, ActorTrace] = {}
+    ego = np.asarray(rows[EGO][:count])
+    actors[scene.program.ego.name] = ActorTrace(
+        time_s, ego[:, 2], ego[:, 3], ego[:, 4], ego[:, 5], ego[:, 6], ego[:, 0], ego[:, 1]
+    )
+    for hero in scene.program.heroes:
+        values = np.asarray(rows[hero.id][:count])
+        poses = scene.routes[hero.id].path.poses(values[:, 0])
+        actors[hero.name] = ActorTrace(
+            time_s, poses[:, 0], poses[:, 1], poses[:, 2], values[:, 1], values[:, 2], values[:, 0], np.zeros(count)
+        )
+    return Trace(actors)
+

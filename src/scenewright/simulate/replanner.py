@@ -1,0 +1,318 @@
+"""The closed loop's mind: holds the plan, and solves the rest of it again as the ego turns out to drive.
+
+What enters: the ego's states, tick by tick. What leaves: the heroes' motions, and a record of every re-solve. History is fixed;
+a hero freezes at its trigger, but for later pieces that react to the ego; when nothing can be solved the last plan goes on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from scenewright.motion.profile import Profile
+from scenewright.program.structure import Role, Structure, knots_of
+from scenewright.program.types import EGO, Actor
+from scenewright.roads.grounding import Scene
+from scenewright.simulate.prediction import EgoSample, Predictor
+from scenewright.solve.arrival import LinearCondition
+from scenewright.solve.hero_problem import HeroState, Situation
+from scenewright.solve.plan import Plan
+from scenewright.solve.planner import Attempt, Planner
+
+# While much time is left a late or early ego is nothing to act on; the dead band shrinks to almost nothing.
+_DEAD_BAND_S = 0.003
+_DEAD_BAND_SHARE = 0.012
+_FAR_S = 40.0
+_SHORTEST_LEAD_S = 0.02
+_FIRST_TRIGGERS_S = (2.5, 3.5, 4.5, 6.0, 8.0, 10.0, 13.0, 16.0, 2.0, 1.5, 1.0, 20.0, 25.0)
+_RETRY_TRIGGERS_S = (0.0, 0.25, -0.25, 0.75, 1.5, 3.0, 6.0, 10.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Replan:
+    """What one tick's re-solve came to."""
+
+    time_s: float
+    status: str
+    backend: str
+    wall_s: float
+    tolerance: float
+    reason: str
+
+
+@dataclass(slots=True)
+class Replanner:
+    """Plans and re-plans the heroes of one scene over one run.
+
+    Attributes
+    ----------
+    plan
+        The motion that is being carried out.
+    ego_knots_s
+        When the ego passed its knots.
+    """
+
+    scene: Scene
+    structure: Structure
+    planner: Planner
+    predictor: Predictor
+    conditions: tuple[LinearCondition, ...]
+    plan: Plan = field(init=False)
+    ego_knots_s: dict[str, float] = field(init=False, default_factory=dict)
+    records: list[Replan] = field(init=False, default_factory=list)
+    _samples: list[EgoSample] = field(init=False, default_factory=list)
+
+    # -- the first plan ---------------------------------------------------------------------------------------------
+    def begin(self, ego: EgoSample) -> Attempt:
+        """Plan from the ego's first state; the plan is kept if there is one."""
+        prediction = self.predictor.predict([ego])
+        knots = {self.scene.program.ego.sketch.knots[0]: 0.0}
+        attempt = self.planner.first_plan(self._situations(0.0, prediction, knots, {}))
+        if attempt.plan is not None:
+            self.plan = attempt.plan
+            self.ego_knots_s = knots
+            self._samples = [ego]
+            self.records = [self._record(0.0, attempt)]
+        return attempt
+
+    # -- one tick ---------------------------------------------------------------------------------------------------
+    def observe(self, sample: EgoSample) -> None:
+        """Take note of the ego's state after a step, and of the knots that it passed in it."""
+        previous = self._samples[-1]
+        self._samples.append(sample)
+        self._pass_shared_knots(sample[0])
+        for condition in self._ego_alone():
+            knot = next(iter(condition.moments))[1]
+            if knot in self.ego_knots_s or not self._is_next_ego_knot(knot):
+                continue
+            before = condition.value({EGO: (previous[1], previous[2])})
+            after = condition.value({EGO: (sample[1], sample[2])})
+            if before == after or before * after > 0:
+                continue
+            share = before / (before - after)
+            self.ego_knots_s[knot] = previous[0] + share * (sample[0] - previous[0])
+
+    def tick(self, time_s: float) -> Replan:
+        """Re-solve where that is needed, and return what came of it."""
+        reactive = [hero for hero in self.scene.program.heroes if self._still_reacts(hero, time_s)]
+        if not reactive:
+            record = Replan(time_s, "frozen", "", 0.0, self.plan.tolerance, "after its trigger the hero does not adapt")
+        else:
+            record = self._resolve(time_s)
+        self.records.append(record)
+        return record
+
+    def _resolve(self, time_s: float) -> Replan:
+        prediction = self.predictor.predict(self._samples)
+        heroes = {hero.id: self._hero_state(hero, time_s) for hero in self.scene.program.heroes}
+        situations = self._situations(time_s, prediction, self.ego_knots_s, heroes)
+        if self._plan_still_fits(time_s, situations[0]):
+            return Replan(time_s, "kept", "", 0.0, self.plan.tolerance, "the plan still fits the ego")
+        attempt = self.planner.replan(situations)
+        if attempt.plan is not None:
+            self.plan = self._continued(attempt.plan, time_s)
+        return self._record(time_s, attempt)
+
+    def _record(self, time_s: float, attempt: Attempt) -> Replan:
+        tolerance = attempt.plan.tolerance if attempt.plan else self.plan.tolerance
+        reason = attempt.reason or (attempt.plan.manner if attempt.plan else "")
+        status = attempt.status if attempt.plan else f"{attempt.status}, last plan goes on"
+        return Replan(time_s, status, self.planner.backend.name, attempt.wall_s, tolerance, reason)
+
+    def _continued(self, plan: Plan, time_s: float) -> Plan:
+        """Return the new plan with what the old one did before, so that a profile tells a hero's whole motion."""
+        profiles = dict(plan.profiles)
+        for hero in self.scene.program.heroes:
+            new, old = plan.profiles[hero.id], self.plan.profiles[hero.id]
+            past = [segment for segment in old.segments if segment.start_s < new.start_s - 1e-9]
+            if past:
+                last = past[-1]
+                if last.end_s > new.start_s:
+                    past[-1] = type(last)(
+                        last.start_s, new.start_s - last.start_s, last.s_m, last.speed_mps, last.accel_mpss, last.piece
+                    )
+            profiles[hero.id] = Profile((*past, *new.segments), new.knot_times_s)
+        return Plan(profiles, plan.tolerance, plan.manner, plan.parameters)
+
+    def ego_stood_s(self, time_s: float) -> float:
+        """Return for how long the ego has not moved (s)."""
+        for sample in reversed(self._samples):
+            if sample[2] > 0.1:
+                return time_s - sample[0]
+        return time_s
+
+    # -- what is known ----------------------------------------------------------------------------------------------
+    def _ego_alone(self) -> list[LinearCondition]:
+        """Conditions on the ego alone at knots that it passes by itself (not those it shares with a hero's trigger)."""
+        shared = {key for instant in self.structure.triggers.values() for key in instant}
+        first = (EGO, self.scene.program.ego.sketch.knots[0])
+        return [
+            c for c in self.conditions if set(c.weights) == {EGO} and not c.moments & shared and first not in c.moments
+        ]
+
+    def _is_next_ego_knot(self, knot: str) -> bool:
+        knots = self.scene.program.ego.sketch.knots
+        return all(earlier in self.ego_knots_s for earlier in knots[: knots.index(knot)])
+
+    def _pass_shared_knots(self, time_s: float) -> None:
+        """A trigger that a hero carried out is the ego's knot too: the moment is the same."""
+        for hero, instant in self.structure.triggers.items():
+            knot = self.structure.trigger_knot(hero)
+            planned = self.plan.profiles[hero].knot_times_s.get(knot or "")
+            if planned is not None and planned <= time_s:
+                for owner, name in instant:
+                    if owner == EGO:
+                        self.ego_knots_s.setdefault(name, planned)
+
+    def _still_reacts(self, hero: Actor, time_s: float) -> bool:
+        first = self._first_open_piece(hero, time_s)
+        return first is not None
+
+    def _first_open_piece(self, hero: Actor, time_s: float) -> int | None:
+        """Return the piece from which on `hero` is still solved for, or None once it only carries out.
+
+        Before its trigger that is the piece it is in. After it, pieces from the first standing one on that a reactive
+        constraint speaks of, up to the moment they have begun to move again.
+        """
+        times = self.plan.profiles[hero.id].knot_times_s
+        sketch = hero.sketch
+        current = sum(1 for knot in sketch.knots[1:] if times.get(knot, float("inf")) <= time_s)
+        trigger = self.structure.trigger_knot(hero.id)
+        if trigger is None:
+            return None
+        if current < sketch.knots.index(trigger):
+            return current
+        reactive = self._reactive_piece(hero)
+        return reactive if reactive is not None and current <= reactive else None
+
+    def _reactive_piece(self, hero: Actor) -> int | None:
+        """Return the standing piece after the trigger whose end a constraint with the ego depends on."""
+        knots = hero.sketch.knots
+        trigger = self.structure.trigger_knot(hero.id)
+        begin = knots.index(trigger) if trigger else 0
+        for piece in range(begin + 1, len(hero.sketch.pieces)):
+            if hero.sketch.pieces[piece] != "stop":
+                continue
+            later = set(knots[piece + 1 :])
+            for constraint in self.scene.program.constraints:
+                keys = set(knots_of(constraint.formula))
+                if self.structure.roles[constraint.id] is not Role.OUTCOME:
+                    continue
+                if any(a == hero.id and k in later for a, k in keys) and any(a == EGO for a, _ in keys):
+                    return piece
+        return None
+
+    def _hero_state(self, hero: Actor, time_s: float) -> HeroState:
+        """Return where `hero` can still be re-planned from: now, or where its frozen pieces end."""
+        profile = self.plan.profiles[hero.id]
+        piece = self._first_open_piece(hero, time_s)
+        knots = hero.sketch.knots
+        if piece is None:
+            piece = len(hero.sketch.pieces)
+        begin_s = max(time_s, profile.knot_times_s.get(knots[piece], time_s))
+        past = {knot: profile.knot_times_s[knot] for knot in knots[: piece + 1] if knot in profile.knot_times_s}
+        s_m, speed, _ = profile.state(begin_s)
+        return HeroState(begin_s, s_m, speed, piece, past, profile)
+
+    # -- when the trigger comes -------------------------------------------------------------------------------------
+    def _situations(
+        self, time_s: float, prediction: Profile, ego_past: Mapping[str, float], heroes: Mapping[int, HeroState]
+    ) -> list[Situation]:
+        """Return what to solve for: one situation where the ego alone decides when the trigger comes, else several."""
+        hero = self.scene.program.heroes[0]
+        trigger = self.structure.trigger_knot(hero.id)
+        ahead = hero.id not in heroes or (trigger is not None and trigger not in heroes[hero.id].knots_s)
+        instants: list[float | None] = [None]
+        if trigger is not None and ahead:
+            instants = list(self._trigger_instants(hero, time_s, prediction, heroes))
+        situations = []
+        for instant in instants:
+            knots = self._ego_knots(time_s, prediction, ego_past, hero, instant)
+            triggers = {} if instant is None else {hero.id: instant}
+            situations.append(Situation(time_s, prediction, knots, heroes, triggers))
+        return situations
+
+    def _trigger_instants(
+        self, hero: Actor, time_s: float, prediction: Profile, heroes: Mapping[int, HeroState]
+    ) -> list[float]:
+        instant = self.structure.triggers[hero.id]
+        here = [c for c in self.conditions if c.moments <= instant]
+        known = self._hero_place(hero, here)
+        for condition in here:
+            alone = condition.given(hero.id, *known) if hero.id in condition.weights and known else condition
+            if set(alone.weights) == {EGO} and alone.weights[EGO][0]:
+                arrival = alone.first_time({EGO: prediction}, time_s)
+                return [max(arrival, time_s + _SHORTEST_LEAD_S) if arrival is not None else time_s + _FAR_S]
+        if hero.id not in heroes:
+            return list(_FIRST_TRIGGERS_S)
+        return self._joint_instants(hero, here, time_s, prediction)
+
+    def _hero_place(self, hero: Actor, conditions: list[LinearCondition]) -> tuple[float, float] | None:
+        """Return position and speed of the hero at its trigger where the program fixes the position."""
+        for condition in conditions:
+            if set(condition.weights) == {hero.id} and condition.weights[hero.id][1] == 0.0:
+                return -condition.constant / condition.weights[hero.id][0], 0.0
+        return None
+
+    def _joint_instants(
+        self, hero: Actor, conditions: list[LinearCondition], time_s: float, prediction: Profile
+    ) -> list[float]:
+        """Return instants to try where both decide: when the plan as it is meets the condition, then around it."""
+        planned = self.plan.profiles[hero.id].knot_times_s[self.structure.trigger_knot(hero.id) or ""]
+        motion = self._without_interaction(hero)
+        result: list[float] = []
+        for condition in conditions:
+            crossing = condition.first_time({EGO: prediction, hero.id: motion}, time_s)
+            if crossing is not None and crossing < planned + 5.0:
+                result.append(max(crossing, time_s + _SHORTEST_LEAD_S))
+        result += [planned + shift for shift in _RETRY_TRIGGERS_S if planned + shift > time_s + _SHORTEST_LEAD_S]
+        return result
+
+    def _without_interaction(self, hero: Actor) -> Profile:
+        """Return the hero's planned approach, going on as it is where the interaction would begin."""
+        profile = self.plan.profiles[hero.id]
+        sketch = hero.sketch
+        trigger = sketch.knots.index(self.structure.trigger_knot(hero.id) or sketch.knots[0])
+        approach = tuple(segment for segment in profile.segments if segment.piece < trigger)
+        return Profile(approach or profile.segments[:1])
+
+    def _ego_knots(
+        self,
+        time_s: float,
+        prediction: Profile,
+        past: Mapping[str, float],
+        hero: Actor,
+        trigger_s: float | None,
+    ) -> dict[str, float]:
+        """Return when the ego passes its knots: those behind it, its trigger, and those it is predicted to reach."""
+        knots = dict(past)
+        if trigger_s is not None:
+            for owner, name in self.structure.triggers[hero.id]:
+                if owner == EGO:
+                    knots[name] = trigger_s
+        latest = max([time_s, *knots.values()])
+        for condition in self._ego_alone():
+            name = next(iter(condition.moments))[1]
+            if name not in knots:
+                arrival = condition.first_time({EGO: prediction}, max(time_s, latest))
+                if arrival is not None:
+                    knots[name] = arrival
+        return knots
+
+    def _plan_still_fits(self, time_s: float, situation: Situation) -> bool:
+        """Whether the plan, as it goes on, meets the trigger and the outcome under the new prediction."""
+        for hero in self.scene.program.heroes:
+            times = self.plan.profiles[hero.id].knot_times_s
+            if hero.id in situation.trigger_s:
+                planned = times.get(self.structure.trigger_knot(hero.id) or "", time_s)
+                band = _DEAD_BAND_S + _DEAD_BAND_SHARE * max(0.0, planned - time_s)
+                if self.plan.tolerance > 0.0 or abs(situation.trigger_s[hero.id] - planned) > band:
+                    return False
+            elif self._reactive_piece(hero) is not None and not self._outcome_fits(hero, situation, times):
+                return False
+        return True
+
+    def _outcome_fits(self, hero: Actor, situation: Situation, times: Mapping[str, float]) -> bool:
+        last_ego = max(situation.ego_knots_s.values(), default=0.0)
+        last_own = max(times.values(), default=0.0)
+        return last_ego <= situation.time_s or last_own + 0.5 < last_ego
