@@ -1,0 +1,173 @@
+"""All that a verdict may rest on: the program, its values, facts of the map, and the trace.
+
+What enters: plain data. What leaves: a `Case` that answers for names (actors, landmarks, shared lanes). It holds no
+plan, and where a fact is missing it says so instead of guessing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Protocol
+
+from scenewright.errors import InputError
+from scenewright.judge.timeline import Timeline
+from scenewright.program.structure import Structure, read_structure
+from scenewright.program.types import EGO, Program
+from scenewright.trace.model import Trace
+
+
+class CannotJudge(Exception):  # noqa: N818 - a reason that ends in a failed condition, not an error of the user
+    """A condition cannot be judged; the text says why."""
+
+
+class NotReached(CannotJudge):
+    """A state is asked for at a knot that the actor never got to."""
+
+    def __init__(self, actor: str, actor_id: int, knot: str) -> None:
+        super().__init__(f"{actor} never got to {knot}")
+        self.actor_id = actor_id
+
+
+class PathLike(Protocol):
+    """What is needed of a route's path."""
+
+    def pose(self, s_m: float, /) -> tuple[float, float, float]:
+        """Return x (m), y (m) and heading (rad) at an arc length."""
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A vehicle's outline."""
+
+    length_m: float = 4.5
+    width_m: float = 1.9
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What an actor may do. The defaults are what no road vehicle does."""
+
+    speed_max_mps: float = 60.0
+    accel_min_mpss: float = -12.0
+    accel_max_mpss: float = 12.0
+    lateral_accel_max_mpss: float = 10.0
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """One run, ready to be judged.
+
+    Parameters
+    ----------
+    program
+        What was asked for.
+    parameters
+        Value of every parameter, in SI units.
+    landmarks
+        By actor name: arc length (m) of each landmark on that actor's route. With more than two actors a conflict
+        point may be keyed by the other's name too, ``"conflict_point(hero2)"``.
+    shared_offset_m
+        By pair of actor names (a, b): what to add to b's arc length to compare it with a's; None where they share no
+        lane.
+    trace
+        What happened.
+    vehicles, limits
+        By actor name; defaults where absent.
+    expected_headings
+        By actor name: cardinal directions of the route, first to last.
+    paths
+        By actor name: the route's path, to compare map coordinates with route coordinates.
+
+    Raises
+    ------
+    InputError
+        If an actor has no trace, or a parameter has no value.
+    """
+
+    program: Program
+    parameters: Mapping[str, float]
+    landmarks: Mapping[str, Mapping[str, float]]
+    shared_offset_m: Mapping[tuple[str, str], float | None]
+    trace: Trace
+    vehicles: Mapping[str, Box] = field(default_factory=dict)
+    limits: Mapping[str, Limits] = field(default_factory=dict)
+    expected_headings: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    paths: Mapping[str, PathLike] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        absent = [actor.name for actor in self.program.actors if actor.name not in self.trace.actors]
+        if absent:
+            raise InputError(
+                "the trace lacks an actor of the program",
+                found=", ".join(self.trace.actors),
+                expected=", ".join(absent),
+                fix="judge a trace with the program that it was made from",
+            )
+        unset = [p.name for p in self.program.parameters if p.name not in self.parameters]
+        if unset:
+            raise InputError("a parameter has no value", found="none", expected=", ".join(unset))
+
+    @cached_property
+    def structure(self) -> Structure:
+        """Triggers and roles of the constraints."""
+        return read_structure(self.program)
+
+    @cached_property
+    def timelines(self) -> dict[int, Timeline]:
+        """The motion of every actor of the program, by id."""
+        return {actor.id: Timeline(self.trace.actors[actor.name]) for actor in self.program.actors}
+
+    @property
+    def start_s(self) -> float:
+        """The first instant of the run."""
+        return float(self.trace.time_s[0])
+
+    @property
+    def end_s(self) -> float:
+        """The last instant of the run."""
+        return float(self.trace.time_s[-1])
+
+    def name(self, actor_id: int) -> str:
+        """Return the name of an actor."""
+        return self.program.actor(actor_id).name
+
+    def box(self, actor_id: int) -> Box:
+        """Return the outline of an actor."""
+        return self.vehicles.get(self.name(actor_id), Box())
+
+    def limits_of(self, actor_id: int) -> Limits:
+        """Return what an actor may do."""
+        return self.limits.get(self.name(actor_id), Limits())
+
+    def landmark_m(self, name: str, actor_id: int, other: int | None = None) -> float:
+        """Return the arc length of a landmark on an actor's route.
+
+        Raises
+        ------
+        CannotJudge
+            If the route has no such landmark.
+        """
+        known = self.landmarks.get(self.name(actor_id), {})
+        keys = [name]
+        if other is not None:
+            keys.insert(0, f"{name}({self.name(other)})")
+            if len(self.program.actors) > 2 and EGO not in (actor_id, other):
+                keys.pop()  # a conflict point without a name beside it is the one with the ego
+        if name == "turn":
+            keys.append("intersection")
+        for key in keys:
+            if key in known:
+                return float(known[key])
+        raise CannotJudge(f"the route of {self.name(actor_id)} has no landmark {keys[0]}")
+
+    def offset_m(self, actor_id: int, other: int) -> float | None:
+        """Return what to add to `other`'s arc length to compare it with the actor's; None where they share no lane."""
+        if actor_id == other:
+            return 0.0
+        a, b = self.name(actor_id), self.name(other)
+        if (a, b) in self.shared_offset_m:
+            return self.shared_offset_m[a, b]
+        back = self.shared_offset_m.get((b, a))
+        return None if back is None else -back

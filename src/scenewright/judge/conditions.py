@@ -1,0 +1,167 @@
+"""One condition for every constraint of the program. Nothing is skipped: what cannot be measured fails and says why.
+
+What enters: a `Case` and what was measured. What leaves: conditions with required and measured values.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+
+from scenewright.judge.case import CannotJudge, Case, NotReached
+from scenewright.judge.formulas import instants_of_piece, is_order, miss_of
+from scenewright.judge.knots import Measured
+from scenewright.judge.terms import Moments, sides
+from scenewright.judge.tolerance import TIGHT, Leaf, Values, dimension_of, normalised, unit_symbol
+from scenewright.judge.verdict import Condition, Kind, unjudged
+from scenewright.program.expressions import (
+    Arithmetic,
+    Compare,
+    Formula,
+    Knot,
+    Landmark,
+    Negate,
+    Number,
+    PieceRef,
+    State,
+    Term,
+    walk,
+)
+from scenewright.program.printer import print_expression
+from scenewright.program.structure import Role, knots_of, synchronised
+from scenewright.program.types import EGO, Constraint, PieceKind
+
+_KINDS: dict[Role, Kind] = {
+    Role.INITIAL: "initial",
+    Role.TRIGGER: "trigger",
+    Role.INTERACTION: "interaction",
+    Role.OUTCOME: "outcome",
+}
+
+
+def program_conditions(case: Case, measured: Measured) -> list[Condition]:
+    """Judge every constraint of the program, in its order."""
+    return [_judge(case, measured, constraint) for constraint in case.program.constraints]
+
+
+def _judge(case: Case, measured: Measured, constraint: Constraint) -> Condition:
+    kind = _KINDS[case.structure.roles[constraint.id]]
+    formula = signed_rate(case, constraint.formula, measured.moments)
+    text = _text(case, constraint)
+    try:
+        if isinstance(formula, Compare):
+            if list(synchronised(formula)):
+                text += " (all that belongs to this moment is measured at one instant)"
+            return _comparison(case, measured.moments, constraint.id, kind, text, formula)
+        miss = miss_of(case, formula, measured.moments)
+        error = float(normalised(miss, TIGHT))
+        return Condition(constraint.id, kind, f"{text} (error in tight tolerances)", None, None, error, "", miss)
+    except NotReached as reason:
+        return _not_reached(case, measured, constraint, kind, text, reason)
+    except CannotJudge as reason:
+        return unjudged(constraint.id, kind, text, str(reason))
+
+
+def _text(case: Case, constraint: Constraint) -> str:
+    words, formula = case.program.words_of(constraint), print_expression(constraint.formula)
+    return f"{words}: {formula}" if words else formula
+
+
+def signed_rate(case: Case, formula: Formula, moments: Moments) -> Formula:
+    """Read ``A1a(dec) == 3`` as a deceleration of 3 m/s^2: a rate of slowing down is often given without its sign."""
+    if not isinstance(formula, Compare) or formula.operator != "==":
+        return formula
+    state = formula.left
+    if not (isinstance(state, State) and state.order == 2 and isinstance(state.at, PieceRef)):
+        return formula
+    sketch = case.program.actor(state.actor).sketch
+    try:
+        slowing = sketch.pieces[sketch.piece_index(state.at.name)] is PieceKind.DEC
+        positive = float(sides(case, formula, moments)[1]) > 0
+    except (KeyError, CannotJudge):
+        return formula
+    return Compare("==", state, Negate(formula.right), formula.span) if slowing and positive else formula
+
+
+def _comparison(case: Case, moments: Moments, name: str, kind: Kind, text: str, compare: Compare) -> Condition:
+    miss = miss_of(case, compare, moments)
+    inside = instants_of_piece(case, compare, moments)
+    if inside is not None:
+        moments = replace(moments, now=inside)
+    left, right = sides(case, compare, moments)
+    unit = unit_symbol(dimension_of(compare))
+    required, value = _stated(case, compare, left, right)
+    if is_order(compare):
+        margin = float(np.subtract(right, left)) * (1.0 if compare.operator == "<" else -1.0)
+        note = f"{text} (margin; at least 0)"
+        if np.isnan(margin):
+            return unjudged(name, kind, text, "neither of the two ever happened")
+        return Condition(name, kind, note, 0.0, margin, max(0.0, -margin), unit, miss)
+    error = value - required
+    if compare.operator != "==":
+        error = float(normalised(miss, TIGHT)) * TIGHT.of(dimension_of(compare))
+    return Condition(name, kind, text, required, value, error, unit, miss)
+
+
+def _stated(case: Case, compare: Compare, left: Values, right: Values) -> tuple[float, float]:
+    """Return required and measured value as people would state them, at the worst instant where there are several."""
+    required, value = np.broadcast_arrays(np.asarray(right, dtype=float), np.asarray(left, dtype=float))
+    if not _is_measured(compare.left) and _is_measured(compare.right):
+        required, value = value, required
+    if value.ndim:
+        worst = int(np.argmax(np.abs(value - required)))
+        required, value = required[worst], value[worst]
+    match compare:
+        # "12 m short of the stop line" is a distance; the arc length it comes to tells nobody anything.
+        case Compare(operator="==", left=State(order=0), right=Arithmetic("-", Landmark() as place, distance)):
+            asked = _constant(case, distance)
+            if asked is not None and place.actor in (None, compare.left.actor):  # type: ignore[union-attr]
+                return asked, asked + float(required) - float(value)
+    return float(required), float(value)
+
+
+def _constant(case: Case, term: Term) -> float | None:
+    if _is_measured(term):
+        return None
+    try:
+        return float(sides(case, Compare("==", term, Number(Fraction(0))), Moments({}))[0])
+    except CannotJudge:
+        return None
+
+
+def _is_measured(term: Term) -> bool:
+    return any(not isinstance(node, Number | Landmark) and _has_moment(node) for node in walk(term))
+
+
+def _has_moment(node: object) -> bool:
+    return hasattr(node, "at") or hasattr(node, "knot")
+
+
+def _not_reached(
+    case: Case, measured: Measured, constraint: Constraint, kind: Kind, text: str, reason: NotReached
+) -> Condition:
+    """Judge a constraint at a knot that was never reached: for a place, how near the actor came."""
+    formula = constraint.formula
+    if not isinstance(formula, Compare) or formula.operator != "==":
+        return unjudged(constraint.id, kind, text, str(reason))
+    late = {key: case.end_s if not np.all(np.isfinite(time)) else time for key, time in measured.moments.knots.items()}
+    try:
+        left, right = sides(case, formula, Moments(late, measured.moments.spans))
+    except CannotJudge as other:
+        return unjudged(constraint.id, kind, text, str(other))
+    required, value = _stated(case, formula, left, right)
+    unit = unit_symbol(dimension_of(formula))
+    if reason.actor_id == EGO and _only_names_a_moment(formula):
+        note = f"{text} (names a moment only, which the ego never came to; at the end of the run it was here)"
+        return Condition(constraint.id, kind, note, None, value, None, unit, Leaf(0.0, None))
+    note = f"{text} ({reason}; this is the end of the run)"
+    miss = Leaf(abs(value - required), dimension_of(formula))
+    return Condition(constraint.id, kind, note, required, value, value - required, unit, miss)
+
+
+def _only_names_a_moment(formula: Compare) -> bool:
+    state = formula.left
+    at_knot = isinstance(state, State) and state.order == 0 and state.actor == EGO and isinstance(state.at, Knot)
+    return at_knot and not _is_measured(formula.right) and len(set(knots_of(formula))) == 1

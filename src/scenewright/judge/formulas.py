@@ -1,0 +1,138 @@
+"""By how much a formula is missed in a trace.
+
+What enters: a formula and measured moments. What leaves: a `Miss`. Temporal operators are looked at on all samples,
+between them, and closer around the worst (or best) instant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from scenewright.judge.case import CannotJudge, Case
+from scenewright.judge.instants import sharpen
+from scenewright.judge.terms import Moments, piece_span, sides
+from scenewright.judge.tolerance import (
+    TIGHT,
+    Every,
+    FloatArray,
+    Leaf,
+    Miss,
+    Some,
+    Sometime,
+    Throughout,
+    Values,
+    dimension_of,
+    normalised,
+)
+from scenewright.program.expressions import Compare, Elapsed, Formula, Logic, PieceRef, State, Temporal, walk
+
+_OPPOSITE = {"<=": ">", ">=": "<", "<": ">=", ">": "<="}
+
+
+def miss_of(case: Case, formula: Formula, moments: Moments, negated: bool = False) -> Miss:
+    """Return by how much `formula` (or, negated, its opposite) is missed.
+
+    Raises
+    ------
+    CannotJudge
+        If a part of it cannot be measured.
+    """
+    match formula:
+        case Compare():
+            return _compare(case, formula, moments, negated)
+        case Logic(operator="not", operands=operands):
+            return miss_of(case, operands[0], moments, not negated)
+        case Logic(operator="implies", operands=(left, right)):
+            parts = (miss_of(case, left, moments, not negated), miss_of(case, right, moments, negated))
+            return Every(parts) if negated else Some(parts)
+        case Logic(operator=operator, operands=operands):
+            return _join(case, operands, moments, negated, every=(operator == "and") != negated)
+        case Temporal():
+            return _temporal(case, formula, moments, negated)
+
+
+def _join(case: Case, operands: tuple[Formula, ...], moments: Moments, negated: bool, every: bool) -> Miss:
+    parts: list[Miss] = []
+    reason: CannotJudge | None = None
+    for operand in operands:
+        try:
+            parts.append(miss_of(case, operand, moments, negated))
+        except CannotJudge as error:
+            reason = error
+    # One alternative that holds is enough even where another cannot be measured; all of several cannot be had that way.
+    if reason is not None and (every or not parts):
+        raise reason
+    return Every(tuple(parts)) if every else Some(tuple(parts))
+
+
+def error_of(operator: str, left: Values, right: Values) -> FloatArray:
+    """Return by how much ``left operator right`` fails; 0 where it holds, infinite where it has no value."""
+    with np.errstate(invalid="ignore"):
+        difference = np.asarray(left, dtype=np.float64) - right
+    match operator:
+        case "==":
+            error = np.abs(difference)
+        case "<=" | "<":
+            error = np.maximum(difference, 0.0)
+        case _:
+            error = np.maximum(-difference, 0.0)
+    return np.where(np.isnan(error), np.inf, error)
+
+
+def is_order(compare: Compare) -> bool:
+    """Whether this is an order of two events: no tolerance makes "before" out of "after"."""
+    return compare.operator in ("<", ">") and isinstance(compare.left, Elapsed) and isinstance(compare.right, Elapsed)
+
+
+def instants_of_piece(case: Case, compare: Compare, moments: Moments) -> FloatArray | None:
+    """Return the instants of the piece that a position or speed is asked of throughout; None for states at a moment."""
+    for node in walk(compare):
+        if isinstance(node, State) and isinstance(node.at, PieceRef) and node.order < 2:
+            return case.timelines[node.actor].instants(*piece_span(case, moments, node.actor, node.at))
+    return None
+
+
+def _compare(case: Case, compare: Compare, moments: Moments, negated: bool) -> Miss:
+    inside = instants_of_piece(case, compare, moments)
+    if inside is not None:
+        leaf = _leaf(case, compare, replace(moments, now=inside), negated)
+        return Sometime(leaf) if negated else Throughout(leaf)
+    return _leaf(case, compare, moments, negated)
+
+
+def _leaf(case: Case, compare: Compare, moments: Moments, negated: bool) -> Leaf:
+    left, right = sides(case, compare, moments)
+    dimension = None if is_order(compare) else dimension_of(compare)
+    if negated and compare.operator == "==":
+        return Leaf(np.where(error_of("==", left, right) > 0, 0.0, np.inf), dimension)
+    operator = _OPPOSITE[compare.operator] if negated else compare.operator
+    return Leaf(error_of(operator, left, right), dimension)
+
+
+def _temporal(case: Case, formula: Temporal, moments: Moments, negated: bool) -> Miss:
+    if any(isinstance(node, Temporal) for node in walk(formula.body)):
+        raise CannotJudge("one temporal operator inside another")
+    start, end = sides(case, Compare("<=", formula.start, formula.end), moments)
+    start_s, end_s = case.start_s + float(start), case.start_s + float(end)
+    if not np.isfinite(start_s) or start_s > case.end_s:
+        raise CannotJudge("the run ended before the stretch of time began")
+    lasting = (formula.operator != "eventually") != negated
+    body_negated = (formula.operator == "never") != negated
+
+    def body(time_s: FloatArray) -> Miss:
+        return miss_of(case, formula.body, replace(moments, now=time_s), body_negated)
+
+    sign = -1.0 if lasting else 1.0
+    coarse = case.timelines[0].instants(start_s, end_s)
+    instants = np.union1d(coarse, sharpen(_scorer(body, sign), coarse))
+    return Throughout(body(instants)) if lasting else Sometime(body(instants))
+
+
+def _scorer(body: Callable[[FloatArray], Miss], sign: float) -> Callable[[FloatArray], FloatArray]:
+    def score(time_s: FloatArray) -> FloatArray:
+        return sign * np.broadcast_to(np.asarray(normalised(body(time_s), TIGHT), dtype=np.float64), time_s.shape)
+
+    return score

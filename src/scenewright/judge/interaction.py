@@ -1,0 +1,149 @@
+"""Conditions that the sketch itself makes: the hero begins what it should at its trigger, stops, stays, goes again.
+
+What enters: a `Case` and what was measured. What leaves: conditions of kind interaction, and facts about how it was
+done.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from scenewright.judge.case import Case
+from scenewright.judge.knots import SIGN_OF, Measured, demands_standstill
+from scenewright.judge.phases import STILL_MPS, move_off_after, rest_after
+from scenewright.judge.verdict import Condition, bounded, unjudged
+from scenewright.program.types import Actor, PieceKind
+
+SETTLED_MPSS = 0.5
+SETTLED_FOR_S = 0.5
+STANDS_S = 0.3
+_VERBS = {PieceKind.DEC: "brake", PieceKind.ACC: "speed up"}
+
+
+def interaction_conditions(case: Case, measured: Measured) -> list[Condition]:
+    """Judge what each hero's sketch says of the time from its trigger on."""
+    conditions: list[Condition] = []
+    for hero in case.program.heroes:
+        knot = case.structure.trigger_knot(hero.id)
+        if knot is None or knot == hero.sketch.knots[-1]:
+            continue
+        first = hero.sketch.knot_index(knot)
+        if hero.sketch.pieces[first] in SIGN_OF:
+            conditions += _beginning(case, measured, hero, hero.sketch.pieces[first])
+        for index in range(first, len(hero.sketch.pieces)):
+            conditions += _piece(case, measured, hero, index)
+    return conditions
+
+
+def interaction_facts(case: Case, measured: Measured) -> dict[str, Any]:
+    """Return how evenly each hero did what began at its trigger."""
+    facts: dict[str, Any] = {}
+    for hero_id, phase in measured.onsets.items():
+        if phase is None:
+            continue
+        knot = case.structure.trigger_knot(hero_id)
+        span = measured.moments.spans.get((hero_id, case.program.actor(hero_id).sketch.knot_index(knot or "")))
+        if span is None:
+            continue
+        timeline = case.timelines[hero_id]
+        times = timeline.time_s
+        inside = (times[:-1] >= span[0]) & (times[1:] <= min(span[1], phase.end_s))
+        speeds = timeline.speed(np.array(span))
+        mean = float(speeds[1] - speeds[0]) / max(span[1] - span[0], 1e-9)
+        spread = np.abs(timeline.slopes()[inside] - mean)
+        facts[case.name(hero_id)] = {
+            "onset_s": phase.start_s,
+            "end_s": span[1],
+            "mean_acceleration_mpss": mean,
+            "max_deviation_mpss": float(np.max(spread)) if len(spread) else 0.0,
+        }
+    return facts
+
+
+def _beginning(case: Case, measured: Measured, hero: Actor, kind: PieceKind) -> Iterator[Condition]:
+    moment, phase, verb = measured.triggers[hero.id], measured.onsets.get(hero.id), _VERBS[kind]
+    begins = f"{hero.name} begins to {verb} at the trigger"
+    if phase is None or not np.isfinite(moment):
+        reason = f"{hero.name} never began to {verb}" if np.isfinite(moment) else "there was no trigger"
+        yield unjudged(f"{hero.name}_onset", "interaction", begins, reason)
+        return
+    yield bounded(
+        f"{hero.name}_onset", "interaction", begins,
+        required=moment, measured=phase.start_s, error=phase.start_s - moment, dimension="time",
+    )  # fmt: skip
+    timeline = case.timelines[hero.id]
+    times = timeline.time_s
+    until = min(moment, phase.start_s)
+    before = (times[:-1] >= until - SETTLED_FOR_S) & (times[1:] <= until + 1e-9)
+    pull = SIGN_OF[kind] * timeline.slopes()[before]
+    worst = max(0.0, float(np.max(pull, initial=0.0)))
+    yield bounded(
+        f"{hero.name}_settled", "interaction",
+        f"in the half second before, {hero.name} does not {verb} by more than {SETTLED_MPSS} m/s^2",
+        required=SETTLED_MPSS, measured=worst, error=max(0.0, worst - SETTLED_MPSS), dimension="acceleration",
+    )  # fmt: skip
+
+
+def _piece(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[Condition]:
+    kind = hero.sketch.pieces[index]
+    name = hero.sketch.piece_names()[index]
+    span = measured.moments.spans.get((hero.id, index))
+    if span is None:
+        yield unjudged(
+            f"{hero.name}_{name}", "interaction", f"{hero.name} does its piece {name}", "it never came to it"
+        )
+        return
+    timeline = case.timelines[hero.id]
+    if kind in SIGN_OF:
+        speeds = timeline.speed(timeline.instants(*span))
+        # The largest change against the sense of the piece, between any two of its instants.
+        best = np.minimum.accumulate(speeds) if kind is PieceKind.DEC else np.maximum.accumulate(speeds)
+        against = float(np.max(np.abs(speeds - best)))
+        verb = "speeds up" if kind is PieceKind.DEC else "slows down"
+        yield bounded(
+            f"{hero.name}_{name}", "interaction", f"{hero.name} never {verb} during {name}",
+            required=0.0, measured=against, error=against, dimension="speed",
+        )  # fmt: skip
+    if kind is PieceKind.STOP:
+        top = float(np.max(np.abs(timeline.speed(timeline.instants(*span)))))
+        yield bounded(
+            f"{hero.name}_{name}", "interaction", f"{hero.name} stays still during {name}",
+            required=0.0, measured=top, error=top, dimension="speed",
+        )  # fmt: skip
+        if index + 1 < len(hero.sketch.pieces):
+            yield _goes_again(case, hero, span[0])
+    elif kind is PieceKind.DEC and _ends_standing(case, measured, hero, index):
+        yield _stands(case, hero, span[0])
+
+
+def _ends_standing(case: Case, measured: Measured, hero: Actor, index: int) -> bool:
+    """Whether the program asks for a standstill at the end of a piece of braking."""
+    pieces = hero.sketch.pieces
+    stop_follows = index + 1 < len(pieces) and pieces[index + 1] is PieceKind.STOP
+    return stop_follows or demands_standstill(case, (hero.id, hero.sketch.knots[index + 1]), measured.moments.knots)
+
+
+def _stands(case: Case, hero: Actor, since_s: float) -> Condition:
+    text = f"{hero.name} comes to a standstill that lasts"
+    rest = rest_after(case.timelines[hero.id], since_s)
+    if rest is None:
+        return unjudged(f"{hero.name}_standstill", "interaction", text, f"{hero.name} never stood still")
+    lasted = rest.end_s - rest.start_s
+    to_the_end = rest.end_s >= case.end_s - 1e-9
+    return bounded(
+        f"{hero.name}_standstill", "interaction", f"{text} to the end of the run" if to_the_end else text,
+        required=STANDS_S, measured=lasted, error=0.0 if to_the_end else max(0.0, STANDS_S - lasted), dimension="time",
+    )  # fmt: skip
+
+
+def _goes_again(case: Case, hero: Actor, since_s: float) -> Condition:
+    text = f"{hero.name} moves off again after standing (faster than {STILL_MPS} m/s)"
+    moved = move_off_after(case.timelines[hero.id], since_s)
+    if moved is None:
+        return unjudged(f"{hero.name}_goes_again", "interaction", text, f"{hero.name} stood to the end of the run")
+    return bounded(
+        f"{hero.name}_goes_again", "interaction", text, required=None, measured=moved, error=0.0, dimension="time"
+    )

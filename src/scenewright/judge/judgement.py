@@ -1,0 +1,59 @@
+"""Judges a case: measures when things were, holds every condition against it, and adds facts.
+
+What enters: a `Case`. What leaves: a `Verdict`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from scenewright.judge.case import Case
+from scenewright.judge.conditions import program_conditions
+from scenewright.judge.encounter import encounter_facts
+from scenewright.judge.interaction import interaction_conditions, interaction_facts
+from scenewright.judge.kinematics import kinematic_conditions, kinematic_facts
+from scenewright.judge.knots import measure
+from scenewright.judge.route import route_conditions
+from scenewright.judge.safety import no_collision, safety_facts
+from scenewright.judge.verdict import Condition, Verdict
+from scenewright.program.types import EGO
+
+_ORDER = ("route", "initial", "trigger", "interaction", "outcome", "safety")
+
+
+def judge(case: Case) -> Verdict:
+    """Judge a run from its program, its trace and facts of the map.
+
+    Parameters
+    ----------
+    case
+        What was asked for and what happened.
+
+    Returns
+    -------
+    Verdict
+        Conditions in the order of the story, each with required and measured value, and facts. Times in facts are
+        those of the trace (s).
+    """
+    measured = measure(case)
+    pairs = safety_facts(case)
+    conditions: list[Condition] = [
+        *route_conditions(case),
+        *program_conditions(case, measured),
+        *interaction_conditions(case, measured),
+        no_collision(case, measured, pairs),
+        *kinematic_conditions(case),
+    ]
+    conditions.sort(key=lambda condition: _ORDER.index(condition.kind))
+    knot_times: dict[str, dict[str, Any]] = {actor.name: {} for actor in case.program.actors}
+    for (actor_id, knot), time_s in measured.moments.knots.items():
+        knot_times[case.name(actor_id)][knot] = time_s
+    facts: dict[str, Any] = {
+        "trigger_time_s": {case.name(hero): time_s for hero, time_s in measured.triggers.items()},
+        "knot_times_s": knot_times,
+        **encounter_facts(case, measured),
+        "interaction": interaction_facts(case, measured),
+        "pairs": pairs,
+        "kinematics": {case.name(EGO): kinematic_facts(case, EGO)},
+    }
+    return Verdict(tuple(conditions), facts)

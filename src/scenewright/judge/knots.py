@@ -1,0 +1,327 @@
+"""When each knot of the program was, as the trace shows it.
+
+What enters: a `Case`. What leaves: `Measured`: a time for every knot, a span for every piece, the triggers. The times
+that a planner wrote down play no part. Knots that are one moment for several actors are searched for in continuous
+time; the others follow from what the program says of them, else from where one piece visibly gives way to the next.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from scenewright.judge.case import CannotJudge, Case
+from scenewright.judge.formulas import miss_of
+from scenewright.judge.instants import Minimum, first_crossing, minima
+from scenewright.judge.phases import BRAKING, SPEEDING_UP, Phase, Sign, move_off_after, phase_at, rest_after
+from scenewright.judge.terms import Moments, Span, sides
+from scenewright.judge.tolerance import TIGHT, FloatArray, Values, normalised
+from scenewright.program.expressions import (
+    Compare,
+    Derived,
+    Elapsed,
+    Formula,
+    Knot,
+    Logic,
+    PieceRef,
+    State,
+    Temporal,
+    walk,
+)
+from scenewright.program.structure import KnotKey, knots_of, synchronised
+from scenewright.program.types import PieceKind
+
+SIGN_OF: dict[PieceKind, Sign] = {PieceKind.DEC: BRAKING, PieceKind.ACC: SPEEDING_UP}
+_TIE = 1e-3
+_PASSES = 3  # a knot may be defined by another actor's, which may be defined by a third
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """What the trace shows.
+
+    Attributes
+    ----------
+    moments
+        Times of knots (infinite: never reached; absent: nothing defines it) and spans of pieces.
+    triggers
+        Time (s) of each hero's trigger, by hero id; infinite where it has no best instant at all.
+    onsets
+        The braking or speeding up that begins at each hero's trigger, by hero id; None where there is none.
+    """
+
+    moments: Moments
+    triggers: dict[int, float]
+    onsets: dict[int, Phase | None]
+
+
+def measure(case: Case) -> Measured:
+    """Find the times of all knots."""
+    knots: dict[KnotKey, float] = {(a.id, a.sketch.knots[0]): case.start_s for a in case.program.actors}
+    onsets: dict[int, Phase | None] = {}
+    for group in _groups(case):
+        chosen = _best_instant(case, group, knots)
+        if chosen is not None:
+            knots.update(dict.fromkeys(group, chosen))
+    for attempt in range(_PASSES):
+        _fill(case, knots, last_attempt=attempt == _PASSES - 1)
+    triggers = {}
+    for hero in case.structure.triggers:
+        knot = case.structure.trigger_knot(hero)
+        triggers[hero] = knots.get((hero, knot or ""), np.inf)
+        onsets[hero] = onset_after(case, hero, knot or "", triggers[hero])
+    return Measured(Moments(knots, _spans(case, knots, onsets)), triggers, onsets)
+
+
+def conjuncts(formula: Formula) -> Iterator[Formula]:
+    """Yield the parts that must all hold."""
+    if isinstance(formula, Logic) and formula.operator == "and":
+        for operand in formula.operands:
+            yield from conjuncts(operand)
+    else:
+        yield formula
+
+
+def sides_of(case: Case, group: frozenset[KnotKey], known: set[KnotKey]) -> list[Formula]:
+    """Return what the program says of an instant, given the knots whose times are known."""
+    found = []
+    for constraint in case.program.constraints:
+        for part in conjuncts(constraint.formula):
+            keys = set(knots_of(part))
+            nodes = list(walk(part))
+            by_piece = any(isinstance(n, State) and isinstance(n.at, PieceRef) for n in nodes)
+            order = any(isinstance(n, Elapsed) and (n.actor, n.knot) in keys - group for n in nodes)
+            temporal = any(isinstance(n, Temporal) for n in nodes)
+            apart = by_piece or order or temporal or bool(list(synchronised(part)))
+            if keys & group and keys <= group | known and not apart:
+                found.append(part)
+    return found
+
+
+def onset_after(case: Case, hero: int, knot: str, moment_s: float) -> Phase | None:
+    """Return the phase that begins the piece after a knot, where that piece is braking or speeding up."""
+    sketch = case.program.actor(hero).sketch
+    if knot not in sketch.knots[:-1] or not np.isfinite(moment_s):
+        return None
+    sign = SIGN_OF.get(sketch.pieces[sketch.knot_index(knot)])
+    return None if sign is None else phase_at(case.timelines[hero], moment_s, sign)
+
+
+def _groups(case: Case) -> list[frozenset[KnotKey]]:
+    groups: list[set[KnotKey]] = [set(instant) for instant in case.structure.triggers.values()]
+    for constraint in case.program.constraints:
+        for pair in synchronised(constraint.formula):
+            touching = [group for group in groups if group & set(pair)]
+            groups = [group for group in groups if group not in touching] + [set(pair).union(*touching)]
+    triggers = set(case.structure.triggers.values())
+    return sorted({frozenset(group) for group in groups}, key=lambda group: (group not in triggers, sorted(group)))
+
+
+def _best_instant(case: Case, group: frozenset[KnotKey], knots: dict[KnotKey, float]) -> float | None:
+    parts = sides_of(case, group, set(knots))
+    grid = case.timelines[0].instants(case.start_s, case.end_s, parts=2)
+
+    def score(time_s: FloatArray) -> FloatArray:
+        moments = Moments({**knots, **dict.fromkeys(group, time_s)})
+        errors = [np.broadcast_to(normalised(miss_of(case, part, moments), TIGHT), time_s.shape) for part in judged]
+        # Where one side stays equally bad for long, the others say which instant is meant; the weight is too small to
+        # move a minimum of the worse side.
+        return np.asarray(np.max(errors, axis=0) + _TIE * np.mean(errors, axis=0), dtype=np.float64)
+
+    judged = [part for part in parts if _can_be_judged(case, part, knots, group)]
+    if not judged:
+        return None
+    found = minima(score, grid)
+    if not found:
+        return np.inf
+    if not any(isinstance(part, Compare) and part.operator == "==" for part in judged):
+        # "while ..." holds over stretches: the piece that follows shows which instant of them was meant.
+        return min(found, key=lambda m: (m.score > 1, m.score if m.score > 1 else 0.0, m.time_s)).time_s
+    good = [minimum for minimum in found if minimum.score <= 1] or found[:1]
+    # The program says that there is such an instant, not that it is the first: of several good ones take the one that
+    # was acted upon.
+    return min(good, key=lambda minimum: _unlikeliness(case, group, minimum)).time_s
+
+
+def _can_be_judged(case: Case, part: Formula, knots: Mapping[KnotKey, Values], group: frozenset[KnotKey]) -> bool:
+    try:
+        miss_of(case, part, Moments({**knots, **dict.fromkeys(group, case.start_s)}))
+    except CannotJudge:
+        return False
+    return True
+
+
+def _unlikeliness(case: Case, group: frozenset[KnotKey], minimum: Minimum) -> tuple[float, float]:
+    score = minimum.score
+    for actor, knot in group:
+        sketch = case.program.actor(actor).sketch
+        if actor and knot in sketch.knots[:-1] and sketch.pieces[sketch.knot_index(knot)] in SIGN_OF:
+            phase = onset_after(case, actor, knot, minimum.time_s)
+            late = abs(phase.start_s - minimum.time_s) / TIGHT.time_s if phase else np.inf
+            score += min(late, 100.0)
+    return score, minimum.time_s
+
+
+def _fill(case: Case, knots: dict[KnotKey, float], last_attempt: bool) -> None:
+    for actor in (*case.program.heroes, case.program.ego):
+        previous = case.start_s
+        for index, knot in enumerate(actor.sketch.knots):
+            key = (actor.id, knot)
+            if key not in knots:
+                time_s = _defined_time(case, key, previous, knots)
+                if time_s is None and not actor.is_ego:
+                    time_s = _visible_time(case, key, index, previous)
+                if time_s is None:
+                    time_s = _stated_time(case, key, knots)
+                if time_s is None and last_attempt and index == len(actor.sketch.knots) - 1:
+                    time_s = case.end_s
+                if time_s is None:
+                    if last_attempt:
+                        continue
+                    break  # what follows must wait for another actor's knots
+                knots[key] = time_s
+            previous = max(previous, knots[key])
+
+
+def _equalities(case: Case, key: KnotKey, known: set[KnotKey]) -> Iterator[Compare]:
+    for constraint in case.program.constraints:
+        for part in conjuncts(constraint.formula):
+            if isinstance(part, Compare) and part.operator == "==":
+                keys = set(knots_of(part))
+                if key in keys and keys <= known | {key}:
+                    yield part
+
+
+def _level(case: Case, part: Compare, key: KnotKey, knots: Mapping[KnotKey, Values], time_s: FloatArray) -> FloatArray:
+    left, right = sides(case, part, Moments({**knots, key: time_s}))
+    level = np.asarray(left, dtype=np.float64) - right
+    return np.broadcast_to(np.where(np.isnan(level), np.inf, level), time_s.shape)
+
+
+def _defined_time(case: Case, key: KnotKey, after_s: float, knots: dict[KnotKey, float]) -> float | None:
+    """Return the time of a knot from what the program says of the actor's state there; None where it says nothing."""
+    if not np.isfinite(after_s):
+        return np.inf
+    if demands_standstill(case, key, knots):
+        return _rest_time(case, key, after_s)
+    parts = []
+    for part in _equalities(case, key, set(knots)):
+        orders = {_order_at(n, key) for n in walk(part)} - {None, 2}
+        if orders and _can_be_judged(case, part, knots, frozenset({key})):
+            parts.append((orders == {1}, part))
+    if not parts:
+        return None
+    only_speed, part = min(parts, key=lambda item: item[0])  # a place defines a moment better than a speed
+    return (_reached_speed if only_speed else _place_time)(case, part, key, after_s, knots)
+
+
+def _order_at(node: object, key: KnotKey) -> int | None:
+    match node:
+        case State(actor=actor, order=order, at=Knot(name=knot)) if (actor, knot) == key:
+            return order
+        case State(order=order, at=Elapsed(actor=actor, knot=knot)) if (actor, knot) == key:
+            return order
+        case Derived(actor=actor, at=Knot(name=knot)) if (actor, knot) == key:
+            return 0
+        case Derived(at=Elapsed(actor=actor, knot=knot)) if (actor, knot) == key:
+            return 0
+        case _:
+            return None
+
+
+def demands_standstill(case: Case, key: KnotKey, knots: Mapping[KnotKey, Values]) -> bool:
+    """Whether the program says that the actor's speed is zero at a knot."""
+    return any(_is_standstill(case, part, key, knots) for part in _equalities(case, key, set(knots)))
+
+
+def _is_standstill(case: Case, part: Compare, key: KnotKey, knots: Mapping[KnotKey, Values]) -> bool:
+    if {_order_at(n, key) for n in walk(part)} - {None} != {1}:
+        return False
+    timeline = case.timelines[key[0]]
+    sample = timeline.time_s[
+        :: max(1, len(timeline.time_s) // 64)
+    ]  # equal to the speed at all of these: it is the speed
+    try:
+        level = _level(case, part, key, knots, sample)
+    except CannotJudge:
+        return False
+    return bool(np.allclose(np.abs(level), np.abs(timeline.speed(sample)), atol=1e-9))
+
+
+def _rest_time(case: Case, key: KnotKey, after_s: float) -> float:
+    """Return when a demanded standstill began, or where there is none, when the actor was slowest."""
+    timeline = case.timelines[key[0]]
+    rest = rest_after(timeline, after_s)
+    if rest is not None:
+        return rest.start_s
+    later = timeline.instants(after_s, timeline.end_s)
+    return float(later[np.argmin(timeline.speed(later))])
+
+
+def _reached_speed(case: Case, part: Compare, key: KnotKey, after_s: float, knots: dict[KnotKey, float]) -> float:
+    grid = case.timelines[key[0]].instants(after_s, case.end_s)
+    reached = first_crossing(lambda t: _level(case, part, key, knots, t), grid)
+    # A speed that is approached and never quite met is judged where it was met best.
+    return float(grid[np.argmin(np.abs(_level(case, part, key, knots, grid)))]) if reached is None else reached
+
+
+def _place_time(case: Case, part: Compare, key: KnotKey, after_s: float, knots: dict[KnotKey, float]) -> float:
+    timeline = case.timelines[key[0]]
+    for start_s, end_s in ((after_s, case.end_s), (case.start_s, after_s)):  # the second: already past it
+        reached = first_crossing(lambda t: _level(case, part, key, knots, t), timeline.instants(start_s, end_s))
+        if reached is not None:
+            return reached
+    return np.inf
+
+
+def _visible_time(case: Case, key: KnotKey, index: int, after_s: float) -> float | None:
+    """Return when the piece before a knot visibly gave way to the next."""
+    sketch, timeline = case.program.actor(key[0]).sketch, case.timelines[key[0]]
+    if not np.isfinite(after_s):
+        return np.inf
+    before = sketch.pieces[index - 1]
+    after = sketch.pieces[index] if index < len(sketch.pieces) else None
+    if before is PieceKind.STOP:
+        moved = move_off_after(timeline, after_s)
+        return np.inf if moved is None else moved
+    if after is PieceKind.STOP:
+        rest = rest_after(timeline, after_s)
+        return np.inf if rest is None else rest.start_s
+    if after in SIGN_OF:
+        phase = phase_at(timeline, after_s, SIGN_OF[after])
+        return np.inf if phase is None else phase.start_s
+    if before in SIGN_OF:
+        phase = phase_at(timeline, after_s, SIGN_OF[before])
+        return None if phase is None else phase.end_s
+    return None
+
+
+def _stated_time(case: Case, key: KnotKey, knots: dict[KnotKey, float]) -> float | None:
+    grid = np.array([case.start_s, case.end_s])
+    for part in _equalities(case, key, set(knots)):
+        if any(isinstance(n, Elapsed) and (n.actor, n.knot) == key for n in (part.left, part.right, *walk(part))):
+            try:
+                level = _level(case, part, key, knots, grid)
+            except CannotJudge:
+                continue
+            if not np.all(np.isfinite(level)):
+                return np.inf
+            reached = first_crossing(lambda t, part=part: _level(case, part, key, knots, t), grid)  # type: ignore[misc]
+            return np.inf if reached is None else reached
+    return None
+
+
+def _spans(case: Case, knots: dict[KnotKey, float], onsets: dict[int, Phase | None]) -> dict[tuple[int, int], Span]:
+    spans = {}
+    for actor in case.program.actors:
+        for index in range(len(actor.sketch.pieces)):
+            start = knots.get((actor.id, actor.sketch.knots[index]), np.inf)
+            end = knots.get((actor.id, actor.sketch.knots[index + 1]), np.inf)
+            phase = onsets.get(actor.id)
+            if phase is not None and actor.sketch.knots[index] == case.structure.trigger_knot(actor.id):
+                start = phase.start_s  # how hard it brakes is measured over the braking, when it began is judged apart
+            if np.isfinite(start):
+                spans[actor.id, index] = (start, max(start, min(end, case.end_s)))
+    return spans

@@ -1,0 +1,90 @@
+"""Whether each actor drove its route: beside its line, along it, forwards, in the expected directions.
+
+What enters: a `Case`. What leaves: conditions of kind route.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from scenewright.judge.case import CannotJudge, Case
+from scenewright.judge.tolerance import FloatArray, Leaf
+from scenewright.judge.verdict import Condition
+from scenewright.program.types import Actor
+from scenewright.trace.model import ActorTrace
+
+MAX_LATERAL_M = 1.0
+MAX_ANGLE_RAD = 0.5  # between where a car points and where it goes: more is sliding, or another path
+MAX_HEADING_RAD = np.pi / 3  # from a cardinal direction
+MAX_MAP_ERROR_M = 0.2
+BACK_M = 0.05
+_MOVING_MPS = 0.5
+_CARDINALS = {"E": 0.0, "N": np.pi / 2, "W": np.pi, "S": -np.pi / 2}
+
+
+def route_conditions(case: Case) -> list[Condition]:
+    """Judge the route of every actor."""
+    return [condition for actor in case.program.actors for condition in _route(case, actor)]
+
+
+def _route(case: Case, actor: Actor) -> Iterator[Condition]:
+    states, name = case.timelines[actor.id].states, actor.name
+    lateral = float(np.max(np.abs(states.d_m)))
+    yield _limit(f"route_{name}", f"{name} stays on the line of its route", MAX_LATERAL_M, lateral, "m")
+    angle = _slip_angle(states)
+    yield _limit(f"route_{name}_heading", f"{name} drives where it points", MAX_ANGLE_RAD, angle, "rad")
+    back = float(np.max(np.maximum.accumulate(states.s_m) - states.s_m))
+    yield _limit(f"route_{name}_progress", f"{name} never goes back along its route", BACK_M, back, "m")
+    if name in case.expected_headings:
+        yield _headings(case, actor, case.expected_headings[name])
+    if name in case.paths:
+        yield _limit(
+            f"route_{name}_map", f"{name} is on the map where its route coordinates say", MAX_MAP_ERROR_M,
+            _map_error(case, actor), "m",
+        )  # fmt: skip
+
+
+def _limit(condition_id: str, text: str, limit: float, value: float, unit: str) -> Condition:
+    error = max(0.0, value - limit)
+    return Condition(condition_id, "route", text, limit, value, error, unit, Leaf(error, None))
+
+
+def _slip_angle(states: ActorTrace) -> float:
+    dx, dy = np.diff(states.x_m), np.diff(states.y_m)
+    moving = 0.5 * (states.speed_mps[1:] + states.speed_mps[:-1]) > _MOVING_MPS
+    if not moving.any():
+        return 0.0
+    middle = states.heading_rad[:-1] + 0.5 * _wrapped(np.diff(states.heading_rad))
+    return float(np.max(np.abs(_wrapped(np.arctan2(dy, dx) - middle))[moving]))
+
+
+def _headings(case: Case, actor: Actor, expected: tuple[str, ...]) -> Condition:
+    """Compare the first direction at the start and, once the turn is behind the actor, the last one."""
+    states = case.timelines[actor.id].states
+    off = [_off(states.heading_rad[:1], expected[0])]
+    try:
+        turned = states.s_m >= case.landmark_m("turn_end", actor.id)
+        off.append(_off(states.heading_rad[turned], expected[-1]))
+    except CannotJudge:
+        pass  # a route without a turn has one direction
+    text = f"{actor.name} is headed {', then '.join(expected)}"
+    return _limit(f"route_{actor.name}_directions", text, float(MAX_HEADING_RAD), max(off), "rad")
+
+
+def _off(headings: FloatArray, cardinal: str) -> float:
+    return float(np.max(np.abs(_wrapped(headings - _CARDINALS[cardinal])), initial=0.0))
+
+
+def _wrapped(angle: FloatArray) -> FloatArray:
+    return np.asarray((angle + np.pi) % (2 * np.pi) - np.pi, dtype=np.float64)
+
+
+def _map_error(case: Case, actor: Actor) -> float:
+    states, path = case.timelines[actor.id].states, case.paths[actor.name]
+    worst = 0.0
+    for s, d, x, y in zip(states.s_m, states.d_m, states.x_m, states.y_m, strict=True):
+        px, py, heading = path.pose(float(s))
+        worst = max(worst, float(np.hypot(x - (px - d * np.sin(heading)), y - (py + d * np.cos(heading)))))
+    return worst

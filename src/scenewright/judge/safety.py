@@ -1,0 +1,101 @@
+"""What happened between the vehicles: collisions, distances, times to collision, post-encroachment time.
+
+What enters: a `Case` and what was measured. What leaves: facts, and one condition: a crash before or within the
+interaction means that the interaction asked for did not take place. A crash after it is what the test was for, and a
+fact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from scenewright.judge.boxes import closest_m, moving_box, overlapping, times_to_collision_s
+from scenewright.judge.case import CannotJudge, Case
+from scenewright.judge.instants import first_crossing
+from scenewright.judge.knots import Measured
+from scenewright.judge.verdict import Condition, bounded
+from scenewright.program.types import EGO
+
+_SUB_STEPS = 5  # the samples, and four instants between each two
+
+
+def safety_facts(case: Case) -> dict[str, Any]:
+    """Return facts about every pair of actors, by ``"ego, hero"``."""
+    return {f"{case.name(a)}, {case.name(b)}": _pair(case, a, b) for a, b in _pairs(case)}
+
+
+def no_collision(case: Case, measured: Measured, facts: dict[str, Any]) -> Condition:
+    """Judge that nobody collides before the interaction is over."""
+    over_s = _interaction_end(case, measured)
+    times = [pair["collision_time_s"] for pair in facts.values() if pair["collision_time_s"] is not None]
+    first = min(times, default=None)
+    early = max(0.0, over_s - first) if first is not None else 0.0
+    return bounded(
+        "no_collision", "safety", "no collision before the trigger or during the interaction",
+        required=over_s, measured=first, error=early, dimension="time", exact=True,
+    )  # fmt: skip
+
+
+def _pairs(case: Case) -> Iterator[tuple[int, int]]:
+    return combinations(sorted(actor.id for actor in case.program.actors), 2)
+
+
+def _interaction_end(case: Case, measured: Measured) -> float:
+    """Return when the last hero had done its last piece; the end of the run where one never did."""
+    ends = []
+    for hero in case.program.heroes:
+        time_s = float(np.max(measured.moments.knots.get((hero.id, hero.sketch.knots[-1]), np.inf)))
+        ends.append(min(time_s, case.end_s))
+    return max(ends, default=case.end_s)
+
+
+def _pair(case: Case, a: int, b: int) -> dict[str, Any]:
+    instants = case.timelines[a].instants(case.start_s, case.end_s, parts=_SUB_STEPS)
+    box_a = moving_box(case.timelines[a].states, case.box(a), instants)
+    box_b = moving_box(case.timelines[b].states, case.box(b), instants)
+    hits = np.flatnonzero(overlapping(box_a, box_b))
+    distance, when = closest_m(box_a, box_b)
+    every_tenth = np.arange(case.start_s, case.end_s + 1e-9, 0.1)
+    ttc = times_to_collision_s(
+        moving_box(case.timelines[a].states, case.box(a), every_tenth),
+        moving_box(case.timelines[b].states, case.box(b), every_tenth),
+    )
+    soonest = int(np.argmin(ttc))
+    return {
+        "collision_time_s": float(instants[hits[0]]) if len(hits) else None,
+        "min_distance_m": distance,
+        "min_distance_time_s": float(instants[when]),
+        "min_ttc_s": float(ttc[soonest]) if np.isfinite(ttc[soonest]) else None,
+        "min_ttc_time_s": float(every_tenth[soonest]) if np.isfinite(ttc[soonest]) else None,
+        "post_encroachment_time_s": _post_encroachment_s(case, a, b),
+    }
+
+
+def _post_encroachment_s(case: Case, a: int, b: int) -> float | None:
+    """Return the time between one leaving the conflict zone and the other entering; negative where both were in it.
+
+    The zone is where one's box can be while the other's width covers the conflict point.
+    """
+    if len(case.program.actors) > 2 and EGO not in (a, b):
+        return None  # only conflict points with the ego are named without doubt
+    try:
+        first, second = sorted((_stay(case, a, b), _stay(case, b, a)))
+    except (CannotJudge, TypeError):
+        return None
+    return second[0] - first[1]
+
+
+def _stay(case: Case, actor: int, other: int) -> tuple[float, float]:
+    place = case.landmark_m("conflict_point", actor, other)
+    half = 0.5 * (case.box(actor).length_m + case.box(other).width_m)
+    timeline = case.timelines[actor]
+    grid = timeline.time_s
+    entered = first_crossing(lambda t: timeline.position(t) - (place - half), grid)
+    left = first_crossing(lambda t: timeline.position(t) - (place + half), grid)
+    if entered is None:
+        raise CannotJudge(f"{case.name(actor)} never came to the conflict zone")
+    return entered, np.inf if left is None else left

@@ -1,0 +1,262 @@
+"""Values of a program's terms in a trace.
+
+What enters: a `Case`, a term, and the moments of knots. What leaves: numbers, or arrays over instants. This is
+written apart from the planner's evaluator on purpose: a mistake there must not hide itself here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from scenewright.judge.case import CannotJudge, Case, NotReached
+from scenewright.judge.tolerance import FloatArray, Values
+from scenewright.program.expressions import (
+    Arithmetic,
+    At,
+    Compare,
+    Derived,
+    Elapsed,
+    Knot,
+    Landmark,
+    Negate,
+    Node,
+    Number,
+    ParameterRef,
+    PieceRef,
+    State,
+    Term,
+    walk,
+)
+from scenewright.program.structure import KnotKey
+
+Span = tuple[float, float]
+STANDING_MPS = 1e-3  # below this a time to arrive means nothing
+
+
+@dataclass(frozen=True, slots=True)
+class Moments:
+    """When things are.
+
+    Attributes
+    ----------
+    knots
+        Time (s) of each measured knot; infinite where the actor never got there. An array tries many instants at once.
+    spans
+        Start and end (s) of each measured piece, by actor and index in its sketch.
+    now
+        The instants that states without a moment of their own speak of.
+    """
+
+    knots: Mapping[KnotKey, Values]
+    spans: Mapping[tuple[int, int], Span] = field(default_factory=dict)
+    now: Values | None = None
+
+
+def with_owners(compare: Compare) -> Compare:
+    """Give every landmark that names no actor the actor whose position it is compared with."""
+    owner = next((n.actor for n in walk(compare) if isinstance(n, State) and n.order == 0), None)
+    if owner is None:
+        return compare
+    return replace(compare, left=_owned(compare.left, owner), right=_owned(compare.right, owner))
+
+
+def _owned(term: Term, owner: int) -> Term:
+    match term:
+        case Landmark(actor=None):
+            return replace(term, actor=owner)
+        case Arithmetic(left=left, right=right):
+            return replace(term, left=_owned(left, owner), right=_owned(right, owner))
+        case Negate(operand=operand):
+            return replace(term, operand=_owned(operand, owner))
+        case _:
+            return term
+
+
+def sides(case: Case, compare: Compare, moments: Moments) -> tuple[Values, Values]:
+    """Return the values of both sides of a comparison.
+
+    Positions of several actors are brought to the arc length of the first of them, where they share a lane.
+
+    Raises
+    ------
+    CannotJudge
+        If a landmark, a knot or a shared lane is missing.
+    """
+    owned = with_owners(compare)
+    frame = next((n.actor for n in walk(owned) if isinstance(n, State | Landmark) and _is_place(n)), None)
+    shifts = {} if frame is None else _shifts(case, owned, frame)
+    reader = _Reader(case, moments, shifts)
+    return reader.value(owned.left), reader.value(owned.right)
+
+
+def _is_place(node: State | Landmark) -> bool:
+    return isinstance(node, Landmark) or node.order == 0
+
+
+def _shifts(case: Case, compare: Compare, frame: int) -> dict[int, float]:
+    net: dict[int, float] = {}
+    _count_places(compare.left, 1.0, net)
+    _count_places(compare.right, -1.0, net)
+    shifts = {}
+    for actor, count in net.items():
+        offset = case.offset_m(frame, actor)
+        if offset is None and count != 0:
+            raise CannotJudge(f"{case.name(frame)} and {case.name(actor)} share no lane on which to compare positions")
+        shifts[actor] = 0.0 if offset is None else offset  # a difference on one route is the same in any frame
+    return shifts
+
+
+def _count_places(term: Node, sign: float, net: dict[int, float]) -> None:
+    """Add up how often each actor's places occur; ``A1x(t1) - A1.stop_line`` counts as none."""
+    match term:
+        case State(actor=actor, order=0) | Landmark(actor=int() as actor):
+            net[actor] = net.get(actor, 0.0) + sign
+        case Negate(operand=operand):
+            _count_places(operand, -sign, net)
+        case Arithmetic(operator=("+" | "-") as operator, left=left, right=right):
+            _count_places(left, sign, net)
+            _count_places(right, sign if operator == "+" else -sign, net)
+        case Arithmetic(left=left, right=right):
+            _count_places(left, np.pi, net)  # a product: nothing cancels
+            _count_places(right, np.pi, net)
+        case _:
+            pass
+
+
+@dataclass(frozen=True, slots=True)
+class _Reader:
+    case: Case
+    moments: Moments
+    shifts: Mapping[int, float]
+
+    def value(self, term: Term) -> Values:
+        match term:
+            case Number(value=value):
+                return float(value)
+            case ParameterRef(name=name):
+                return self._parameter(name)
+            case Landmark(name=name, actor=actor, other=other):
+                if actor is None:
+                    raise CannotJudge(f"nothing says on whose route {name} is meant")
+                return self.case.landmark_m(name, actor, other) + self.shifts.get(actor, 0.0)
+            case Elapsed(actor=actor, knot=knot):
+                return self._knot(actor, knot) - self.case.start_s
+            case State():
+                return self._state(term)
+            case Derived():
+                return self._derived(term)
+            case Negate(operand=operand):
+                return -self.value(operand)
+            case Arithmetic(operator=operator, left=left, right=right):
+                return _combine(operator, self.value(left), self.value(right))
+
+    def _parameter(self, name: str) -> float:
+        if name not in self.case.parameters:
+            raise CannotJudge(f"the parameter {name} has no value")
+        return float(self.case.parameters[name])
+
+    def _knot(self, actor: int, knot: str) -> Values:
+        if (actor, knot) not in self.moments.knots:
+            raise CannotJudge(f"nothing in the trace says when {self.case.name(actor)}'s {knot} was")
+        return self.moments.knots[actor, knot]
+
+    def _time(self, actor: int, at: At) -> Values:
+        match at:
+            case Knot(name=knot):
+                owner, time_s = actor, self._knot(actor, knot)
+            case Elapsed(actor=owner, knot=knot):
+                time_s = self._knot(owner, knot)
+            case Number(value=value):
+                if float(value) > self.case.end_s - self.case.start_s + 1e-9:
+                    raise CannotJudge(f"the run ended before {float(value):g} s")
+                return self.case.start_s + float(value)
+            case _:
+                if self.moments.now is None:
+                    raise CannotJudge("nothing says at which moment")
+                return self.moments.now
+        if not np.all(np.isfinite(time_s)):
+            raise NotReached(self.case.name(owner), owner, knot)
+        return time_s
+
+    def _state(self, term: State) -> Values:
+        timeline = self.case.timelines[term.actor]
+        if isinstance(term.at, PieceRef) and term.order == 2:
+            start, end = self._span(term.actor, term.at)
+            return mean_acceleration(timeline.speed(np.array([start, end])), end - start)
+        time_s = self._time(term.actor, term.at)
+        if term.order == 0:
+            return timeline.position(time_s) + self.shifts.get(term.actor, 0.0)
+        return timeline.speed(time_s) if term.order == 1 else timeline.acceleration(time_s)
+
+    def _span(self, actor: int, piece: PieceRef) -> Span:
+        return piece_span(self.case, self.moments, actor, piece)
+
+    def _derived(self, term: Derived) -> Values:
+        time_s = self._time(term.actor, term.at)
+        timeline = self.case.timelines[term.actor]
+        speed = timeline.speed(time_s)
+        if isinstance(term.target, Landmark):
+            owner = term.actor if term.target.actor is None else term.target.actor
+            place = self.case.landmark_m(term.target.name, owner, term.target.other)
+            return _over(place - timeline.position(time_s), speed)
+        gap = self._gap(term.actor, term.target, time_s)
+        if term.kind == "gap":
+            return gap
+        if term.kind == "headway":
+            return _over(gap, speed)
+        closing = (speed - self.case.timelines[term.target].speed(time_s)) * np.sign(gap)
+        return _over(np.abs(gap), np.maximum(closing, 0.0))
+
+    def _gap(self, actor: int, other: int, time_s: Values) -> FloatArray:
+        offset = self.case.offset_m(actor, other)
+        if offset is None:
+            raise CannotJudge(
+                f"{self.case.name(actor)} and {self.case.name(other)} share no lane on which to measure a gap"
+            )
+        ahead: FloatArray = self.case.timelines[other].position(time_s) + offset
+        return ahead - self.case.timelines[actor].position(time_s)
+
+
+def piece_span(case: Case, moments: Moments, actor: int, piece: PieceRef) -> Span:
+    """Return start and end (s) of a piece as measured.
+
+    Raises
+    ------
+    CannotJudge
+        If the piece does not exist or was never reached.
+    """
+    try:
+        index = case.program.actor(actor).sketch.piece_index(piece.name)
+    except KeyError:
+        raise CannotJudge(f"{case.name(actor)} has no piece {piece.name}") from None
+    if (actor, index) not in moments.spans:
+        raise CannotJudge(f"{case.name(actor)} never came to its piece {piece.name}")
+    return moments.spans[actor, index]
+
+
+def mean_acceleration(speeds_mps: FloatArray, duration_s: float) -> float:
+    """Return the mean acceleration between the first and the last of the speeds; 0 for no time at all."""
+    return float(speeds_mps[-1] - speeds_mps[0]) / duration_s if duration_s > 0 else 0.0
+
+
+def _over(distance_m: Values, speed_mps: Values) -> FloatArray:
+    distance, speed = np.asarray(distance_m, dtype=np.float64), np.asarray(speed_mps, dtype=np.float64)
+    moving = speed > STANDING_MPS
+    standing = np.where(distance == 0, 0.0, np.copysign(np.inf, distance))
+    return np.where(moving, distance / np.where(moving, speed, 1.0), standing)
+
+
+def _combine(operator: str, left: Values, right: Values) -> Values:
+    with np.errstate(all="ignore"):
+        match operator:
+            case "+":
+                return left + right
+            case "-":
+                return left - right
+            case "*":
+                return left * right
+            case _:
+                return np.asarray(left, dtype=np.float64) / right

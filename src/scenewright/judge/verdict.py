@@ -1,0 +1,128 @@
+"""The verdict: conditions with required and measured values, and facts.
+
+What enters: conditions and facts. What leaves: success at any tolerance, and the plain data of `verdict.json`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from scenewright.judge.tolerance import LOOSE, TIGHT, Leaf, Miss, Tolerance, normalised, unit_symbol
+from scenewright.units import Dimension
+
+SCHEMA_VERSION = 1
+Kind = Literal["initial", "route", "trigger", "interaction", "outcome", "safety"]
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """One thing that had to hold.
+
+    Attributes
+    ----------
+    id, kind, text
+        Name, part in the story, and the words and formula it stands for.
+    required, measured, error
+        In `unit`; the error is signed (measured minus required) for equalities, and how far beyond the bound otherwise.
+        None where there is nothing to state as one number.
+    unit
+        SI symbol.
+    miss
+        The error by dimension, to which tolerances are applied; None where the condition could not be judged, which
+        fails.
+    """
+
+    id: str
+    kind: Kind
+    text: str
+    required: float | None
+    measured: float | None
+    error: float | None
+    unit: str
+    miss: Miss | None
+
+    def normalised_error(self, tolerance: Tolerance) -> float:
+        """Return the error in units of the tolerance; infinite where the condition could not be judged."""
+        return math.inf if self.miss is None else float(normalised(self.miss, tolerance))
+
+    def holds_at(self, tolerance: Tolerance) -> bool:
+        """Whether the condition holds within the tolerance."""
+        return self.normalised_error(tolerance) <= 1.0
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the condition in the form of `verdict.json`."""
+        return {
+            "id": self.id,
+            "kind": self.kind,
+            "text": self.text,
+            "required": _plain(self.required),
+            "measured": _plain(self.measured),
+            "error": _plain(self.error),
+            "unit": self.unit,
+            "tight": self.holds_at(TIGHT),
+            "loose": self.holds_at(LOOSE),
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """The judgement of one run."""
+
+    conditions: tuple[Condition, ...]
+    facts: Mapping[str, Any]
+
+    def holds_at(self, tolerance: Tolerance) -> bool:
+        """Whether every condition holds within the tolerance."""
+        return all(condition.holds_at(tolerance) for condition in self.conditions)
+
+    def condition(self, condition_id: str) -> Condition:
+        """Return the condition with this id; raises KeyError where there is none."""
+        for condition in self.conditions:
+            if condition.id == condition_id:
+                return condition
+        raise KeyError(condition_id)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the verdict in the form of `verdict.json`."""
+        return {
+            "schema_version": SCHEMA_VERSION,
+            "success": {"tight": self.holds_at(TIGHT), "loose": self.holds_at(LOOSE)},
+            "conditions": [condition.as_dict() for condition in self.conditions],
+            "facts": _plain(dict(self.facts)),
+        }
+
+
+def bounded(
+    condition_id: str,
+    kind: Kind,
+    text: str,
+    *,
+    required: float | None,
+    measured: float | None,
+    error: float,
+    dimension: Dimension | None,
+    exact: bool = False,
+) -> Condition:
+    """Return a condition on one quantity; `exact` where no tolerance applies to it."""
+    miss = Leaf(abs(error), None if exact else dimension)
+    return Condition(condition_id, kind, text, required, measured, error, unit_symbol(dimension), miss)
+
+
+def unjudged(condition_id: str, kind: Kind, text: str, reason: str) -> Condition:
+    """Return a condition that fails because it cannot be judged, and says why."""
+    return Condition(condition_id, kind, f"{text} (not judged: {reason})", None, None, None, "", None)
+
+
+def _plain(value: Any) -> Any:
+    """Return `value` as JSON knows it: no infinities, no arrays' scalars."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, bool | str) or value is None:
+        return value
+    number = float(value)
+    return number if math.isfinite(number) else None
