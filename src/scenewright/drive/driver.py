@@ -30,7 +30,7 @@ _PAST_WAITING_M = 0.5
 _HORIZON_S = 4.0
 _CLEARANCE_S = 0.3
 _MERGE_CLEARANCE_S = 0.8
-_KEEP_DECISION_S = 1.0  # a gap once taken is given up only where it has become this much shorter
+_KEEP_DECISION_S = 0.5  # a gap once taken is given up only where it has become this much shorter
 _WONT_STOP_MPSS = 3.5  # nobody is expected to brake harder than this for others
 _SETS_OFF_MPSS, _SETS_OFF_S = 0.3, 2.5
 _GAP_ACCEL = 0.85  # of the full acceleration, since the driver model approaches its speed slowly
@@ -177,20 +177,20 @@ class Driver:
         accel = inf
         for approach in neighbour.approaches:
             stream = approach.stream
-            if s_m >= stream.ego_in_m or not approach.look(other, time_s):
+            if s_m >= stream.hold_m or not approach.look(other, time_s):
                 continue
             waiting_m = self._waiting_place(stream)
             if stream.ego_yields and s_m <= waiting_m + _PAST_WAITING_M:
                 if not self._accepts_gap(approach, other, s_m, speed_mps, standing=since_s is not None):
                     accel = min(accel, stopping_accel(speed_mps, waiting_m - s_m, self.traits.brake_mpss))
             elif self._in_the_way(approach, other, s_m, speed_mps):
-                to_zone_m = stream.ego_in_m - _ZONE_MARGIN_M - s_m
+                to_zone_m = stream.hold_m - _ZONE_MARGIN_M - s_m
                 accel = min(accel, stopping_accel(speed_mps, to_zone_m, self.traits.brake_mpss))
         return accel
 
     def _waiting_place(self, stream: Stream) -> float:
         """Return where the ego's centre waits for a stream that goes first."""
-        route, before_m = self.start.route, stream.ego_in_m - _ZONE_MARGIN_M
+        route, before_m = self.start.route, stream.hold_m - _ZONE_MARGIN_M
         if route.origin_kind == "driveway" and "stop_line" in route.landmarks:
             return min(before_m, route.landmarks["stop_line"] - 0.5 * self.start.length_m - _LINE_MARGIN_M)
         return min(before_m, route.landmarks.get("turn_start", before_m) - _ZONE_MARGIN_M)
@@ -199,6 +199,8 @@ class Driver:
         self, approach: Approach, other: VehicleState, s_m: float, speed_mps: float, *, standing: bool
     ) -> bool:
         """Decide whether to go before a vehicle that has the right of way, and remember it."""
+        if self._line_m is not None:
+            return False  # the stop comes first, and the gap is judged from standstill
         if standing:
             return approach.accepted  # it has only just stopped: no new decision until it has stood for a while
         stream, traits = approach.stream, self.traits
@@ -227,7 +229,7 @@ class Driver:
         if in_s > _HORIZON_S or (in_m > 0.0 and not _will_enter(other, in_m, in_s, stream.ego_yields)):
             return False
         top_mps = max(self.profile.at(stream.ego_in_m), 1.0)
-        ego_in_s = (stream.ego_in_m - s_m) / max(speed_mps, 0.5)
+        ego_in_s = travel_time(stream.ego_in_m - s_m, speed_mps, traits.accel_mpss, top_mps)
         ego_out_s = travel_time(stream.ego_out_m - s_m, speed_mps, _GAP_ACCEL * traits.accel_mpss, top_mps)
         first, last = ego_out_s + _CLEARANCE_S < in_s, out_s + _CLEARANCE_S < ego_in_s
         return not first and not last

@@ -38,6 +38,8 @@ class Stream:
         Where this traffic goes.
     ego_in_m, ego_out_m
         Arc lengths on the ego's route between which its centre is where it could touch this traffic.
+    hold_m
+        The last place at or before `ego_in_m` where the ego is in nobody's way: the entry of overlapping zones.
     in_m, out_m
         The same for this traffic, on its path.
     ego_yields
@@ -49,6 +51,7 @@ class Stream:
     path: Path
     ego_in_m: float
     ego_out_m: float
+    hold_m: float
     in_m: float
     out_m: float
     ego_yields: bool
@@ -169,17 +172,37 @@ def surroundings_of(start: EgoStart) -> Surroundings:
     """Find the streams that cross the ego's route or merge with it; geometry only, done once before a run."""
     ego, lanes = start.route, start.road_map.lanes
     junctions = {lanes[name].junction_id for name in ego.lanes} - {None}
-    streams = []
+    met = []
     for route in all_routes(start.road_map):
         if not any(lanes[name].junction_id in junctions for name in route.lanes):
             continue
         conflict = find_conflict(ego, route)
         if conflict is None or conflict.kind == "following":
             continue
-        (ego_in_m, ego_out_m), (in_m, out_m) = conflict.zone_a_m, conflict.zone_b_m
-        merges = conflict.kind == "merging"
-        streams.append(Stream(route.path, ego_in_m, ego_out_m, in_m, out_m, yields(ego, route), merges))
-    return Surroundings(ego.path, tuple(streams))
+        met.append((route, conflict))
+    zones = [conflict.zone_a_m for _, conflict in met]
+    streams = tuple(
+        Stream(
+            path=route.path,
+            ego_in_m=conflict.zone_a_m[0],
+            ego_out_m=conflict.zone_a_m[1],
+            hold_m=_hold_m(conflict.zone_a_m[0], zones),
+            in_m=conflict.zone_b_m[0],
+            out_m=conflict.zone_b_m[1],
+            ego_yields=yields(ego, route),
+            merges=conflict.kind == "merging",
+        )
+        for route, conflict in met
+    )
+    return Surroundings(ego.path, streams)
+
+
+def _hold_m(entry_m: float, zones: list[tuple[float, float]]) -> float:
+    """Walk back from a zone's entry to a place that lies in no other zone."""
+    for low_m, high_m in sorted(zones, reverse=True):
+        if low_m < entry_m <= high_m:
+            return _hold_m(low_m, zones)
+    return entry_m
 
 
 def yields(ego: Route, other: Route) -> bool:
