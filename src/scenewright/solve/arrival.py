@@ -106,7 +106,7 @@ def _linearised(
     scene: Scene, structure: Structure, constraint_id: str, formula: Compare, moments: frozenset[KnotKey]
 ) -> LinearCondition | None:
     actors = sorted(_actors_of(formula))
-    zero = {actor: (0, 0) for actor in actors}
+    zero = dict.fromkeys(actors, (0, 0))
     origin = _probe(scene, structure, formula, zero)
     if origin is None or not actors:
         return None
@@ -118,7 +118,7 @@ def _linearised(
             return None
         if metre != origin or speed != origin:
             weights[actor] = (float(metre - origin), float(speed - origin))
-    everything = _probe(scene, structure, formula, {actor: (3, 2) for actor in actors})
+    everything = _probe(scene, structure, formula, dict.fromkeys(actors, (3, 2)))
     expected = float(origin) + sum(3 * m + 2 * v for m, v in weights.values())
     if everything is None or abs(float(everything) - expected) > _LINEAR_SLACK or not weights:
         return None
