@@ -22,6 +22,7 @@ from scenewright.trace.model import ActorTrace, Trace
 STEP_S = 0.02
 DURATION_S = 16.0
 TRIGGER_S = 4.0
+STOPPED_S = 7.75
 DESCRIPTION = (
     "Ego is on the driveway exit and it is 40 m behind the stop line. It wants to turn right onto the road travelling "
     "westbound. There is a hero vehicle on the road. It wants to lane follow along the road travelling westbound. "
@@ -125,13 +126,20 @@ def build_run(folder: Path) -> Path:
     assert conflict is not None
     meeting = {"ego": float(conflict.s_a_m), "hero": float(conflict.s_b_m)}
     marks = {
-        name: {**{k: float(v) for k, v in route.landmarks.items()}, "conflict_point": meeting[name], "intersection": meeting[name]}
+        name: {
+            **{k: float(v) for k, v in route.landmarks.items()},
+            "conflict_point": meeting[name],
+            "intersection": meeting[name],
+        }
         for name, route in routes.items()
     }
-    # The hero covers 4 s at 12 m/s, then brakes from 42 m before the conflict point at 2 m/s^2: 36 m, 6 m short of it.
-    hero = driven(routes["hero"], meeting["hero"] - 42.0 - 48.0, 12.0, [Piece(4.0, 0.0), Piece(6.0, -2.0)])
+    # The hero covers 4 s at 12 m/s, then brakes at 3.2 m/s^2 from 42 m before the conflict point to 19.5 m.
+    hero = driven(routes["hero"], meeting["hero"] - 42.0 - 48.0, 12.0, [Piece(4.0, 0.0), Piece(3.75, -3.2)])
     ego = driven(
-        routes["ego"], marks["ego"]["stop_line"] - 40.1, 7.0, [Piece(4.0, 0.0), Piece(3.0, -1.6), Piece(2.0, 0.5), Piece(5.0, 1.1)]
+        routes["ego"],
+        marks["ego"]["stop_line"] - 40.1,
+        7.0,
+        [Piece(4.0, 0.0), Piece(3.0, -1.6), Piece(2.0, 0.5), Piece(5.0, 1.1)],
     )
     trace = Trace({"ego": ego, "hero": hero})
     write_trace(trace, folder / "trace.parquet")
@@ -140,7 +148,7 @@ def build_run(folder: Path) -> Path:
     write_json(folder / "plan.json", plan(trace))
     params = {
         "hero_distance_m": {"value": 42.0, "unit": "m", "source": "given"},
-        "end_distance_m": {"value": 6.0, "unit": "m", "source": "solver"},
+        "end_distance_m": {"value": 19.5, "unit": "m", "source": "solver"},
     }
     write_json(folder / "params.json", params)
     (folder / "program.scene").write_text(program_text(), encoding="utf-8")
@@ -162,15 +170,25 @@ def manifest(routes: dict[str, Route], marks: dict[str, dict[str, float]], passe
         "translator": "offline",
         "ego": {"name": "idm", "options": {"desired_speed_mps": 8.0}},
         "map": {"name": "t_intersection", "file": "t_intersection", "sha256": "0"},
-        "routes": {n: {"headings": list(r.headings), "lanes": list(r.lanes), "turn": r.turn} for n, r in routes.items()},
+        "routes": {
+            n: {"headings": list(r.headings), "lanes": list(r.lanes), "turn": r.turn} for n, r in routes.items()
+        },
         "landmarks": marks,
         "vehicles": {"ego": {"length_m": 4.5, "width_m": 1.9}, "hero": {"length_m": 5.1, "width_m": 2.0}},
         "limits": {
-            "hero": {"speed_max_mps": 18.0, "accel_min_mpss": -4.0, "accel_max_mpss": 3.0, "lateral_accel_max_mpss": 3.0}
+            "hero": {
+                "speed_max_mps": 18.0,
+                "accel_min_mpss": -4.0,
+                "accel_max_mpss": 3.0,
+                "lateral_accel_max_mpss": 3.0,
+            }
         },
         "shared_offsets": [{"a": "ego", "b": "hero", "offset_m": None}],
         "rates": {"simulation_hz": 50, "replan_hz": 10},
-        "knots": {"ego": {"t0": 0.0, "t1": TRIGGER_S, "t2": passes_s}, "hero": {"t0": 0.0, "t1": TRIGGER_S, "t2": 10.0}},
+        "knots": {
+            "ego": {"t0": 0.0, "t1": TRIGGER_S, "t2": passes_s},
+            "hero": {"t0": 0.0, "t1": TRIGGER_S, "t2": STOPPED_S},
+        },
         "timings": {"total": 1.25},
         "packages": {"numpy": "2"},
         "notes": ["Take 2 of 3 was kept."],
@@ -181,7 +199,7 @@ def manifest(routes: dict[str, Route], marks: dict[str, dict[str, float]], passe
 def plan(trace: Trace) -> dict[str, Any]:
     hero, ego = trace.actors["hero"], trace.actors["ego"]
     pieces = {
-        "hero": [("go", 0.0, 3.6, hero.s_m[0], 13.0, 0.0), ("dec", 3.6, 6.5, hero.s_m[0] + 46.8, 13.0, -2.0)],
+        "hero": [("go", 0.0, 3.6, hero.s_m[0], 13.0, 0.0), ("dec", 3.6, 4.0, hero.s_m[0] + 46.8, 13.0, -3.25)],
         "ego": [("go", 0.0, 4.0, ego.s_m[0], 7.0, 0.0), ("go", 4.0, 9.0, ego.s_m[0] + 28.0, 7.0, 0.0)],
     }
     keys = ("piece", "start_s", "duration_s", "s_m", "speed_mps", "accel_mpss")
@@ -189,7 +207,10 @@ def plan(trace: Trace) -> dict[str, Any]:
         "schema_version": 1,
         "actors": {
             name: {
-                "knots": [{"name": f"t{i}", "time_s": row[1], "s_m": row[3], "speed_mps": row[4]} for i, row in enumerate(rows)],
+                "knots": [
+                    {"name": f"t{i}", "time_s": row[1], "s_m": row[3], "speed_mps": row[4]}
+                    for i, row in enumerate(rows)
+                ],
                 "segments": [dict(zip(keys, (row[0], *map(float, row[1:])), strict=True)) for row in rows],
             }
             for name, rows in pieces.items()
@@ -221,29 +242,57 @@ def verdict(trace: Trace, marks: dict[str, dict[str, float]], passes_s: float) -
     ego, hero = trace.actors["ego"], trace.actors["hero"]
     ego_m = marks["ego"]["stop_line"] - ego.position(TRIGGER_S)
     hero_m = marks["hero"]["conflict_point"] - hero.position(TRIGGER_S)
-    stop_m = marks["hero"]["conflict_point"] - hero.position(10.0)
+    stop_m = marks["hero"]["conflict_point"] - hero.position(STOPPED_S)
     start_m = marks["ego"]["stop_line"] - ego.position(0.0)
     rows = [
-        condition("initial", "c1", "A0x(t0) == stop_line - 40", 40.0, start_m, "m"),
+        condition("initial", "c1", "it is 40 m behind the stop line: A0x(t0) == stop_line - 40", 40.0, start_m, "m"),
         condition("trigger", "c2", "A0(t1) == A1(t1)", 0.0, 0.02, "s"),
         condition("trigger", "c3", "A0x(t1) == stop_line - 12", 12.0, ego_m, "m"),
         condition("trigger", "c4", "A1x(t1) == conflict_point - hero_distance_m", 42.0, hero_m, "m"),
-        condition("interaction", "c5", "A1x(t2) == conflict_point - end_distance_m", 6.0, stop_m + 0.7, "m"),
-        condition("interaction", "c6", "A1v(t2) == 0", 0.0, hero.speed(10.0), "m/s"),
-        condition("outcome", "c7", "A0x(t2) == conflict_point", marks["ego"]["conflict_point"], marks["ego"]["conflict_point"], "m"),
+        condition("interaction", "c5", "A1x(t2) == conflict_point - end_distance_m", 19.5, stop_m + 0.7, "m"),
+        condition("interaction", "hero_onset", "hero begins to brake at the trigger", 4.0, 4.0, "s"),
+        condition("interaction", "c6", "A1v(t2) == 0", 0.0, hero.speed(STOPPED_S), "m/s"),
+        condition(
+            "outcome",
+            "c7",
+            "A0x(t2) == conflict_point",
+            marks["ego"]["conflict_point"],
+            marks["ego"]["conflict_point"],
+            "m",
+        ),
         {
-            **condition("outcome", "c8", "A1(t2) < A0(t2)", passes_s, 10.0, "s"),
+            **condition("outcome", "c8", "A1(t2) < A0(t2)", passes_s, STOPPED_S, "s"),
             "error": 0.0,
             "tight": True,
             "loose": True,
         },
-        {**condition("safety", "no_collision", "the vehicles do not touch", 0.0, 0.0, "m"), "required": None, "measured": None},
+        {
+            **condition("safety", "no_collision", "the vehicles do not touch", 0.0, 0.0, "m"),
+            "required": None,
+            "measured": None,
+        },
     ]
     return {
         "schema_version": 1,
         "success": {"tight": False, "loose": True},
         "conditions": rows,
-        "facts": {"collision": False, "min_distance_m": 5.4321, "min_ttc_s": {"hero": 3.21}, "ego_max_decel_mpss": -1.6},
+        "facts": {
+            "trigger_time_s": {"hero": TRIGGER_S},
+            "knot_times_s": {"hero": {"t1": TRIGGER_S}},
+            "ego_never_met_condition": False,
+            "closest": [
+                {
+                    "who": "ego",
+                    "side": "A0x(t1) == stop_line - 12",
+                    "met": True,
+                    "error": 0.1,
+                    "unit": "m",
+                    "time_s": 4.0,
+                }
+            ],
+            "pairs": {"ego, hero": {"collision_time_s": None, "min_distance_m": 5.43219, "min_ttc_s": 3.21}},
+            "kinematics": {"ego": {"speed_max": 8.7}},
+        },
     }
 
 

@@ -1,7 +1,7 @@
 """Writes a run's page: one self-contained `index.html` that opens offline in any browser.
 
-What enters: a run directory. What leaves: its `index.html`, with styles, scripts and data inside and nothing to fetch. The
-page's content security policy allows exactly the one script and the one style sheet by their hashes. The same run
+What enters: a run directory. What leaves: its `index.html`, with styles, scripts and data inside and nothing to fetch.
+The page's content security policy allows exactly the one script and the one style sheet by their hashes. The same run
 directory gives the same bytes.
 """
 
@@ -68,7 +68,7 @@ def render(data: dict[str, Any]) -> str:
 
 
 def embed_json(data: object) -> str:
-    """Return `data` as JSON that is safe inside a ``<script>`` element.
+    r"""Return `data` as JSON that is safe inside a ``<script>`` element.
 
     No text in it can close the element or open a comment: ``<``, ``>``, ``&`` and all that is not ASCII are written as
     escapes, which JSON reads back unchanged.
@@ -81,7 +81,7 @@ def embed_json(data: object) -> str:
     Examples
     --------
     >>> embed_json("</script>")
-    '"\\\\u003c/script\\\\u003e"'
+    '"\\u003c/script\\u003e"'
     """
     text = json.dumps(data, allow_nan=False, separators=(",", ":"))
     for character in "<>&":

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from scenewright.errors import InputError, Place, ProgramError
 from scenewright.program.types import Program
-from scenewright.studio.program_data import clauses, condition_times, triggers
+from scenewright.studio.program_data import clauses, condition_times, places, triggers
 from scenewright.studio.replans_data import read_replans
 from scenewright.studio.scene_data import SceneGeometry, scene_geometry
 from scenewright.trace.files import TRACE_FILE, read_trace
@@ -50,6 +50,8 @@ def collect(run_dir: Path) -> Json:
     if scene.problem:
         missing.append(scene.problem)
     chosen = _chosen_samples(trace)
+    knots = _knots(manifest, verdict)
+    reached = triggers(program, knots, manifest.get("landmarks") or {}) if program else []
     data: Json = {
         "schema_version": 1,
         "name": manifest.get("name") or run_dir.resolve().name,
@@ -63,10 +65,14 @@ def collect(run_dir: Path) -> Json:
         "origin": list(scene.origin_xy_m),
         "map": scene.roads,
         "time": _numbers(trace.time_s[chosen], 4),
-        "actors": [_actor(name, trace.actors[name], chosen, manifest, plan, scene) for name in trace.actors],
-        "triggers": triggers(program, _knots(manifest), manifest.get("landmarks") or {}) if program else [],
-        "conditions": _conditions(verdict, program, manifest),
-        "facts": _facts((verdict or {}).get("facts") or {}),
+        "actors": [
+            _actor(name, actor, chosen, manifest, plan, scene) | {"knots": _in_order(knots.get(name, {}))}
+            for name, actor in trace.actors.items()
+        ],
+        "triggers": reached,
+        "places": places(program) if program else None,
+        "conditions": _conditions(verdict, program, knots, reached),
+        "facts": _facts({k: v for k, v in ((verdict or {}).get("facts") or {}).items() if k != "knot_times_s"}),
         "replans": replans,
     }
     cleaned: Json = _without_nan(data)
@@ -183,12 +189,22 @@ def _parameters(params: Json) -> list[Json]:
     return rows
 
 
-def _knots(manifest: Json) -> dict[str, dict[str, float]]:
-    knots = manifest.get("knots") or {}
+def _knots(manifest: Json, verdict: Json | None) -> dict[str, dict[str, float]]:
+    """Return when each actor passed its knots: as the judge measured it, else as the run recorded it."""
+    measured = ((verdict or {}).get("facts") or {}).get("knot_times_s") or {}
+    recorded = manifest.get("knots") or {}
     return {
-        actor: {name: float(t) for name, t in (times or {}).items() if isinstance(t, int | float) and math.isfinite(t)}
-        for actor, times in knots.items()
+        actor: {
+            name: float(time)
+            for name, time in ((recorded.get(actor) or {}) | (measured.get(actor) or {})).items()
+            if isinstance(time, int | float) and math.isfinite(time)
+        }
+        for actor in {**recorded, **measured}
     }
+
+
+def _in_order(knots: Mapping[str, float]) -> list[list[Any]]:
+    return [[name, round(time, 4)] for name, time in sorted(knots.items(), key=lambda knot: knot[1])]
 
 
 def _chosen_samples(trace: Trace) -> NDArray[np.intp]:
@@ -213,7 +229,6 @@ def _actor(
         "s": _numbers(actor.s_m[chosen], 3),
         "v": _numbers(actor.speed_mps[chosen], 3),
         "a": _numbers(actor.accel_mps2[chosen], 3),
-        "knots": [[knot, time] for knot, time in sorted(_knots(manifest).get(name, {}).items(), key=lambda k: k[1])],
         "plan": [[_rounded(piece.get(key), 4) for key in _PIECE] for piece in planned],
         "limits": (manifest.get("limits") or {}).get(name) or {},
         "route": scene.routes.get(name, []),
@@ -224,28 +239,34 @@ def _actor(
 _PIECE = ("start_s", "duration_s", "s_m", "speed_mps", "accel_mpss")
 
 
-def _conditions(verdict: Json | None, program: Program | None, manifest: Json) -> list[Json]:
-    times = condition_times(program, _knots(manifest)) if program else {}
+def _conditions(
+    verdict: Json | None, program: Program | None, knots: Mapping[str, Mapping[str, float]], reached: list[Json]
+) -> list[Json]:
+    times = condition_times(program, knots) if program else {}
     words = {c.id: program.words_of(c) for c in program.constraints} if program else {}
     rows = []
     for condition in (verdict or {}).get("conditions") or []:
-        identifier = str(condition.get("id", ""))
+        identifier, text = str(condition.get("id", "")), str(condition.get("text") or "")
         # A condition may judge one side of a constraint: its id is then the constraint's with an ending (`c3.1`).
-        owner = identifier if identifier in words else identifier.split(".")[0]
+        owner = identifier if identifier in words else identifier.partition(".")[0]
+        said = words.get(owner)
+        time = times.get(owner)
+        if owner not in words and condition.get("kind") in ("trigger", "interaction") and reached:
+            time = reached[0]["time_s"]  # what the judge asks beyond the program is about what begins at the trigger
         rows.append(
             {
                 "id": identifier,
                 "owner": owner,
                 "kind": condition.get("kind") or "",
-                "text": condition.get("text") or "",
-                "words": words.get(owner),
+                "text": text.removeprefix(f"{said}: ") if said else text,
+                "words": said,
                 "required": condition.get("required"),
                 "measured": condition.get("measured"),
                 "error": condition.get("error"),
                 "unit": condition.get("unit") or "",
                 "tight": condition.get("tight"),
                 "loose": condition.get("loose"),
-                "time": condition.get("time_s", times.get(owner)),
+                "time": condition.get("time_s", time),
             }
         )
     return rows
@@ -254,20 +275,23 @@ def _conditions(verdict: Json | None, program: Program | None, manifest: Json) -
 _FACT_UNITS = (("_mpss", "m/s²"), ("_mps2", "m/s²"), ("_mps", "m/s"), ("_rad", "rad"), ("_m", "m"), ("_s", "s"))
 
 
-def _facts(facts: Mapping[str, Any], prefix: str = "") -> list[list[str]]:
-    """Flatten nested facts to rows of label, value and unit; the unit comes from the name's ending."""
+def _facts(facts: Mapping[str, Any], prefix: str = "", inherited: str = "") -> list[list[str]]:
+    """Flatten nested facts to rows of label, value and unit; the unit comes from the ending of a name."""
     rows: list[list[str]] = []
     for name, value in facts.items():
-        label, unit = str(name), ""
+        label, unit = str(name), inherited
         for ending, symbol in _FACT_UNITS:
             if label.endswith(ending):
                 label, unit = label.removesuffix(ending), symbol
                 break
         label = f"{prefix}{label.replace('_', ' ')}"
         if isinstance(value, Mapping):
-            rows += _facts(value, f"{label}: ")
+            rows += _facts(value, "" if name == "pairs" else f"{label}: ", unit)  # a pair's name says enough
+        elif isinstance(value, list) and any(isinstance(item, Mapping) for item in value):
+            rows += [[label, _shown(item), ""] for item in value]
         else:
-            rows.append([label, _shown(value), unit if value is not None else ""])
+            measured = isinstance(value, int | float) and not isinstance(value, bool)
+            rows.append([label, _shown(value), unit if measured else ""])
     return rows
 
 
@@ -282,6 +306,8 @@ def _shown(value: object) -> str:
             return f"{value:.4f}".rstrip("0").rstrip(".") if math.isfinite(value) else "–"
         case list():
             return ", ".join(_shown(item) for item in value) or "none"
+        case dict():
+            return ", ".join(f"{str(key).replace('_', ' ')} {_shown(item)}" for key, item in value.items())
         case _:
             return str(value)
 
@@ -306,6 +332,3 @@ def _without_nan(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [_without_nan(item) for item in value]
     return value
-
-
-

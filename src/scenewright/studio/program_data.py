@@ -1,12 +1,13 @@
 """What the page needs of a program: clauses of the description, the moment each condition is about, the triggers.
 
-What enters: a `Program`, the times at which knots were really passed, the landmarks. What leaves: plain data for the page.
-It judges nothing: required and measured values come from the verdict.
+What enters: a `Program`, the times at which knots were really passed, the landmarks. What leaves: plain data for the
+page. It judges nothing: required and measured values come from the verdict.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
 from typing import Any
 
 from scenewright.program.expressions import (
@@ -51,7 +52,7 @@ def clauses(program: Program) -> list[Json]:
             "text": description[start:end],
             "ids": [identifier for identifier, source in sources if source.start <= start and end <= source.end],
         }
-        for start, end in zip(edges, edges[1:], strict=False)
+        for start, end in pairwise(edges)
     ]
 
 
@@ -74,16 +75,15 @@ def triggers(program: Program, knot_times: KnotTimes, landmarks: Landmarks) -> l
     Returns
     -------
     list of dict
-        ``{"time_s", "hero", "measures"}``, by time. A measure is ``{"kind": "landmark" or "tta", "actor", "name", "s_m"}``
-        (from the actor to a place on its route) or ``{"kind": "gap", "actor", "target"}``.
+        ``{"time_s", "hero", "measures"}``, by time. A measure is ``{"kind", "actor", "name", "s_m"}``, with kind
+        ``"landmark"`` or ``"tta"`` (from the actor to a place on its route), or ``{"kind": "gap", "actor", "target"}``.
     """
     structure = read_structure(program)
     names = {actor.id: actor.name for actor in program.actors}
     result = []
     for hero, instant in structure.triggers.items():
-        times = [
-            time for actor, knot in sorted(instant) if (time := _knot_time(names.get(actor), knot, knot_times)) is not None
-        ]
+        passed = [_knot_time(names.get(actor), knot, knot_times) for actor, knot in sorted(instant)]
+        times = [time for time in passed if time is not None]
         if not times:
             continue
         measures = []
@@ -92,6 +92,20 @@ def triggers(program: Program, knot_times: KnotTimes, landmarks: Landmarks) -> l
                 measures += list(_measures(constraint.formula, names, landmarks))
         result.append({"time_s": max(times), "hero": names[hero], "measures": measures})
     return sorted(result, key=lambda trigger: float(trigger["time_s"]))
+
+
+def places(program: Program) -> dict[str, list[str]]:
+    """Return the landmarks that the program speaks of, by the name of the actor on whose route they lie."""
+    names = {actor.id: actor.name for actor in program.actors}
+    found: dict[str, list[str]] = {name: [] for name in names.values()}
+    for constraint in program.constraints:
+        nodes = list(walk(constraint.formula))
+        owners = {node.actor for node in nodes if isinstance(node, State | Derived)}
+        for mark in (node for node in nodes if isinstance(node, Landmark)):
+            for actor in {mark.actor} if mark.actor is not None else owners:
+                if actor in names and mark.name not in found[names[actor]]:
+                    found[names[actor]].append(mark.name)
+    return found
 
 
 def _moments(formula: Formula, program: Program, knot_times: KnotTimes) -> Iterator[float]:
@@ -134,7 +148,7 @@ def _measures(formula: Formula, names: Mapping[int, str], landmarks: Landmarks) 
                 s_m = _arc_length(mark, actor, names, landmarks)
                 if s_m is not None:
                     yield {"kind": "tta", "actor": names[actor], "name": mark.name, "s_m": s_m}
-            case Derived(kind="gap" | "headway" | "ttc", actor=actor, target=int(target)) if {actor, target} <= set(names):
+            case Derived(actor=actor, target=int(target)) if {actor, target} <= set(names):
                 yield {"kind": "gap", "actor": names[actor], "target": names[target]}
             case _:
                 pass
@@ -142,9 +156,9 @@ def _measures(formula: Formula, names: Mapping[int, str], landmarks: Landmarks) 
 
 def _distance(state: Node, place: Node, names: Mapping[int, str], landmarks: Landmarks) -> Iterator[Json]:
     """Yield the measure of ``A0x(t1) == stop_line - p``, where that is what is compared."""
-    if not (isinstance(state, State) and state.order == 0 and isinstance(state.at, Knot | Elapsed) and state.actor in names):
+    if not isinstance(state, State) or state.order != 0 or state.actor not in names:
         return
-    if not isinstance(place, Landmark | Arithmetic):
+    if not isinstance(state.at, Knot | Elapsed) or not isinstance(place, Landmark | Arithmetic):
         return
     marks = [node for node in walk(place) if isinstance(node, Landmark)]
     if len(marks) == 1 and (s_m := _arc_length(marks[0], state.actor, names, landmarks)) is not None:

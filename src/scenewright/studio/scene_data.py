@@ -1,13 +1,14 @@
 """What the plan view draws of a map: lanes, stop lines, the actors' routes and their landmarks, in page coordinates.
 
-What enters: a run's manifest and its trace. What leaves: plain lists of rounded numbers, relative to an origin near the run
-so that a browser's single-precision drawing stays exact. It knows nothing of programs, verdicts or HTML.
+What enters: a run's manifest and its trace. What leaves: plain lists of rounded numbers, relative to an origin near the
+run so that a browser's single-precision drawing stays exact. It knows nothing of programs, verdicts or HTML.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -136,7 +137,7 @@ def _route_points(path: Path, shift_m: float, actor: ActorTrace, origin: tuple[f
         return []
     along = np.linspace(first, last, max(2, int(np.ceil(last - first)) + 1))
     points = _points(path.poses(along)[:, :2], origin)
-    steps = [0.0, *(float(np.hypot(b[0] - a[0], b[1] - a[1])) for a, b in zip(points, points[1:], strict=False))]
+    steps = [0.0, *(float(np.hypot(b[0] - a[0], b[1] - a[1])) for a, b in pairwise(points))]
     return [[x, y, round(first + shift_m + float(s), 2)] for (x, y), s in zip(points, np.cumsum(steps), strict=True)]
 
 

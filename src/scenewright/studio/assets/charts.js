@@ -7,7 +7,7 @@ const CHARTS = [
 ];
 const LEFT = 42;
 const RIGHT = 12;
-const KNOT_BAND = 44;
+const KNOT_BAND = 46;
 const charts = [];
 const motion = { hover: null, reference: 'start' };
 
@@ -26,7 +26,7 @@ function buildCharts() {
     byId('charts').append(holder);
     const svg = draw('svg', { 'aria-hidden': 'true' });
     holder.append(svg);
-    const chart = { ...spec, svg, top: index ? 8 : KNOT_BAND, bottom: index === CHARTS.length - 1 ? 22 : 8 };
+    const chart = { ...spec, svg, top: index ? 20 : KNOT_BAND, bottom: index === CHARTS.length - 1 ? 22 : 8 };
     charts.push(chart);
     bindHover(holder);
     onResize(holder, (width, height) => {
@@ -119,7 +119,7 @@ function curveOf(chart, actor) {
 }
 
 function paintGrid(chart) {
-  const { ticks, step } = niceTicks(chart.low, chart.high, (chart.height - chart.top - chart.bottom) / 26);
+  const { ticks, step } = niceTicks(chart.low, chart.high, (chart.height - chart.top - chart.bottom) / 20);
   for (const value of ticks) {
     const y = chart.y(value);
     chart.svg.append(
@@ -140,9 +140,7 @@ function paintGrid(chart) {
 
 function paintTitle(chart) {
   const from = chart.key === 's' && motion.reference !== 'start' ? ` from ${spoken(motion.reference)}` : '';
-  const y = chart.key === 's' ? 13 : chart.top + 12;
-  const title = draw('text', { class: 'chart-title', x: chart.key === 's' ? 6 : LEFT + 5, y, text: `${chart.title}${from}, ${chart.unit}` });
-  chart.svg.append(title);
+  chart.svg.append(draw('text', { class: 'chart-title', x: 6, y: 13, text: `${chart.title}${from}, ${chart.unit}` }));
 }
 
 function paintLimits(chart) {
@@ -167,7 +165,7 @@ function paintLimits(chart) {
 function paintPlaces(chart) {
   const used = [];
   for (const actor of run.actors) {
-    for (const mark of actor.landmarks.filter((each) => ['stop_line', 'conflict_point'].includes(each.name))) {
+    for (const mark of actor.landmarks.filter((each) => each.name !== 'intersection' && isSpokenOf(actor, each.name))) {
       const y = chart.y(mark.s - zeroOf(actor));
       if (y < chart.top || y > chart.height - chart.bottom || used.some((other) => Math.abs(other - y) < 3)) continue;
       chart.svg.append(draw('line', { class: `place ${actor.tone}`, x1: LEFT, x2: chart.width - RIGHT, y1: y, y2: y }));
@@ -246,20 +244,19 @@ function moveCursor(chart, time) {
   place(chart.cursor, time);
   place(chart.pointer, read);
   chart.pointer.toggleAttribute('hidden', motion.hover === null);
-  let right = chart.width - RIGHT;
-  for (let i = run.actors.length - 1; i >= 0; i -= 1) {
-    const actor = run.actors[i];
+  // With many actors the titles need the room: the first ones keep their numbers, the curves' dots show the rest.
+  const shown = Math.min(run.actors.length, Math.floor((chart.width - RIGHT - 230) / 62));
+  run.actors.forEach((actor, i) => {
     const value = shownValueOf(actor, chart.key, stateAt(actor, read)[chart.key]);
     chart.dots[i].toggleAttribute('hidden', !isNumber(value));
     if (isNumber(value)) {
       chart.dots[i].setAttribute('cx', timeToX(chart, read));
       chart.dots[i].setAttribute('cy', chart.y(value));
     }
-    chart.values[i].textContent = fixed(value, chart.digits).padStart(7, '\u2007');
-    chart.values[i].setAttribute('x', right);
-    chart.values[i].setAttribute('y', chart.key === 's' ? 13 : chart.top + 12);
-    right -= 62;
-  }
+    chart.values[i].textContent = i < shown ? fixed(value, chart.digits) : '';
+    chart.values[i].setAttribute('x', chart.width - RIGHT - (shown - 1 - i) * 62);
+    chart.values[i].setAttribute('y', 13);
+  });
 }
 
 /** Reading values follows the pointer; pressing and dragging moves the replay. */

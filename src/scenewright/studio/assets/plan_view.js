@@ -53,7 +53,7 @@ function drawRoutes() {
   for (const actor of run.actors) {
     if (actor.route.length) layers.marks.append(draw('path', { class: `route ${actor.tone}`, d: pathOf(actor.route) }));
     for (const mark of actor.landmarks) {
-      if (mark.name === 'conflict_point' || mark.name === 'route_end') continue;
+      if (mark.name === 'conflict_point' || !isSpokenOf(actor, mark.name)) continue;
       const [dx, dy] = [-Math.sin(mark.heading) * 1.3, Math.cos(mark.heading) * 1.3];
       const ends = [[mark.x - dx, mark.y - dy], [mark.x + dx, mark.y + dy]];
       layers.marks.append(draw('path', { class: `mark ${actor.tone}`, d: pathOf(ends) }));
@@ -62,14 +62,14 @@ function drawRoutes() {
   view.labels = groupedLandmarks();
 }
 
-/** Landmarks that people speak of; those at the same place share a label. */
+/** Landmarks that the program speaks of; those at the same place share a label. */
 function groupedLandmarks() {
   const spokenOf = ['conflict_point', 'stop_line', 'turn_start', 'turn_end', 'intersection'];
   const groups = [];
   for (const name of spokenOf) {
     for (const actor of run.actors) {
       const mark = actor.landmarks.find((each) => each.name === name);
-      if (!mark) continue;
+      if (!mark || !(name === 'conflict_point' || isSpokenOf(actor, name))) continue;
       const near = groups.find((group) => Math.hypot(group.x - mark.x, group.y - mark.y) < 2);
       if (near) {
         if (!near.names.includes(name) && name !== 'intersection') near.names.push(name);
@@ -98,27 +98,32 @@ function drawVehicles() {
   for (const actor of run.actors) {
     actor.body = draw('g', { class: `vehicle ${actor.tone}`, 'data-actor': actor.name }, ...vehicleShape(actor));
     layers.moving.append(actor.body);
-    actor.tag = labelPill(`own ${actor.tone}`);
+    actor.tag = labelPill(actor.tone);
     layers.moment.append(actor.tag.group);
   }
 }
 
 /** A text on a rounded ground, moved and re-worded as needed. */
 function labelPill(tone, className = 'label own') {
-  const ground = draw('rect', { class: `pill ${tone}`, rx: 3 });
-  const text = draw('text', { class: `${className}` });
-  const group = draw('g', { class: tone.replace('own ', '') }, ground, text);
+  const ground = draw('rect', { class: `pill own ${tone}`, rx: 3, height: 17 });
+  const text = draw('text', { class: className, x: 5, y: 12.5 });
+  const group = draw('g', { class: tone }, ground, text);
   return {
     group,
-    put(words, x, y) {
-      if (text.textContent !== words) {
-        text.textContent = words;
-        this.width = text.getComputedTextLength() + 10;
-        for (const [name, value] of [['width', this.width], ['height', 17]]) ground.setAttribute(name, value);
-        text.setAttribute('x', 5);
-        text.setAttribute('y', 12.5);
-      }
-      group.setAttribute('transform', `translate(${x - this.width / 2} ${y})`);
+    width: 0,
+    say(words) {
+      if (text.textContent === words) return;
+      text.textContent = words;
+      this.width = text.getComputedTextLength() + 10;
+      ground.setAttribute('width', this.width);
+    },
+    /** Beside a point, `away` pixels off: below or above a line that runs across, right or left of one that runs up. */
+    place(x, y, upright, away) {
+      group.classList.toggle('off', x < 0 || y < 0 || x > view.width || y > view.height);
+      const left = upright ? x + (away > 0 ? away : away - this.width) : x - this.width / 2;
+      const top = upright ? y - 8.5 : y + (away > 0 ? away : away - 17);
+      this.at = [clamp(left, 2, view.width - this.width - 2), clamp(top, 2, view.height - 19)];
+      group.setAttribute('transform', `translate(${this.at[0]} ${this.at[1]})`);
     },
   };
 }
@@ -158,7 +163,7 @@ function addMeasure(trigger, measure, stood) {
   }
   if (line.length < 2) return;
   trigger.group.append(draw('path', { class: 'measure-halo', d: pathOf(line) }), draw('path', { class: `measure ${actor.tone}`, d: pathOf(line) }));
-  const pill = labelPill(`own ${actor.tone}`, 'label own number');
+  const pill = labelPill(actor.tone, 'label own number');
   layers.moment.append(pill.group);
   trigger.pills.push({ pill, words, line });
 }
@@ -204,25 +209,38 @@ function trailOf(actor, from, to) {
 
 function showTags(time) {
   if (!view.width) return;
+  const taken = [];
   for (const actor of run.actors) {
     const state = stateAt(actor, time);
     if (state.x === null || state.y === null) continue;
-    const [x, y] = toScreen(state.x, state.y);
-    const reach = (Math.abs(Math.sin(state.heading)) * actor.length + actor.width) * 0.5 * view.k;
-    actor.tag.put(`${actor.name}  ${fixed(state.v, 1)} m/s`, x, y - reach - 24);
+    const upright = Math.abs(Math.sin(state.heading)) > 0.7;
+    const near = actor.width * 0.5 * view.k + 9;
+    actor.tag.say(`${actor.name} ${fixed(state.v, 1)} m/s`);
+    // In a queue the tags climb over each other.
+    for (const level of [0, 1, 2, 3]) {
+      actor.tag.place(...toScreen(state.x, state.y), upright, upright ? near + level * 60 : -near - level * 19);
+      const [x, y] = actor.tag.at;
+      if (taken.every((other) => x > other.x + other.width || x + actor.tag.width < other.x || Math.abs(y - other.y) > 17)) break;
+    }
+    taken.push({ x: actor.tag.at[0], y: actor.tag.at[1], width: actor.tag.width });
   }
   for (const trigger of run.triggers) {
     const since = time - trigger.time_s;
-    trigger.group.toggleAttribute('hidden', since < -0.011);
-    trigger.group.classList.toggle('faded', since > 1.5);
-    for (const { pill, words, line } of trigger.pills) {
-      pill.group.toggleAttribute('hidden', since < -0.011);
-      pill.group.classList.toggle('faded', since > 1.5);
-      if (since < -0.011) continue;
-      const middle = middleOf(line);
-      const [x, y] = toScreen(middle[0], middle[1]);
-      pill.put(words, x, y + Math.max(10, 2.2 * view.k));
+    for (const part of [trigger.group, ...trigger.pills.map(({ pill }) => pill.group)]) {
+      part.toggleAttribute('hidden', since < -0.011);
+      part.classList.toggle('faded', since > 1.5);
     }
+  }
+}
+
+/** Measures stay where they are for a camera: across from the vehicles' tags. */
+function placeMeasures() {
+  for (const { pill, words, line } of run.triggers.flatMap((trigger) => trigger.pills)) {
+    const middle = middleOf(line);
+    const [from, to] = [line[0], line[line.length - 1]];
+    const upright = Math.abs(to[1] - from[1]) > Math.abs(to[0] - from[0]);
+    pill.say(words);
+    pill.place(...toScreen(middle[0], middle[1]), upright, (upright ? -1 : 1) * (view.k + 9));
   }
 }
 
@@ -256,6 +274,7 @@ function placeCamera() {
   const { k, x, y, width, height } = view;
   layers.world.setAttribute('transform', `matrix(${k} 0 0 ${-k} ${width / 2 - x * k} ${height / 2 + y * k})`);
   byId('camera').value = view.camera;
+  placeMeasures();
   placeLabels();
   drawScale();
   showTags(clock.time);
@@ -268,6 +287,7 @@ function placeLabels() {
     const [x, y] = toScreen(group.x, group.y);
     return [x - 6, y - 6, 12, 12];
   });
+  for (const { pill } of run.triggers.flatMap((trigger) => trigger.pills)) taken.push([...pill.at, pill.width, 17]);
   for (const group of view.labels) {
     const [x, y] = toScreen(group.x, group.y);
     if (x < 0 || y < 0 || x > view.width || y > view.height) continue;

@@ -2,7 +2,7 @@
 
 const STATUS_CLASSES = [
   ['bad', ['unsat', 'infeasible', 'failed', 'error', 'invalid']],
-  ['unsure', ['unknown', 'timeout', 'time limit', 'gave up']],
+  ['unsure', ['unknown', 'timeout', 'time limit', 'gave up', 'relaxed']],
   ['reuse', ['kept', 'reused', 'shifted', 'held', 'frozen', 'last plan', 'skipped', 'unchanged']],
   ['ok', ['sat', 'ok', 'solved', 'optimal', 'feasible']],
 ];

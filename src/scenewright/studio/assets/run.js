@@ -8,6 +8,13 @@ const LAST = times[times.length - 1];
 run.actors.forEach((actor, index) => { actor.tone = `actor-${index % 8}`; });
 const actorNamed = (name) => run.actors.find((actor) => actor.name === name);
 
+/** Whether the program speaks of this landmark on this actor's route; without a program, what is always worth naming. */
+function isSpokenOf(actor, name) {
+  const named = run.places ? run.places[actor.name] ?? [] : ['stop_line', 'conflict_point'];
+  const alias = { intersection: ['turn'], conflict_point: ['intersection', 'turn'] }[name] ?? [];
+  return [name, ...alias].some((each) => named.includes(each));
+}
+
 function between(values, index, share) {
   const here = values[index];
   const next = values[Math.min(index + 1, values.length - 1)];

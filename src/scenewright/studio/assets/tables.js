@@ -2,7 +2,7 @@
 
 const VERDICTS = {
   tight: ['✓', 'Success', 'at tight tolerance'],
-  loose: ['◐', 'Loose success', 'not at tight tolerance'],
+  loose: ['◐', 'Success, loose only', 'not at tight tolerance'],
   failed: ['✗', 'Failed', ''],
   interrupted: ['‖', 'Interrupted', 'the run did not reach its end'],
   unjudged: ['?', 'Not judged', 'there is no verdict'],
@@ -64,7 +64,8 @@ function buildConditions() {
 }
 
 function conditionRow(condition) {
-  const text = make('td', {}, make('code', { text: condition.text }), condition.words ? make('span', { class: 'words', text: `“${condition.words}”` }) : null);
+  const words = condition.words ? make('span', { class: 'words', text: `“${condition.words}”` }) : null;
+  const text = make('td', {}, make('div', { class: 'said' }, make('code', { text: condition.text }), words));
   const known = isNumber(condition.time) && condition.time >= FIRST && condition.time <= LAST;
   const jump = known ? make('button', { type: 'button', class: 'jump', text: `${fixed(condition.time, 2)} s`, 'aria-label': `Jump to ${fixed(condition.time, 2)} seconds` }) : null;
   const row = make('tr', { class: known ? 'jumps-to' : null, 'data-owner': condition.owner, 'data-id': condition.id },
@@ -73,8 +74,8 @@ function conditionRow(condition) {
     measuredCell(condition.required, condition.unit, 'required'),
     measuredCell(condition.measured, condition.unit, 'measured'),
     measuredCell(condition.error, condition.unit, 'error'),
-    make('td', {}, markOf(condition.tight)),
-    make('td', {}, markOf(condition.loose)),
+    make('td', { class: 'mark-cell' }, markOf(condition.tight)),
+    make('td', { class: 'mark-cell' }, markOf(condition.loose)),
     make('td', { class: 'number' }, jump ?? '–'));
   if (known) row.addEventListener('click', () => jumpTo(condition.time));
   for (const name of ['pointerenter', 'focusin']) row.addEventListener(name, () => lightUp([condition.owner]));

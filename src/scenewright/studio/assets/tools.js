@@ -65,13 +65,14 @@ function indexAt(sorted, value) {
 function niceTicks(low, high, count) {
   const raw = (high - low) / Math.max(1, count);
   const power = 10 ** Math.floor(Math.log10(raw));
-  const step = [1, 2, 2.5, 5, 10].find((factor) => factor * power >= raw * 0.999) * power;
+  const step = [1, 2, 5, 10].find((factor) => factor * power >= raw * 0.999) * power;
   const ticks = [];
   for (let i = Math.ceil(low / step - 1e-9); i * step <= high + step * 1e-9; i += 1) ticks.push(i * step);
   return { ticks, step };
 }
 
-const decimalsOf = (step) => clamp(Math.ceil(-Math.log10(step) - 1e-9) + (String(step).includes('25') ? 1 : 0), 0, 3);
+/** How many decimals multiples of `step` need. */
+const decimalsOf = (step) => [0, 1, 2, 3].find((digits) => Math.abs(step * 10 ** digits - Math.round(step * 10 ** digits)) < 1e-6) ?? 3;
 
 /** Call `handler` with the element's size now and whenever it changes. */
 function onResize(element, handler) {
