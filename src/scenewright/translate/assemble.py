@@ -1,0 +1,371 @@
+"""Builds the canonical program from facts and routes, and keeps which clause each constraint came from.
+
+What enters: `Facts`, the two routes, the description. What leaves: a `Program` and the constraint ids of every event.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from scenewright.errors import Place as ErrorPlace
+from scenewright.errors import Span, TranslationError
+from scenewright.program.expressions import (
+    Arithmetic,
+    Compare,
+    Derived,
+    Elapsed,
+    Formula,
+    Knot,
+    Landmark,
+    Number,
+    Order,
+    ParameterRef,
+    PieceRef,
+    State,
+    Term,
+    walk,
+)
+from scenewright.program.text import JUST_BEFORE_M, negate
+from scenewright.program.types import Actor, Constraint, HeadingsRoute, Parameter, PieceKind, Program, Sketch
+from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, Event, Place
+from scenewright.translate.facts import Condition, Facts, Phase
+from scenewright.translate.itineraries import Itineraries
+from scenewright.translate.tokens import Quantity
+
+_POSITION: Order = 0
+_SPEED: Order = 1
+_ACCELERATION: Order = 2
+
+
+@dataclass(slots=True)
+class Assembler:
+    """Collects constraints in canonical order: initial, trigger, interaction, outcome."""
+
+    facts: Facts
+    routes: Itineraries
+    text: str
+    name: str
+    constraints: list[Constraint] = field(default_factory=list)
+    ids: dict[int, list[str]] = field(default_factory=dict)  # by id() of the event
+    assumptions: list[str] = field(default_factory=list)
+
+    def program(self, map_name: str) -> Program:
+        """Build the program."""
+        for condition in sorted(self.facts.initial, key=_canonical):
+            self._add(self._condition(condition, "t0"), condition.event)
+        sketch = self._interaction()
+        ego_sketch = Sketch(("t0", "t1", "t2"), (PieceKind.GO, PieceKind.GO))
+        actors = tuple(
+            Actor(actor, ACTOR_NAMES[actor], HeadingsRoute(self.routes.of(actor).headings), each)
+            for actor, each in ((EGO_ID, ego_sketch), (HERO_ID, sketch))
+        )
+        names = [n.name for c in self.constraints for n in walk(c.formula) if isinstance(n, ParameterRef)]
+        parameters = tuple(Parameter(name) for name in dict.fromkeys(names))
+        return Program(self.name, actors, tuple(self.constraints), parameters, map_name, self.text)
+
+    # -- helpers ----------------------------------------------------------------------------------------------------
+    def _refuse(
+        self, message: str, span: Span, expected: str | None = None, fix: str | None = None
+    ) -> TranslationError:
+        return TranslationError(
+            message,
+            place=ErrorPlace(self.name, self.text, span),
+            found=span.excerpt(self.text),
+            expected=expected,
+            fix=fix,
+        )
+
+    def _add(self, formula: Formula, *events: Event) -> None:
+        identifier = f"c{len(self.constraints) + 1}"
+        span = events[0].span if events else None
+        for event in events:
+            span = span.union(event.span) if span else event.span
+            self.ids.setdefault(id(event), []).append(identifier)
+        self.constraints.append(Constraint(identifier, formula, span))
+
+    def _landmark(self, name: str, actor: int, span: Span) -> Landmark:
+        if name in ("turn_start", "turn_end") and self.routes.of(actor).turn == "straight":
+            raise self._refuse(
+                f"the {ACTOR_NAMES[actor]} does not turn, so it never {'begins' if name == 'turn_start' else 'completes'} a turn",
+                span,
+                "a moment on its own way, such as passing the conflict point",
+                "say 'passes the conflict point'",
+            )
+        return Landmark(name, span=span)
+
+    # -- conditions -------------------------------------------------------------------------------------------------
+    def _condition(self, condition: Condition, knot: str) -> Formula:
+        actor = condition.actor
+        if condition.speed is not None:
+            return Compare("==", State(actor, _SPEED, Knot(knot)), condition.speed.term)
+        if condition.ttc is not None:
+            return self._collision_time(condition, knot)
+        place = condition.place
+        assert place is not None
+        if isinstance(place.target, int):
+            return self._gap(place, actor, place.target, knot)
+        return self._at(place, actor, knot)
+
+    def _collision_time(self, condition: Condition, knot: str) -> Formula:
+        assert condition.ttc is not None
+        if self.routes.share_approach():
+            return Compare("==", Derived("ttc", EGO_ID, HERO_ID, Knot(knot)), condition.ttc.term)
+        self.assumptions.append(
+            "the time to collision of vehicles on different approaches is the ego's time to arrival at the conflict point"
+        )
+        aim = Landmark("conflict_point", span=condition.event.span)
+        return Compare("==", Derived("tta", EGO_ID, aim, Knot(knot)), condition.ttc.term)
+
+    def _at(self, place: Place, actor: int, knot: str) -> Formula:
+        assert isinstance(place.target, str)
+        if place.of_whom is not None and place.of_whom != actor:
+            raise self._refuse(
+                "a distance is measured along a vehicle's own way", place.span, f"a place of the {ACTOR_NAMES[actor]}"
+            )
+        name = place.target
+        if name == "turn_start" and self.routes.of(actor).turn == "straight":
+            name = "turn"  # the mouth of the driveway, for somebody who drives past it
+        if place.vague:
+            self._assume("the driveway as a place is where it meets the road ('turn')")
+        landmark = self._landmark(name, actor, place.span)
+        if place.amount is not None and place.amount.dimension == "time":
+            if place.relation == "past":
+                raise self._refuse("a time past a place is not supported", place.span, "a time before it")
+            return Compare("==", Derived("tta", actor, landmark, Knot(knot)), place.amount.term)
+        position = State(actor, _POSITION, Knot(knot))
+        return Compare("==", position, self._offset(landmark, place))
+
+    def _offset(self, landmark: Landmark, place: Place) -> Term:
+        if place.relation == "at":
+            return landmark
+        if place.relation == "just_before":
+            self._assume("'just before' is 5 m before")
+            return Arithmetic("-", landmark, Number(JUST_BEFORE_M))
+        assert place.amount is not None
+        if place.amount.dimension != "length":
+            raise self._refuse("a place to stop is given by a distance", place.span, "metres or feet")
+        if place.relation == "ahead":
+            self._assume(f"'{place.span.excerpt(self.text)}' is before that place, as seen by who comes near it")
+        return Arithmetic("+" if place.relation == "past" else "-", landmark, place.amount.term)
+
+    def _assume(self, sentence: str) -> None:
+        if sentence not in self.assumptions:
+            self.assumptions.append(sentence)
+
+    def _gap(self, place: Place, actor: int, other: int, knot: str) -> Formula:
+        assert place.amount is not None
+        if actor == other:
+            raise self._refuse("a vehicle has no distance to itself", place.span)
+        if place.relation in ("behind", "ahead"):
+            rear = actor if place.relation == "behind" else other
+        elif place.relation == "before":
+            rear = actor
+        elif place.relation == "from":
+            rear = EGO_ID
+            self._assume(f"'{place.span.excerpt(self.text)}': the ego is the one behind")
+        else:
+            raise self._refuse("it is not clear which vehicle is in front", place.span, "behind or ahead of")
+        kind = "gap" if place.amount.dimension == "length" else "headway"
+        return Compare("==", Derived(kind, rear, 1 - rear, Knot(knot)), place.amount.term)
+
+    # -- the interaction --------------------------------------------------------------------------------------------
+    def _trigger(self) -> None:
+        trigger = self.facts.trigger
+        events = list({id(c.event): c.event for c in trigger}.values())
+        self._add(Compare("==", Elapsed(EGO_ID, "t1"), Elapsed(HERO_ID, "t1")), *events)
+        for condition in sorted(trigger, key=_canonical):
+            self._add(self._condition(condition, "t1"), condition.event)
+
+    def _interaction(self) -> Sketch:
+        phases = self.facts.phases
+        kinds = [phase.kind for phase in phases]
+        if not self.facts.trigger:
+            return self._untriggered(phases)
+        self._trigger()
+        if kinds == ["dec"]:
+            self._slow(phases[0], "t2")
+            return _sketch("go dec")
+        if kinds in (["dec", "acc"], ["dec", "go"]):
+            return self._stop_and_go(phases)
+        if kinds in (["acc"], ["go"]):
+            self._run(phases[0], "t2", "acc" if kinds == ["acc"] else "go")
+            return _sketch("go acc" if kinds == ["acc"] else "go go")
+        if kinds[0] == "turn" and kinds in (["turn"], ["turn", "dec"]):
+            return self._turning(phases)
+        raise self._refuse("this sequence of actions is not supported", phases[0].events[0].span)
+
+    def _slow(self, phase: Phase, knot: str) -> None:
+        event = phase.events[0]
+        if phase.rate is not None:
+            self._add(
+                Compare("==", State(HERO_ID, _ACCELERATION, PieceRef("dec")), _slower(phase.rate)),
+                phase.rate_event or event,
+            )
+        if phase.place is not None:
+            self._stop_place(phase.place, phase.place_event or event, knot)
+        elif phase.yields and phase.rate is None:
+            raise self._refuse(
+                "it is not said where the hero stops to yield", event.span, "such as '5 m behind the conflict point'"
+            )
+        if phase.to_speed is not None:
+            self._add(Compare("==", State(HERO_ID, _SPEED, Knot(knot)), phase.to_speed.term), event)
+            return
+        if not phase.to_stop:
+            if phase.rate is None and phase.place is None:
+                raise self._refuse(
+                    "it is not said how far the hero slows down", event.span, "to a stop, to a speed, or at a rate"
+                )
+            self._assume("the hero slows down to a standstill: no other speed was said")
+        elif phase.rate is None and phase.place is None:
+            self._assume("no rate and no place to stop was said: the solver chooses them")
+        self._add(Compare("==", State(HERO_ID, _SPEED, Knot(knot)), Number(Fraction(0))), *phase.events)
+
+    def _stop_place(self, place: Place, event: Event, knot: str) -> None:
+        if isinstance(place.target, int):
+            if place.amount is None or place.relation not in ("behind", "ahead", "before"):
+                raise self._refuse("it is not said how far from the ego the hero stops", place.span)
+            raise self._refuse("a stop relative to the ego is not supported", place.span, "a distance to a landmark")
+        if place.amount is not None and place.amount.dimension != "length":
+            raise self._refuse("a place to stop is given by a distance", place.span, "metres or feet")
+        self._add(self._at(place, HERO_ID, knot), event)
+
+    def _run(self, phase: Phase, knot: str, piece: str) -> None:
+        event = phase.events[0]
+        if phase.rate is not None:
+            if piece == "go":
+                raise self._refuse("a hero that keeps its speed has no rate", event.span)
+            self._add(
+                Compare("==", State(HERO_ID, _ACCELERATION, PieceRef("acc")), _faster(phase.rate)),
+                phase.rate_event or event,
+            )
+        goal, goal_event = phase.goal, phase.goal_event or event
+        if goal is None and phase.to_speed is None:
+            goal = "conflict_point"
+            self._assume("the hero goes on to pass the conflict point")
+        if goal is not None:
+            aim = self._landmark(goal, HERO_ID, goal_event.span)
+            self._add(Compare("==", State(HERO_ID, _POSITION, Knot(knot)), aim), goal_event)
+        if phase.to_speed is not None:
+            self._add(Compare("==", State(HERO_ID, _SPEED, Knot(knot)), phase.to_speed.term), event)
+        self._order(knot)
+
+    def _order(self, hero_knot: str, start_knot: str | None = None) -> None:
+        order = self.facts.order
+        if order is None:
+            refused = self.facts.not_yielding
+            if refused is None:
+                return
+            self._assume("not yielding means that the hero passes the conflict point before the ego does")
+            name, event, hero_first, at_start = "conflict_point", refused, True, False
+        else:
+            name, event, hero_first, at_start = order.ego_landmark, order.event, order.hero_first, order.at_start
+        aim = self._landmark(name, EGO_ID, event.span)
+        self._add(Compare("==", State(EGO_ID, _POSITION, Knot("t2")), aim), event)
+        knot = start_knot if at_start and start_knot else hero_knot
+        self._add(Compare("<" if hero_first else ">", Elapsed(HERO_ID, knot), Elapsed(EGO_ID, "t2")), event)
+
+    def _stop_and_go(self, phases: list[Phase]) -> Sketch:
+        if phases[0].to_speed is not None:
+            raise self._refuse(
+                "the hero slows down but does not stop before it goes", phases[0].events[0].span, "a stop"
+            )
+        self._slow(phases[0], "t2")
+        event = phases[0].events[0]
+        self._add(Compare("==", State(HERO_ID, _SPEED, PieceRef("stop")), Number(Fraction(0))), event)
+        if phases[0].wait is not None:
+            waited = Arithmetic("-", Elapsed(HERO_ID, "t3"), Elapsed(HERO_ID, "t2"))
+            self._add(Compare("==", waited, phases[0].wait.term), phases[0].events[-1])
+        order = self.facts.order
+        if order is not None and order.at_start:
+            self._goal_without_order(phases[1])
+            self._order("t4", "t3")
+        else:
+            self._run(phases[1], "t4", "acc")
+        return _sketch("go dec stop acc")
+
+    def _goal_without_order(self, phase: Phase) -> None:
+        order, self.facts.order = self.facts.order, None
+        self._run(phase, "t4", "acc")
+        self.facts.order = order
+
+    def _turning(self, phases: list[Phase]) -> Sketch:
+        turn, slow = phases[0], phases[1] if len(phases) > 1 else None
+        event = turn.events[0]
+        placed = any(
+            c.actor == HERO_ID and c.place is not None and isinstance(c.place.target, str) for c in self.facts.trigger
+        )
+        if slow is not None:
+            if not placed:
+                self._add(
+                    Compare("==", State(HERO_ID, _POSITION, Knot("t1")), Landmark("turn", span=event.span)),
+                    *turn.events,
+                )
+            self._slow(slow, "t2")
+            return _sketch("go dec")
+        if not placed:
+            self._add(
+                Compare("==", State(HERO_ID, _POSITION, Knot("t1")), self._landmark("turn_start", HERO_ID, event.span)),
+                *turn.events,
+            )
+        self._add(
+            Compare("==", State(HERO_ID, _POSITION, Knot("t2")), self._landmark("turn_end", HERO_ID, event.span)),
+            *turn.events,
+        )
+        piece = "go"
+        if turn.to_speed is not None:
+            self._add(Compare("==", State(HERO_ID, _SPEED, Knot("t2")), turn.to_speed.term), turn.events[-1])
+            piece = "acc"
+        self._order("t2")
+        return _sketch(f"go {piece} go" if turn.to_speed is not None else f"go {piece}")
+
+    # -- without a trigger ------------------------------------------------------------------------------------------
+    def _untriggered(self, phases: list[Phase]) -> Sketch:
+        """Build the hero's script from the start: it slows from a given speed to a stop at a place, then goes again."""
+        speeds = [c for c in self.facts.initial if c.actor == HERO_ID and c.speed is not None]
+        slow = phases[0]
+        complete = (
+            [p.kind for p in phases] == ["dec", "acc"] and speeds and slow.rate is not None and slow.place is not None
+        )
+        if not complete:
+            raise TranslationError(
+                "there is no trigger: it is not said when the hero reacts",
+                place=ErrorPlace(self.name, self.text, slow.events[0].span),
+                found=slow.events[0].span.excerpt(self.text),
+                expected="a clause with 'when'",
+                fix="add for example 'when the ego is 12 m behind the stop line'",
+            )
+        self._assume(
+            "no trigger was given: the hero slows down from the start, and the ego is at the turn when it has stopped"
+        )
+        self._slow(slow, "t1")
+        event = slow.events[0]
+        self._add(Compare("==", State(HERO_ID, _SPEED, PieceRef("stop")), Number(Fraction(0))), event)
+        self._add(Compare("==", State(EGO_ID, _POSITION, Knot("t1")), Landmark("turn")), event)
+        self._add(Compare("==", Elapsed(EGO_ID, "t1"), Elapsed(HERO_ID, "t1")), event)
+        self._add(Compare(">", Elapsed(HERO_ID, "t2"), Elapsed(EGO_ID, "t1")), *phases[1].events)
+        if phases[1].goal is not None or phases[1].to_speed is None or self.facts.order is not None:
+            raise self._refuse("without a trigger only a speed to go back to is supported", phases[1].events[0].span)
+        self._add(Compare("==", State(HERO_ID, _SPEED, Knot("t3")), phases[1].to_speed.term), *phases[1].events)
+        return _sketch("dec stop acc")
+
+
+def _sketch(pieces: str) -> Sketch:
+    kinds = tuple(PieceKind(piece) for piece in pieces.split())
+    return Sketch(tuple(f"t{index}" for index in range(len(kinds) + 1)), kinds)
+
+
+def _canonical(condition: Condition) -> tuple[int, int, str]:
+    rank = 0 if condition.place is not None else 1 if condition.ttc is not None else 2
+    return condition.actor, rank, str(condition.place.target) if condition.place else ""
+
+
+def _slower(rate: Quantity) -> Term:
+    """Return the signed deceleration; people give its size, or say it negative."""
+    if isinstance(rate.term, Number) and rate.term.value < 0:
+        return rate.term
+    return negate(rate.term, rate.span)
+
+
+def _faster(rate: Quantity) -> Term:
+    return rate.term

@@ -1,0 +1,77 @@
+"""What a clause says, before it is known what that means for the program: events with who, what, where and how.
+
+What enters: nothing. What leaves: the dataclasses that `clauses` fills and `interpret` reads.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from scenewright.errors import Span
+from scenewright.translate.tokens import Quantity
+
+EGO_ID, HERO_ID = 0, 1
+ACTOR_NAMES = {EGO_ID: "ego", HERO_ID: "hero"}
+Relation = Literal["behind", "ahead", "before", "from", "past", "at", "just_before"]
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A position relative to a landmark or another actor: ``12 m behind the stop line``."""
+
+    relation: Relation
+    target: str | int  # a landmark's name, or an actor's id
+    amount: Quantity | None
+    span: Span
+    of_whom: int | None = None  # "the hero's stop line"
+    vague: bool = False  # "the driveway" stands for the landmark
+
+
+@dataclass(frozen=True, slots=True)
+class Area:
+    """A stretch of the map that an actor is on, comes from or wants: ``onto the road travelling westbound``."""
+
+    role: Literal["on", "from", "into", "across"]
+    kind: Literal["road", "driveway", "lane"]
+    span: Span
+    heading: str | None = None
+    side: str | None = None  # "the northern driveway"
+    lane_of: int | None = None  # "into the ego's lane"
+    oncoming: bool = False  # "the oncoming lane"
+    wanted_by: int | None = None  # "the lane that the ego wants to turn into"
+
+
+@dataclass(slots=True)
+class Event:
+    """One verb (or verbless statement) with everything that was said about it."""
+
+    verb: str
+    actor: int | None
+    span: Span
+    sentence: int
+    links: list[str] = field(default_factory=list)
+    negated: bool = False
+    begins: bool = False
+    wanted: bool = False
+    perfect: bool = False
+    gerund: bool = False
+    initial: bool = False
+    first: bool = False
+    to_stop: bool = False
+    places: list[Place] = field(default_factory=list)
+    areas: list[Area] = field(default_factory=list)
+    headings: list[tuple[str, Span]] = field(default_factory=list)
+    direction: str | None = None
+    rate: Quantity | None = None
+    speed: Quantity | None = None
+    to_speed: Quantity | None = None
+    duration: Quantity | None = None
+    ttc: Quantity | None = None
+    landmark: str | None = None
+    than_actor: int | None = None  # "before the ego": the actor that is beaten
+    to_actor: int | None = None  # "yields to the ego"
+    between: tuple[int, int] | None = None
+    relations: list[tuple[str, int, Span]] = field(default_factory=list)  # ("lead", actor, span)
+    notes: list[str] = field(default_factory=list)
+    mode: str = "main"

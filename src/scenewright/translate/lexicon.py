@@ -1,0 +1,135 @@
+"""The words that the offline translator knows, read from `lexicon.toml`, with their inflected forms.
+
+What enters: the table beside this module. What leaves: tags for sequences of words, numbers in words, units by spelling.
+It holds no grammar: which tag counts in a sentence is decided by `clauses`.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib.resources import files
+
+VOWELS = "aeiou"
+# Forms: base, s (he brakes), ing, ed (past and participle).
+IRREGULAR: dict[str, tuple[str, ...]] = {
+    "be": ("be is are", "is are", "being", "been was were"),
+    "begin": ("begin", "begins", "beginning", "began begun"),
+    "bring": ("bring", "brings", "bringing", "brought"),
+    "come": ("come", "comes", "coming", "came come"),
+    "do": ("do", "does", "doing", "did done"),
+    "draw": ("draw", "draws", "drawing", "drew drawn"),
+    "drive": ("drive", "drives", "driving", "drove driven"),
+    "find": ("find", "finds", "finding", "found"),
+    "forget": ("forget", "forgets", "forgetting", "forgot forgotten"),
+    "get": ("get", "gets", "getting", "got gotten"),
+    "give": ("give", "gives", "giving", "gave given"),
+    "go": ("go", "goes", "going", "went gone"),
+    "have": ("have", "has", "having", "had"),
+    "hit": ("hit", "hits", "hitting", "hit"),
+    "hold": ("hold", "holds", "holding", "held"),
+    "keep": ("keep", "keeps", "keeping", "kept"),
+    "lose": ("lose", "loses", "losing", "lost"),
+    "make": ("make", "makes", "making", "made"),
+    "mean": ("mean", "means", "meaning", "meant"),
+    "omit": ("omit", "omits", "omitting", "omitted"),
+    "ride": ("ride", "rides", "riding", "rode ridden"),
+    "set": ("set", "sets", "setting", "set"),
+    "shed": ("shed", "sheds", "shedding", "shed"),
+    "sit": ("sit", "sits", "sitting", "sat"),
+    "speed": ("speed", "speeds", "speeding", "sped speeded"),
+    "stand": ("stand", "stands", "standing", "stood"),
+    "swing": ("swing", "swings", "swinging", "swung"),
+    "take": ("take", "takes", "taking", "took taken"),
+    "plan": ("plan", "plans", "planning", "planned"),
+    "stop": ("stop", "stops", "stopping", "stopped"),
+    "travel": ("travel", "travels", "travelling traveling", "travelled traveled"),
+}
+FORM_NAMES = ("base", "s", "ing", "ed")
+
+
+@dataclass(frozen=True, slots=True)
+class Lexicon:
+    """All known phrases.
+
+    Attributes
+    ----------
+    entries
+        Tags by phrase (tuple of lower-case words); a tag is a class with a value, verbs carry their forms too.
+    units
+        Unit symbol by spelling.
+    longest
+        Words in the longest phrase.
+    """
+
+    entries: Mapping[tuple[str, ...], Mapping[str, str]]
+    forms: Mapping[tuple[str, ...], frozenset[str]]
+    units: Mapping[str, str]
+    longest: int
+
+    def lookup(self, words: Sequence[str], start: int) -> tuple[int, Mapping[str, str], frozenset[str]]:
+        """Return how many words from `start` the longest known phrase takes (0: none), its tags and verb forms."""
+        for length in range(min(self.longest, len(words) - start), 0, -1):
+            key = tuple(words[start : start + length])
+            if key in self.entries:
+                return length, self.entries[key], self.forms.get(key, frozenset())
+        return 0, {}, frozenset()
+
+    def vocabulary(self) -> set[str]:
+        """Return every single word that occurs in some phrase, for suggestions."""
+        return {word for phrase in self.entries for word in phrase} | set(self.units)
+
+
+@lru_cache(maxsize=1)
+def load_lexicon() -> Lexicon:
+    """Read the table once and inflect its verbs."""
+    table = tomllib.loads(files("scenewright.translate").joinpath("lexicon.toml").read_text(encoding="utf-8"))
+    entries: dict[tuple[str, ...], dict[str, str]] = {}
+    forms: dict[tuple[str, ...], set[str]] = {}
+    units = {spelling: symbol for symbol, spellings in table.pop("unit").items() for spelling in spellings}
+    for tag, values in table.items():
+        for value, phrases in values.items():
+            for phrase in phrases:
+                if tag != "verb":
+                    entries.setdefault(tuple(phrase.split()), {})[tag] = value
+                    continue
+                for form, words in inflect(phrase):
+                    entries.setdefault(words, {})["verb"] = value
+                    forms.setdefault(words, set()).add(form)
+    longest = max(len(words) for words in entries)
+    return Lexicon(entries, {words: frozenset(names) for words, names in forms.items()}, units, longest)
+
+
+def inflect(phrase: str) -> list[tuple[str, tuple[str, ...]]]:
+    """Return the forms of a verb phrase, inflected by its first word or the one marked with a star.
+
+    >>> inflect("slow down")[1]
+    ('s', ('slows', 'down'))
+    """
+    words = phrase.split()
+    at = next((index for index, word in enumerate(words) if word.endswith("*")), 0)
+    head = words[at].rstrip("*")
+    groups = IRREGULAR.get(head) or (head, _third(head), _gerund(head), _past(head))
+    return [
+        (name, (*words[:at], form, *words[at + 1 :]))
+        for name, forms in zip(FORM_NAMES, groups, strict=True)
+        for form in forms.split()
+    ]
+
+
+def _third(verb: str) -> str:
+    if verb.endswith(("s", "sh", "ch", "x")):
+        return verb + "es"
+    return verb[:-1] + "ies" if verb.endswith("y") and verb[-2] not in VOWELS else verb + "s"
+
+
+def _gerund(verb: str) -> str:
+    return verb[:-1] + "ing" if verb.endswith("e") and not verb.endswith("ee") else verb + "ing"
+
+
+def _past(verb: str) -> str:
+    if verb.endswith("e"):
+        return verb + "d"
+    return verb[:-1] + "ied" if verb.endswith("y") and verb[-2] not in VOWELS else verb + "ed"

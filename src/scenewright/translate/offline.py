@@ -1,0 +1,178 @@
+"""The offline translator: a description in the paper's kind of English becomes a program, clause by clause.
+
+What enters: a description and, optionally, the map it is about. What leaves: a `Translation`: the program, how every clause
+was read, and what had to be assumed. What it does not understand it refuses, naming the words; it never drops a clause and
+uses no network and no model.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from scenewright.errors import Place, Span, TranslationError
+from scenewright.program.expressions import Number, ParameterRef, walk
+from scenewright.program.printer import print_expression
+from scenewright.program.types import Program
+from scenewright.translate.assemble import Assembler
+from scenewright.translate.clauses import ClauseReader
+from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, Event
+from scenewright.translate.facts import Facts
+from scenewright.translate.interpret import Interpreter
+from scenewright.translate.itineraries import Itineraries, choose_routes, default_map
+from scenewright.translate.phrases import Phrases
+from scenewright.translate.references import Referents
+from scenewright.translate.tokens import Token, tokenise
+
+if TYPE_CHECKING:
+    from scenewright.roads import RoadMap
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """How one clause was understood.
+
+    Attributes
+    ----------
+    span, text
+        The clause, as offsets into the description and as words.
+    understood
+        Its meaning in plain words.
+    constraint_ids
+        The constraints that it gave; empty for clauses that decide a route.
+    """
+
+    span: Span
+    text: str
+    understood: str
+    constraint_ids: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Translation:
+    """A program with the account of how it came from the description."""
+
+    program: Program
+    readings: tuple[Reading, ...]
+    assumptions: tuple[str, ...]
+
+
+def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "description") -> Translation:
+    """Translate a description without network or model.
+
+    Parameters
+    ----------
+    text
+        The description. Numbers carry units; `snake_case_parameters` end in theirs.
+    road_map
+        The map it is about; the T intersection that is shipped where None. Its routes decide directions left unsaid.
+    name
+        What to call the program, and the text in messages.
+
+    Returns
+    -------
+    Translation
+        With spans into `text`.
+
+    Raises
+    ------
+    TranslationError
+        Where the text, or any word of it, was not understood, contradicts itself, or leaves a choice open.
+
+    Examples
+    --------
+    >>> text = ("Ego is on the driveway exit and wants to turn right. The hero travels westbound along the road. When the ego "
+    ...         "is 12 m behind the stop line, the hero brakes to a stop 5 m before the conflict point.")
+    >>> [actor.route.headings for actor in translate_offline(text).program.actors]
+    [('S', 'W'), ('W',)]
+    """
+    tokens = tokenise(text, name)
+    referents = Referents(text, name)
+    phrases = Phrases(text, name, tokens, referents)
+    events = ClauseReader(phrases).read()
+    facts = Interpreter(text, name).run(events)
+    _complete(facts, text, name)
+    chosen_map = road_map if road_map is not None else default_map()
+    routes = choose_routes(facts, chosen_map, text, name)
+    assembler = Assembler(facts, routes, text, name)
+    program = assembler.program(chosen_map.name)
+    _all_amounts_used(program, tokens, text, name)
+    assumptions = (*phrases.assumptions, *facts.assumptions, *routes.assumptions, *assembler.assumptions)
+    readings = tuple(_reading(event, facts, routes, assembler, program, text) for event in events)
+    return Translation(program, readings, tuple(dict.fromkeys(assumptions)))
+
+
+def explain(translation: Translation) -> list[tuple[str, str, str]]:
+    """Return rows for display: the words of each clause, how they were understood, the constraints they gave."""
+    rows = []
+    for reading in translation.readings:
+        formulas = [
+            print_expression(translation.program.constraint(identifier).formula)
+            for identifier in reading.constraint_ids
+        ]
+        rows.append((reading.text, reading.understood, "; ".join(formulas)))
+    return rows
+
+
+def _complete(facts: Facts, text: str, name: str) -> None:
+    place = Place(name, text, Span(0, len(text)))
+    for actor in (EGO_ID, HERO_ID):
+        if actor not in facts.mentioned:
+            what = "no ego" if actor == EGO_ID else "no other vehicle"
+            raise TranslationError(
+                f"there is {what} in the description",
+                place=place,
+                found=text[:60],
+                expected="the ego (the vehicle under test) and one hero (the other vehicle)",
+                fix="say where each of them is and what it wants",
+            )
+    if not facts.phases:
+        raise TranslationError(
+            "there is no interaction: it is not said what the hero does",
+            place=place,
+            found=text[:60],
+            expected="a hero that brakes, stops, accelerates or turns when something happens",
+            fix="add for example 'the hero brakes to a stop 5 m behind the conflict point'",
+        )
+    slowing = [phase for phase in facts.phases if phase.kind == "dec"]
+    if facts.not_yielding is not None and slowing:
+        event = facts.not_yielding
+        raise TranslationError(
+            "the hero is said to stop and not to stop",
+            place=Place(name, text, event.span),
+            found=event.span.excerpt(text),
+            expected=slowing[0].events[0].span.excerpt(text),
+            fix="say one of them",
+        )
+
+
+def _all_amounts_used(program: Program, tokens: list[Token], text: str, name: str) -> None:
+    """Refuse a text with a number or a parameter that no constraint holds: a last guard against dropping a clause."""
+    used = {
+        node.span
+        for constraint in program.constraints
+        for node in walk(constraint.formula)
+        if isinstance(node, Number | ParameterRef)
+    }
+    for token in tokens:
+        if token.quantity is not None and token.quantity.term.span not in used and token.quantity.span not in used:
+            raise TranslationError(
+                f"'{token.text}' was read but could not be used",
+                place=Place(name, text, token.span),
+                found=token.text,
+                expected="a place, time, speed or rate that fits the clause",
+                fix="say it in a sentence of its own",
+            )
+
+
+def _reading(
+    event: Event, facts: Facts, routes: Itineraries, assembler: Assembler, program: Program, text: str
+) -> Reading:
+    ids = tuple(dict.fromkeys(assembler.ids.get(id(event), ())))
+    parts = list(facts.understood.get(id(event), ()))
+    formulas = [print_expression(program.constraint(identifier).formula) for identifier in ids]
+    if formulas:
+        parts.append("; ".join(formulas))
+    if not parts and event.actor is not None:
+        parts.append(f"the {ACTOR_NAMES[event.actor]}'s route: {routes.of(event.actor)}")
+    return Reading(event.span, event.span.excerpt(text), "; ".join(parts), ids)

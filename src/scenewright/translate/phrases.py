@@ -1,0 +1,337 @@
+"""Reads phrases at a position of the token list: noun phrases, places, areas, headings, measures. No clause structure.
+
+What enters: tagged tokens and a position. What leaves: what the phrase says and the position after it, or None.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import cast
+
+from scenewright.errors import Place as ErrorPlace
+from scenewright.errors import Span, TranslationError
+from scenewright.translate.events import Area, Place, Relation
+from scenewright.translate.references import Referents
+from scenewright.translate.tokens import Quantity, Token
+
+OPPOSITE = {"N": "S", "S": "N", "E": "W", "W": "E"}
+MEASURE_DIMENSION = {
+    "length": "length",
+    "time": "time",
+    "headway": "time",
+    "ttc": "time",
+    "speed": "speed",
+    "rate": "acceleration",
+}
+
+
+@dataclass(slots=True)
+class NounPhrase:
+    """An actor as it was written; `Phrases.resolve` says who it is."""
+
+    end: int
+    kind: str  # ego, hero, noun or pronoun
+    noun: str | None
+    determiner: str | None
+    adjectives: set[str]
+    heading: str | None
+    span: Span
+
+
+@dataclass(slots=True)
+class Phrases:
+    """Phrase readers over one token list."""
+
+    text: str
+    name: str
+    tokens: list[Token]
+    refs: Referents
+    last_landmark: str | None = None
+    subject: int | None = None
+    assumptions: list[str] = field(default_factory=list)
+
+    # -- helpers ----------------------------------------------------------------------------------------------------
+    def tag(self, at: int, tag: str) -> str | None:
+        """Return the value of `tag` for the token at `at`, or None."""
+        return self.tokens[at].tags.get(tag) if at < len(self.tokens) else None
+
+    def verb(self, at: int, *values: str) -> str | None:
+        """Return the verb at `at` if it is one of `values` (any, where none are given)."""
+        verb = self.tag(at, "verb")
+        return verb if verb and (not values or verb in values) else None
+
+    def span(self, start: int, end: int) -> Span:
+        """Return the stretch of text of tokens ``[start, end)``."""
+        return self.tokens[start].span.union(self.tokens[max(start, end - 1)].span)
+
+    def refuse(self, message: str, span: Span, expected: str | None = None, fix: str | None = None) -> TranslationError:
+        """Build the error for a stretch of the description."""
+        return TranslationError(
+            message,
+            place=ErrorPlace(self.name, self.text, span),
+            found=span.excerpt(self.text),
+            expected=expected,
+            fix=fix,
+        )
+
+    def skip_determiner(self, at: int) -> int:
+        """Step over an article."""
+        return at + 1 if self.tag(at, "determiner") else at
+
+    # -- actors -----------------------------------------------------------------------------------------------------
+    def noun_phrase(self, at: int) -> NounPhrase | None:
+        """Read an actor's noun phrase without deciding who it is."""
+        start, adjectives, heading = at, set[str](), None
+        determiner = self.tag(at, "determiner")
+        at += determiner is not None
+        while True:
+            if value := self.tag(at, "actor_adjective"):
+                adjectives.add(value)
+            elif (value := self.tag(at, "heading")) and heading is None:
+                heading = value
+            else:
+                break
+            at += 1
+        if self.tag(at, "pronoun") and at == start:
+            return NounPhrase(at + 1, "pronoun", None, None, adjectives, None, self.span(start, at + 1))
+        for kind in ("ego", "hero"):
+            if self.tag(at, kind):
+                noun = self.tag(at + 1, "noun")
+                words = self.tokens[at].text.lower().split()
+                end = at + 1 + (noun is not None)
+                last = words[-1] if words[-1] in ("car", "vehicle", "actor", "agent") else None
+                return NounPhrase(end, kind, noun or last, determiner, adjectives, heading, self.span(start, end))
+        noun = self.tag(at, "noun")
+        if noun is None:
+            return None
+        return NounPhrase(at + 1, "noun", noun, determiner, adjectives, heading, self.span(start, at + 1))
+
+    def resolve(self, phrase: NounPhrase) -> int:
+        """Say who `phrase` is."""
+        if phrase.kind == "ego":
+            return self.refs.ego(phrase.noun)
+        if phrase.kind == "hero":
+            return self.refs.hero(phrase.noun)
+        if phrase.kind == "pronoun":
+            if self.subject is None:
+                raise self.refuse("it is not clear who this is", phrase.span, "the ego or the hero", "name the vehicle")
+            return self.subject
+        return self.refs.by_noun(phrase.noun or "", phrase.determiner, phrase.adjectives, phrase.span)
+
+    def possessor(self, at: int) -> tuple[int, int] | None:
+        """Read "its" or "the ego's"; return the actor and the position after it."""
+        if self.tag(at, "possessive"):
+            if self.subject is None:
+                raise self.refuse("it is not clear whose this is", self.tokens[at].span, fix="name the vehicle")
+            return self.subject, at + 1
+        phrase = self.noun_phrase(at)
+        if phrase and phrase.kind != "pronoun" and self.tag(phrase.end, "genitive") is not None:
+            return self.resolve(phrase), phrase.end + 1
+        return None
+
+    # -- places -----------------------------------------------------------------------------------------------------
+    def landmark(self, at: int) -> tuple[str, int, int | None, bool] | None:
+        """Read a landmark: name, position after it, whose it is, and whether a driveway stands for it."""
+        owner = self.possessor(at)
+        whose, at = owner if owner else (None, self.skip_determiner(at))
+        if name := self.tag(at, "landmark"):
+            self.last_landmark = name
+            return name, at + 1, whose, False
+        if self.tag(at, "mouth"):
+            after = self.skip_determiner(at + 1 + (self.tag(at + 1, "preposition") == "of"))
+            after += self.tag(after, "side") is not None
+            if self.tag(after, "area") == "driveway" and after > at + 1:
+                return "mouth", after + 1, whose, False
+            return None
+        at += self.tag(at, "side") is not None
+        if self.tag(at, "area") == "driveway":
+            end = at + 1
+            if self.tag(end, "mouth"):
+                return "mouth", end + 1, whose, False
+            return "turn", end, whose, True
+        return None
+
+    def place(self, at: int) -> tuple[Place, int] | None:
+        """Read a place: ``12 m behind the stop line``, ``just before it``, ``at the stop line``."""
+        start = at
+        at, amount = self._amount(at)
+        just = False
+        if amount is None:
+            at = start
+            if self.tag(at, "adverb") == "just" and self.tag(at + 1, "relation") in ("before", "behind"):
+                just, at = True, at + 1
+            elif self.tag(at, "adverb") in ("exact", "just") and self.tag(at + 1, "preposition") == "at":
+                at += 1
+        relation, at = self._relation(at, amount is not None)
+        if relation is None:
+            return None
+        if just:
+            relation = "just_before"
+        return self._place_target(start, at, relation, amount)
+
+    def _amount(self, at: int) -> tuple[int, Quantity | None]:
+        """Step over "at a distance of about" to a length or a time."""
+        if self.tag(at, "preposition") in ("at", "with", "in", "on"):
+            at += 1
+        if (measured := self.measured(at)) is not None and measured[0] in ("length", "time", "headway"):
+            return measured[2], measured[1]
+        while self.tag(at, "adverb") in ("about", "exact", "just"):
+            at += 1
+        quantity = self.tokens[at].quantity if at < len(self.tokens) else None
+        if quantity is None or quantity.dimension not in ("length", "time"):
+            return at, None
+        return at + 1, quantity
+
+    def measured(self, at: int) -> tuple[str, Quantity, int] | None:
+        """Read "a rate of 3 m/s^2", "a distance of 12 m": measure, amount, position after it."""
+        at = self.skip_determiner(at)
+        measure = self.tag(at, "measure")
+        if measure is None or self.tag(at + 1, "preposition") != "of":
+            return None
+        at += 2
+        while self.tag(at, "adverb") in ("about", "exact"):
+            at += 1
+        quantity = self.tokens[at].quantity
+        if quantity is None:
+            return None
+        self.check_measure(measure, quantity)
+        return measure, quantity, at + 1
+
+    def check_measure(self, measure: str, quantity: Quantity) -> None:
+        """Refuse "a distance of 5 s"."""
+        expected = MEASURE_DIMENSION[measure]
+        gap_in_time = measure == "length" and quantity.dimension == "time"
+        if quantity.dimension != expected and not gap_in_time:
+            raise self.refuse(
+                f"a {measure if measure != 'rate' else 'rate of acceleration'} cannot be in {quantity.dimension} units",
+                quantity.span,
+                f"an amount of {expected}",
+            )
+        if gap_in_time:
+            raise self.refuse("a distance cannot be a time", quantity.span, "metres or feet", "write 'time to arrival'")
+
+    def _relation(self, at: int, has_amount: bool) -> tuple[Relation | None, int]:
+        relation = self.tag(at, "relation")
+        if relation:
+            at += 1
+            if has_amount and relation == "from" and self.tag(at, "relation") in ("from", "before"):  # "away before"
+                at += 1
+            return cast(Relation, relation), at
+        preposition = self.tag(at, "preposition")
+        if has_amount and preposition in ("to", "of") or has_amount and self.tag(at, "link") == "to":
+            return "from", at + 1
+        if has_amount and preposition == "out" and self.tokens[at].text.lower() == "from":
+            return "from", at + 1
+        if not has_amount and preposition in ("at", "on") and not self.tokens[at].text.lower().startswith("along"):
+            return "at", at + 1
+        return None, at
+
+    def _place_target(
+        self, start: int, at: int, relation: Relation, amount: Quantity | None
+    ) -> tuple[Place, int] | None:
+        if found := self.landmark(at):
+            name, end, whose, vague = found
+            if relation == "at" and vague:  # "on the driveway" is an area
+                return None
+            if amount is None and relation not in ("at", "just_before"):
+                return None
+            if name == "mouth":
+                name = "turn_start"
+            return Place(relation, name, amount, self.span(start, end), whose, vague), end
+        if relation in ("at", "just_before"):
+            return None
+        phrase = self.noun_phrase(at)
+        if phrase is None:
+            if amount is not None and relation in ("ahead", "behind") and self.subject is not None:
+                return Place(relation, 1 - self.subject, amount, self.span(start, at)), at  # "12 m ahead"
+            return None
+        if phrase.kind == "pronoun":
+            if relation == "before" and self.last_landmark and amount is not None:
+                self.assumptions.append(
+                    f"'{phrase.span.excerpt(self.text)}' in '{self.span(start, phrase.end).excerpt(self.text)}' is the {self.last_landmark.replace('_', ' ')}"
+                )
+                return Place(relation, self.last_landmark, amount, self.span(start, phrase.end)), phrase.end
+            raise self.refuse("it is not clear what this refers to", phrase.span, fix="name the vehicle or the place")
+        if amount is None and relation not in ("behind", "ahead"):
+            return None
+        return Place(relation, self.resolve(phrase), amount, self.span(start, phrase.end)), phrase.end
+
+    # -- areas and headings -----------------------------------------------------------------------------------------
+    def area(self, at: int) -> tuple[Area, int] | None:
+        """Read an area with its preposition: ``onto the road travelling westbound``, ``across the ego's path``."""
+        roles = {"on": "on", "in": "on", "at": "on", "into": "into", "to": "into", "out": "from", "across": "across"}
+        preposition = self.tag(at, "preposition")
+        if preposition not in roles:
+            return None
+        found = self.area_noun(at + 1, roles[preposition])
+        if found is None:
+            return None
+        area, end = found
+        if preposition == "at" and area.kind != "driveway":
+            return None
+        return area, end
+
+    def area_noun(self, at: int, role: str) -> tuple[Area, int] | None:
+        """Read the noun of an area with what describes it."""
+        start = at
+        owner = self.possessor(at)
+        whose, at = owner if owner else (None, self.skip_determiner(at))
+        heading = side = None
+        oncoming = False
+        while True:
+            if self.tag(at, "heading"):
+                heading = self.tag(at, "heading")
+            elif self.tag(at, "side"):
+                side = self.tag(at, "side")
+            elif self.tag(at, "actor_adjective") == "oncoming":
+                oncoming = True
+            elif self.tag(at, "adverb") != "same":
+                break
+            at += 1
+        kind = self.tag(at, "area")
+        if kind is None:
+            return None
+        end = at + 1
+        wanted_by = None
+        if kind == "lane" and self.tag(end, "link") == "that":
+            phrase = self.noun_phrase(end + 1)
+            rest = (
+                [
+                    self.verb(phrase.end, "want"),
+                    self.tag(phrase.end + 1, "link"),
+                    self.verb(phrase.end + 2, "turn", "pull_out"),
+                    self.tag(phrase.end + 3, "preposition"),
+                ]
+                if phrase
+                else []
+            )
+            if phrase and rest[0] and rest[1] == "to" and rest[2] and rest[3] == "into":
+                wanted_by, end = self.resolve(phrase), phrase.end + 4
+        if (after := self.heading(end)) and not after[2]:
+            if heading and heading != after[0]:
+                raise self.refuse("two headings contradict each other", self.span(start, after[1]))
+            heading, end = after[0], after[1]
+        span = self.span(start, end)
+        return Area(cast("object", role), cast("object", kind), span, heading, side, whose, oncoming, wanted_by), end  # type: ignore[arg-type]
+
+    def heading(self, at: int) -> tuple[str, int, bool] | None:
+        """Read a heading: ``travelling westbound``, ``in the westbound direction``; True last for "from the east"."""
+        start = at
+        if self.verb(at, "drive", "go") and "ing" in self.tokens[at].forms:
+            at += 1
+        elif self.tag(at, "bound_word"):
+            at += 1
+        came_from = self.tag(at, "preposition") == "out" and self.tokens[at].text.lower() == "from"
+        if came_from or self.tag(at, "preposition") in ("to", "in", "on"):
+            at = self.skip_determiner(at + 1)
+        else:
+            at = self.skip_determiner(at) if self.tag(at + 2, "direction_noun") else at
+        value = self.tag(at, "heading")
+        if value is None:
+            return None
+        if self.tag(at + 1, "area") or (self.noun_phrase(start) is not None):
+            return None
+        at += 1
+        if self.tag(at, "direction_noun"):
+            at += 1
+        return (OPPOSITE[value] if came_from else value), at, came_from

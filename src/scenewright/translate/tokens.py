@@ -1,0 +1,314 @@
+"""Cuts a description into tagged tokens with spans: words and phrases, quantities with units, stops.
+
+What enters: the description. What leaves: a list of `Token`. Words that the lexicon does not know, numbers without a unit
+and quantities whose units contradict each other are refused here, all with their place. No grammar is applied.
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from scenewright.errors import Place, Span, TranslationError
+from scenewright.program.expressions import Number, ParameterRef
+from scenewright.translate.lexicon import Lexicon, load_lexicon
+from scenewright.units import UNITS, Dimension, Unit, unit_of_name
+
+_PARAMETER = r"[A-Za-z][A-Za-z0-9]*(?:\\?_[A-Za-z0-9]+)+"
+_RAW = re.compile(
+    rf"""(?P<braced>\{{\s*{_PARAMETER}\s*\}})
+    |(?P<parameter>{_PARAMETER})
+    |(?P<number>(?<![\w.])[+\-−]?(?:\d+(?:,\d+)*(?:\.\d+)?|\.\d+)(?:/\d+)?)
+    |(?P<word>[^\W\d_]+(?:n['’]t)?)
+    |(?P<genitive>['’]s\b|(?<=s)['’](?=\s))
+    |(?P<stop>[.;!?](?=\s|$|["')\]])|\n[ \t]*(?:[-*•–—]|\d+[.)]|\(\w\))[ \t]+|\n[ \t]*\n\s*)
+    |(?P<label>:)
+    |(?P<comma>[,()\[\]"“”/]|(?<=\s)[-–—](?=\s)|[–—])
+    |(?P<compare>[<>≤≥]=?|±|={{1,2}}|~|≈)
+    |(?P<joiner>[-‐‑'’])
+    |(?P<space>\s+)
+    |(?P<other>.)""",
+    re.VERBOSE | re.DOTALL,
+)
+_LEADING_BULLET = re.compile(r"\s*(?:[-*•–—]|\d+[.)])\s+")
+_LABELLED_LINE = re.compile(r"\n(?=[ \t]*[A-Za-z][A-Za-z ]{0,30}:)")
+_UNIT_END = r"(?![A-Za-z0-9²^/*])"
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """An amount with its dimension: a literal in SI units, or a parameter."""
+
+    term: Number | ParameterRef
+    dimension: Dimension
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Token:
+    """One word, known phrase, quantity or stop.
+
+    `tags` maps the word classes it can belong to onto values; `forms` are verb forms. Punctuation has the tags
+    ``end``, ``comma``, ``colon`` or ``genitive``.
+    """
+
+    text: str
+    span: Span
+    tags: Mapping[str, str]
+    forms: frozenset[str] = frozenset()
+    quantity: Quantity | None = None
+
+
+@dataclass(slots=True)
+class _Raw:
+    kind: str
+    text: str
+    span: Span
+
+
+@dataclass(slots=True)
+class _Tagger:
+    text: str
+    name: str
+    lexicon: Lexicon
+    raw: list[_Raw] = field(default_factory=list)
+    unknown: list[_Raw] = field(default_factory=list)
+
+    def place(self, span: Span) -> Place:
+        return Place(self.name, self.text, span)
+
+
+def tokenise(text: str, name: str) -> list[Token]:
+    """Cut `text` into tagged tokens.
+
+    Raises
+    ------
+    TranslationError
+        Where the text is empty, holds words that are not known, or a quantity whose unit is missing or contradictory.
+    """
+    if not text.strip():
+        raise TranslationError(
+            "the description is empty",
+            place=Place(name),
+            expected="a sentence about the ego and one other vehicle",
+            fix='for example: "Ego is on the driveway exit and wants to turn right. ..."',
+        )
+    tagger = _Tagger(text, name, load_lexicon())
+    tagger.raw = _cut(text)
+    tokens: list[Token] = []
+    index = 0
+    while index < len(tagger.raw):
+        index = _next(tagger, index, tokens)
+    if tagger.unknown:
+        raise _unknown_words(tagger)
+    end = Span(len(text), len(text))
+    return [*tokens, Token("", end, {"end": "text"})]
+
+
+def _cut(text: str) -> list[_Raw]:
+    breaks = {match.start() for match in _LABELLED_LINE.finditer(text)}
+    bullet = _LEADING_BULLET.match(text)
+    raw: list[_Raw] = []
+    for match in _RAW.finditer(text, bullet.end() if bullet else 0):
+        kind = match.lastgroup or "other"
+        if kind == "space":
+            if any(position in breaks for position in range(match.start(), match.end())):
+                raw.append(_Raw("stop", match.group(), Span(*match.span())))
+            continue
+        raw.append(_Raw(kind, match.group(), Span(*match.span())))
+    return raw
+
+
+def _next(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
+    raw = tagger.raw[index]
+    if raw.kind in ("number", "braced", "parameter"):
+        return _quantity(tagger, index, tokens)
+    if raw.kind == "joiner":
+        return index + 1
+    if raw.kind in ("stop", "comma", "label", "genitive"):
+        tag = {"stop": "end", "comma": "comma", "label": "colon", "genitive": "genitive"}[raw.kind]
+        tokens.append(Token(raw.text, raw.span, {tag: raw.text.strip()}))
+        return index + 1
+    return _words(tagger, index, tokens)
+
+
+def _word_run(tagger: _Tagger, index: int) -> tuple[list[str], list[int]]:
+    """Return the words from `index` on, joined across hyphens, and the raw index after each."""
+    words: list[str] = []
+    ends: list[int] = []
+    while index < len(tagger.raw) and len(words) < tagger.lexicon.longest + 1:
+        raw = tagger.raw[index]
+        if raw.kind in ("word", "compare"):
+            words.append(raw.text.lower().replace("’", "'"))
+            ends.append(index + 1)
+        elif raw.kind == "number" and words and raw.text == "0":  # "t0", "at t 0"
+            break
+        elif raw.kind != "joiner" or not words:
+            break
+        index += 1
+    return words, ends
+
+
+def _words(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
+    words, ends = _word_run(tagger, index)
+    first = tagger.raw[index]
+    if not words:
+        tagger.unknown.append(first)
+        return index + 1
+    length, tags, forms = tagger.lexicon.lookup(words, 0)
+    if "number" in tags:
+        return _number_in_words(tagger, index, words, ends, tokens)
+    if not length:
+        tagger.unknown.append(first)
+        return index + 1
+    last = tagger.raw[ends[length - 1] - 1]
+    span = first.span.union(last.span)
+    if "determiner" in tags and tokens and tokens[-1].text.lower() == words[0] and length == 1:
+        return ends[0]  # a slip of the pen: "behind the the conflict point"
+    tokens.append(Token(span.excerpt(tagger.text), span, tags, forms))
+    return ends[length - 1]
+
+
+def _number_in_words(tagger: _Tagger, index: int, words: list[str], ends: list[int], tokens: list[Token]) -> int:
+    value, used = 0, 0
+    while used < len(words):
+        length, tags, _ = tagger.lexicon.lookup(words, used)
+        if "number" not in tags:
+            break
+        part = int(tags["number"])
+        if used and not (value >= 20 and value % 10 == 0 and value < 100 and 0 < part < 10):
+            break
+        value += part
+        used += length
+    span = tagger.raw[index].span.union(tagger.raw[ends[used - 1] - 1].span)
+    unit, after = _unit(tagger, ends[used - 1])
+    if unit is None:
+        raise _no_unit(tagger, span)
+    whole = span.union(tagger.raw[after - 1].span)
+    tokens.append(_literal(tagger, Fraction(value), unit, whole))
+    return after
+
+
+def _quantity(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
+    raw = tagger.raw[index]
+    unit, after = _unit(tagger, index + 1)
+    span = raw.span.union(tagger.raw[after - 1].span)
+    if raw.kind == "number":
+        if "," in raw.text or "/" in raw.text:
+            raise TranslationError(
+                f"'{raw.text}' can be read in more than one way",
+                place=tagger.place(raw.span),
+                found=raw.text,
+                expected="a number such as 12 or 12.5",
+                fix="write a decimal point and no thousands separator",
+            )
+        if unit is None:
+            raise _no_unit(tagger, raw.span)
+        value = Fraction(raw.text.replace("−", "-").lstrip("+"))
+        tokens.append(_literal(tagger, value, unit, span))
+        return after
+    name = raw.text.strip("{} \t").replace("\\", "")
+    own = unit_of_name(name)
+    if own is None:
+        raise TranslationError(
+            f"the parameter '{name}' does not end in a unit",
+            place=tagger.place(raw.span),
+            found=name,
+            expected="a name that ends in _m, _s, _mps or _mpss",
+            fix=f"write {name}_m for metres or {name}_s for seconds",
+        )
+    if unit is not None and unit.symbol != own.symbol:
+        raise TranslationError(
+            f"the parameter '{name}' is in {own.symbol}, but the text says {unit.symbol}",
+            place=tagger.place(span),
+            found=span.excerpt(tagger.text),
+            expected=own.symbol,
+            fix="use the same unit in the name and after it",
+        )
+    term = ParameterRef(name, raw.span)
+    tokens.append(
+        Token(
+            span.excerpt(tagger.text),
+            span,
+            {"quantity": own.dimension},
+            frozenset(),
+            Quantity(term, own.dimension, span),
+        )
+    )
+    return after
+
+
+def _literal(tagger: _Tagger, value: Fraction, unit: Unit, span: Span) -> Token:
+    quantity = Quantity(Number(value * unit.si_factor, span), unit.dimension, span)
+    return Token(span.excerpt(tagger.text), span, {"quantity": unit.dimension}, frozenset(), quantity)
+
+
+def _unit(tagger: _Tagger, index: int) -> tuple[Unit | None, int]:
+    """Read a unit that starts at raw token `index`; return it and the index after it (unchanged where there is none)."""
+    if index >= len(tagger.raw):
+        return None, index
+    start = tagger.raw[index].span.start
+    if tagger.raw[index].kind == "joiner" and index + 1 < len(tagger.raw):  # "12-metre"
+        index += 1
+        start = tagger.raw[index].span.start
+    match = _unit_pattern().match(tagger.text, start)
+    previous = tagger.raw[index - 1].span.end
+    if match is None or start - previous > 3:
+        strange = re.compile(r"[A-Za-zµ°%]+(?:[/^*²³0-9]+[A-Za-z0-9²³^]*)+|[°%]|k?g\b").match(tagger.text, start)
+        if strange:
+            raise TranslationError(
+                f"'{strange.group()}' is not a unit that fits here",
+                place=tagger.place(Span(*strange.span())),
+                found=strange.group(),
+                expected="m, ft, km, s, m/s, km/h, mph, m/s^2 or g",
+            )
+        return None, index if tagger.raw[index - 1].kind != "joiner" else index - 1
+    symbol = tagger.lexicon.units[re.sub(r"[\s-]+", " ", match.group().lower())]
+    after = index
+    while after < len(tagger.raw) and tagger.raw[after].span.start < match.end():
+        after += 1
+    return UNITS[symbol], after
+
+
+_PATTERNS: list[re.Pattern[str]] = []
+
+
+def _unit_pattern() -> re.Pattern[str]:
+    if not _PATTERNS:
+        spellings = sorted(load_lexicon().units, key=len, reverse=True)
+        body = "|".join(re.escape(item).replace(r"\ ", r"[\s-]+") for item in spellings)
+        _PATTERNS.append(re.compile(rf"(?:{body}){_UNIT_END}", re.IGNORECASE))
+    return _PATTERNS[0]
+
+
+def _no_unit(tagger: _Tagger, span: Span) -> TranslationError:
+    number = span.excerpt(tagger.text)
+    return TranslationError(
+        f"'{number}' has no unit",
+        place=tagger.place(span),
+        found=number,
+        expected="a number with a unit, such as 12 m, 5 s, 40 km/h or 3 m/s^2",
+        fix=f"write '{number} m' or '{number} s'",
+    )
+
+
+def _unknown_words(tagger: _Tagger) -> TranslationError:
+    words = list(dict.fromkeys(raw.text for raw in tagger.unknown))
+    vocabulary = sorted(tagger.lexicon.vocabulary())
+    hints = []
+    for word in words:
+        near = difflib.get_close_matches(word.lower(), vocabulary, n=1, cutoff=0.75)
+        if near:
+            hints.append(f"did you mean '{near[0]}' for '{word}'?")
+    listed = ", ".join(f"'{word}'" for word in words[:12])
+    return TranslationError(
+        f"these words were not understood: {listed}" if len(words) > 1 else f"this word was not understood: {listed}",
+        place=tagger.place(tagger.unknown[0].span),
+        found=listed,
+        expected="words about two vehicles on a road: where they are, what they want, when one reacts, and how",
+        fix=" ".join(hints)
+        or "leave these words out or say it in other words; nothing is guessed and nothing is dropped",
+    )
