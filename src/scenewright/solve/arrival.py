@@ -178,7 +178,9 @@ def _common_stretches(
         for segment in _with_rest(profile.cut(after_s)):
             yield segment.start_s, segment.duration_s, {actor: (segment.s_m, segment.speed_mps, segment.accel_mpss)}
         return
-    breaks = sorted({t for _, p in profiles for s in p.segments for t in (s.start_s, s.end_s) if t > after_s} | {after_s})
+    breaks = sorted(
+        {t for _, p in profiles for s in p.segments for t in (s.start_s, s.end_s) if t > after_s} | {after_s}
+    )
     for begin, end in zip(breaks, [*breaks[1:], breaks[-1] + HORIZON_S], strict=True):
         yield begin, end - begin, {actor: profile.state(begin) for actor, profile in profiles}
 

@@ -8,7 +8,7 @@ bounded from outside by what any motion within the limits must obey, so that an 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Literal
 
@@ -89,12 +89,15 @@ class Feasibility:
     ----------
     answer
         ``feasible`` (as far as the outer bounds tell), ``infeasible`` (proven) or ``unknown``.
+    parameters
+        SI values of open parameters with which it is feasible, where it is.
     """
 
     answer: Literal["feasible", "infeasible", "unknown"]
     clashes: tuple[Clash, ...] = ()
     suggestions: tuple[Suggestion, ...] = ()
     reason: str = ""
+    parameters: Mapping[str, Fraction] = field(default_factory=dict)
 
     def explain(self) -> str:
         """Return the proof for people: what clashes, and what would make it possible."""
@@ -116,19 +119,27 @@ class Feasibility:
 
 
 def check_feasibility(
-    scene: Scene, structure: Structure, limits: Mapping[int, Limits], backend: Backend, ego: EgoBounds | None = None
+    scene: Scene,
+    structure: Structure,
+    limits: Mapping[int, Limits],
+    backend: Backend,
+    ego: EgoBounds | None = None,
+    explain: bool = True,
 ) -> Feasibility:
     """Decide whether any ego within `ego` and any heroes within `limits` can do what the program asks.
 
-    Open parameters are free within their ranges.
+    Open parameters are free within their ranges. With `explain` an infeasible answer comes with clashes and suggestions.
     """
     bounds = ego or EgoBounds()
     problem = _OuterProblem(scene, structure, limits, bounds).problem
     result = backend.solve(problem, _PROOF_TIMEOUT_S)
     if isinstance(result, Satisfiable):
-        return Feasibility("feasible")
+        names = (parameter.name for parameter in scene.open_parameters())
+        return Feasibility("feasible", parameters={name: result.model[f"p_{name}"] for name in names})
     if not isinstance(result, Unsatisfiable):
         return Feasibility("unknown", reason=result.reason)
+    if not explain:
+        return Feasibility("infeasible")
     proof = backend.solve(problem, _PROOF_TIMEOUT_S, want_core=True)
     core = proof.core if isinstance(proof, Unsatisfiable) else ()
     clashes = tuple(_clash(scene.program, origin) for origin in core)
@@ -363,7 +374,9 @@ def _levers(scene: Scene, core: set[str]) -> Iterator[_Lever]:
                 name = f"free_{constraint.id}"
                 changed = replace(constraint, formula=_with_name(constraint.formula, node, name))
                 words = program.words_of(constraint)
-                what = f"{format_fraction(node.value)} in " + (f'"{words}"' if words else print_expression(constraint.formula))
+                what = f"{format_fraction(node.value)} in " + (
+                    f'"{words}"' if words else print_expression(constraint.formula)
+                )
                 yield _Lever(what, node.value, _dimension_of(constraint), _with_constraint(program, changed), name)
 
 
@@ -446,4 +459,3 @@ def _replaced(node: Node, old: Number, new: Term) -> Node:
             return replace(node, operands=tuple(_replaced(o, old, new) for o in operands))  # type: ignore[misc]
         case _:
             return node
-

@@ -276,9 +276,9 @@ class HeroProblem:
     @staticmethod
     def _lower(lowering: Lowering, formula: Formula, tolerance: Fraction, margin_s: float) -> Condition:
         match formula:
-            case Compare(operator="<" | "<=", left=Elapsed(actor=hero) as left, right=Elapsed(actor=other) as right) if (
-                hero != EGO and other == EGO and margin_s
-            ):
+            case Compare(
+                operator="<" | "<=", left=Elapsed(actor=hero) as left, right=Elapsed(actor=other) as right
+            ) if hero != EGO and other == EGO and margin_s:
                 first, second = lowering.term(left, None)[0], lowering.term(right, None)[0]
                 return compare("<=", first + pin(margin_s), second)
             case _:

@@ -82,7 +82,9 @@ STEADY = Manner("steady", 0.0, 0.0, 1, True, (1.8, 3.2), (1.2, 2.5), (0.6, 1.2),
 GENTLE = Manner("gentle", 1.0, 1.2, 2, True, (1.0, 4.0), (1.0, 2.5), (0.6, 1.5), 1.5, True)
 FIRM = Manner("firm", 2.5, 3.0, 3, True, (0.6, 6.0), (0.6, 3.5), (0.5, 3.0), MOVING_MPS, False)
 WHOLE = Manner("whole", ACCEL_MAX_MPSS, 6.0, 5, True, (0.3, 8.0), (0.3, 4.0), (0.5, 20.0), MOVING_MPS, False, True, 0.3)
-URGENT = Manner("urgent", ACCEL_MAX_MPSS, 8.0, 4, False, (0.3, 8.0), (0.3, 4.0), (0.5, 90.0), MOVING_MPS, False, True, 0.05)
+URGENT = Manner(
+    "urgent", ACCEL_MAX_MPSS, 8.0, 4, False, (0.3, 8.0), (0.3, 4.0), (0.5, 90.0), MOVING_MPS, False, True, 0.05
+)
 
 
 def limits_on(route: Route, road_map: RoadMap) -> Limits:

@@ -34,13 +34,17 @@ DEFAULT_BUDGET_S = 0.25
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """The result of one re-solve: a plan or the reason for none, and what it cost."""
+    """The result of one re-solve: a plan or the reason for none, and what it cost.
+
+    `promises_outcome` says whether the plan, with the ego as predicted, leads to the outcome too (who goes first).
+    """
 
     plan: Plan | None
     status: str
     reason: str
     wall_s: float
     tries: int
+    promises_outcome: bool = True
 
 
 class Planner:
@@ -98,18 +102,16 @@ class Planner:
                     tries += 1
                     found = self._solve(situation, replace(manner, outcome=outcome), Fraction(0), left_s)
                     if isinstance(found, Plan):
-                        return Attempt(found, "sat", "", time.perf_counter() - started, tries)
+                        return Attempt(found, "sat", "", time.perf_counter() - started, tries, outcome)
                     reason = found
         plan, more = self._widest(situations[0], replace(manners[-1], outcome=False), budget_s, started)
         status = "relaxed" if plan else "unsat"
-        return Attempt(plan, status, "" if plan else reason, time.perf_counter() - started, tries + more)
+        return Attempt(plan, status, "" if plan else reason, time.perf_counter() - started, tries + more, False)
 
     def _has_outcome(self) -> bool:
         return Role.OUTCOME in self.structure.roles.values()
 
-    def _widest(
-        self, situation: Situation, manner: Manner, budget_s: float, started: float
-    ) -> tuple[Plan | None, int]:
+    def _widest(self, situation: Situation, manner: Manner, budget_s: float, started: float) -> tuple[Plan | None, int]:
         """Search the smallest tolerance that admits a plan: outwards by doubling, then back by halving."""
         best: Plan | None = None
         low = Fraction(0)

@@ -1,0 +1,333 @@
+"""The whole way, from a text to a judged run. The file to read first.
+
+    description --translate--> program --ground on a map--> scene --check--> feasible, or a proof that it cannot happen
+        --plan--> first plan --simulate, re-solve each tick--> trace --judge--> verdict --> page
+
+What enters: a `Request`. What leaves: a `Result` and, where something was driven, a run directory.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+from scenewright.drive.guarded import GuardedPolicy
+from scenewright.drive.loading import load_policy
+from scenewright.errors import InputError, Place
+from scenewright.program.check import check_program
+from scenewright.program.structure import Structure, read_structure
+from scenewright.program.text import parse_program
+from scenewright.program.types import EGO, Program
+from scenewright.roads.grounding import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, Scene, ground
+from scenewright.roads.load import load_map
+from scenewright.simulate.ego_start import EgoFirstState, ego_starts
+from scenewright.simulate.loop import Rates, Run, simulate
+from scenewright.simulate.prediction import ConstantAcceleration, ConstantSpeed
+from scenewright.simulate.replanner import Replanner
+from scenewright.simulate.vehicles import EgoVehicle
+from scenewright.solve.arrival import linear_conditions
+from scenewright.solve.feasibility import EgoBounds, Feasibility, check_feasibility
+from scenewright.solve.limits import Limits, limits_on
+from scenewright.solve.parameters import choose_open_parameters
+from scenewright.solve.planner import Attempt, Planner
+from scenewright.solve.problem import Backend
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from scenewright.judge.case import Case
+    from scenewright.judge.verdict import Verdict
+    from scenewright.translate.offline import Translation
+
+Mode = Literal["closed", "open"]
+Tolerance = Literal["tight", "loose"]
+Status = Literal["success", "failure", "infeasible", "gave up", "interrupted", "failed"]
+EXIT_STATUS: dict[Status, int] = {
+    "success": 0,
+    "failure": 1,
+    "failed": 2,
+    "infeasible": 3,
+    "gave up": 4,
+    "interrupted": 130,
+}
+Report = Callable[[str], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """What a user asks for: the command line of ``scenewright run``, as data."""
+
+    source: str
+    parameters: Mapping[str, float | str] = field(default_factory=dict)
+    map_name: str | None = None
+    ego: str = "idm"
+    mode: Mode = "closed"
+    tolerance: Tolerance = "tight"
+    seed: int = 0
+    translator: str = "offline"
+    out: Path | None = None
+    replan_hz: float = 10.0
+    budget_s: float = 0.25
+
+
+@dataclass(slots=True)
+class Result:
+    """What came of a request.
+
+    Attributes
+    ----------
+    status
+        ``success`` or ``failure`` are verdicts; ``failed`` and ``interrupted`` runs were cut short.
+    run_directory
+        Where the files are; None where nothing was driven or nothing was to be written.
+    """
+
+    status: Status
+    scene: Scene
+    translation: Translation | None = None
+    feasibility: Feasibility | None = None
+    attempt: Attempt | None = None
+    run: Run | None = None
+    verdict: Verdict | None = None
+    run_directory: Path | None = None
+    timings_s: dict[str, float] = field(default_factory=dict)
+
+
+def orchestrate(
+    request: Request, report: Report | None = None, progress: Callable[[float], None] | None = None
+) -> Result:
+    """Carry out `request`.
+
+    Parameters
+    ----------
+    report
+        Called with the name of each stage as it begins.
+    progress
+        Called with the simulated time (s) as the run goes on.
+
+    Raises
+    ------
+    ScenewrightError
+        Where the input is wrong; every subclass says what and how to mend it.
+    """
+    stages = _Stages(report)
+    if request.out is not None:
+        from scenewright.simulate.record import prepare_directory
+
+        prepare_directory(request.out)
+    with stages("translate"):
+        program, translation = read_scenario(request.source, request.translator, request.map_name)
+    with stages("ground"):
+        scene = ground(program, load_map(request.map_name or program.map_name), request.parameters)
+    policy = load_policy(request.ego)
+    world = _World(
+        scene, EgoVehicle(GuardedPolicy(policy.policy, policy.name), scene.routes[EGO], scene.road_map, request.seed)
+    )
+    with stages("check"):
+        world.scene = choose_open_parameters(scene, world.structure, world.limits, world.backend, world.ego_bounds)
+        feasibility = check_feasibility(world.scene, world.structure, world.limits, world.backend, world.ego_bounds)
+    result = Result("infeasible", world.scene, translation, feasibility, timings_s=stages.seconds)
+    if feasibility.answer == "infeasible":
+        return result
+    with stages("plan"):
+        replanner, start, attempt = first_plan(world, request)
+        result.attempt = attempt
+    if attempt.plan is None:
+        result.status = "gave up"
+        return result
+    rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
+    with stages("simulate"):
+        world.ego.reset(start.s_m, start.speed_mps)
+        result.run = simulate(world.scene, world.ego, replanner, rates, progress)
+    _record(request, result, world, rates, policy.name, policy.options, stages)
+    return result
+
+
+# -- reading --------------------------------------------------------------------------------------------------------
+def read_scenario(
+    source: str, translator: str = "offline", map_name: str | None = None
+) -> tuple[Program, Translation | None]:
+    """Return the program that `source` stands for: a file (`.txt`, `.scene`), a description, or the text of a program.
+
+    Raises
+    ------
+    TranslationError, ProgramError, InputError
+        Where it cannot be read or understood.
+    """
+    text, name = _text_of(source)
+    if is_program(text):
+        program = parse_program(text, name)
+        check_program(program, text, name)
+        return program, None
+    if translator != "offline":
+        raise InputError(
+            f"there is no translator {translator}", found=translator, expected="offline", fix="--translator offline"
+        )
+    from scenewright.translate.offline import translate_offline
+
+    translation = translate_offline(text, load_map(map_name) if map_name else None, name)
+    check_program(translation.program)
+    return translation.program, translation
+
+
+def is_program(text: str) -> bool:
+    """Whether `text` is meant as a program rather than as a description: some line begins an actor."""
+    return any(line.strip().lower().startswith(("actor 0", "actor 1", "scenario ")) for line in text.splitlines())
+
+
+def _text_of(source: str) -> tuple[str, str]:
+    if "\n" not in source and len(source) < 1000 and source.strip():
+        path = Path(source)
+        looks_like_file = path.suffix in (".txt", ".scene", ".md") and " " not in source.strip()
+        if path.is_file():
+            try:
+                return path.read_text(encoding="utf-8"), path.name
+            except (OSError, UnicodeDecodeError) as error:
+                raise InputError("the file cannot be read as text", place=Place(source), found=str(error)) from None
+        if looks_like_file:
+            raise InputError(
+                "there is no such file", place=Place(source), fix="give a file, or the description itself in quotes"
+            )
+    return source, "description"
+
+
+# -- planning -------------------------------------------------------------------------------------------------------
+class _World:
+    """What stays the same all through one request."""
+
+    def __init__(self, scene: Scene, ego: EgoVehicle) -> None:
+        from scenewright.solve.backends.z3_backend import Z3Backend
+
+        self.scene = scene
+        self.ego = ego
+        self.structure: Structure = read_structure(scene.program)
+        self.limits: dict[int, Limits] = {i: limits_on(route, scene.road_map) for i, route in scene.routes.items()}
+        self.backend: Backend = Z3Backend()
+        envelope = ego.policy.envelope
+        self.ego_bounds = (
+            EgoBounds(envelope.speed_max_mps, envelope.accel_max_mpss, -envelope.accel_min_mpss, envelope.holds_speed)
+            if envelope is not None
+            else EgoBounds()
+        )
+
+
+def first_plan(world: _World, request: Request) -> tuple[Replanner, EgoFirstState, Attempt]:
+    """Choose the ego's first state and plan from it; where several states may be chosen, the first that plans well."""
+    conditions = linear_conditions(world.scene, world.structure)
+    predictor = ConstantSpeed() if request.mode == "open" else ConstantAcceleration()
+    best: tuple[Replanner, EgoFirstState, Attempt] | None = None
+    for start in ego_starts(world.scene, world.ego, world.limits[EGO], conditions):
+        planner = Planner(world.scene, world.structure, world.limits, world.backend, request.budget_s)
+        replanner = Replanner(world.scene, world.structure, planner, predictor, conditions)
+        attempt = replanner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
+        if best is None or _quality(attempt) > _quality(best[2]):
+            best = (replanner, start, attempt)
+        if _quality(attempt) == 2:
+            break
+    assert best is not None
+    return best
+
+
+def _quality(attempt: Attempt) -> int:
+    if attempt.plan is None:
+        return 0
+    return 2 if attempt.status == "sat" and attempt.promises_outcome else 1
+
+
+# -- what is left behind --------------------------------------------------------------------------------------------
+def _record(
+    request: Request,
+    result: Result,
+    world: _World,
+    rates: Rates,
+    ego_name: str,
+    ego_options: Mapping[str, object],
+    stages: _Stages,
+) -> None:
+    """Judge the run, and write its directory where one is asked for."""
+    from scenewright.judge.judgement import judge
+    from scenewright.judge.tolerance import LOOSE, TIGHT
+    from scenewright.simulate.record import Circumstances, write_run
+
+    run = result.run
+    assert run is not None
+    given = frozenset(request.parameters)
+    circumstances = Circumstances(
+        ego_name,
+        ego_options,
+        request.mode,
+        request.tolerance,
+        request.seed,
+        request.translator if result.translation else "none",
+        rates,
+        frozenset(p.name for p in world.scene.program.parameters if p.name not in given and p.value is None),
+        given,
+        stages.seconds,
+        result.translation.assumptions if result.translation else (),
+    )
+    with stages("judge"):
+        result.verdict = judge(case_of(world.scene, run, world.limits))
+    holds = result.verdict.holds_at(TIGHT if request.tolerance == "tight" else LOOSE)
+    result.status = "success" if holds else "failure"
+    if run.status != "finished":
+        result.status = "interrupted" if run.status == "interrupted" else "failed"
+    if request.out is None:
+        return
+    from scenewright.judge.files import write_verdict
+    from scenewright.studio.page import write_page
+
+    with stages("write"):
+        write_run(request.out, world.scene, run, world.limits, circumstances)
+        write_verdict(result.verdict, request.out / "verdict.json")
+        write_page(request.out)
+    result.run_directory = request.out
+
+
+def case_of(scene: Scene, run: Run, limits: Mapping[int, Limits]) -> Case:
+    """Return what the judge may see of a run: program, values, facts of the map, and the trace."""
+    from scenewright.judge import case
+    from scenewright.roads.conflicts import shared_offset_m
+
+    actors = scene.program.actors
+    pairs = [(a, b) for a in actors for b in actors if a.id < b.id]
+    return case.Case(
+        program=scene.program,
+        parameters={name: float(value) for name, value in scene.parameters.items()},
+        landmarks={actor.name: scene.landmarks_m[actor.id] for actor in actors},
+        shared_offset_m={(a.name, b.name): shared_offset_m(scene.routes[a.id], scene.routes[b.id]) for a, b in pairs},
+        trace=run.trace,
+        vehicles={actor.name: case.Box(VEHICLE_LENGTH_M, VEHICLE_WIDTH_M) for actor in actors},
+        limits={
+            hero.name: case.Limits(
+                limits[hero.id].speed_max_mps,
+                -limits[hero.id].brake_max_mpss,
+                limits[hero.id].accel_max_mpss,
+                limits[hero.id].lateral_max_mpss,
+            )
+            for hero in scene.program.heroes
+        },
+        expected_headings={actor.name: scene.routes[actor.id].headings for actor in actors},
+        paths={actor.name: scene.routes[actor.id].path for actor in actors},
+    )
+
+
+class _Stages:
+    """Names and times the stages of one request."""
+
+    def __init__(self, report: Report | None) -> None:
+        self.seconds: dict[str, float] = {}
+        self._report = report
+
+    @contextmanager
+    def __call__(self, name: str) -> Iterator[None]:
+        if self._report is not None:
+            self._report(name)
+        started = time.perf_counter()
+        try:
+            yield
+        finally:
+            self.seconds[name] = time.perf_counter() - started
