@@ -225,7 +225,7 @@ def write_replans(folder: Path) -> None:
     reasons = ["the plan still holds" if status == "kept" else "the ego's prediction changed" for status in statuses]
     statuses[31], reasons[31] = "unsat", "the ego slows down: no speed within 2 to 15 m/s meets both sides"
     statuses[32], reasons[32] = "unknown", "time limit of 50 ms"
-    wall = np.where([status == "kept" for status in statuses], 0.0003, 0.004) * random.uniform(0.7, 1.6, len(times))
+    wall = np.where([status == "kept" for status in statuses], 0.0, 0.004) * random.uniform(0.7, 1.6, len(times))
     wall[32] = 0.05
     table = {
         "time_s": times,

@@ -114,9 +114,10 @@ def test_facts_are_flattened_with_units(run_dir: Path) -> None:
 
 def test_replans_are_summed_up(run_dir: Path) -> None:
     replans = collect(run_dir)["replans"]
-    assert replans["summary"]["count"] == len(replans["rows"]) == 100
+    assert (replans["summary"]["count"], replans["summary"]["solved"]) == (100, 36)
+    assert len(replans["rows"]) == 100
     assert sum(replans["summary"]["statuses"].values()) == 100
-    walls = [row["wall_ms"] for row in replans["rows"]]
+    walls = [row["wall_ms"] for row in replans["rows"] if row["wall_ms"]]
     assert replans["summary"]["p50_ms"] == pytest.approx(np.percentile(walls, 50), abs=0.01)
     assert replans["summary"]["max_ms"] == pytest.approx(50.0)
 
@@ -136,6 +137,11 @@ def test_a_broken_file_is_named_and_no_more(run_dir: Path, name: str) -> None:
     (sentence,) = collect(run_dir)["missing"]
     assert name in sentence
     assert "cannot be read" in sentence
+
+
+def test_a_fault_that_broke_the_run_off_is_told(run_dir: Path, edit: Edit) -> None:
+    edit(run_dir / "manifest.json", lambda m: m.update(status="failed", fault="the policy raised ValueError"))
+    assert collect(run_dir)["missing"] == ["the run broke off: the policy raised ValueError"]
 
 
 @pytest.mark.parametrize("name", ["manifest.json", "trace.parquet"])
@@ -192,3 +198,21 @@ def test_what_is_not_a_number_becomes_null(run_dir: Path, edit: Edit) -> None:
     assert hero["x"][20] is None
     assert hero["route"], "the other samples still say where the route begins"
     assert data["conditions"][0]["measured"] is None
+
+
+def test_an_actor_that_is_nowhere_leaves_the_others(run_dir: Path) -> None:
+    trace = read_trace(run_dir / "trace.parquet")
+    nowhere = dataclasses.replace(trace.actors["hero"], x_m=np.full(len(trace.time_s), np.nan))
+    write_trace(Trace({"ego": trace.actors["ego"], "hero": nowhere}), run_dir / "trace.parquet")
+    data = collect(run_dir)
+    assert actor_named(data, "hero")["route"] == []
+    assert actor_named(data, "ego")["route"]
+
+
+def test_coordinates_far_from_zero_are_moved_near_it(run_dir: Path) -> None:
+    trace = read_trace(run_dir / "trace.parquet")
+    moved = {name: dataclasses.replace(a, x_m=a.x_m + 4e5, y_m=a.y_m + 5e6) for name, a in trace.actors.items()}
+    write_trace(Trace(moved), run_dir / "trace.parquet")
+    data = collect(run_dir)
+    assert abs(np.array(actor_named(data, "ego")["x"])).max() < 1000
+    np.testing.assert_allclose(np.array(actor_named(data, "ego")["y"]) + data["origin"][1], moved["ego"].y_m, atol=1e-3)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,7 +12,8 @@ import numpy as np
 import pytest
 
 from scenewright.studio.page import write_page
-from scenewright.trace.files import read_trace
+from scenewright.trace.files import read_trace, write_trace
+from scenewright.trace.model import ActorTrace, Trace
 
 playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
 
@@ -241,4 +243,16 @@ def test_an_interrupted_run_still_opens(browser: Any, run_dir: Path) -> None:
     assert view.complaints == []
     view.page.evaluate("scenewright.seek(5)")
     assert view.time == 5.0
+    view.context.close()
+
+
+def test_a_run_of_one_moment_opens(browser: Any, run_dir: Path) -> None:
+    trace = read_trace(run_dir / "trace.parquet")
+    columns = [field.name for field in dataclasses.fields(ActorTrace)]
+    first = {name: ActorTrace(**{c: getattr(a, c)[:1] for c in columns}) for name, a in trace.actors.items()}
+    write_trace(Trace(first), run_dir / "trace.parquet")
+    view = Opened(browser, write_page(run_dir))
+    view.page.evaluate("scenewright.play()")
+    view.until("!scenewright.playing")
+    assert view.complaints == []
     view.context.close()

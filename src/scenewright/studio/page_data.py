@@ -38,8 +38,8 @@ def collect(run_dir: Path) -> Json:
     InputError
         If the manifest or the trace is missing or broken. Other files may be missing: ``missing`` then says so.
     """
-    missing: list[str] = []
     manifest = _manifest(run_dir)
+    missing = [f"the run broke off: {manifest['fault']}"] if manifest.get("fault") else []
     trace = read_trace(run_dir / TRACE_FILE)
     program = _program(run_dir, missing)
     params = _json(run_dir, "params.json", "the parameters' values", missing) or {}
@@ -52,6 +52,7 @@ def collect(run_dir: Path) -> Json:
     chosen = _chosen_samples(trace)
     knots = _knots(manifest, verdict)
     reached = triggers(program, knots, manifest.get("landmarks") or {}) if program else []
+    facts = (verdict or {}).get("facts") or {}
     data: Json = {
         "schema_version": 1,
         "name": manifest.get("name") or run_dir.resolve().name,
@@ -65,14 +66,11 @@ def collect(run_dir: Path) -> Json:
         "origin": list(scene.origin_xy_m),
         "map": scene.roads,
         "time": _numbers(trace.time_s[chosen], 4),
-        "actors": [
-            _actor(name, actor, chosen, manifest, plan, scene) | {"knots": _in_order(knots.get(name, {}))}
-            for name, actor in trace.actors.items()
-        ],
+        "actors": _actors(trace, chosen, manifest, plan, scene, knots),
         "triggers": reached,
         "places": places(program) if program else None,
         "conditions": _conditions(verdict, program, knots, reached),
-        "facts": _facts({k: v for k, v in ((verdict or {}).get("facts") or {}).items() if k != "knot_times_s"}),
+        "facts": _facts({name: fact for name, fact in facts.items() if name != "knot_times_s"}),
         "replans": replans,
     }
     cleaned: Json = _without_nan(data)
@@ -211,6 +209,20 @@ def _chosen_samples(trace: Trace) -> NDArray[np.intp]:
     count = len(trace.time_s)
     kept = min(count, MAX_SAMPLES, max(200, _MAX_SAMPLES_IN_ALL // max(1, len(trace.actors))))
     return np.unique(np.linspace(0, count - 1, kept).round().astype(np.intp))
+
+
+def _actors(
+    trace: Trace,
+    chosen: NDArray[np.intp],
+    manifest: Json,
+    plan: Json,
+    scene: SceneGeometry,
+    knots: Mapping[str, Mapping[str, float]],
+) -> list[Json]:
+    return [
+        _actor(name, actor, chosen, manifest, plan, scene) | {"knots": _in_order(knots.get(name, {}))}
+        for name, actor in trace.actors.items()
+    ]
 
 
 def _actor(

@@ -52,11 +52,16 @@ def read_replans(run_dir: Path, missing: list[str]) -> Json | None:
 
 
 def _summary(rows: list[Json]) -> Json:
-    wall = np.array([row["wall_ms"] for row in rows if row["wall_ms"] is not None])
+    # Where the last plan still fits nothing is solved; those zeros would hide what a solve costs.
+    wall = np.array([row["wall_ms"] for row in rows if row["wall_ms"]])
     counts: dict[str, int] = {}
     for row in rows:
         counts[row["status"]] = counts.get(row["status"], 0) + 1
-    summary: Json = {"count": len(rows), "statuses": dict(sorted(counts.items(), key=lambda item: -item[1]))}
+    summary: Json = {
+        "count": len(rows),
+        "solved": int(wall.size),
+        "statuses": dict(sorted(counts.items(), key=lambda item: -item[1])),
+    }
     if wall.size:
         p50, p99, most = np.percentile(wall, [50, 99, 100])
         summary |= {"p50_ms": round(float(p50), 2), "p99_ms": round(float(p99), 2), "max_ms": round(float(most), 2)}

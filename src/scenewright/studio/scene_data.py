@@ -93,11 +93,17 @@ def _load(manifest: Mapping[str, Any]) -> RoadMap:
 
 
 def _origin(trace: Trace) -> tuple[float, float]:
-    x, y = (np.concatenate([getattr(actor, axis) for actor in trace.actors.values()]) for axis in ("x_m", "y_m"))
-    x, y = x[np.isfinite(x)], y[np.isfinite(y)]
-    if not x.size or not y.size or max(np.abs(x).max(), np.abs(y).max()) < 5000.0:
+    points = _visited(trace)
+    if not len(points) or np.abs(points).max() < 5000.0:
         return 0.0, 0.0
-    return float(np.round(np.median(x), -2)), float(np.round(np.median(y), -2))
+    x, y = np.round(np.median(points, axis=0), -2)
+    return float(x), float(y)
+
+
+def _visited(trace: Trace) -> FloatArray:
+    """Return all places where a vehicle was, shape (N, 2), without what is not a number."""
+    points = np.vstack([np.column_stack([actor.x_m, actor.y_m]) for actor in trace.actors.values()])
+    return points[np.isfinite(points).all(axis=1)]
 
 
 def _route_of(
@@ -131,8 +137,9 @@ def _joined(lanes: Sequence[Lane]) -> FloatArray:
 
 
 def _route_points(path: Path, shift_m: float, actor: ActorTrace, origin: tuple[float, float]) -> list[list[float]]:
-    first = max(float(np.nanmin(actor.s_m)) - _BEFORE_M - shift_m, 0.0)
-    last = min(float(np.nanmax(actor.s_m)) + _AFTER_M - shift_m, path.length_m)
+    passed = actor.s_m[np.isfinite(actor.s_m)]
+    first = max(float(passed.min()) - _BEFORE_M - shift_m, 0.0)
+    last = min(float(passed.max()) + _AFTER_M - shift_m, path.length_m)
     if last <= first:
         return []
     along = np.linspace(first, last, max(2, int(np.ceil(last - first)) + 1))
@@ -159,10 +166,9 @@ def _landmark_poses(path: Path, shift_m: float, marks: Mapping[str, Any], origin
 
 
 def _roads(road_map: RoadMap, trace: Trace, origin: tuple[float, float]) -> Json:
-    x = np.concatenate([actor.x_m for actor in trace.actors.values()])
-    y = np.concatenate([actor.y_m for actor in trace.actors.values()])
-    low = np.array([np.nanmin(x), np.nanmin(y)]) - _SURROUNDINGS_M
-    high = np.array([np.nanmax(x), np.nanmax(y)]) + _SURROUNDINGS_M
+    visited = _visited(trace)
+    low = visited.min(axis=0, initial=np.inf) - _SURROUNDINGS_M
+    high = visited.max(axis=0, initial=-np.inf) + _SURROUNDINGS_M
     lanes, stop_lines = [], []
     for lane in road_map.lanes.values():
         outline = lane.outline()

@@ -34,8 +34,8 @@ function buildReplans() {
 }
 
 function summariseReplans() {
-  const { count, p50_ms: p50, p99_ms: p99, max_ms: most, statuses } = run.replans.summary;
-  const words = [`${count} re-solves`];
+  const { count, solved, p50_ms: p50, p99_ms: p99, max_ms: most, statuses } = run.replans.summary;
+  const words = [`${count} moments, ${solved} solved`];
   if (isNumber(p50)) words.push(`p50 ${brief(p50)} ms`, `p99 ${brief(p99)} ms`, `max ${brief(most)} ms`);
   const keys = Object.entries(statuses).map(([status, times_]) => make('span', { class: `key ${statusClass(status)}` }, make('i'), `${times_} ${spoken(status)}`));
   byId('replans-summary').append(words.join(' · '), ...keys);
@@ -47,7 +47,7 @@ function paintStrip(strip) {
   const { p50_ms: p50 = most } = run.replans.summary;
   // A few slow solves would flatten all others: then the scale is logarithmic.
   strip.log = most / Math.max(p50, 0.01) > 10;
-  strip.floor = strip.log ? Math.max(0.05, Math.min(...walls.filter((wall) => wall > 0)) / 1.5) : 0;
+  strip.floor = strip.log ? Math.max(0.05, Math.min(most, ...walls.filter((wall) => wall > 0)) / 1.5) : 0;
   const share = (wall) => (strip.log ? Math.log(Math.max(wall, strip.floor) / strip.floor) / Math.log((most * 1.1) / strip.floor) : wall / (most * 1.1));
   const y = (wall) => strip.height - strip.bottom - share(wall) * (strip.height - strip.top - strip.bottom);
   strip.svg.replaceChildren();
@@ -100,7 +100,7 @@ function moveStripCursor(strip, time) {
 function readReplan(strip, index) {
   strip.bars?.forEach((bar, i) => bar.classList.toggle('lit', i === index));
   const row = strip.rows[index];
-  const parts = [`t ${fixed(row.time, 2)} s`, spoken(row.status), isNumber(row.wall_ms) ? `${brief(row.wall_ms)} ms` : null, row.backend || null,
+  const parts = [`t ${fixed(row.time, 2)} s`, spoken(row.status), row.wall_ms ? `${brief(row.wall_ms)} ms` : null, row.backend || null,
     row.tolerance ? `tolerance ${row.tolerance}` : null, row.reason || null];
   byId('replan-readout').textContent = parts.filter(Boolean).join(' · ');
 }
