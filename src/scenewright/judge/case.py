@@ -11,11 +11,13 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Protocol
 
+import numpy as np
+
 from scenewright.errors import InputError
 from scenewright.judge.timeline import Timeline
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.types import EGO, Program
-from scenewright.trace.model import Trace
+from scenewright.trace.model import COLUMNS, ActorTrace, Trace
 
 
 class CannotJudge(Exception):  # noqa: N818 - a reason that ends in a failed condition, not an error of the user
@@ -83,7 +85,7 @@ class Case:
     Raises
     ------
     InputError
-        If an actor has no trace, or a parameter has no value.
+        If an actor has no trace or one with NaN, infinite values or unordered times, or a parameter has no value.
     """
 
     program: Program
@@ -104,6 +106,12 @@ class Case:
                 found=", ".join(self.trace.actors),
                 expected=", ".join(absent),
                 fix="judge a trace with the program that it was made from",
+            )
+        broken = [actor.name for actor in self.program.actors if not _sound(self.trace.actors[actor.name])]
+        if broken:
+            # A comparison with NaN is false either way, and would pass for "within the limit".
+            raise InputError(
+                "the trace holds values that are no numbers, or times that do not increase", found=broken[0]
             )
         unset = [p.name for p in self.program.parameters if p.name not in self.parameters]
         if unset:
@@ -171,3 +179,8 @@ class Case:
             return self.shared_offset_m[a, b]
         back = self.shared_offset_m.get((b, a))
         return None if back is None else -back
+
+
+def _sound(states: ActorTrace) -> bool:
+    finite = all(bool(np.all(np.isfinite(getattr(states, column)))) for column in ("time_s", *COLUMNS))
+    return finite and bool(np.all(np.diff(states.time_s) > 0))

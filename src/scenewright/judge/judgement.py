@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from scenewright.judge.case import Case
 from scenewright.judge.conditions import program_conditions
 from scenewright.judge.encounter import encounter_facts
@@ -35,6 +37,12 @@ def judge(case: Case) -> Verdict:
         Conditions in the order of the story, each with required and measured value, and facts. Times in facts are
         those of the trace (s).
     """
+    # What never happens is at infinity, and differences of such times have no value; `formulas.error_of` fails those.
+    with np.errstate(invalid="ignore"):
+        return _judge(case)
+
+
+def _judge(case: Case) -> Verdict:
     measured = measure(case)
     pairs = safety_facts(case)
     conditions: list[Condition] = [

@@ -189,7 +189,13 @@ class _Reader:
         time_s = self._time(term.actor, term.at)
         if term.order == 0:
             return timeline.position(time_s) + self.shifts.get(term.actor, 0.0)
-        return timeline.speed(time_s) if term.order == 1 else timeline.acceleration(time_s)
+        if term.order == 1:
+            return timeline.speed(time_s)
+        if isinstance(term.at, Knot | Elapsed):
+            # An acceleration steps at a knot, and the one meant is that of the piece which begins there.
+            later = np.searchsorted(timeline.time_s, time_s, side="right")
+            time_s = timeline.time_s[np.minimum(later, len(timeline.time_s) - 1)]
+        return timeline.acceleration(time_s)
 
     def _span(self, actor: int, piece: PieceRef) -> Span:
         return piece_span(self.case, self.moments, actor, piece)

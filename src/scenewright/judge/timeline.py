@@ -1,8 +1,8 @@
 """One actor's motion as functions of continuous time, for whole arrays of instants at once.
 
 What enters: an `ActorTrace`. What leaves: position, speed and acceleration at any instants, crossings and spans of
-samples. It repeats the trace's own interpolation in a form made for searching, and adds the kinks of speed that the stated
-accelerations show.
+samples. It repeats the trace's own interpolation in a form made for searching, and adds the kinks of speed that the
+stated accelerations show.
 """
 
 from __future__ import annotations
@@ -51,23 +51,27 @@ class Timeline:
 
     def speed(self, time_s: Values) -> FloatArray:
         """Return the speed at each instant: linear between samples, or with a kink where a piece ends between them."""
+        return self._bent(time_s)[0]
+
+    def acceleration(self, time_s: Values) -> FloatArray:
+        """Return the acceleration at each instant: that of its sample interval, behind a kink that of the next."""
+        return self._bent(time_s)[1]
+
+    def _bent(self, time_s: Values) -> tuple[FloatArray, FloatArray]:
         states, times = self.states, self.time_s
         at = np.clip(np.asarray(time_s, dtype=np.float64), times[0], times[-1])
         if len(times) == 1:
-            return np.full_like(at, states.speed_mps[0])
+            return np.full_like(at, states.speed_mps[0]), np.full_like(at, states.accel_mps2[0])
         index = np.clip(np.searchsorted(times, at, side="right") - 1, 0, len(times) - 2)
         since, left = at - times[index], times[index + 1] - at
         a0, a1 = states.accel_mps2[index], states.accel_mps2[index + 1]
-        from_left, from_right = states.speed_mps[index] + a0 * since, states.speed_mps[index + 1] - a1 * left
+        before, after = states.speed_mps[index] + a0 * since, states.speed_mps[index + 1] - a1 * left
         rise = (states.speed_mps[index + 1] - states.speed_mps[index]) / (since + left)
+        # Mean acceleration between the two stated ones: the one gave way to the other where their lines of speed meet.
         kinked = (rise - a0) * (a1 - rise) > 0
-        bent = np.where(a1 > a0, np.maximum(from_left, from_right), np.minimum(from_left, from_right))
-        return np.where(kinked, bent, np.interp(at, times, states.speed_mps))
-
-    def acceleration(self, time_s: Values) -> FloatArray:
-        """Return the acceleration that the trace states for the sample interval of each instant."""
-        index = np.searchsorted(self.time_s, time_s, side="right") - 1
-        return np.asarray(self.states.accel_mps2[np.clip(index, 0, len(self.time_s) - 1)], dtype=np.float64)
+        behind = kinked & ((before - after) * (a0 - a1) >= 0)
+        speed = np.where(kinked, np.where(behind, after, before), np.interp(at, times, states.speed_mps))
+        return speed, np.where(behind | (left <= 0), a1, a0)
 
     def slopes(self) -> FloatArray:
         """Return the mean acceleration of each sample interval, from speeds alone, shape (N - 1,)."""

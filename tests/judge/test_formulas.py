@@ -1,0 +1,232 @@
+"""Any form of constraint is judged, on whatever moments it speaks of; what cannot be judged fails with a reason."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plays import BRAKES, GOES_AFTER, NOT_YIELDING, YIELDS, Motion, Play, actor_trace, text
+
+from scenewright.judge.case import Case
+from scenewright.judge.judgement import judge
+from scenewright.judge.tolerance import LOOSE, TIGHT
+from scenewright.judge.verdict import Condition, Verdict
+from scenewright.program.text import parse_program
+from scenewright.trace.model import Trace
+
+
+def judged(play: Play, formula: str) -> Condition:
+    """Judge one more constraint on a play that passes."""
+    return judge(replace(play, text=play.text + f"extra: {formula}\n").case()).condition("extra")
+
+
+# YIELDS: trigger at 4.003 s, hero at 12 m/s until then, at rest from 8.67 s at 88 m; ego 8 m/s, then +0.5 m/s^2.
+@pytest.mark.parametrize(
+    ("formula", "tight", "loose"),
+    [
+        ("A1v(t1) >= 11", True, True),
+        ("A1v(t1) >= 12.6", False, True),
+        ("A1v(t1) >= 13.6", False, False),
+        ("A1v(2.5) == 12", True, True),
+        ("A1x(2.5) == 42", True, True),
+        ("A1a(6.0) == -2.571", True, True),
+        ("A1a(6.0) == -3", False, True),
+        ("A1a(t1) == -2.571", True, True),
+        ("A1v(A0(t1)) == 12", True, True),
+        ("A1(t2) - A1(t1) == 4.667", True, True),
+        ("A1(t2) == A1(t1) + 5", False, True),
+        ("A0v(t1) * 2 == 16", True, True),
+        ("A1v(t1) / 2 <= 6", True, True),
+        ("A1v(go) == 12", True, True),
+        ("A1v(go) <= 11.5", False, True),
+        ("A1v(dec) <= 12", True, True),
+        ("A0v(t1) < A1v(t1)", True, True),
+        ("A0x(t1) - stop_line == A1x(t1) - A1.conflict_point + 22", True, True),
+        ("headway(A0, A1, t1) >= 0 s or A1v(t1) >= 11", True, True),
+        ("A1v(t1) >= 13.6 or A1v(t2) == 0", True, True),
+        ("A1v(t1) >= 12.6 or A1v(t1) >= 13.6", False, True),
+        ("A1v(t1) >= 11 and A1v(t1) >= 13.6", False, False),
+        ("not A1v(t1) >= 13.6", True, True),
+        ("not A1v(t1) >= 11.5", False, True),
+        ("not (A1v(t1) <= 11 or A1v(t1) >= 13)", True, True),
+        ("A1v(t1) >= 11 implies A1v(t2) == 0", True, True),
+        ("A1v(t1) >= 10 implies A1v(t2) == 3", False, False),
+        ("A1v(t1) <= 5 implies A1v(t2) == 3", True, True),
+        ("always[0, A1(t1)](A1v == 12)", True, True),
+        ("always[0, A1(t2)](A1v >= 0.5)", False, True),
+        ("always[A1(t1), A1(t2)](A1a <= -2.5)", True, True),
+        ("eventually[0, 8](A1v <= 2)", True, True),
+        ("eventually[0, 4](A1v <= 2)", False, False),
+        ("never[0, A1(t1)](A1v < 11)", True, True),
+        ("never[0, A1(t2)](A1v < 3)", False, False),
+        ("not eventually[0, 4](A1v <= 10)", True, True),
+        ("not always[0, A1(t2)](A1v >= 6)", True, True),
+        ("not never[0, A1(t2)](A1v <= 6)", True, True),
+        ("always[0, A1(t1)](A1v >= 11 and A0v >= 7)", True, True),
+        ("always[0, A1(t2)](A1v >= 11 or A1x >= 59)", True, True),
+    ],
+)
+def test_formula(formula: str, tight: bool, loose: bool) -> None:
+    condition = judged(YIELDS, formula)
+    assert (condition.holds_at(TIGHT), condition.holds_at(LOOSE)) == (tight, loose), condition
+
+
+@pytest.mark.parametrize(
+    ("formula", "reason"),
+    [
+        ("gap(A0, A1, t1) == 12", "share no lane"),
+        ("A0x(t1) - A1x(t1) == 12", "share no lane"),
+        ("A1x(t1) == turn_start", "no landmark turn_start"),
+        ("A1v(30.0) == 3", "ended before"),
+        ("A1a(acc) == 3", "no piece acc"),
+        ("always[0, 5](eventually[0, 3](A1v >= 3))", "inside another"),
+        ("always[40, 50](A1v >= 3)", "ended before"),
+    ],
+)
+def test_what_cannot_be_judged_fails_and_says_why(formula: str, reason: str) -> None:
+    condition = judged(YIELDS, formula)
+    assert not condition.holds_at(LOOSE)
+    assert reason in condition.text
+    assert condition.as_dict()["error"] is None
+
+
+def test_worst_instant_between_samples_is_found() -> None:
+    condition = judged(YIELDS, "always[0, A1(t1)](A1x <= 59.9)")
+    assert condition.error == pytest.approx(0.1 / 0.5, abs=1e-3)  # at 4.003 s itself, which is no sample
+
+
+def test_temporal_bound_is_tight_at_a_peak() -> None:
+    # The ego's speed peaks between two samples, at 5.011 s with 12.022 m/s.
+    play = YIELDS.with_ego(s_m=42.0 - 8.0 * 4.003, pieces=[(4.003, 0.0), (1.008, 3.0), (3.0, -3.0)])
+    condition = judged(play, "always[0, 10](A0v <= 11.0)")
+    assert condition.error == pytest.approx((8.0 + 3.0 * 1.008 - 11.0) / 0.25, rel=2e-3)
+
+
+def test_positions_in_one_lane_are_compared_as_the_paper_writes_them() -> None:
+    assert judged(BRAKES, "A1x(t1) - A0x(t1) == 20").holds_at(TIGHT)
+    assert judged(BRAKES, "A1x(t1) == A0x(t1) + 20").holds_at(TIGHT)
+    assert judged(BRAKES, "always[0, 7](A0x <= A1x - 20)").holds_at(TIGHT)
+    assert not judged(BRAKES, "headway(A0, A1, t1) == 3 s").holds_at(LOOSE)
+    assert judged(BRAKES, "headway(A0, A1, t1) == 2 s").error == pytest.approx(0.0, abs=1e-3)
+    assert judged(BRAKES, "ttc(A0, A1, t1) == 10 s").error == pytest.approx(0.0, abs=2e-3)
+
+
+def test_unsigned_rate_of_slowing_down_is_understood() -> None:
+    play = replace(BRAKES, text=BRAKES.text.replace("-rate_mpss", "rate_mpss"))
+    assert judge(play.case()).condition("c4").error == pytest.approx(0.0, abs=1e-3)
+
+
+def test_standing_for_a_while_is_measured_and_not_assumed() -> None:
+    assert judged(GOES_AFTER, "A1(t3) == A1(t2) + 1.5").error == pytest.approx(0.0, abs=1e-3)
+    assert not judged(GOES_AFTER, "A1(t3) == A1(t2) + 3").holds_at(LOOSE)
+
+
+def test_trigger_by_inequalities_is_the_first_instant_at_which_they_hold() -> None:
+    play = replace(
+        NOT_YIELDING, text=NOT_YIELDING.text.replace("A0x(t1) == stop_line - 18", "A0x(t1) >= stop_line - 18")
+    )
+    play = replace(play, text=play.text.replace("A1x(t1) == conflict", "A1x(t1) >= conflict"))
+    assert judge(play.case()).facts["trigger_time_s"]["hero"] == pytest.approx(play.trigger_s, abs=1e-3)
+
+
+def test_of_several_good_instants_the_one_acted_upon_is_the_trigger() -> None:
+    # The gap of 20 m comes twice: the hero draws away, then the ego catches up. The hero acts at the second time.
+    ego = Motion(0.0, 6.0, [(4.0, 0.0), (4.0, 1.5), (20.0, 0.0)])
+    hero = Motion(14.0003, 8.0, [(9.875, 0.0), (5.0, -4.0)])
+    play = replace(BRAKES, ego=ego, hero=hero, trigger_s=9.875)
+    times = np.arange(0, 12, 0.001)
+    gap = hero.states(times)[0] - ego.states(times)[0]
+    assert np.count_nonzero(np.diff(np.sign(gap - 20.0))) == 2
+    second = float(times[np.flatnonzero(np.diff(np.sign(gap - 20.0)))[1]])
+    acted = play.with_hero(pieces=[(second, 0.0), (5.0, -4.0)])
+    verdict = judge(acted.case())
+    assert verdict.facts["trigger_time_s"]["hero"] == pytest.approx(second, abs=2e-3)
+    assert verdict.condition("hero_onset").holds_at(TIGHT)
+
+
+def test_hesitate_and_go_of_the_paper() -> None:
+    program = text(
+        "[t0, dec, t1, stop, t2, acc, t3]",
+        "A0v(t0) == 8\nA1v(t0) == 12\nA1a(dec) == -3\nA1v(t1) == 0\nA1x(t1) == turn - 20\nA1v(stop) == 0\n"
+        "A1a(stop) == 0\nA0x(t1) == turn\nA0(t1) == A1(t1)\nA1(t2) > A0(t1)\nA1v(t3) == 12",
+    )
+    play = Play(
+        text=program,
+        ego=Motion(70.0 - 32.0, 8.0, []),
+        hero=Motion(80.0 - 24.0, 12.0, [(4.0, -3.0), (2.0, 0.0), (6.0, 2.0)]),
+        trigger_s=4.0,
+        hero_line=(500.0, 0.0, 0.0),
+    )
+    verdict = judge(play.case())
+    assert verdict.holds_at(TIGHT), [c for c in verdict.conditions if not c.holds_at(TIGHT)]
+    assert verdict.facts["knot_times_s"]["hero"] == pytest.approx(
+        {"t0": 0.0, "t1": 4.0, "t2": 6.0, "t3": 12.0}, abs=0.02
+    )
+    spoiled = judge(play.with_hero(pieces=[(4.0, -3.0), (2.0, 0.0), (4.0, 2.0)]).case())
+    assert {c.id for c in spoiled.conditions if not c.holds_at(LOOSE)} == {"c11"}
+
+
+def test_turn_as_the_interaction_itself() -> None:
+    program = text(
+        "[t0, go, t1, dec, t2]",
+        "A0v(t0) == 10\nA1v(t0) == 8\ngap(A0, A1, t1) == 20\nA1x(t1) == turn\nA1v(t2) == 0\nA0(t1) == A1(t1)",
+        heading="E",
+    )
+    play = replace(BRAKES, text=program).with_hero(s_m=40.0).with_ego(s_m=5.0)
+    verdict = judge(play.case())
+    assert verdict.holds_at(TIGHT), [c for c in verdict.conditions if not c.holds_at(TIGHT)]
+    late = judge(play.with_ego(s_m=13.0).case())
+    assert {c.id for c in late.conditions if not c.holds_at(LOOSE)} >= {"c3", "c4"}
+
+
+SCENE_OF_THREE = """
+Actor 0 (ego):
+- E
+- [t0, go, t1, go, t2, go, t3]
+
+Actor 1 (first):
+- S
+- [t0, go, t1, dec, t2]
+
+Actor 2 (second):
+- N
+- [t0, go, t1, acc, t2]
+
+Constraints:
+A0(t1) == A1(t1)
+A0x(t1) == stop_line - 18
+A1x(t1) == conflict_point - 40
+A1v(t2) == 0
+A0(t2) == A2(t1)
+A0x(t2) == stop_line
+A2x(t1) == conflict_point(A0) - 30
+A2x(t2) == A2.conflict_point(A0)
+A0x(t3) == A0.conflict_point(A2)
+A2(t2) < A0(t3)
+"""
+
+
+def three(second: Motion) -> Verdict:
+    time_s = np.arange(0.0, 14.0, 0.02)
+    motions = {"ego": Motion(42.0 - 24.0, 8.0, []), "first": Motion(60.0 - 36.0, 12.0, [(3.0, 0.0), (9.0, -4.0)])}
+    lines = {"ego": (0.0, 0.0, 0.0), "first": (500.0, 0.0, -np.pi / 2), "second": (900.0, 0.0, np.pi / 2)}
+    traces = {name: actor_trace(m, time_s, lines[name]) for name, m in {**motions, "second": second}.items()}
+    landmarks = {
+        "ego": {"stop_line": 60.0, "conflict_point(first)": 70.0, "conflict_point(second)": 90.0},
+        "first": {"conflict_point": 100.0},
+        "second": {"conflict_point": 120.0},
+    }
+    program = parse_program(SCENE_OF_THREE.replace("conflict_point(A0) - 30", "A2.conflict_point(A0) - 30"))
+    return judge(Case(program, {}, landmarks, {}, Trace(traces)))
+
+
+def test_two_heroes_have_a_trigger_each() -> None:
+    # The ego is 18 m short of its line at 3 s and on it at 5.25 s.
+    good = three(Motion(90.0 - 52.5, 10.0, [(5.25, 0.0), (2.0, 1.0)]))
+    assert good.holds_at(TIGHT), [c for c in good.conditions if not c.holds_at(TIGHT)]
+    assert good.facts["trigger_time_s"] == pytest.approx({"first": 3.0, "second": 5.25}, abs=1e-3)
+    late = three(Motion(90.0 - 52.5, 10.0, [(6.25, 0.0), (2.0, 1.0)]))
+    assert {c.id for c in late.conditions if not c.holds_at(LOOSE)} == {"second_onset"}
+    after = three(Motion(90.0 - 52.5, 4.0, [(5.25, 0.0), (2.0, 1.0)]))
+    assert "c10" in {c.id for c in after.conditions if not c.holds_at(LOOSE)}
