@@ -124,10 +124,9 @@ def test_boxes_have_their_true_size_on_the_screen(opened: Opened) -> None:
 
 def test_table_shows_what_the_verdict_says(opened: Opened, run_dir: Path) -> None:
     conditions = json.loads((run_dir / "verdict.json").read_text(encoding="utf-8"))["conditions"]
-    rows = opened.page.locator("#condition-table tbody tr")
-    assert rows.count() == len(conditions)
-    for index, condition in enumerate(conditions):
-        row = rows.nth(index)
+    assert opened.page.locator("#condition-table tr[data-id]").count() == len(conditions)
+    for condition in conditions:
+        row = opened.page.locator(f'tr[data-id="{condition["id"]}"]')
         for key in ("required", "measured", "error"):
             cell = row.locator(f'[data-cell="{key}"]')
             assert json.loads(cell.get_attribute("data-value")) == condition[key]
@@ -255,4 +254,18 @@ def test_a_run_of_one_moment_opens(browser: Any, run_dir: Path) -> None:
     view.page.evaluate("scenewright.play()")
     view.until("!scenewright.playing")
     assert view.complaints == []
+    view.context.close()
+
+
+def test_routine_checks_are_folded_away_and_failed_ones_are_not(browser: Any, run_dir: Path) -> None:
+    verdict = json.loads((run_dir / "verdict.json").read_text(encoding="utf-8"))
+    check = {"kind": "route", "text": "on the line", "required": 1.0, "measured": 0.0, "error": 0.0, "unit": "m"}
+    verdict["conditions"] += [check | {"id": f"route_{i}", "tight": i != 2, "loose": i != 2} for i in range(5)]
+    (run_dir / "verdict.json").write_text(json.dumps(verdict), encoding="utf-8")
+    view = Opened(browser, write_page(run_dir))
+    shown = [view.page.locator(f'tr[data-id="route_{i}"]').is_visible() for i in range(5)]
+    assert shown == [False, False, True, False, False]
+    assert view.page.locator('tr[data-id="no_collision"]').is_visible()
+    view.page.click("#routine")
+    assert view.page.locator('tr[data-id="route_4"]').is_visible()
     view.context.close()

@@ -70,7 +70,7 @@ def collect(run_dir: Path) -> Json:
         "triggers": reached,
         "places": places(program) if program else None,
         "conditions": _conditions(verdict, program, knots, reached),
-        "facts": _facts({name: fact for name, fact in facts.items() if name != "knot_times_s"}),
+        "facts": _facts({"pairs": facts.get("pairs") or {}} | {k: v for k, v in facts.items() if k != "knot_times_s"}),
         "replans": replans,
     }
     cleaned: Json = _without_nan(data)

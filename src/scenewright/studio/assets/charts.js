@@ -140,6 +140,7 @@ function paintGrid(chart) {
 
 function paintTitle(chart) {
   const from = chart.key === 's' && motion.reference !== 'start' ? ` from ${spoken(motion.reference)}` : '';
+  if (chart.names) chart.svg.append(chart.names);
   chart.svg.append(draw('text', { class: 'chart-title', x: 6, y: 13, text: `${chart.title}${from}, ${chart.unit}` }));
 }
 
@@ -164,13 +165,14 @@ function paintLimits(chart) {
 /** Stop line and conflict point of each route as level lines, named at the right where there is room. */
 function paintPlaces(chart) {
   const used = [];
+  chart.names = draw('g');
   for (const actor of run.actors) {
     for (const mark of actor.landmarks.filter((each) => each.name !== 'intersection' && isSpokenOf(actor, each.name))) {
       const y = chart.y(mark.s - zeroOf(actor));
       if (y < chart.top || y > chart.height - chart.bottom || used.some((other) => Math.abs(other - y) < 3)) continue;
       chart.svg.append(draw('line', { class: `place ${actor.tone}`, x1: LEFT, x2: chart.width - RIGHT, y1: y, y2: y }));
       if (used.every((other) => Math.abs(other - y) >= 13)) {
-        chart.svg.append(draw('text', { class: 'knot-name', x: chart.width - RIGHT - 3, y: y - 3, 'text-anchor': 'end', text: spoken(mark.name) }));
+        chart.names.append(draw('text', { class: 'knot-name', x: chart.width - RIGHT - 3, y: y - 3, 'text-anchor': 'end', text: spoken(mark.name) }));
       }
       used.push(y);
     }

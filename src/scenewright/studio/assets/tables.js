@@ -59,8 +59,27 @@ function buildConditions() {
   byId('conditions-hint').textContent = 'a row shows its words in the description; its moment jumps there';
   const heads = [['Kind', ''], ['Condition', ''], ['Required', 'number'], ['Measured', 'number'], ['Error', 'number'], ['Tight', ''], ['Loose', ''], ['Moment', 'number']];
   const head = make('tr', {}, ...heads.map(([text, kind]) => make('th', { scope: 'col', class: kind || null, text })));
-  const table = make('table', { id: 'condition-table' }, make('thead', {}, head), make('tbody', {}, ...run.conditions.map(conditionRow)));
+  const [story, routine] = [run.conditions.filter((each) => !isRoutine(each)), run.conditions.filter(isRoutine)];
+  const table = make('table', { id: 'condition-table' }, make('thead', {}, head), make('tbody', {}, ...story.map(conditionRow)));
+  if (routine.length) table.append(...routineBodies(routine, heads.length));
   holder.append(table);
+}
+
+/** Checks on routes and physics that hold, as they nearly always do: folded away. One that fails stands with the others. */
+function isRoutine(condition) {
+  return ['route', 'safety'].includes(condition.kind) && condition.id !== 'no_collision' && condition.tight === true && run.conditions.length > 12;
+}
+
+function routineBodies(conditions, columns) {
+  const rows = make('tbody', { hidden: '' }, ...conditions.map(conditionRow));
+  const words = (shown) => `${shown ? '▾ Hide' : '▸ Show'} ${conditions.length} checks of routes and physics, all met`;
+  const button = make('button', { type: 'button', id: 'routine', 'aria-expanded': 'false', text: words(false) });
+  button.addEventListener('click', () => {
+    rows.hidden = !rows.hidden;
+    button.setAttribute('aria-expanded', String(!rows.hidden));
+    button.textContent = words(!rows.hidden);
+  });
+  return [make('tbody', {}, make('tr', {}, make('td', { colspan: columns }, button))), rows];
 }
 
 function conditionRow(condition) {
@@ -116,10 +135,9 @@ function buildFacts() {
     holder.append(make('p', { class: 'empty', text: 'No safety facts were recorded.' }));
     return;
   }
-  const rows = run.facts.map(([label, value, unit]) => make('tr', {},
-    make('td', { text: label }),
-    make('td', { class: 'number', text: value.replace(/^-/, '−') }, ' ', make('span', { class: 'unit', text: unit }))));
-  holder.append(make('table', {}, make('tbody', {}, ...rows)));
+  holder.append(make('dl', { class: 'facts' }, ...run.facts.map(([label, value, unit]) => make('div', { class: value.length > 28 ? 'long' : null },
+    make('dt', { text: label }),
+    make('dd', { text: value.replace(/^-/, '−') }, ' ', make('span', { class: 'unit', text: unit }))))));
 }
 
 function buildMore() {
