@@ -14,6 +14,7 @@ from scenewright.program.expressions import (
     Arithmetic,
     Compare,
     Derived,
+    DerivedKind,
     Elapsed,
     Formula,
     Knot,
@@ -85,9 +86,10 @@ class Assembler:
         self.constraints.append(Constraint(identifier, formula, span))
 
     def _landmark(self, name: str, actor: int, span: Span) -> Landmark:
-        if name in ("turn_start", "turn_end") and self.routes.of(actor).turn == "straight":
+        verb = {"turn_start": "begins", "turn_end": "completes"}.get(name)
+        if verb and self.routes.of(actor).turn == "straight":
             raise self._refuse(
-                f"the {ACTOR_NAMES[actor]} does not turn, so it never {'begins' if name == 'turn_start' else 'completes'} a turn",
+                f"the {ACTOR_NAMES[actor]} does not turn, so it never {verb} a turn",
                 span,
                 "a moment on its own way, such as passing the conflict point",
                 "say 'passes the conflict point'",
@@ -112,7 +114,7 @@ class Assembler:
         if self.routes.share_approach():
             return Compare("==", Derived("ttc", EGO_ID, HERO_ID, Knot(knot)), condition.ttc.term)
         self.assumptions.append(
-            "the time to collision of vehicles on different approaches is the ego's time to arrival at the conflict point"
+            "the time to collision of vehicles that meet is the ego's time to arrival at the conflict point"
         )
         aim = Landmark("conflict_point", span=condition.event.span)
         return Compare("==", Derived("tta", EGO_ID, aim, Knot(knot)), condition.ttc.term)
@@ -166,7 +168,7 @@ class Assembler:
             self._assume(f"'{place.span.excerpt(self.text)}': the ego is the one behind")
         else:
             raise self._refuse("it is not clear which vehicle is in front", place.span, "behind or ahead of")
-        kind = "gap" if place.amount.dimension == "length" else "headway"
+        kind: DerivedKind = "gap" if place.amount.dimension == "length" else "headway"
         return Compare("==", Derived(kind, rear, 1 - rear, Knot(knot)), place.amount.term)
 
     # -- the interaction --------------------------------------------------------------------------------------------
@@ -254,7 +256,7 @@ class Assembler:
         order = self.facts.order
         if order is None:
             refused = self.facts.not_yielding
-            if refused is None:
+            if refused is None or refused.verb != "yield":
                 return
             self._assume("not yielding means that the hero passes the conflict point before the ego does")
             name, event, hero_first, at_start = "conflict_point", refused, True, False

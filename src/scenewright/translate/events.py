@@ -57,6 +57,7 @@ class Event:
     perfect: bool = False
     gerund: bool = False
     initial: bool = False
+    explicit: bool = False  # has a subject of its own, not one carried over
     first: bool = False
     to_stop: bool = False
     places: list[Place] = field(default_factory=list)

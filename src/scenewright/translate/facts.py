@@ -8,7 +8,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
-from scenewright.errors import Span
 from scenewright.translate.events import Event, Place
 from scenewright.translate.tokens import Quantity
 

@@ -1,7 +1,7 @@
 """Chooses the two routes on a map that a description means, and says what had to be inferred.
 
-What enters: `Facts` and a map. What leaves: one route for each actor. Where the words fit no route, or more than one, it
-refuses; it never picks one silently.
+What enters: `Facts` and a map. What leaves: one route for each actor. Where the words fit no route, or more than one,
+it refuses; it never picks one silently.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from scenewright.errors import Span, TranslationError
 from scenewright.program.types import DEFAULT_MAP
 from scenewright.roads import RoadMap, Route, all_routes, find_conflict, load_map, shared_offset_m
 from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID
-from scenewright.translate.facts import Facts, LaneRelation
+from scenewright.translate.facts import Condition, Facts, LaneRelation
 
 COMPASS = {"N": "northbound", "E": "eastbound", "S": "southbound", "W": "westbound"}
 OPPOSITE = {"N": "S", "S": "N", "E": "W", "W": "E"}
@@ -139,9 +139,15 @@ def _fits(relation: LaneRelation, pair: Pair, road_map: RoadMap) -> bool:
             raise ValueError(relation.kind)
 
 
+def _distances(facts: Facts) -> list[Condition]:
+    """Return the conditions that are a distance between the two vehicles."""
+    every = (*facts.initial, *facts.trigger)
+    return [each for each in every if each.place is not None and isinstance(each.place.target, int)]
+
+
 def _behind_each_other(facts: Facts, pairs: list[Pair], text: str, name: str) -> list[Pair]:
     """Keep the pairs in which a distance between the two vehicles means something."""
-    gaps = [c for c in (*facts.initial, *facts.trigger) if c.place is not None and isinstance(c.place.target, int)]
+    gaps = _distances(facts)
     if not gaps:
         return pairs
     same = [pair for pair in pairs if pair[0].lanes[0] == pair[1].lanes[0]]
@@ -167,7 +173,8 @@ def _keep_to_road(facts: Facts, pairs: list[Pair]) -> tuple[list[Pair], list[str
         told = wishes.keys() & {"turn", "destination_kind", "destination_heading"}
         turns = {pair[actor].turn for pair in pairs}
         straight = [pair for pair in pairs if pair[actor].turn == "straight"]
-        if not told and len(turns) > 1 and straight and wishes:
+        related = any(relation.kind in ("lead", "same_lane") for relation in facts.relations) or _distances(facts)
+        if not told and len(turns) > 1 and straight and (wishes or related):
             pairs = straight
             assumptions.append(f"the {ACTOR_NAMES[actor]} goes straight on: no turn of it was mentioned")
     return pairs, assumptions
@@ -197,7 +204,10 @@ def _ambiguous(facts: Facts, pairs: list[Pair], text: str, name: str) -> Transla
 
 def _inferred(facts: Facts, actor: int, route: Route, road_map: RoadMap) -> list[str]:
     wishes = facts.wishes[actor]
-    missing = [key for key in ("origin_kind", "origin_heading", "turn") if key not in wishes]
+    told = [key for key in ("origin_kind", "origin_heading", "turn") if key in wishes]
+    missing = [key for key in ("origin_kind", "origin_heading", "turn") if key not in told]
+    if route.turn == "straight" and "turn" in missing:
+        missing.remove("turn")  # said by `_keep_to_road`
     if route.turn == "straight" and "origin_heading" not in missing and "origin_kind" in missing:
         missing.remove("origin_kind")
     if not missing:
@@ -211,9 +221,8 @@ def _inferred(facts: Facts, actor: int, route: Route, road_map: RoadMap) -> list
                 "turn": f"it goes {value}" if value == "straight" else f"it turns {value}",
             }.get(key, f"it starts {COMPASS.get(value, value)}")
         )
-    return [
-        f"{ACTOR_NAMES[actor]}: {', '.join(values)} (inferred from the map {road_map.name}: route {', '.join(route.headings)})"
-    ]
+    reason = f"inferred from the map {road_map.name}: route {', '.join(route.headings)}"
+    return [f"{ACTOR_NAMES[actor]}: {', '.join(values)} ({reason})"]
 
 
 def _listed(road_map: RoadMap) -> str:

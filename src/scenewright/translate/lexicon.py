@@ -1,6 +1,6 @@
 """The words that the offline translator knows, read from `lexicon.toml`, with their inflected forms.
 
-What enters: the table beside this module. What leaves: tags for sequences of words, numbers in words, units by spelling.
+What enters: the table beside this module. What leaves: tags for sequences of words, numbers in words, unit spellings.
 It holds no grammar: which tag counts in a sentence is decided by `clauses`.
 """
 
@@ -28,6 +28,7 @@ IRREGULAR: dict[str, tuple[str, ...]] = {
     "give": ("give", "gives", "giving", "gave given"),
     "go": ("go", "goes", "going", "went gone"),
     "have": ("have", "has", "having", "had"),
+    "let": ("let", "lets", "letting", "let"),
     "hit": ("hit", "hits", "hitting", "hit"),
     "hold": ("hold", "holds", "holding", "held"),
     "keep": ("keep", "keeps", "keeping", "kept"),

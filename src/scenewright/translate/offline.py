@@ -1,8 +1,8 @@
 """The offline translator: a description in the paper's kind of English becomes a program, clause by clause.
 
-What enters: a description and, optionally, the map it is about. What leaves: a `Translation`: the program, how every clause
-was read, and what had to be assumed. What it does not understand it refuses, naming the words; it never drops a clause and
-uses no network and no model.
+What enters: a description and, optionally, the map it is about. What leaves: a `Translation`: the program, how every
+clause was read, and what had to be assumed. What it does not understand it refuses, naming the words; it never drops a
+clause and uses no network and no model.
 """
 
 from __future__ import annotations
@@ -81,8 +81,8 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
 
     Examples
     --------
-    >>> text = ("Ego is on the driveway exit and wants to turn right. The hero travels westbound along the road. When the ego "
-    ...         "is 12 m behind the stop line, the hero brakes to a stop 5 m before the conflict point.")
+    >>> text = ("Ego is on the driveway exit and wants to turn right. The hero travels westbound along the road. "
+    ...         "When the ego is 12 m behind the stop line, the hero brakes to a stop 5 m before the conflict point.")
     >>> [actor.route.headings for actor in translate_offline(text).program.actors]
     [('S', 'W'), ('W',)]
     """

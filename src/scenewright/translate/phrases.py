@@ -175,8 +175,7 @@ class Phrases:
             at += 1
         if (measured := self.measured(at)) is not None and measured[0] in ("length", "time", "headway"):
             return measured[2], measured[1]
-        while self.tag(at, "adverb") in ("about", "exact", "just"):
-            at += 1
+        at = self.skip_hedges(at)
         quantity = self.tokens[at].quantity if at < len(self.tokens) else None
         if quantity is None or quantity.dimension not in ("length", "time"):
             return at, None
@@ -189,8 +188,7 @@ class Phrases:
         if measure is None or self.tag(at + 1, "preposition") != "of":
             return None
         at += 2
-        while self.tag(at, "adverb") in ("about", "exact"):
-            at += 1
+        at = self.skip_hedges(at)
         quantity = self.tokens[at].quantity
         if quantity is None:
             return None
@@ -217,8 +215,13 @@ class Phrases:
             if has_amount and relation == "from" and self.tag(at, "relation") in ("from", "before"):  # "away before"
                 at += 1
             return cast(Relation, relation), at
+        if has_amount and self.tag(at, "direction") == "left":  # "has 12 m left before the stop line"
+            at += 1
+            if self.tag(at, "relation") == "before" or self.tag(at, "link") in ("to", "until"):
+                return "from", at + 1
+            return None, at
         preposition = self.tag(at, "preposition")
-        if has_amount and preposition in ("to", "of") or has_amount and self.tag(at, "link") == "to":
+        if (has_amount and preposition in ("to", "of")) or (has_amount and self.tag(at, "link") == "to"):
             return "from", at + 1
         if has_amount and preposition == "out" and self.tokens[at].text.lower() == "from":
             return "from", at + 1
@@ -246,15 +249,36 @@ class Phrases:
                 return Place(relation, 1 - self.subject, amount, self.span(start, at)), at  # "12 m ahead"
             return None
         if phrase.kind == "pronoun":
-            if relation == "before" and self.last_landmark and amount is not None:
-                self.assumptions.append(
-                    f"'{phrase.span.excerpt(self.text)}' in '{self.span(start, phrase.end).excerpt(self.text)}' is the {self.last_landmark.replace('_', ' ')}"
-                )
-                return Place(relation, self.last_landmark, amount, self.span(start, phrase.end)), phrase.end
-            raise self.refuse("it is not clear what this refers to", phrase.span, fix="name the vehicle or the place")
+            return self._pronoun_target(start, phrase, relation, amount)
         if amount is None and relation not in ("behind", "ahead"):
             return None
         return Place(relation, self.resolve(phrase), amount, self.span(start, phrase.end)), phrase.end
+
+    def _pronoun_target(
+        self, start: int, phrase: NounPhrase, relation: Relation, amount: Quantity | None
+    ) -> tuple[Place, int]:
+        """Read "5 m before it" (the last place named) and "ahead of it" (the other vehicle)."""
+        span = self.span(start, phrase.end)
+        words = span.excerpt(self.text)
+        if relation == "before" and self.last_landmark and amount is not None:
+            self.assume(f"'{words}' is measured from the {self.last_landmark.replace('_', ' ')}")
+            return Place(relation, self.last_landmark, amount, span), phrase.end
+        if relation in ("behind", "ahead") and self.subject is not None and (amount is None or not self.last_landmark):
+            return Place(relation, 1 - self.subject, amount, span), phrase.end
+        raise self.refuse("it is not clear what this refers to", phrase.span, fix="name the vehicle or the place")
+
+    def assume(self, sentence: str) -> None:
+        """Note something that was inferred."""
+        if sentence not in self.assumptions:
+            self.assumptions.append(sentence)
+
+    def skip_hedges(self, at: int) -> int:
+        """Step over "exactly" and "about"; the latter is noted."""
+        while (hedge := self.tag(at, "adverb")) in ("about", "exact", "just"):
+            if hedge == "about":
+                self.assume(f"'{self.tokens[at].text} {self.tokens[at + 1].text}' is read as that very amount")
+            at += 1
+        return at
 
     # -- areas and headings -----------------------------------------------------------------------------------------
     def area(self, at: int) -> tuple[Area, int] | None:
@@ -285,13 +309,21 @@ class Phrases:
                 side = self.tag(at, "side")
             elif self.tag(at, "actor_adjective") == "oncoming":
                 oncoming = True
-            elif self.tag(at, "adverb") != "same":
+            elif self.tag(at, "same") and whose is None and self.subject is not None:
+                whose = 1 - self.subject
+            else:
                 break
             at += 1
         kind = self.tag(at, "area")
         if kind is None:
             return None
         end = at + 1
+        if self.tag(at - 1, "same"):
+            if kind != "lane":
+                return None
+            if self.tag(end, "preposition") == "as" and (phrase := self.noun_phrase(end + 1)):
+                end = phrase.end
+                whose = self.resolve(phrase)
         wanted_by = None
         if kind == "lane" and self.tag(end, "link") == "that":
             phrase = self.noun_phrase(end + 1)
@@ -317,9 +349,7 @@ class Phrases:
     def heading(self, at: int) -> tuple[str, int, bool] | None:
         """Read a heading: ``travelling westbound``, ``in the westbound direction``; True last for "from the east"."""
         start = at
-        if self.verb(at, "drive", "go") and "ing" in self.tokens[at].forms:
-            at += 1
-        elif self.tag(at, "bound_word"):
+        if (self.verb(at, "drive", "go") and "ing" in self.tokens[at].forms) or self.tag(at, "bound_word"):
             at += 1
         came_from = self.tag(at, "preposition") == "out" and self.tokens[at].text.lower() == "from"
         if came_from or self.tag(at, "preposition") in ("to", "in", "on"):

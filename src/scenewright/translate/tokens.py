@@ -1,7 +1,7 @@
 """Cuts a description into tagged tokens with spans: words and phrases, quantities with units, stops.
 
-What enters: the description. What leaves: a list of `Token`. Words that the lexicon does not know, numbers without a unit
-and quantities whose units contradict each other are refused here, all with their place. No grammar is applied.
+What enters: the description. What leaves: a list of `Token`. Words that the lexicon does not know, numbers without a
+unit and quantities whose units contradict each other are refused here, with their place. No grammar is applied.
 """
 
 from __future__ import annotations
@@ -144,8 +144,6 @@ def _word_run(tagger: _Tagger, index: int) -> tuple[list[str], list[int]]:
         if raw.kind in ("word", "compare"):
             words.append(raw.text.lower().replace("’", "'"))
             ends.append(index + 1)
-        elif raw.kind == "number" and words and raw.text == "0":  # "t0", "at t 0"
-            break
         elif raw.kind != "joiner" or not words:
             break
         index += 1
@@ -247,7 +245,7 @@ def _literal(tagger: _Tagger, value: Fraction, unit: Unit, span: Span) -> Token:
 
 
 def _unit(tagger: _Tagger, index: int) -> tuple[Unit | None, int]:
-    """Read a unit that starts at raw token `index`; return it and the index after it (unchanged where there is none)."""
+    """Read a unit at raw token `index`; return it and the index after it (unchanged where there is none)."""
     if index >= len(tagger.raw):
         return None, index
     start = tagger.raw[index].span.start
@@ -300,7 +298,8 @@ def _unknown_words(tagger: _Tagger) -> TranslationError:
     vocabulary = sorted(tagger.lexicon.vocabulary())
     hints = []
     for word in words:
-        near = difflib.get_close_matches(word.lower(), vocabulary, n=1, cutoff=0.75)
+        near = difflib.get_close_matches(word.lower(), vocabulary, n=2, cutoff=0.75)
+        near = [item for item in near if item != word.lower()]
         if near:
             hints.append(f"did you mean '{near[0]}' for '{word}'?")
     listed = ", ".join(f"'{word}'" for word in words[:12])

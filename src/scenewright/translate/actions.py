@@ -1,0 +1,256 @@
+"""Reads what the hero does from its trigger on, phase by phase, and who comes first.
+
+What enters: events that are actions. What leaves: phases and the order in `Facts`; contradictions are refused.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from scenewright.translate.descriptions import DescriptionReader
+from scenewright.translate.events import HERO_ID, Event, Place
+from scenewright.translate.facts import LaneRelation, Order, Phase
+
+SLOWING = ("brake", "stop", "yield")
+SPEEDING = ("accelerate", "go")
+GOALS = ("pass", "reach", "complete", "enter", "leave")
+EDGE = {("enter", "intersection"): "junction_start", ("leave", "intersection"): "junction_end"}
+
+
+@dataclass(slots=True)
+class ActionReader(DescriptionReader):
+    """Collects what the hero does."""
+
+    def _action(self, event: Event) -> None:
+        if event.verb in SLOWING:
+            phase = self._slowing(event)
+        elif event.verb in (*SPEEDING, "keep"):
+            phase = self._speeding(event)
+        elif event.verb in GOALS:
+            phase = self._goal(event)
+        elif event.verb in ("turn", "pull_out"):
+            phase = self._turning(event)
+        elif event.verb == "wait":
+            phase = self._waiting(event)
+        else:
+            phase = self.facts.phases[-1]
+            if phase.to_speed is not None:
+                raise self._refuse("two target speeds are given", event.span)
+            phase.to_speed, event.speed = event.speed, None
+            for heading in [h for h, _ in event.headings] + [area.heading for area in event.areas if area.heading]:
+                self._wish(HERO_ID, "destination_heading", heading, event)
+            for area in event.areas:
+                self._wish(HERO_ID, "destination_kind", "driveway" if area.kind == "driveway" else "road", event)
+            phase.events.append(event)
+        self._check_spent(event, phase)
+        for relation in event.relations:
+            self.facts.relations.append(LaneRelation(relation[0], relation[1], event))
+        if self.pending_before is not None and phase.kind != "dec":
+            before, self.pending_before = self.pending_before, None
+            self._set_order(Order(True, self._ego_landmark(before), before))
+        if phase.kind == "acc" or phase.kind == "go":
+            self._apply_release(phase)
+        self._beats(event, phase)
+
+    def _slowing(self, event: Event) -> Phase:
+        if self.facts.phases and self.facts.phases[-1].kind != "dec" and self.facts.phases[-1].kind != "turn":
+            raise self._refuse("the hero cannot slow down after it has gone", event.span, "slow down first, then go")
+        merge = bool(self.facts.phases) and self.facts.phases[-1].kind == "dec"
+        if not merge:
+            self.facts.phases.append(Phase("dec", []))
+        phase = self.facts.phases[-1]
+        phase.events.append(event)
+        phase.to_stop |= event.to_stop or event.verb in ("stop", "yield")
+        phase.yields |= event.verb == "yield"
+        if event.verb == "yield" and not event.places and not event.rate and "as_if" in event.links:
+            self._note(event, "the hero gives way")
+        for place in event.places:
+            if phase.place is not None and _differ(phase.place, place):
+                raise self._refuse(
+                    "two different places to stop are given",
+                    place.span,
+                    phase.place.span.excerpt(self.text),
+                    "give one",
+                )
+            phase.place, phase.place_event = place, event
+        if event.rate is not None:
+            if phase.rate is not None and phase.rate.term != event.rate.term:
+                raise self._refuse("two different rates are given", event.rate.span)
+            phase.rate, phase.rate_event = event.rate, event
+        if event.to_speed is not None:
+            if event.to_stop:
+                raise self._refuse("a stop and a speed to slow down to contradict each other", event.to_speed.span)
+            phase.to_speed = event.to_speed
+        return phase
+
+    def _speeding(self, event: Event) -> Phase:
+        kind = "go" if event.verb == "keep" else "acc"
+        last = self.facts.phases[-1] if self.facts.phases else None
+        if event.verb == "accelerate" and last is not None and last.kind == "go":
+            raise self._refuse("the hero cannot keep its speed and speed up", event.span)
+        if last is not None and last.kind in ("acc", "go"):
+            phase = last
+        else:
+            phase = Phase("go" if kind == "go" else "acc", [])
+            self.facts.phases.append(phase)
+            if event.verb == "go" and len(self.facts.phases) == 1:
+                self.facts.assumptions.append(f"'{event.span.excerpt(self.text)}' lets the hero speed up")
+        phase.events.append(event)
+        if event.places:
+            raise self._refuse(
+                "a place does not belong to speeding up", event.places[0].span, fix="say 'to pass the conflict point'"
+            )
+        if event.rate is not None:
+            phase.rate, phase.rate_event = event.rate, event
+        if event.to_speed is not None:
+            phase.to_speed = event.to_speed
+        return phase
+
+    def _goal(self, event: Event) -> Phase:
+        last = self.facts.phases[-1] if self.facts.phases else None
+        if last is not None and last.kind in ("acc", "go", "turn"):
+            phase = last
+        else:
+            phase = Phase("acc", [])
+            self.facts.phases.append(phase)
+            if last is None:
+                self.facts.assumptions.append(f"the hero may speed up to do so: '{event.span.excerpt(self.text)}'")
+        phase.events.append(event)
+        if event.verb == "complete":
+            goal = "turn_end"
+            self._until_it_turns(event)
+            self._tell_route(event)
+        elif event.landmark is None:
+            if len(event.places) == 1 and event.places[0].relation == "at" and isinstance(event.places[0].target, str):
+                goal = event.places[0].target
+            else:
+                raise self._refuse("it is not said what the hero passes", event.span, "the conflict point")
+        else:
+            goal = EDGE.get((event.verb, event.landmark), event.landmark)
+            if event.places:
+                raise self._refuse("two places are given", event.places[0].span)
+        if phase.goal is not None and phase.goal != goal:
+            raise self._refuse("two different places to pass are given", event.span)
+        phase.goal, phase.goal_event = goal, event
+        return phase
+
+    def _until_it_turns(self, event: Event) -> None:
+        """Let a hero that "drives straight" at first turn later: that was its motion, not its intent."""
+        wishes = self.facts.wishes[HERO_ID]
+        said = wishes.get("turn")
+        if said is None or said.value != "straight" or said.event.wanted or event.direction is None:
+            return
+        for key in ("turn", "destination_kind", "destination_heading"):
+            if key in wishes and wishes[key].event is said.event:
+                del wishes[key]
+        self.facts.assumptions.append(f"'{said.event.span.excerpt(self.text)}' holds until the hero turns")
+
+    def _turning(self, event: Event) -> Phase:
+        self._until_it_turns(event)
+        self._tell_route(event)
+        last = self.facts.phases[-1] if self.facts.phases else None
+        if event.places or event.rate or event.to_speed:
+            raise self._refuse("a turn takes no place or rate of its own", event.span)
+        if last is not None and last.kind == "acc" and last.goal == "turn_start":
+            last.kind, last.goal = "turn", None  # "arrives at the mouth of the driveway and turns left"
+            self.facts.assumptions = [each for each in self.facts.assumptions if "may speed up" not in each]
+            last.events.append(event)
+            return last
+        if last is not None and last.kind in ("acc", "go") and last.goal is None:
+            self.facts.assumptions.append(f"'{event.span.excerpt(self.text)}' is done when the turn is complete")
+            last.goal, last.goal_event = "turn_end", event
+            last.events.append(event)
+            return last
+        if last is not None:
+            raise self._refuse("a turn cannot follow this", event.span)
+        phase = Phase("turn", [event])
+        self.facts.phases.append(phase)
+        return phase
+
+    def _waiting(self, event: Event) -> Phase:
+        phase = self.facts.phases[-1]
+        if phase.kind != "dec":
+            raise self._refuse("the hero can wait only after it has stopped", event.span)
+        for place in event.places:
+            if phase.place is not None and _differ(phase.place, place):
+                raise self._refuse("two different places to stop are given", place.span)
+        phase.to_stop = True
+        if event.duration is not None:
+            phase.wait = event.duration
+        phase.events.append(event)
+        self._note(event, "the hero stands still")
+        return phase
+
+    def _ego_landmark(self, event: Event) -> str:
+        if event.verb in ("pass", "reach", "enter", "leave") and event.landmark:
+            return EDGE.get((event.verb, event.landmark), event.landmark)
+        if event.verb in ("turn", "pull_out", "complete") and not event.places:
+            if event.verb == "complete":
+                return "turn_end"
+            if not event.begins:
+                self.facts.assumptions.append(
+                    f"'{event.span.excerpt(self.text)}' is the moment at which the ego begins to turn"
+                )
+            return "turn_start"
+        raise self._refuse(
+            f"'{event.span.excerpt(self.text)}' is not a moment of the ego that can be compared",
+            event.span,
+            "the ego passes the conflict point, begins to turn, or completes its turn",
+        )
+
+    def _set_order(self, order: Order) -> None:
+        if self.facts.order is not None and (self.facts.order.ego_landmark, self.facts.order.hero_first) != (
+            order.ego_landmark,
+            order.hero_first,
+        ):
+            raise self._refuse("two different orders are asked for", order.event.span)
+        self.facts.order = self.facts.order or order
+        who = "the hero comes first" if order.hero_first else "the ego comes first"
+        self._note(order.event, f"{who}; the ego's moment is {order.ego_landmark.replace('_', ' ')}")
+
+    def _apply_release(self, phase: Phase) -> None:
+        if not self.pending_release:
+            return
+        event = self.pending_release.pop()
+        if phase.kind == "dec" or self.facts.phases[0] is phase:
+            raise self._refuse("the hero cannot wait for this before its trigger", event.span)
+        self._set_order(Order(False, self._ego_landmark(event), event, at_start=True))
+
+    def _beats(self, event: Event, phase: Phase) -> None:
+        """Read "goes first" and "passes the conflict point before the ego"."""
+        if not event.first and event.than_actor is None:
+            return
+        if event.than_actor == HERO_ID:
+            raise self._refuse("the hero cannot come before itself", event.span)
+        if phase.goal in ("turn_end", "turn_start") or phase.kind in ("dec", "turn"):
+            raise self._refuse(
+                "it is not clear which moment of the ego this is before",
+                event.span,
+                "before the ego passes the conflict point",
+            )
+        goal = phase.goal or "conflict_point"
+        self.facts.assumptions.append(
+            f"'{event.span.excerpt(self.text)}': the hero passes the {goal.replace('_', ' ')} before the ego does"
+        )
+        phase.goal, phase.goal_event = goal, phase.goal_event or event
+        self._set_order(Order(True, goal, event))
+
+    def _check_spent(self, event: Event, phase: Phase) -> None:
+        """Refuse what an action says but no phase holds."""
+        if event.speed is not None or (event.duration is not None and event.verb != "wait"):
+            raise self._refuse("this amount does not belong to what the hero does", event.span)
+        if event.to_stop and phase.kind != "dec":
+            raise self._refuse("the hero cannot stop here", event.span)
+        if event.verb not in ("turn", "pull_out", "lane_follow", "drive", "complete"):
+            for area in event.areas:
+                self._tell_area(HERO_ID, area, event, True)
+            for heading, span in event.headings:
+                if span.start <= event.span.start:
+                    self._wish(HERO_ID, "origin_heading", heading, event)
+                else:
+                    raise self._refuse("a heading does not belong to what the hero does", span)
+
+
+def _differ(first: Place, second: Place) -> bool:
+    amounts = [place.amount.term if place.amount else None for place in (first, second)]
+    return (first.target, first.relation, amounts[0]) != (second.target, second.relation, amounts[1])

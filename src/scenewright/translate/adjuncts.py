@@ -1,0 +1,188 @@
+"""Reads what stands beside a verb: amounts, places, areas, headings, directions.
+
+What enters: the reader's state at some token. What leaves: True where an adjunct was read and put into its event.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from scenewright.translate.events import Event
+from scenewright.translate.reader import TURNS, ReaderState
+from scenewright.translate.tokens import Quantity
+
+
+@dataclass(slots=True)
+class AdjunctReader(ReaderState):
+    """Puts adjuncts into the event that they belong to."""
+
+    def _adjunct(self) -> bool:
+        return (
+            self._amount_adjunct()
+            or self._stop_adjunct()
+            or self._place_adjunct()
+            or self._through()
+            or self._oncoming()
+            or self._way_adjunct()
+        )
+
+    def _amount_adjunct(self) -> bool:
+        at = self.at
+        preposition = self.phrases.tag(at, "preposition")
+        if preposition in ("at", "with", "to", "for", "by") or self.phrases.tag(at, "link") == "to":
+            at += 1
+        quantity: Quantity | None
+        measured = self.phrases.measured(at)
+        if measured is not None and measured[0] in ("rate", "speed"):
+            quantity, end = measured[1], measured[2]
+        else:
+            at = self.phrases.skip_hedges(at)
+            quantity, end = self.phrases.tokens[at].quantity, at + 1
+        if quantity is None or (quantity.dimension in ("length", "time") and preposition != "for"):
+            return False
+        host = self._host()
+        if host is None:
+            return False
+        to = preposition == "to" or self.phrases.tokens[self.at].text.lower() == "to"
+        slot = {"speed": "to_speed" if to else "speed", "acceleration": "rate", "time": "duration"}.get(
+            quantity.dimension
+        )
+        if slot is None or getattr(host, slot) is not None:
+            return False
+        setattr(host, slot, quantity)
+        self.at = end
+        self._grow()
+        return True
+
+    def _stop_adjunct(self) -> bool:
+        end = self._stop_noun_at(self.at)
+        if end is None or self.current is None or self.current.verb not in ("brake", "stop"):
+            return False
+        self.current.to_stop = True
+        self.at = end
+        self._grow()
+        return True
+
+    def _place_adjunct(self) -> bool:
+        passing = self.current is not None and self.current.verb in ("pass", "complete")
+        if passing and self._tag("link") == "before" and self.phrases.tokens[self.at].quantity is None:
+            return False
+        found = self.phrases.place(self.at)
+        if found is None:
+            return False
+        place, end = found
+        host = self._host()
+        if host is None:
+            return False
+        host.places.append(place)
+        self.at = end
+        self._grow()
+        return True
+
+    def _way_adjunct(self) -> bool:
+        """Read areas, headings and directions."""
+        if area := self.phrases.area(self.at):
+            host = self._host()
+            if host is None:
+                return False
+            host.areas.append(area[0])
+            self.at = area[1]
+            self._grow()
+            return True
+        if (
+            self.current is not None
+            and self.current.verb in ("leave", "pull_out")
+            and (area := self.phrases.area_noun(self.at, "from"))
+        ):
+            self.current.areas.append(area[0])
+            self.at = area[1]
+            self._grow()
+            return True
+        if heading := self.phrases.heading(self.at):
+            host = self._host_of_heading(heading[1])
+            if host is None:
+                return False
+            host.headings.append((heading[0], self.phrases.span(self.at, heading[1])))
+            self.at = heading[1]
+            self._grow()
+            return True
+        return self._direction()
+
+    def _host_of_heading(self, end: int) -> Event | None:
+        if self.links and self.current is not None and self.current.verb in TURNS and "comma" in self.links:
+            gerund = "ing" in self.phrases.tokens[self.at].forms
+            if gerund and self.links == ["comma"]:  # "turns left, heading east"
+                self.links = []
+                return self.current
+        return self._host()
+
+    def _through(self) -> bool:
+        """Read "accelerates through the conflict point" as two verbs."""
+        if (
+            self._tag("through") is None
+            or self.current is None
+            or self.current.verb not in ("accelerate", "go", "keep")
+        ):
+            return False
+        found = self.phrases.landmark(self.at + 1)
+        if found is None:
+            return False
+        self.links.append("to")
+        event = self._open("pass", self.at)
+        event.landmark = "turn_start" if found[0] == "mouth" else found[0]
+        self.at = found[1]
+        self._grow()
+        return True
+
+    def _oncoming(self) -> bool:
+        """Read "is oncoming"."""
+        event = self.current
+        if event is None or event.verb != "be" or self.links or event.actor is None:
+            return False
+        if self._tag("actor_adjective") != "oncoming" or self.phrases.noun_phrase(self.at) is not None:
+            return False
+        event.relations.append(("oncoming", event.actor, self.phrases.tokens[self.at].span))
+        self.at += 1
+        self._grow()
+        return True
+
+    def _direction(self) -> bool:
+        at = self.at
+        if self.phrases.tag(at, "preposition") == "to":
+            at = self.phrases.skip_determiner(at + 1)
+        elif self.phrases.tag(at, "determiner") and self.phrases.tag(at + 2, "event_noun") == "turn":
+            at += 1
+        direction = self.phrases.tag(at, "direction")
+        if direction is None:
+            return False
+        if self.phrases.tag(at + 1, "event_noun") == "turn":  # "left turn" without a verb
+            if self.current is not None and not self.links:
+                return False
+            event = self._open("turn", at)
+            event.wanted, event.direction = True, direction
+            self.at = at + 2
+            self._grow()
+            return True
+        host = self.current
+        allowed = TURNS if direction != "straight" else ("drive", "lane_follow", "go", "be")
+        if host is None or host.verb not in allowed or host.direction is not None or self.links:
+            return False
+        host.direction = direction
+        self.at = at + 1
+        self._grow()
+        return True
+
+    def _bare(self) -> bool:
+        """Read telegraphic notes: "Ego: driveway, left turn, eastbound"."""
+        if "comma" not in self.links or self.subject is None:
+            return False
+        area = self.phrases.area_noun(self.at, "on")
+        if area is None:
+            return False
+        host = self._host()
+        if host is None:
+            return False
+        host.areas.append(area[0])
+        self.at = area[1]
+        self._grow()
+        return True

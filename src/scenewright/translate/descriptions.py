@@ -1,0 +1,142 @@
+"""Reads what is told of a vehicle: where it comes from and goes to, where and how fast it is at the start.
+
+What enters: events of main clauses without action. What leaves: wishes, lane relations and first conditions in `Facts`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from scenewright.errors import Place as ErrorPlace
+from scenewright.errors import Span, TranslationError
+from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, Area, Event, Place
+from scenewright.translate.facts import Condition, Facts, LaneRelation, Said, WishKey
+
+OPPOSITE = {"N": "S", "S": "N", "E": "W", "W": "E"}
+
+
+@dataclass(slots=True)
+class DescriptionReader:
+    """Collects what is told."""
+
+    text: str
+    name: str
+    facts: Facts = field(default_factory=Facts)
+    sentence: list[Event] = field(default_factory=list)
+    pending_before: Event | None = None
+    pending_release: list[Event] = field(default_factory=list)
+
+    def _refuse(
+        self, message: str, span: Span, expected: str | None = None, fix: str | None = None
+    ) -> TranslationError:
+        return TranslationError(
+            message,
+            place=ErrorPlace(self.name, self.text, span),
+            found=span.excerpt(self.text),
+            expected=expected,
+            fix=fix,
+        )
+
+    def _note(self, event: Event, understood: str) -> None:
+        self.facts.understood.setdefault(id(event), []).append(understood)
+
+    def _wish(self, actor: int, key: WishKey, value: str, event: Event) -> None:
+        known = self.facts.wishes[actor].get(key)
+        if known is not None and known.value != value:
+            subject = f"the {ACTOR_NAMES[actor]}'s {key.replace('_', ' ')}"
+            raise self._refuse(
+                f"two things are said about {subject}: {known.value} and {value}",
+                event.span,
+                f"{known.value}, as in '{known.event.span.excerpt(self.text)}'",
+                "say one of them",
+            )
+        self.facts.wishes[actor].setdefault(key, Said(value, event))
+
+    def _tell(self, event: Event) -> None:
+        if (
+            event.rate
+            or event.to_speed
+            or event.duration
+            or event.first
+            or event.than_actor is not None
+            or event.landmark
+        ):
+            raise self._refuse(f"'{event.span.excerpt(self.text)}' has no meaning here", event.span)
+        actor = event.actor
+        assert actor is not None
+        if "then" in event.links:
+            raise self._refuse("this comes 'then', but nothing happens in it", event.span, "an action of the hero")
+        self._tell_route(event)
+        for place in event.places:
+            if isinstance(place.target, int) and place.amount is None:
+                self._lead(place, actor, event)
+            else:
+                self.facts.initial.append(Condition(actor, event, place=place))
+        if event.speed is not None:
+            self.facts.initial.append(Condition(actor, event, speed=event.speed))
+        if event.ttc is not None:
+            raise self._refuse(
+                "a time to collision belongs into the trigger", event.span, fix="say 'when the time to collision ...'"
+            )
+        if event.verb == "wait":
+            raise self._refuse(
+                "a vehicle that stands at the start is not supported", event.span, "a vehicle that drives"
+            )
+
+    def _lead(self, place: Place, actor: int, event: Event) -> None:
+        kind = {"ahead": "lead", "behind": "lead"}.get(place.relation)
+        if kind is None:
+            raise self._refuse("it is not said how far", place.span, "a distance")
+        self.facts.relations.append(LaneRelation("lead", HERO_ID, event))
+        ahead = actor if place.relation == "ahead" else 1 - actor
+        if ahead != HERO_ID:
+            self.facts.relations[-1] = LaneRelation("same_lane", actor, event)
+        self._note(event, f"the {ACTOR_NAMES[ahead]} is ahead in the same lane")
+
+    def _tell_route(self, event: Event) -> None:
+        actor = event.actor
+        assert actor is not None
+        turning = event.verb in ("turn", "pull_out", "complete")
+        if event.verb == "lane_follow" or (event.verb == "go" and event.direction == "straight"):
+            self._wish(actor, "turn", "straight", event)
+        elif event.verb in ("turn", "complete") and event.direction is not None:
+            self._wish(actor, "turn", event.direction, event)
+        elif event.verb == "drive" and event.direction == "straight" and actor == EGO_ID:
+            self._wish(actor, "turn", "straight", event)
+        for area in event.areas:
+            self._tell_area(actor, area, event, turning)
+        for heading, span in event.headings:
+            before_verb = bool(event.areas) is False and span.start < event.span.start
+            ends = turning and span.start > event.span.start and not before_verb
+            self._wish(actor, "destination_heading" if ends else "origin_heading", heading, event)
+            if event.verb == "lane_follow":
+                self._wish(actor, "destination_heading", heading, event)
+        for kind, who, _ in event.relations:
+            self.facts.relations.append(LaneRelation(kind, who, event))
+
+    def _tell_area(self, actor: int, area: Area, event: Event, turning: bool) -> None:
+        role = area.role
+        if role == "across":
+            self.facts.relations.append(LaneRelation("across", actor, event))
+            return
+        end = "destination" if role == "into" or (turning and role == "on") else "origin"
+        if event.verb in ("drive", "approach") and role == "into":
+            raise self._refuse("it is not clear whether this is a turn", area.span, "turns left or turns right")
+        if area.kind != "lane":
+            self._wish(actor, "destination_kind" if end == "destination" else "origin_kind", area.kind, event)
+        else:
+            self._wish(actor, "destination_kind" if end == "destination" else "origin_kind", "road", event)
+        heading = area.heading
+        if area.side is not None and area.kind == "driveway":
+            opposite = {"N": "S", "S": "N", "E": "W", "W": "E"}
+            heading = area.side if end == "destination" else opposite[area.side]
+        if heading is not None:
+            self._wish(actor, "destination_heading" if end == "destination" else "origin_heading", heading, event)
+        if event.verb == "lane_follow" and area.kind == "road":
+            self._wish(actor, "destination_kind", "road", event)
+        if area.wanted_by is not None:
+            self.facts.relations.append(LaneRelation("in_wanted_lane", actor, event))
+        if area.oncoming:
+            self.facts.relations.append(LaneRelation(f"oncoming_{end}", actor, event))
+        elif area.lane_of is not None and area.lane_of != actor:
+            self.facts.relations.append(LaneRelation(f"lane_{end}", actor, event))

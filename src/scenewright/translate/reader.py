@@ -1,0 +1,141 @@
+"""The state of a reader of clauses: where it is, whose clause it is, and what the next verb will carry.
+
+What enters: tokens behind `Phrases`. What leaves: events, opened and grown by `adjuncts`, `verbs` and `clauses`. It
+reads no words itself.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from scenewright.errors import Span, TranslationError
+from scenewright.translate.events import Event
+from scenewright.translate.phrases import NounPhrase, Phrases
+
+MOVES = ("pass", "reach", "enter", "leave", "approach")
+TURNS = ("turn", "pull_out")
+
+
+@dataclass(slots=True)
+class ReaderState:
+    """What all parts of the reader share."""
+
+    phrases: Phrases
+    at: int = 0
+    sentence: int = 0
+    links: list[str] = field(default_factory=list)
+    flags: set[str] = field(default_factory=set)
+    current: Event | None = None
+    passive_object: str | None = None
+    subject: int | None = None
+    subject_span: Span | None = None
+    main_subject: int | None = None
+    label: str | None = None
+    pending_relations: list[tuple[str, int, Span]] = field(default_factory=list)
+    pending_heading: tuple[str, Span] | None = None
+    events: list[Event] = field(default_factory=list)
+
+    def _stuck(self) -> TranslationError:
+        tokens = self.phrases.tokens
+        token = tokens[self.at]
+        end = self.at
+        while end + 1 < len(tokens) and not tokens[end + 1].tags.keys() & {"end", "comma"}:
+            end += 1
+        rest = self.phrases.span(self.at, min(end + 1, self.at + 5))
+        return self.phrases.refuse(
+            f"'{token.text}' could not be understood here: '{rest.excerpt(self.phrases.text)}'",
+            token.span,
+            "one of: who, where (12 m behind the stop line), what (brakes, stops, turns left), when, before",
+            "say it in a sentence of its own; nothing is guessed and nothing is dropped",
+        )
+
+    def _stuck_before(self, message: str) -> TranslationError:
+        span = self.phrases.tokens[max(0, self.at - 1)].span
+        return self.phrases.refuse(message, span, "a verb or a place after it")
+
+    def _tag(self, tag: str, ahead: int = 0) -> str | None:
+        return self.phrases.tag(self.at + ahead, tag)
+
+    def _check_subject_used(self) -> None:
+        if self.subject_span is not None and self.pending_heading is not None and self.passive_object is None:
+            self._open("be", self.at - 1)  # "Westbound ego."
+        if self.subject_span is not None:
+            raise self.phrases.refuse(
+                f"nothing is said about '{self.subject_span.excerpt(self.phrases.text)}' here",
+                self.subject_span,
+                "a verb or a place after it",
+                "say what each vehicle does in a clause of its own",
+            )
+
+    def _take_subject(self, phrase: NounPhrase) -> None:
+        self._check_subject_used()
+        actor = self.phrases.resolve(phrase)
+        self._set_subject(actor, phrase.span)
+        for relation in phrase.adjectives & {"lead", "oncoming"}:
+            self.pending_relations.append((relation, actor, phrase.span))
+        if phrase.heading:
+            self.pending_heading = (phrase.heading, phrase.span)
+        self.at = phrase.end
+        self.current = None
+
+    def _set_subject(self, actor: int, span: Span | None) -> None:
+        self.subject = self.phrases.subject = actor
+        self.subject_span = span
+        self.passive_object = None
+
+    def _negate(self, span: Span) -> None:
+        if "negated" in self.flags:
+            raise self.phrases.refuse(
+                "two negations are hard to read", span, "at most one", "say what the vehicle does"
+            )
+        self.flags.add("negated")
+
+    def _stop_noun_at(self, at: int) -> int | None:
+        """Return the position after "to a complete stop", or None."""
+        if self.phrases.tag(at, "link") == "to" or self.phrases.tag(at, "preposition") == "to":
+            at = self.phrases.skip_determiner(at + 1)
+        elif self.phrases.tag(at, "pronoun") and self.phrases.tokens[at].text.lower() == "itself":
+            return self._stop_noun_at(at + 1)
+        else:
+            return None
+        return at + 1 if self.phrases.tag(at, "stop_noun") else None
+
+    def _open(self, verb: str, start: int) -> Event:
+        """Begin a new event for the current subject with the links and flags gathered so far."""
+        tokens = self.phrases.tokens
+        span = tokens[start].span
+        if self.subject_span is not None:
+            span = self.subject_span.union(span)
+        event = Event(verb, self.subject, span, self.sentence, self.links)
+        event.explicit = self.subject_span is not None
+        event.negated = "negated" in self.flags
+        event.begins = "begins" in self.flags
+        event.wanted = "wanted" in self.flags
+        event.perfect = "perfect" in self.flags
+        event.initial = "initial" in self.flags or self.label == "start"
+        if self.passive_object is not None:
+            event.landmark, event.actor, self.passive_object = self.passive_object, None, None
+        event.relations, self.pending_relations = self.pending_relations, []
+        if self.pending_heading is not None:
+            event.headings.append(self.pending_heading)
+            self.pending_heading = None
+        self.links, self.flags, self.subject_span = [], set(), None
+        self.events.append(event)
+        self.current = event
+        return event
+
+    def _grow(self) -> None:
+        """Extend the current event's span to the last token read."""
+        if self.current is not None:
+            self.current.span = self.current.span.union(self.phrases.tokens[self.at - 1].span)
+
+    def _host(self) -> Event | None:
+        """Return the event that an adjunct belongs to; a subject without a verb gets a verbless statement."""
+        if self.current is None or (self.links and self.subject_span is not None):
+            if self.subject is None:
+                return None
+            return self._open("be", self.at)
+        if [link for link in self.links if link != "comma"] == ["and"] and self.current.verb == "be":
+            self.links = []  # "is on the road and 30 m behind the stop line"
+        self.links = [link for link in self.links if link != "comma"]
+        return self.current if not self.links else self._open("be", self.at)

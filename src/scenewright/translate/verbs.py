@@ -1,0 +1,184 @@
+"""Reads verbs: those that open an event, and those that only colour the next one (begins to, wants to, fails to).
+
+What enters: the reader's state at some token. What leaves: True where a verb was read.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from scenewright.translate.adjuncts import AdjunctReader
+from scenewright.translate.events import Event
+from scenewright.translate.reader import MOVES
+from scenewright.translate.tokens import Token
+
+
+@dataclass(slots=True)
+class VerbReader(AdjunctReader):
+    """Opens events."""
+
+    def _verb(self) -> bool:
+        token = self.phrases.tokens[self.at]
+        if "negation" in token.tags:
+            self._negate(token.span)
+            self.at += 1
+            return True
+        if self._has_amount():
+            return True
+        if "auxiliary" in token.tags:
+            self.flags.add({"have": "perfect"}.get(token.tags["auxiliary"], "modal"))
+            self.at += 1
+            return True
+        if ("be" in token.tags or self._contracted_be(token)) and "verb" not in token.tags:
+            self.flags.add("be")
+            self.at += 1
+            if not (self.phrases.tokens[self.at].tags.keys() & {"verb", "negation", "adverb", "auxiliary"}):
+                self._open("be", self.at - 1)
+            return True
+        verb = token.tags.get("verb")
+        if verb is None:
+            return False
+        return self._light(verb, token) or self._main_verb(verb, token)
+
+    def _contracted_be(self, token: Token) -> bool:
+        return "genitive" in token.tags and self.at > 0 and self.phrases.tag(self.at - 1, "pronoun") is not None
+
+    def _has_amount(self) -> bool:
+        """Whether "has" is a full verb here: "has 12 m to go to the stop line", "has a speed of 8 m/s"."""
+        if self._tag("auxiliary") != "have":
+            return False
+        after = self.phrases.tokens[self.at + 1]
+        if after.quantity is not None or self.phrases.measured(self.at + 1) is not None:
+            self._open("be", self.at)
+            self.at += 1
+            return True
+        return False
+
+    def _light(self, verb: str, token: Token) -> bool:
+        """Read verbs that only colour the next one: begins to, wants to, fails to."""
+        if self.passive_object == "its turn" and "ed" in token.forms and verb in ("begin", "complete", "make"):
+            self.passive_object = None
+            event = self._open("complete" if verb == "complete" else "turn", self.at)
+            event.begins, event.actor = verb == "begin", None
+            self.at += 1
+            self._grow()
+            return True
+        following = self.phrases.tokens[self.at + 1]
+        to_verb = self._tag("link", 1) == "to" and self.phrases.tag(self.at + 2, "verb") is not None
+        flag = {"begin": "begins", "want": "wanted", "need": "modal", "fail": "negated"}.get(verb)
+        if flag and to_verb:
+            if flag == "negated":
+                self._negate(token.span)
+            self.flags.add(flag)
+            self.at += 2
+            return True
+        if verb == "begin" and "ing" in following.forms:
+            self.flags.add("begins")
+            self.at += 1
+            return True
+        if verb in ("begin", "want", "make", "complete", "use") and self._turn_noun(verb):
+            return True
+        if verb == "begin" and self.current is None and not self.flags - {"initial", "be", "modal"}:
+            self.flags.add("initial")
+            self._open("be", self.at)
+            self.at += 1
+            return True
+        if verb == "come" and self._stop_noun_at(self.at + 1):
+            return False
+        return False
+
+    def _turn_noun(self, verb: str) -> bool:
+        """Read "makes a left turn", "begins its turn", "completes the left turn"."""
+        start, at = self.at, self.at + 1
+        owner = self.phrases.possessor(at)
+        if owner is not None:
+            if owner[0] != self.subject:
+                return False
+            at = owner[1]
+        else:
+            at = self.phrases.skip_determiner(at)
+        direction = self.phrases.tag(at, "direction")
+        at += direction is not None
+        noun = self.phrases.tag(at, "event_noun")
+        if noun != "turn" and not (verb == "make" and direction in ("left", "right")):
+            return False
+        if noun is not None:
+            at += 1
+        if verb == "begin":
+            self.flags.add("begins")
+        if verb == "want":
+            self.flags.add("wanted")
+        event = self._open("complete" if verb == "complete" else "turn", start)
+        event.direction = direction
+        self.at = at
+        self._grow()
+        return True
+
+    def _let(self, start: int) -> bool:
+        """Read "lets the ego go first" as yielding."""
+        phrase = self.phrases.noun_phrase(self.at + 1)
+        if phrase is None or not self.phrases.verb(phrase.end, "pass", "go", "turn", "cross"):
+            return False
+        event = self._open("yield", start)
+        event.to_actor = self.phrases.resolve(phrase)
+        self.at = phrase.end + 1
+        if found := self.phrases.landmark(self.at):
+            self.at = found[1]
+        if self._tag("adverb") == "first":
+            self.at += 1
+        self._grow()
+        return True
+
+    def _main_verb(self, verb: str, token: Token) -> bool:
+        start = self.at
+        if verb == "let":
+            return self._let(start)
+        if verb in ("begin", "want", "need", "fail", "make", "use"):
+            return False
+        end = self.at + 1
+        if verb == "come":
+            stop = self._stop_noun_at(end)
+            if stop is None:
+                if self._tag("verb") == "come" and (self.phrases.heading(end) or self.phrases.area(end)):
+                    verb = "drive"
+                else:
+                    return False
+            else:
+                verb, end = "stop", stop
+        if verb in ("complete", "exist"):
+            return False
+        passive = "be" in self.flags and "ed" in token.forms and "ing" not in token.forms
+        if passive and verb in MOVES and self.passive_object is None:
+            return False
+        if self.passive_object is not None and (verb not in MOVES or self.passive_object == "its turn"):
+            return False
+        event = self._open(verb, start)
+        event.gerund = "ing" in token.forms
+        if event.landmark is None and verb in MOVES:
+            end = self._object_place(event, end)
+        if verb == "stop":
+            event.to_stop = True
+        self.at = end
+        self._grow()
+        return True
+
+    def _object_place(self, event: Event, at: int) -> int:
+        found = self.phrases.landmark(at)
+        if found is not None and event.verb == "leave" and found[3]:
+            return at  # "leaves the driveway": an area, read as an adjunct
+        if found is None and event.verb in ("reach", "pass") and self.phrases.tag(at, "preposition") in ("at", "in"):
+            found = self.phrases.landmark(at + 1)
+        if (
+            found is None
+            and self.phrases.tag(at, "pronoun")
+            and self.phrases.last_landmark
+            and event.verb != "approach"
+        ):
+            event.landmark = self.phrases.last_landmark
+            return at + 1
+        if found is None:
+            return at
+        event.landmark = "turn_start" if found[0] == "mouth" else found[0]
+        if found[2] is not None and found[2] != event.actor:
+            raise self.phrases.refuse("this is another vehicle's place", self.phrases.span(at, found[1]))
+        return found[1]
