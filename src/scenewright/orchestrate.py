@@ -180,18 +180,21 @@ def is_program(text: str) -> bool:
 
 
 def _text_of(source: str) -> tuple[str, str]:
-    if "\n" not in source and len(source) < 1000 and source.strip():
-        path = Path(source)
-        looks_like_file = path.suffix in (".txt", ".scene", ".md") and " " not in source.strip()
-        if path.is_file():
-            try:
-                return path.read_text(encoding="utf-8"), path.name
-            except (OSError, UnicodeDecodeError) as error:
-                raise InputError("the file cannot be read as text", place=Place(source), found=str(error)) from None
-        if looks_like_file:
-            raise InputError(
-                "there is no such file", place=Place(source), fix="give a file, or the description itself in quotes"
-            )
+    """Return the text that `source` is or names, and what to call it in messages."""
+    path = Path(source)
+    looks_like_file = path.suffix in (".txt", ".scene", ".md") and " " not in source.strip()
+    try:
+        is_file = bool(source.strip()) and path.is_file()
+    except (OSError, ValueError):  # too long or too odd for a file name: a description
+        is_file = False
+    if is_file:
+        try:
+            return path.read_text(encoding="utf-8"), path.name
+        except (OSError, UnicodeDecodeError) as error:
+            raise InputError("the file cannot be read as text", place=Place(source), found=str(error)) from None
+    if looks_like_file:
+        fix = "give the path of a file, or the description itself in quotes"
+        raise InputError("there is no such file", place=Place(source), fix=fix)
     return source, "description"
 
 
@@ -226,16 +229,22 @@ def first_plan(world: _World, request: Request) -> tuple[Replanner, EgoFirstStat
         attempt = replanner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
         if best is None or _quality(attempt) > _quality(best[2]):
             best = (replanner, start, attempt)
-        if _quality(attempt) == 2:
+        if _quality(attempt) >= _GOOD:
             break
     assert best is not None
     return best
 
 
+_GENTLENESS = {"steady": 5, "gentle": 4, "firm": 3, "whole": 2, "urgent": 1}
+_GOOD = 13
+
+
 def _quality(attempt: Attempt) -> int:
+    """Rank a first plan: one that promises the outcome before one that does not, then the gentler one."""
     if attempt.plan is None:
         return 0
-    return 2 if attempt.status == "sat" and attempt.promises_outcome else 1
+    promised = 10 if attempt.status == "sat" and attempt.promises_outcome else 0
+    return promised + _GENTLENESS[attempt.plan.manner]
 
 
 # -- what is left behind --------------------------------------------------------------------------------------------

@@ -161,4 +161,3 @@ def _trace(scene: Scene, times: list[float], rows: dict[int, list[tuple[float, .
             time_s, poses[:, 0], poses[:, 1], poses[:, 2], values[:, 1], values[:, 2], values[:, 0], np.zeros(count)
         )
     return Trace(actors)
-

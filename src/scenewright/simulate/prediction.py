@@ -45,14 +45,15 @@ class ConstantAcceleration:
     average_s
         Over how long a past the acceleration is averaged: policies jitter.
     standstill_s
-        How long one that stops is taken to stand. Nobody stands for ever: a hero that believed so would give up its place.
+        How long one that stands goes on standing, counted anew at every moment. Nobody stands for ever: a hero that
+        believed so would give up its place; and one that did not wait would creep past it.
     restart_mpss, restart_speed_mps
         How it sets off.
     """
 
     hold_s: float = 1.0
     average_s: float = 0.1
-    standstill_s: float = 1.0
+    standstill_s: float = 1.5
     restart_mpss: float = 1.2
     restart_speed_mps: float = 5.0
 
@@ -67,8 +68,7 @@ class ConstantAcceleration:
         else:
             if speed_mps > 0.05 and accel < -0.05:
                 moves.append((speed_mps / -accel, accel, 0))
-            stood_s = self._stood_s(history)
-            moves.append((max(0.3, self.standstill_s - stood_s), 0.0, 0))
+            moves.append((self.standstill_s, 0.0, 0))
             moves.append((self.restart_speed_mps / self.restart_mpss, self.restart_mpss, 0))
         return Profile(chain(time_s, s_m, speed_mps if speed_mps > 0.05 else 0.0, moves))
 
@@ -77,11 +77,3 @@ class ConstantAcceleration:
         values = [sample[3] for sample in history[-12:] if sample[0] >= last - self.average_s]
         mean = sum(values) / len(values)
         return 0.0 if abs(mean) < 0.02 else max(-9.0, min(5.0, mean))
-
-    @staticmethod
-    def _stood_s(history: Sequence[EgoSample]) -> float:
-        last = history[-1][0]
-        for sample in reversed(history):
-            if sample[2] > 0.05:
-                return last - sample[0]
-        return last - history[0][0]

@@ -22,7 +22,11 @@ from scenewright.solve.planner import Attempt, Planner
 # While much time is left a late or early ego is nothing to act on; the dead band shrinks to almost nothing.
 _DEAD_BAND_S = 0.003
 _DEAD_BAND_SHARE = 0.012
+_SETTLE_S = 0.5
+_LATE_SHARE = 0.35
 _FAR_S = 40.0
+TIGHT_LENGTH_M = 0.5
+TIGHT_TIME_S = 0.1
 _SHORTEST_LEAD_S = 0.02
 _FIRST_TRIGGERS_S = (2.5, 3.5, 4.5, 6.0, 8.0, 10.0, 13.0, 16.0, 2.0, 1.5, 1.0, 20.0, 25.0)
 _RETRY_TRIGGERS_S = (0.0, 0.25, -0.25, 0.75, 1.5, 3.0, 6.0, 10.0)
@@ -229,8 +233,25 @@ class Replanner:
         for instant in instants:
             knots = self._ego_knots(time_s, prediction, ego_past, hero, instant)
             triggers = {} if instant is None else {hero.id: instant}
-            situations.append(Situation(time_s, prediction, knots, heroes, triggers))
+            planned, slack_s = {}, 0.0
+            if instant is not None and hero.id in heroes:
+                planned = {hero.id: self._planned_trigger_s(hero)}
+                slack_s = self._ego_slack_s(prediction, instant)
+            situations.append(Situation(time_s, prediction, knots, heroes, triggers, planned, slack_s))
         return situations
+
+    def _planned_trigger_s(self, hero: Actor) -> float:
+        return self.plan.profiles[hero.id].knot_times_s[self.structure.trigger_knot(hero.id) or ""]
+
+    def _ego_slack_s(self, prediction: Profile, instant_s: float) -> float:
+        """Return the time in which the ego gets one tight tolerance off its side of the trigger."""
+        _, speed, _ = prediction.state(instant_s)
+        per_time = any(c.weights.get(EGO, (0, 0))[1] for c in self._at_trigger())
+        return TIGHT_TIME_S if per_time else min(TIGHT_LENGTH_M / max(speed, 0.05), 1.0)
+
+    def _at_trigger(self) -> list[LinearCondition]:
+        instants = list(self.structure.triggers.values())
+        return [c for c in self.conditions if any(c.moments <= instant for instant in instants)]
 
     def _trigger_instants(
         self, hero: Actor, time_s: float, prediction: Profile, heroes: Mapping[int, HeroState]
@@ -258,7 +279,7 @@ class Replanner:
         self, hero: Actor, conditions: list[LinearCondition], time_s: float, prediction: Profile
     ) -> list[float]:
         """Return instants to try where both decide: when the plan as it is meets the condition, then around it."""
-        planned = self.plan.profiles[hero.id].knot_times_s[self.structure.trigger_knot(hero.id) or ""]
+        planned = self._planned_trigger_s(hero)
         motion = self._without_interaction(hero)
         result: list[float] = []
         for condition in conditions:
@@ -304,13 +325,20 @@ class Replanner:
         for hero in self.scene.program.heroes:
             times = self.plan.profiles[hero.id].knot_times_s
             if hero.id in situation.trigger_s:
-                planned = times.get(self.structure.trigger_knot(hero.id) or "", time_s)
-                band = _DEAD_BAND_S + _DEAD_BAND_SHARE * max(0.0, planned - time_s)
-                if self.plan.tolerance > 0.0 or abs(situation.trigger_s[hero.id] - planned) > band:
+                if not self._trigger_fits(hero, time_s, situation):
                     return False
             elif self._reactive_piece(hero) is not None and not self._outcome_fits(hero, situation, times):
                 return False
         return True
+
+    def _trigger_fits(self, hero: Actor, time_s: float, situation: Situation) -> bool:
+        """Whether the planned trigger is near enough to where it should come now, for the time that is left."""
+        planned = self._planned_trigger_s(hero)
+        off_s = abs(situation.trigger_s[hero.id] - planned)
+        left_s = max(0.0, planned - time_s)
+        if left_s <= _SETTLE_S and off_s <= _LATE_SHARE * situation.ego_slack_s:
+            return True  # within the last half second the hero stays settled for as long as that is good enough
+        return self.plan.tolerance == 0.0 and off_s <= _DEAD_BAND_S + _DEAD_BAND_SHARE * left_s
 
     def _outcome_fits(self, hero: Actor, situation: Situation, times: Mapping[str, float]) -> bool:
         last_ego = max(situation.ego_knots_s.values(), default=0.0)

@@ -7,14 +7,14 @@ History is fixed, the ego is a prediction, and what of a hero's motion has a kno
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
 from scenewright.motion.algebra import Condition, Symbol, Value, compare, disjunction, pin, smt
 from scenewright.motion.profile import Profile, chain
 from scenewright.motion.sketched import SketchedMotion
 from scenewright.program.expressions import Compare, Elapsed, Formula, PieceRef, State, walk
-from scenewright.program.structure import Role, Structure, knots_of
+from scenewright.program.structure import KnotKey, Role, Structure, knots_of
 from scenewright.program.types import EGO, Actor, Constraint, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import BRAKE_MAX_MPSS, Limits, Manner
@@ -25,8 +25,10 @@ from scenewright.solve.views import KnownView, MotionView, SketchedView
 # An ego knot that is not in sight is taken to come this much later (s).
 _OUT_OF_SIGHT_S = 60.0
 _START_MARGIN_M = 3.0
+_CLEARANCE_M = 5.0
+_LONGEST_CLEARANCE_S = 2.0
 _SETTLE_S = Fraction(1, 2)
-_SETTLED_MPSS = Fraction(2, 5)
+_SETTLED_MPSS = Fraction(1, 4)
 _SHORTEST_S = Fraction(1, 20)
 _LONGEST_S = Fraction(90)
 
@@ -56,7 +58,11 @@ class Situation:
     heroes
         The state of every hero by id; one that has not started yet (its first state is still free) is absent.
     trigger_s
-        For each hero that has a trigger ahead: the instant it is planned for.
+        For each hero that has a trigger ahead: the instant at which it should come now.
+    planned_trigger_s
+        The instant that the plan in force has for it.
+    ego_slack_s
+        By how much the instant may move until the ego is one tight tolerance off its own side.
     """
 
     time_s: float
@@ -64,6 +70,8 @@ class Situation:
     ego_knots_s: Mapping[str, float]
     heroes: Mapping[int, HeroState]
     trigger_s: Mapping[int, float]
+    planned_trigger_s: Mapping[int, float] = field(default_factory=dict)
+    ego_slack_s: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,8 +192,9 @@ class HeroProblem:
             return [_Stretch(piece, rest_s, knot, True, settle and steps == 1)]
         if not settle:
             return _even(piece, rest_s, steps, knot)
+        if rest_s <= _SETTLE_S * Fraction(11, 10):
+            return [_Stretch(piece, rest_s, knot, True, True)]
         hold_s = max(_SETTLE_S, rest_s * Fraction(2, 5)) if steps == 2 else _SETTLE_S
-        hold_s = min(hold_s, rest_s * Fraction(1, 2))
         return [*_even(piece, rest_s - hold_s, steps - 1, None), _Stretch(piece, hold_s, knot, True, True)]
 
     def _add_stretch(
@@ -265,13 +274,23 @@ class HeroProblem:
             if not self._concerns(constraint):
                 continue
             role = self.structure.roles[constraint.id]
-            margin = self.manner.outcome_margin_s if role is Role.OUTCOME else 0.0
+            margin = self._outcome_margin_s(constraint) if role is Role.OUTCOME else 0.0
             tolerance = self.tolerance if role is Role.TRIGGER else Fraction(0)
             try:
                 self.problem.require(self._lower(lowering, constraint.formula, tolerance, margin), constraint.id)
                 self.asserted.append(constraint)
             except NotYet:
                 continue
+
+    def _outcome_margin_s(self, constraint: Constraint) -> float:
+        """Return by how much the hero must be first: some time, and where asked the time the ego needs for a length."""
+        margin = self.manner.outcome_margin_s
+        if self.manner.clear:
+            for actor, knot in knots_of(constraint.formula):
+                if actor == EGO and knot in self.situation.ego_knots_s:
+                    speed = self.situation.ego.state(self.situation.ego_knots_s[knot])[1]
+                    margin += min(_CLEARANCE_M / max(speed, 0.1), _LONGEST_CLEARANCE_S)
+        return margin
 
     @staticmethod
     def _lower(lowering: Lowering, formula: Formula, tolerance: Fraction, margin_s: float) -> Condition:
@@ -289,11 +308,7 @@ class HeroProblem:
         role = self.structure.roles[constraint.id]
         if role is Role.OUTCOME and not self.manner.outcome and _speaks_of_ego(constraint.formula):
             return False
-        ahead = False
-        for actor, knot in knots_of(constraint.formula):
-            view = self._views.get(actor)
-            if isinstance(view, SketchedView) and knot in view.knots:
-                ahead = True
+        ahead = any(self._is_ahead(key) for key in knots_of(constraint.formula))
         for node in walk(constraint.formula):
             if isinstance(node, State) and not isinstance(node.at, Elapsed) and node.actor != EGO:
                 view = self._views.get(node.actor)
@@ -302,6 +317,14 @@ class HeroProblem:
                     state = self.situation.heroes.get(node.actor)
                     ahead = ahead or (index in view.pieces and (state is None or state.piece != index))
         return ahead
+
+    def _is_ahead(self, key: KnotKey) -> bool:
+        """Whether a knot, or one that is the same moment, is still to come for a hero."""
+        for hero in self.scene.program.heroes:
+            view, own = self._views.get(hero.id), self.structure.same_moment(hero.id, key)
+            if isinstance(view, SketchedView) and own in view.knots:
+                return True
+        return False
 
     # -- reading a model back ---------------------------------------------------------------------------------------
     def profiles(self, model: Mapping[str, Fraction]) -> dict[int, Profile]:

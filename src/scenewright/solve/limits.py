@@ -61,7 +61,9 @@ class Manner:
         Whether the prediction of the ego must already promise the outcome (who goes first); without it the actor does
         what it can and the ego decides.
     outcome_margin_s
-        By how much the prediction must promise it.
+        By how much the prediction must promise it; less than nothing asks for the best that can be done.
+    clear
+        Whether the first to pass must also be out of the way of the second.
     """
 
     name: str
@@ -75,16 +77,15 @@ class Manner:
     trigger_speed_mps: float
     natural_speed: bool
     outcome: bool = True
-    outcome_margin_s: float = 0.8
+    outcome_margin_s: float = 0.3
+    clear: bool = True
 
 
-STEADY = Manner("steady", 0.0, 0.0, 1, True, (1.8, 3.2), (1.2, 2.5), (0.6, 1.2), 2.0, True)
-GENTLE = Manner("gentle", 1.0, 1.2, 2, True, (1.0, 4.0), (1.0, 2.5), (0.6, 1.5), 1.5, True)
-FIRM = Manner("firm", 2.5, 3.0, 3, True, (0.6, 6.0), (0.6, 3.5), (0.5, 3.0), MOVING_MPS, False)
-WHOLE = Manner("whole", ACCEL_MAX_MPSS, 6.0, 5, True, (0.3, 8.0), (0.3, 4.0), (0.5, 20.0), MOVING_MPS, False, True, 0.3)
-URGENT = Manner(
-    "urgent", ACCEL_MAX_MPSS, 8.0, 4, False, (0.3, 8.0), (0.3, 4.0), (0.5, 90.0), MOVING_MPS, False, True, 0.05
-)
+STEADY = Manner("steady", 0.0, 0.0, 1, True, (1.2, 2.4), (1.2, 2.5), (0.6, 1.2), 2.0, True)
+GENTLE = Manner("gentle", 1.0, 1.2, 2, True, (0.9, 4.0), (1.0, 2.5), (0.6, 1.5), 1.5, True)
+FIRM = Manner("firm", 2.5, 3.0, 3, True, (0.7, 6.0), (0.8, 3.5), (0.5, 3.0), MOVING_MPS, False)
+WHOLE = Manner("whole", ACCEL_MAX_MPSS, 6.0, 5, True, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)
+URGENT = Manner("urgent", ACCEL_MAX_MPSS, 8.0, 4, False, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)
 
 
 def limits_on(route: Route, road_map: RoadMap) -> Limits:

@@ -23,10 +23,36 @@ from scenewright.solve.lowering import TIGHT, compared_dimension
 from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.solve.problem import Backend, Satisfiable, Unknown
 
-FIRST_MANNERS: tuple[Manner, ...] = (STEADY, GENTLE, FIRM, WHOLE, URGENT)
-MANNERS: tuple[Manner, ...] = (GENTLE, FIRM, WHOLE, URGENT)
-_TOLERANCES = tuple(Fraction(n) for n in ("0.5", "1", "2", "4", "8", "16"))
-_BISECTIONS = 2
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """One way to try: how to move, how far off the trigger may be (in tight tolerances), how firm the outcome must be."""
+
+    manner: Manner
+    tolerance: Fraction = Fraction(0)
+
+
+def _with_margin(manner: Manner, margin_s: float) -> Manner:
+    return replace(manner, outcome_margin_s=margin_s, clear=False)
+
+
+_EXACT = tuple(Trial(manner) for manner in (GENTLE, FIRM, WHOLE))
+# Where the prediction denies the outcome, the hero does the most it can for it: the ego may still give way.
+_FOR_OUTCOME = tuple(Trial(_with_margin(WHOLE, -late_s)) for late_s in (-0.1, 0.5, 1.0, 2.0, 4.0, 8.0))
+_WITHOUT_OUTCOME = tuple(Trial(replace(manner, outcome=False)) for manner in (FIRM, WHOLE))
+_OFF = tuple(
+    Trial(replace(manner, outcome=False), Fraction(tolerance))
+    for manner, tolerance in (
+        (WHOLE, "0.4"),
+        (WHOLE, "0.8"),
+        (URGENT, "0"),
+        (URGENT, "0.8"),
+        (URGENT, "2"),
+        (URGENT, "4"),
+        (URGENT, "16"),
+    )
+)
+_TRIES_A_TICK = 6
 # Pinning rounds by at most 5e-5 at each of a handful of numbers; a checked plan may be off by that, no more.
 _CHECK_SLACK = 5e-3
 DEFAULT_BUDGET_S = 0.25
@@ -73,72 +99,41 @@ class Planner:
         self.limits = limits
         self.backend = backend
         self.budget_s = budget_s
-        self._last_manner = 0
+        outcome = Role.OUTCOME in structure.roles.values()
+        self.trials = (*_EXACT, *(_FOR_OUTCOME if outcome else ()), *(_WITHOUT_OUTCOME if outcome else ()), *_OFF)
+        self._last_trial = 0
 
     def first_plan(self, situations: Sequence[Situation], budget_s: float = 10.0) -> Attempt:
         """Plan from the start, with the heroes' first states free; `situations` differ in the trigger's instant."""
-        return self._search(situations, FIRST_MANNERS, budget_s)
+        trials = (Trial(STEADY), *self.trials)
+        return self._search([(trial, situation) for trial in trials for situation in situations], budget_s)[0]
 
     def replan(self, situations: Sequence[Situation]) -> Attempt:
-        """Plan the rest; begins one manner gentler than what the last re-solve needed."""
-        first = max(0, self._last_manner - 1)
-        attempt = self._search(situations, MANNERS[first:], self.budget_s)
-        names = [manner.name for manner in MANNERS]
-        if attempt.plan is not None and attempt.plan.manner in names:
-            self._last_manner = names.index(attempt.plan.manner)
+        """Plan the rest; begins one trial gentler than what the last re-solve needed, and makes a few tries at most."""
+        first = max(0, self._last_trial - 1)
+        ways = [(trial, situation) for trial in self.trials[first:] for situation in situations]
+        attempt, tried = self._search(ways[:_TRIES_A_TICK], self.budget_s)
+        index = first + tried // len(situations)
+        # What was not reached in this tick is where the next one goes on; after the last hope it starts over midway.
+        self._last_trial = index if index < len(self.trials) else len(self.trials) // 2
         return attempt
 
-    def _search(self, situations: Sequence[Situation], manners: Sequence[Manner], budget_s: float) -> Attempt:
+    def _search(self, ways: Sequence[tuple[Trial, Situation]], budget_s: float) -> tuple[Attempt, int]:
+        """Return the first way that leads to a plan, and its number."""
         started = time.perf_counter()
-        tries = 0
         reason = "no motion within the limits meets the trigger"
-        outcomes = (True, False) if self._has_outcome() else (True,)
-        for outcome in outcomes:
-            for manner in manners:
-                for situation in situations:
-                    left_s = budget_s - (time.perf_counter() - started)
-                    if left_s <= 0:
-                        return Attempt(None, "timeout", "time budget", time.perf_counter() - started, tries)
-                    tries += 1
-                    found = self._solve(situation, replace(manner, outcome=outcome), Fraction(0), left_s)
-                    if isinstance(found, Plan):
-                        return Attempt(found, "sat", "", time.perf_counter() - started, tries, outcome)
-                    reason = found
-        plan, more = self._widest(situations[0], replace(manners[-1], outcome=False), budget_s, started)
-        status = "relaxed" if plan else "unsat"
-        return Attempt(plan, status, "" if plan else reason, time.perf_counter() - started, tries + more, False)
-
-    def _has_outcome(self) -> bool:
-        return Role.OUTCOME in self.structure.roles.values()
-
-    def _widest(self, situation: Situation, manner: Manner, budget_s: float, started: float) -> tuple[Plan | None, int]:
-        """Search the smallest tolerance that admits a plan: outwards by doubling, then back by halving."""
-        best: Plan | None = None
-        low = Fraction(0)
-        tries = 0
-        for tolerance in _TOLERANCES:
+        for number, (trial, situation) in enumerate(ways):
             left_s = budget_s - (time.perf_counter() - started)
             if left_s <= 0:
-                return best, tries
-            tries += 1
-            found = self._solve(situation, manner, tolerance, left_s)
+                return Attempt(None, "timeout", "time budget", time.perf_counter() - started, number), number
+            found = self._solve(_retimed(situation, trial.tolerance), trial.manner, trial.tolerance, left_s)
             if isinstance(found, Plan):
-                best = found
-                break
-            low = tolerance
-        for _ in range(_BISECTIONS if best else 0):
-            assert best is not None
-            middle = (low + Fraction(str(best.tolerance))) / 2
-            left_s = budget_s - (time.perf_counter() - started)
-            if left_s <= 0:
-                break
-            tries += 1
-            found = self._solve(situation, manner, middle, left_s)
-            if isinstance(found, Plan):
-                best = found
-            else:
-                low = middle
-        return best, tries
+                status = "sat" if trial.tolerance == 0 else "relaxed"
+                promises = trial.manner.outcome and trial.manner.outcome_margin_s > 0
+                wall_s = time.perf_counter() - started
+                return Attempt(found, status, "", wall_s, number + 1, promises), number
+            reason = found
+        return Attempt(None, "unsat", reason, time.perf_counter() - started, len(ways)), len(ways)
 
     def _solve(self, situation: Situation, manner: Manner, tolerance: Fraction, timeout_s: float) -> Plan | str:
         built = HeroProblem(self.scene, self.structure, self.limits, situation, manner, tolerance)
@@ -154,6 +149,23 @@ class Planner:
         if fault is not None:
             return f"the model fails its check: {fault}"
         return Plan(profiles, float(tolerance), manner.name, parameters)
+
+
+def _retimed(situation: Situation, tolerance: Fraction) -> Situation:
+    """Return `situation` with the trigger moved towards where it was planned, as far as the tolerance lets the ego be off.
+
+    A late ego is met half way: the hero a little off its place, the ego a little off its own.
+    """
+    if not tolerance or not situation.planned_trigger_s:
+        return situation
+    triggers = dict(situation.trigger_s)
+    ego_knots = dict(situation.ego_knots_s)
+    for hero, planned in situation.planned_trigger_s.items():
+        now = triggers[hero]
+        reach = float(tolerance) * situation.ego_slack_s
+        triggers[hero] = moved = now + max(-reach, min(reach, planned - now))
+        ego_knots = {name: moved if time_s == now else time_s for name, time_s in ego_knots.items()}
+    return replace(situation, trigger_s=triggers, ego_knots_s=ego_knots)
 
 
 def check_profiles(
