@@ -55,6 +55,7 @@ EXIT_STATUS: dict[Status, int] = {
     "interrupted": 130,
 }
 Report = Callable[[str], None]
+Stop = Literal["check", "plan", "end"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +99,10 @@ class Result:
 
 
 def orchestrate(
-    request: Request, report: Report | None = None, progress: Callable[[float], None] | None = None
+    request: Request,
+    report: Report | None = None,
+    progress: Callable[[float], None] | None = None,
+    until: Stop = "end",
 ) -> Result:
     """Carry out `request`.
 
@@ -108,6 +112,8 @@ def orchestrate(
         Called with the name of each stage as it begins.
     progress
         Called with the simulated time (s) as the run goes on.
+    until
+        The last stage to carry out. After ``check`` or ``plan`` the status is ``success`` where that stage succeeded.
 
     Raises
     ------
@@ -133,11 +139,14 @@ def orchestrate(
     result = Result("infeasible", world.scene, translation, feasibility, timings_s=stages.seconds)
     if feasibility.answer == "infeasible":
         return result
+    if until == "check":
+        result.status = "success" if feasibility.answer == "feasible" else "gave up"
+        return result
     with stages("plan"):
         replanner, start, attempt = first_plan(world, request)
         result.attempt = attempt
-    if attempt.plan is None:
-        result.status = "gave up"
+    if attempt.plan is None or until == "plan":
+        result.status = "success" if attempt.plan is not None else "gave up"
         return result
     rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
     with stages("simulate"):
