@@ -95,33 +95,34 @@ ORACLE = {
 }  # fmt: skip
 
 LEAD_TURN = (
-    "Ego is lane-following straight along the road at {ego_initial_speed_mps}m/s. There is a driveway 100m in front of the "
-    "ego that merges into the ego's lane. There is a lead vehicle that is initially driving at {initial_speed_mps}m/s. When "
-    "the lead vehicle is {distance_ahead_of_ego_m}m ahead of the ego, it turns right into the driveway and gradually comes "
-    "to a stop."
+    "Ego is lane-following straight along the road at {ego_initial_speed_mps}m/s. There is a driveway 100m in "
+    "front of the ego that merges into the ego's lane. There is a lead vehicle that is initially driving at "
+    "{initial_speed_mps}m/s. When the lead vehicle is {distance_ahead_of_ego_m}m ahead of the ego, it turns "
+    "right into the driveway and gradually comes to a stop."
 )
 ONCOMING_TURN = (
-    "Ego is lane-following straight along the road at {ego_initial_speed_mps}m/s. There is a driveway 100m in front of the "
-    "ego that merges into the ego's lane. There is a car in the oncoming lane driving straight. When the time-to-collision "
-    "between the ego and the car is {ttc_s}s, the car should arrive at the mouth of the driveway and turn left across the "
-    "ego's path and into the driveway."
+    "Ego is lane-following straight along the road at {ego_initial_speed_mps}m/s. There is a driveway 100m in "
+    "front of the ego that merges into the ego's lane. There is a car in the oncoming lane driving straight. "
+    "When the time-to-collision between the ego and the car is {ttc_s}s, the car should arrive at the mouth of "
+    "the driveway and turn left across the ego's path and into the driveway."
 )
 INTO_PATH = (
-    "Ego is lane-following straight along the road at {ego_initial_speed_mps}m/s. There is a driveway 100m in front of the "
-    "ego that merges into the ego's lane. There is a car on the driveway that turns right into the ego's lane when the ego "
-    "is about {tta_s}s away from the driveway. After turning right, the car starts lane-following straight at "
-    "{target_speed_mps}m/s."
+    "Ego is lane-following straight along the road at {ego_initial_speed_mps}m/s. There is a driveway 100m in "
+    "front of the ego that merges into the ego's lane. There is a car on the driveway that turns right into the "
+    "ego's lane when the ego is about {tta_s}s away from the driveway. After turning right, the car starts "
+    "lane-following straight at {target_speed_mps}m/s."
 )
 ACROSS_PATH = (
-    "Ego is lane-following straight along the road at {ego_initial_speed_mps}m/s. There is a driveway 100m in front of the "
-    "ego that merges into the ego's lane. There is a car on the driveway that turns left across the ego's path onto the "
-    "ego's oncoming lane when the ego is about {tta_s}s away from the driveway."
+    "Ego is lane-following straight along the road at {ego_initial_speed_mps}m/s. There is a driveway 100m in "
+    "front of the ego that merges into the ego's lane. There is a car on the driveway that turns left across the "
+    "ego's path onto the ego's oncoming lane when the ego is about {tta_s}s away from the driveway."
 )
 HESITATES = (
-    "Ego is on the driveway. It is driving at {ego_initial_speed_mps}m/s. \nIt wants to make a right turn onto the road. \n"
-    "There is a car in the lane that the ego wants to turn into. \nThe car is initially driving at {initial_speed_mps}m/s. "
-    "\nIt decelerates at a rate of {deceleration_mpss}m/s^2 to a complete stop,\nas if to yield, exactly "
-    "{distance_to_driveway_m}m from the driveway.\nIt then re-accelerates back to {initial_speed_mps}m/s.\n"
+    "Ego is on the driveway. It is driving at {ego_initial_speed_mps}m/s. \nIt wants to make a right turn onto "
+    "the road. \nThere is a car in the lane that the ego wants to turn into. \nThe car is initially driving at "
+    "{initial_speed_mps}m/s. \nIt decelerates at a rate of {deceleration_mpss}m/s^2 to a complete stop,\nas if "
+    "to yield, exactly {distance_to_driveway_m}m from the driveway.\nIt then re-accelerates back to "
+    "{initial_speed_mps}m/s.\n"
 )
 EGO_100 = ("A0x(t0) == turn - 100", "A0v(t0) == ego_initial_speed_mps")
 

@@ -205,16 +205,18 @@ class ActionReader(DescriptionReader):
         ):
             raise self._refuse("two different orders are asked for", order.event.span)
         self.facts.order = self.facts.order or order
+        if order.hero_first and any("let" in event.notes for phase in self.facts.phases for event in phase.events):
+            raise self._refuse("the hero lets the ego go and also comes first", order.event.span)
         who = "the hero comes first" if order.hero_first else "the ego comes first"
         self._note(order.event, f"{who}; the ego's moment is {order.ego_landmark.replace('_', ' ')}")
 
-    def _apply_release(self, phase: Phase) -> None:
+    def _apply_release(self, phase: Phase, *, at_start: bool = True) -> None:
         if not self.pending_release:
             return
         event = self.pending_release.pop()
         if phase.kind == "dec" or self.facts.phases[0] is phase:
             raise self._refuse("the hero cannot wait for this before its trigger", event.span)
-        self._set_order(Order(False, self._ego_landmark(event), event, at_start=True))
+        self._set_order(Order(False, self._ego_landmark(event), event, at_start=at_start))
 
     def _beats(self, event: Event, phase: Phase) -> None:
         """Read "goes first" and "passes the conflict point before the ego"."""

@@ -10,6 +10,7 @@ from fractions import Fraction
 
 from scenewright.errors import Place as ErrorPlace
 from scenewright.errors import Span, TranslationError
+from scenewright.program.arithmetic import JUST_BEFORE_M, negate
 from scenewright.program.expressions import (
     Arithmetic,
     Compare,
@@ -27,9 +28,8 @@ from scenewright.program.expressions import (
     Term,
     walk,
 )
-from scenewright.program.text import JUST_BEFORE_M, negate
 from scenewright.program.types import Actor, Constraint, HeadingsRoute, Parameter, PieceKind, Program, Sketch
-from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, Event, Place
+from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, SAY_IT_ALONE, Event, Place
 from scenewright.translate.facts import Condition, Facts, Phase
 from scenewright.translate.itineraries import Itineraries
 from scenewright.translate.tokens import Quantity
@@ -74,7 +74,7 @@ class Assembler:
             place=ErrorPlace(self.name, self.text, span),
             found=span.excerpt(self.text),
             expected=expected,
-            fix=fix,
+            fix=fix or (None if expected else SAY_IT_ALONE),
         )
 
     def _add(self, formula: Formula, *events: Event) -> None:
@@ -214,7 +214,14 @@ class Assembler:
             self._add(Compare("==", State(HERO_ID, _SPEED, Knot(knot)), phase.to_speed.term), event)
             return
         if not phase.to_stop:
-            if phase.rate is None and phase.place is None:
+            if phase.place is not None:
+                raise self._refuse(
+                    "it is not clear whether the hero begins to brake there or comes to rest there",
+                    phase.place.span,
+                    "a stop, as in 'brakes to a stop 5 m behind the conflict point'",
+                    "put where it begins to brake into the 'when' clause",
+                )
+            if phase.rate is None:
                 raise self._refuse(
                     "it is not said how far the hero slows down", event.span, "to a stop, to a speed, or at a rate"
                 )
@@ -264,7 +271,7 @@ class Assembler:
             name, event, hero_first, at_start = order.ego_landmark, order.event, order.hero_first, order.at_start
         aim = self._landmark(name, EGO_ID, event.span)
         self._add(Compare("==", State(EGO_ID, _POSITION, Knot("t2")), aim), event)
-        knot = start_knot if at_start and start_knot else hero_knot
+        knot = start_knot if at_start and start_knot is not None else hero_knot
         self._add(Compare("<" if hero_first else ">", Elapsed(HERO_ID, knot), Elapsed(EGO_ID, "t2")), event)
 
     def _stop_and_go(self, phases: list[Phase]) -> Sketch:

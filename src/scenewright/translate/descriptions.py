@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 from scenewright.errors import Place as ErrorPlace
 from scenewright.errors import Span, TranslationError
-from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, Area, Event, Place
+from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, SAY_IT_ALONE, Area, Event, Place
 from scenewright.translate.facts import Condition, Facts, LaneRelation, Said, WishKey
 
 OPPOSITE = {"N": "S", "S": "N", "E": "W", "W": "E"}
@@ -34,7 +34,7 @@ class DescriptionReader:
             place=ErrorPlace(self.name, self.text, span),
             found=span.excerpt(self.text),
             expected=expected,
-            fix=fix,
+            fix=fix or (None if expected else SAY_IT_ALONE),
         )
 
     def _note(self, event: Event, understood: str) -> None:
@@ -59,7 +59,7 @@ class DescriptionReader:
             or event.duration
             or event.first
             or event.than_actor is not None
-            or event.landmark
+            or (event.landmark and event.verb != "approach")
         ):
             raise self._refuse(f"'{event.span.excerpt(self.text)}' has no meaning here", event.span)
         actor = event.actor
@@ -71,9 +71,9 @@ class DescriptionReader:
             if isinstance(place.target, int) and place.amount is None:
                 self._lead(place, actor, event)
             else:
-                self.facts.initial.append(Condition(actor, event, place=place))
+                self._start(Condition(actor, event, place=place))
         if event.speed is not None:
-            self.facts.initial.append(Condition(actor, event, speed=event.speed))
+            self._start(Condition(actor, event, speed=event.speed))
         if event.ttc is not None:
             raise self._refuse(
                 "a time to collision belongs into the trigger", event.span, fix="say 'when the time to collision ...'"
@@ -82,6 +82,24 @@ class DescriptionReader:
             raise self._refuse(
                 "a vehicle that stands at the start is not supported", event.span, "a vehicle that drives"
             )
+
+    def _start(self, condition: Condition) -> None:
+        self._no_second_place(condition, self.facts.initial)
+        self.facts.initial.append(condition)
+
+    def _no_second_place(self, new: Condition, known: list[Condition]) -> None:
+        """Refuse a second position at the same landmark, or a second speed, of an actor at one moment."""
+        for old in known:
+            same_kind = (old.place is None) == (new.place is None) and (old.speed is None) == (new.speed is None)
+            same_target = old.place is None or new.place is None or old.place.target == new.place.target
+            if old.actor == new.actor and same_kind and same_target:
+                moment = "the start" if known is self.facts.initial else "the trigger"
+                raise self._refuse(
+                    f"two things are said about the {ACTOR_NAMES[new.actor]} at {moment}",
+                    new.event.span,
+                    f"one, as in '{old.event.span.excerpt(self.text)}'",
+                    "say 'initially' for where it starts",
+                )
 
     def _lead(self, place: Place, actor: int, event: Event) -> None:
         kind = {"ahead": "lead", "behind": "lead"}.get(place.relation)

@@ -12,6 +12,7 @@ from scenewright.errors import Span
 from scenewright.translate.tokens import Quantity
 
 EGO_ID, HERO_ID = 0, 1
+SAY_IT_ALONE = "say it in a sentence of its own, or leave it out"
 ACTOR_NAMES = {EGO_ID: "ego", HERO_ID: "hero"}
 Relation = Literal["behind", "ahead", "before", "from", "past", "at", "just_before"]
 

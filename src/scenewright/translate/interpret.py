@@ -6,10 +6,10 @@ What enters: events with modes. What leaves: `Facts`. It knows no map and builds
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import groupby
+from itertools import groupby, pairwise
 
 from scenewright.translate.actions import EDGE, GOALS, SLOWING, SPEEDING, ActionReader
-from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, Event, Place
+from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place
 from scenewright.translate.facts import Condition, Facts, Order, Phase
 
 TELLING = ("be", "sit", "drive", "approach", "lane_follow", "turn", "pull_out", "leave", "wait", "go")
@@ -60,14 +60,23 @@ class Interpreter(ActionReader):
             else:
                 self._main(event, reacts)
 
-    @staticmethod
-    def _join_conditions(events: list[Event]) -> None:
+    def _join_conditions(self, events: list[Event]) -> None:
         """Let "the hero is 20 m behind the conflict point when the ego is ..." tell of one moment."""
-        if any(event.mode == "when" for event in events):
-            for event in events:
-                tells = bool(event.places or event.speed or event.ttc) and not (event.initial or event.negated)
-                if event.mode == "main" and event.verb in ("be", "sit", "drive", "approach", "ttc") and tells:
-                    event.mode = "when"
+        conditions = [event for event in events if event.mode == "when" and not self._is_marker(event)]
+        if not conditions:
+            return
+        for event, following in pairwise(events):
+            told = event.mode == "main" and event.verb in ("be", "sit", "drive", "approach", "ttc")
+            if not told or event.initial or event.negated:
+                continue
+            if following.links == ["when"] and (event.places or event.speed or event.ttc):
+                event.mode = "when"
+            elif event.places:
+                raise self._refuse(
+                    "it is not clear whether this holds at the start or at the trigger",
+                    event.span,
+                    "'initially', or the words inside the 'when' clause",
+                )
 
     @staticmethod
     def _give_subjects(events: list[Event]) -> None:
@@ -106,28 +115,16 @@ class Interpreter(ActionReader):
                     "a negated condition has no moment", event.span, "where the vehicles are when it begins"
                 )
             found = self._conditions_of(event)
-            self._no_second_place(found)
+            for each in found:
+                self._no_second_place(each, self.facts.trigger)
+                self.facts.trigger.append(each)
             if not found:
                 raise self._refuse(
                     "this condition has no place, time or speed",
                     event.span,
                     "such as 'the ego is 12 m behind the stop line'",
                 )
-            self.facts.trigger += found
             self._tell_route(event)
-
-    def _no_second_place(self, found: list[Condition]) -> None:
-        for new in found:
-            for old in self.facts.trigger:
-                same_kind = (old.place is None) == (new.place is None) and (old.speed is None) == (new.speed is None)
-                same_target = old.place is None or new.place is None or old.place.target == new.place.target
-                if old.actor == new.actor and same_kind and same_target:
-                    raise self._refuse(
-                        f"two things are said about where the {ACTOR_NAMES[new.actor]} is at the trigger",
-                        new.event.span,
-                        f"one, as in '{old.event.span.excerpt(self.text)}'",
-                        "say 'initially' for where it starts",
-                    )
 
     def _conditions_of(self, event: Event) -> list[Condition]:
         actor = event.actor
@@ -155,6 +152,7 @@ class Interpreter(ActionReader):
         for event in conditions:
             if event.actor != EGO_ID or self.pending_release:
                 raise self._refuse("there is a second trigger", event.span, "one trigger")
+            self._tell_route(event)
             self.pending_release.append(event)
 
     def _before(self, event: Event) -> None:
@@ -168,6 +166,7 @@ class Interpreter(ActionReader):
                 "a moment of the ego",
                 "say how far before, in metres",
             )
+        self._tell_route(event)
         if not self.facts.phases:
             self.pending_before = event
             return
@@ -206,9 +205,11 @@ class Interpreter(ActionReader):
             self._action(event)
             self._set_order(Order(True, self._ego_landmark(self._ego_main(events) or event), event))
         elif event.actor == EGO_ID and not self.pending_release:
+            self._tell_route(event)
             self.pending_release.append(event)
-            if self.facts.phases and self.facts.phases[-1].kind != "dec":
-                self._apply_release(self.facts.phases[-1])
+            phase = self.facts.phases[-1] if self.facts.phases else None
+            if phase is not None and phase.kind != "dec":
+                self._apply_release(phase, at_start=phase.goal_event not in events)
         else:
             raise self._refuse("it is not clear what comes after this", event.span)
 

@@ -10,7 +10,7 @@ from typing import cast
 
 from scenewright.errors import Place as ErrorPlace
 from scenewright.errors import Span, TranslationError
-from scenewright.translate.events import Area, Place, Relation
+from scenewright.translate.events import SAY_IT_ALONE, Area, Place, Relation
 from scenewright.translate.references import Referents
 from scenewright.translate.tokens import Quantity, Token
 
@@ -71,7 +71,7 @@ class Phrases:
             place=ErrorPlace(self.name, self.text, span),
             found=span.excerpt(self.text),
             expected=expected,
-            fix=fix,
+            fix=fix or (None if expected else SAY_IT_ALONE),
         )
 
     def skip_determiner(self, at: int) -> int:

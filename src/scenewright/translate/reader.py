@@ -135,7 +135,6 @@ class ReaderState:
             if self.subject is None:
                 return None
             return self._open("be", self.at)
-        if [link for link in self.links if link != "comma"] == ["and"] and self.current.verb == "be":
-            self.links = []  # "is on the road and 30 m behind the stop line"
-        self.links = [link for link in self.links if link != "comma"]
+        # "is on the road and 30 m behind the stop line": without a subject of its own it still belongs to the same verb
+        self.links = [link for link in self.links if link not in ("comma", "and")]
         return self.current if not self.links else self._open("be", self.at)

@@ -22,7 +22,7 @@ _RAW = re.compile(
     rf"""(?P<braced>\{{\s*{_PARAMETER}\s*\}})
     |(?P<parameter>{_PARAMETER})
     |(?P<number>(?<![\w.])[+\-−]?(?:\d+(?:,\d+)*(?:\.\d+)?|\.\d+)(?:/\d+)?)
-    |(?P<word>[^\W\d_]+(?:n['’]t)?)
+    |(?P<word>[^\W\d_]+?n['’]t\b|['’](?:ll|re|ve)\b|[^\W\d_]+)
     |(?P<genitive>['’]s\b|(?<=s)['’](?=\s))
     |(?P<stop>[.;!?](?=\s|$|["')\]])|\n[ \t]*(?:[-*•–—]|\d+[.)]|\(\w\))[ \t]+|\n[ \t]*\n\s*)
     |(?P<label>:)
@@ -240,6 +240,14 @@ def _quantity(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
 
 
 def _literal(tagger: _Tagger, value: Fraction, unit: Unit, span: Span) -> Token:
+    if value < 0 and unit.dimension != "acceleration":
+        raise TranslationError(
+            f"a {unit.dimension} cannot be negative here",
+            place=tagger.place(span),
+            found=span.excerpt(tagger.text),
+            expected="a positive amount",
+            fix="say 'before' or 'past' a place",
+        )
     quantity = Quantity(Number(value * unit.si_factor, span), unit.dimension, span)
     return Token(span.excerpt(tagger.text), span, {"quantity": unit.dimension}, frozenset(), quantity)
 
@@ -295,6 +303,7 @@ def _no_unit(tagger: _Tagger, span: Span) -> TranslationError:
 
 def _unknown_words(tagger: _Tagger) -> TranslationError:
     words = list(dict.fromkeys(raw.text for raw in tagger.unknown))
+    words = [word for word in words if word.lower() not in tagger.lexicon.units] or words
     vocabulary = sorted(tagger.lexicon.vocabulary())
     hints = []
     for word in words:

@@ -121,6 +121,7 @@ class VerbReader(AdjunctReader):
             return False
         event = self._open("yield", start)
         event.to_actor = self.phrases.resolve(phrase)
+        event.notes.append("let")
         self.at = phrase.end + 1
         if found := self.phrases.landmark(self.at):
             self.at = found[1]
