@@ -135,9 +135,18 @@ class AdjunctReader(ReaderState):
         return True
 
     def _oncoming(self) -> bool:
-        """Read "is oncoming"."""
+        """Read "is oncoming" and "in the opposite direction"."""
         event = self.current
-        if event is None or event.verb != "be" or self.links or event.actor is None:
+        if event is None or event.actor is None or self.links:
+            return False
+        if self._tag("preposition") in ("in", "out"):  # "in the opposite direction", "from the opposite direction"
+            at = self.phrases.skip_determiner(self.at + 1)
+            if self.phrases.tag(at, "actor_adjective") == "oncoming" and self.phrases.tag(at + 1, "direction_noun"):
+                event.relations.append(("oncoming", event.actor, self.phrases.span(self.at, at + 2)))
+                self.at = at + 2
+                self._grow()
+                return True
+        if event.verb != "be":
             return False
         if self._tag("actor_adjective") != "oncoming" or self.phrases.noun_phrase(self.at) is not None:
             return False
