@@ -1,14 +1,14 @@
 """Numbers and symbols under one set of operators, so that motion is written once for both.
 
-What enters: exact rationals, floats and names of unknowns. What leaves: values that add, multiply and compare; with symbols
-the result is SMT-LIB text. Constants fold, so a formula over known numbers is a number. It knows nothing of motion.
+What enters: exact rationals, floats and names of unknowns. What leaves: values that add, multiply and compare; with
+symbols the result is SMT-LIB text. Constants fold, so a formula over known numbers is a number. It knows nothing of
+motion.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from fractions import Fraction
-from typing import Union
 
 # Pinned measurements carry at most this many decimals: exact solvers pay for every digit (0.1 mm, 0.1 mm/s).
 _PINNED_DECIMALS = 4
@@ -56,8 +56,8 @@ class Symbol:
         return f"Symbol({self.text})"
 
 
-Value = Union[Fraction, int, Symbol]
-Condition = Union[bool, str]
+Value = Fraction | int | Symbol
+Condition = bool | str
 
 
 def smt(value: Value | float) -> str:

@@ -1,7 +1,7 @@
 """Polynomials of time over one piece of motion, for numbers and symbols alike.
 
-What enters: the derivatives at the start of a piece (position, speed, acceleration, ...). What leaves: any derivative at any
-moment of the piece (the paper's algorithms 3 and 4), and bounds that hold over the whole piece.
+What enters: the derivatives at the start of a piece (position, speed, acceleration, ...). What leaves: any derivative
+at any moment of the piece (the paper's algorithms 3 and 4), and bounds that hold over the whole piece.
 """
 
 from __future__ import annotations

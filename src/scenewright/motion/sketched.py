@@ -1,8 +1,8 @@
 """The motion that a sketch stands for, over numbers or unknowns: the paper's algorithms 1 and 2, continuous in speed.
 
-What enters: speeds at the knots, durations of the pieces, a first position. What leaves: the state at a knot (a symbolic
-time) and at a concrete time (nested choices over pieces). Knot speeds are the unknowns, so acceleration limits are linear
-and positions bilinear: ``2 (x1 - x0) = (v0 + v1) d``.
+What enters: speeds at the knots, durations of the pieces, a first position. What leaves: the state at a knot (a
+symbolic time) and at a concrete time (nested choices over pieces). Knot speeds are the unknowns, so acceleration limits
+are linear and positions bilinear: ``2 (x1 - x0) = (v0 + v1) d``.
 """
 
 from __future__ import annotations
@@ -13,9 +13,8 @@ from fractions import Fraction
 from scenewright.motion.algebra import Condition, Symbol, Value, compare, conjunction, select
 from scenewright.motion.polynomial import state_after
 
-Ratio = tuple[
-    Value, Value
-]  # numerator and (positive) denominator: accelerations are differences of speeds over durations
+# Numerator and (positive) denominator: accelerations are differences of speeds over durations.
+Ratio = tuple[Value, Value]
 ONE = Fraction(1)
 
 
@@ -49,8 +48,9 @@ class SketchedMotion:
         return total
 
     def state_at_knot(self, index: int, order: int) -> Ratio:
-        """Return the state at a symbolic time (algorithm 1) as a ratio; acceleration is that of the piece that begins
-        there, or at the last knot of the one that ends.
+        """Return the state at a symbolic time (algorithm 1) as a ratio.
+
+        Acceleration is that of the piece that begins there, or at the last knot of the one that ends.
         """
         if order == 0:
             return self.positions[index], ONE
@@ -75,7 +75,8 @@ class SketchedMotion:
     def _choose(self, time: Value, order: int, piece: int) -> Value:
         if piece == len(self.durations):
             held = [self.positions[-1], self.speeds[-1], Fraction(0)]
-            return state_after(held, time - self.time_at_knot(piece), order)
+            rest: Value = state_after(held, time - self.time_at_knot(piece), order)
+            return rest
         begin = self.time_at_knot(piece)
         end = begin + self.durations[piece]
         inside: Condition = compare("<", time, end)
@@ -85,7 +86,7 @@ class SketchedMotion:
         if acceleration is None:
             raise ValueError("a concrete time needs the acceleration of every piece")
         derivatives = [self.positions[piece], self.speeds[piece], acceleration]
-        then = state_after(derivatives, time - begin, order)
+        then: Value = state_after(derivatives, time - begin, order)
         if isinstance(inside, bool):
             return then if inside else self._choose(time, order, piece + 1)
         return select(inside, then, self._choose(time, order, piece + 1))

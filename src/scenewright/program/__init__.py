@@ -1,1 +1,4 @@
-"""The scenario as typed data: types, expressions, text form, checker, builder, evaluator. Depends on no other package."""
+"""The scenario as typed data: types, expressions, text form, checker, builder, evaluator.
+
+Depends on no other package.
+"""

@@ -1,12 +1,14 @@
 """Checks that a program makes sense by itself: names, knots, pieces, units, and comparisons of like with like.
 
-What enters: a `Program` and the text it was read from, if any. What leaves: nothing, or a `ProgramError` that points at the
-fault. What depends on a map (routes, which landmarks there are) is checked when the program is grounded.
+What enters: a `Program` and the text it was read from, if any. What leaves: nothing, or a `ProgramError` that points at
+the fault. What depends on a map (routes, which landmarks there are) is checked when the program is grounded.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from difflib import get_close_matches
+from fractions import Fraction
 
 from scenewright.errors import Place, ProgramError, Span
 from scenewright.program.evaluate import landmark_owner
@@ -22,6 +24,7 @@ from scenewright.program.expressions import (
     Landmark,
     Logic,
     Negate,
+    Node,
     Number,
     ParameterRef,
     PieceRef,
@@ -31,7 +34,7 @@ from scenewright.program.expressions import (
     walk,
 )
 from scenewright.program.printer import print_expression
-from scenewright.program.types import EGO, Actor, Constraint, Program
+from scenewright.program.types import EGO, Actor, Constraint, PieceKind, Program
 from scenewright.units import unit_of_name
 
 # A dimension as exponents of metre and second; None is a bare number, which goes with anything.
@@ -40,6 +43,7 @@ _LENGTH, _TIME, _SPEED, _ACCELERATION = (1, 0), (0, 1), (1, -1), (1, -2)
 _OF_ORDER = (_LENGTH, _SPEED, _ACCELERATION)
 _OF_DIMENSION = {"length": _LENGTH, "time": _TIME, "speed": _SPEED, "acceleration": _ACCELERATION}
 _OF_DERIVED = {"gap": _LENGTH, "tta": _TIME, "ttc": _TIME, "headway": _TIME}
+_EXAMPLE_S = Number(Fraction("3.4"))
 _NAMES = {
     _LENGTH: "a length (m)",
     _TIME: "a time (s)",
@@ -52,6 +56,11 @@ _NAMES = {
 def check_program(program: Program, text: str | None = None, name: str = "program") -> None:
     """Raise `ProgramError` at the first fault of `program`; `text` is what spans point into."""
     _Checker(program, text, name).check()
+
+
+def check_constraint(program: Program, constraint: Constraint, text: str | None = None, name: str = "program") -> None:
+    """Raise `ProgramError` at the first fault of one constraint, which need not be among those of `program`."""
+    _Checker(program, text, name).check_constraint(constraint)
 
 
 class _Checker:
@@ -70,7 +79,7 @@ class _Checker:
             if constraint.id in seen:
                 raise self._error(f"two constraints are called {constraint.id}", constraint.span, fix="rename one")
             seen.add(constraint.id)
-            self._check_constraint(constraint)
+            self.check_constraint(constraint)
 
     def _error(
         self,
@@ -95,9 +104,20 @@ class _Checker:
         for actor in self.program.actors:
             if names.count(actor.name) > 1:
                 raise self._error(f"two actors are called {actor.name}", actor.span, fix="give them different names")
+            for knot in actor.sketch.knots:
+                if knot.rstrip("0123456789") in set(PieceKind):
+                    raise self._error(
+                        f"a knot of {actor.name} (A{actor.id}) is called like a piece",
+                        actor.span,
+                        found=knot,
+                        expected="knots and pieces in turn, such as [t0, go, t1, dec, t2]",
+                    )
 
     def _check_parameters(self) -> None:
+        names = [parameter.name for parameter in self.program.parameters]
         for parameter in self.program.parameters:
+            if names.count(parameter.name) > 1:
+                raise self._error(f"parameter {parameter.name} is declared twice", parameter.span, fix="remove one")
             if unit_of_name(parameter.name) is None:
                 raise self._error(
                     f"parameter {parameter.name} has no unit",
@@ -109,14 +129,14 @@ class _Checker:
             if low > high:
                 raise self._error(f"the range of {parameter.name} is empty", parameter.span, found=f"[{low}, {high}]")
 
-    def _check_constraint(self, constraint: Constraint) -> None:
+    def check_constraint(self, constraint: Constraint) -> None:
         formula = constraint.formula
         for node in walk(formula):
             match node:
                 case State(actor=actor, at=at) | Derived(actor=actor, at=at):
                     self._check_moment(self._actor(actor, node.span), at, node.span)
-                    if isinstance(node, Derived) and isinstance(node.target, int):
-                        self._actor(node.target, node.span)
+                    if isinstance(node, Derived):
+                        self._check_target(node)
                 case Elapsed(actor=actor, knot=knot):
                     self._check_knot(self._actor(actor, node.span), knot, node.span)
                 case ParameterRef(name=name) if name not in self.parameters:
@@ -125,6 +145,10 @@ class _Checker:
                     raise self._error(
                         f"'{name}' is not a landmark", node.span, found=name, expected=", ".join(LANDMARKS)
                     )
+                case Landmark(actor=actor, other=other):
+                    for named in (actor, other):
+                        if named is not None:
+                            self._actor(named, node.span)
                 case _:
                     pass
         self._check_formula(formula, inside_temporal=False)
@@ -134,6 +158,20 @@ class _Checker:
             there_are = ", ".join(f"A{i} ({actor.name})" for i, actor in sorted(self.actors.items()))
             raise self._error(f"there is no actor {actor_id}", span, found=f"A{actor_id}", expected=there_are)
         return self.actors[actor_id]
+
+    def _check_target(self, derived: Derived) -> None:
+        to_actor = isinstance(derived.target, int)
+        if isinstance(derived.target, int):
+            self._actor(derived.target, derived.span)
+        if to_actor == (derived.kind == "tta"):
+            raise self._error(
+                f"{derived.kind} is measured to {'a place' if to_actor else 'another actor'}",
+                derived.span,
+                found=print_expression(derived),
+                expected=f"tta(A{derived.actor}, stop_line, t1)" if to_actor else f"{derived.kind}(A0, A1, t1)",
+            )
+        if derived.target == derived.actor:
+            raise self._error(f"{derived.kind} of an actor to itself", derived.span, expected="two different actors")
 
     def _check_knot(self, actor: Actor, knot: str, span: Span | None) -> None:
         if knot not in actor.sketch.knots:
@@ -165,20 +203,25 @@ class _Checker:
             case Compare(left=left, right=right):
                 self._check_comparison(formula, left, right)
                 if not inside_temporal:
-                    for node in walk(formula):
-                        if isinstance(node, State | Derived) and node.at is None:
-                            raise self._error(
-                                f"{print_expression(node)} has no moment",
-                                node.span,
-                                expected=f"a knot or a time, such as A{node.actor}v(t1) or A{node.actor}v(3.4)",
-                            )
+                    self._check_has_moments(formula)
             case Logic(operands=operands):
                 for operand in operands:
                     self._check_formula(operand, inside_temporal)
             case Temporal(start=start, end=end, body=body):
                 for bound in (start, end):
                     self._expect(bound, _TIME, self._powers(bound), formula.span)
+                    self._check_has_moments(bound)
                 self._check_formula(body, inside_temporal=True)
+
+    def _check_has_moments(self, expression: Node) -> None:
+        for node in walk(expression):
+            if isinstance(node, State | Derived) and node.at is None:
+                example = print_expression(replace(node, at=Knot("t1")))
+                raise self._error(
+                    f"{print_expression(node)} has no moment",
+                    node.span,
+                    expected=f"a knot or a time, such as {example} or {print_expression(replace(node, at=_EXAMPLE_S))}",
+                )
 
     def _check_comparison(self, compare: Compare, left: Term, right: Term) -> None:
         left_powers, right_powers = self._powers(left), self._powers(right)

@@ -1,7 +1,7 @@
 """Evaluates terms and formulas of a program on given motions: the independent check of every solution.
 
-What enters: an expression and a `World` that knows states, knots, landmarks and parameters. What leaves: numbers, and for
-formulas the margin by which they hold. It shares no code with the lowering to solver formulas.
+What enters: an expression and a `World` that knows states, knots, landmarks and parameters. What leaves: numbers, and
+for formulas the margin by which they hold. It shares no code with the lowering to solver formulas.
 """
 
 from __future__ import annotations
@@ -109,8 +109,9 @@ def violation(formula: Formula, world: World, now_s: float | None = None) -> flo
 
 
 def term_value(term: Term, world: World, owner: int | None = None, now_s: float | None = None) -> float:
-    """Return the SI value of `term`; `owner` is the actor that bare landmarks belong to, `now_s` the moment inside a
-    temporal operator.
+    """Return the SI value of `term`.
+
+    `owner` is the actor that bare landmarks belong to, `now_s` the moment inside a temporal operator.
     """
     match term:
         case Number(value=value):

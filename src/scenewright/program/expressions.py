@@ -86,7 +86,8 @@ class Elapsed:
     span: Span | None = _span()
 
 
-# A moment: a knot of the same actor, a knot of another actor, a concrete time, a piece, or (None) the moment of evaluation.
+# A moment: a knot of the same actor, a knot of another actor, a concrete time, a piece, or (None) the moment of
+# evaluation.
 At = Knot | PieceRef | Elapsed | Number | None
 
 
@@ -161,7 +162,10 @@ class Logic:
 
 @dataclass(frozen=True, slots=True)
 class Temporal:
-    """``always``, ``never`` or ``eventually`` within ``[start, end]``; states in the body carry no moment of their own."""
+    """``always``, ``never`` or ``eventually`` within ``[start, end]``; states in the body have no moment of their own.
+
+    A state without a moment is that of the instant at which the body is looked at.
+    """
 
     operator: Literal["always", "never", "eventually"]
     start: Term

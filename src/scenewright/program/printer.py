@@ -97,9 +97,10 @@ def print_route(route: RouteSpec) -> str:
         case IntentRoute():
             origin = f" {route.origin}" if route.origin else ""
             origin += f" headed {route.origin_heading}" if route.origin_heading else ""
-            aim = f" into {route.destination}" if route.destination else ""
+            aim = f" {route.turn}" if route.turn else ""
+            aim += f" into {route.destination}" if route.destination else ""
             aim += f" headed {route.destination_heading}" if route.destination_heading else ""
-            return f"from{origin}, {route.turn or 'straight'}{aim}"
+            return f"from{origin}" + (f",{aim}" if aim else "")
 
 
 def _wrap(node: Node, at_least: int) -> str:
@@ -136,15 +137,11 @@ def _moment(at: At) -> str:
 def _parameter(parameter: Parameter) -> str:
     text = f"- {parameter.name}"
     if parameter.value is not None:
-        text += f" = {_decimal(parameter.value)}"
-    if parameter.low is not None and parameter.high is not None:
-        text += f" in [{_decimal(parameter.low)}, {_decimal(parameter.high)}]"
+        text += f" = {format_fraction(parameter.value)}"
+    if parameter.low is not None or parameter.high is not None:
+        low, high = parameter.bounds()
+        text += f" in [{format_fraction(low)}, {format_fraction(high)}]"
     return text
-
-
-def _decimal(value: object) -> str:
-    text = format_fraction(value)  # type: ignore[arg-type]
-    return text if "/" not in text else repr(float(value))  # type: ignore[arg-type]
 
 
 def _actor(actor: Actor) -> list[str]:

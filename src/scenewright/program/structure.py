@@ -1,7 +1,7 @@
-"""What a program's constraints are for: which knots are one instant, which instant is the trigger, which role each plays.
+"""What a program's constraints are for: which knots are one instant, which one is the trigger, which role each plays.
 
-What enters: a `Program`. What leaves: instants (sets of knots at the same moment) and a role for every constraint. It only
-reads the structure of the formulas; values and maps play no part.
+What enters: a `Program`. What leaves: instants (sets of knots at the same moment) and a role for every constraint. It
+only reads the structure of the formulas; values and maps play no part.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class Structure:
         return None
 
     def trigger_knot(self, actor_id: int) -> str | None:
-        """Return the actor's own knot at its trigger, or for the ego the knot of the first trigger; None without one."""
+        """Return the actor's own knot at its trigger (the ego's: at the first trigger); None where it has none."""
         for hero, instant in self.triggers.items():
             if actor_id in (hero, EGO):
                 for owner, knot in sorted(instant):

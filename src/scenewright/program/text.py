@@ -1,7 +1,7 @@
 """Reads the text form of a program (`.scene` files and the paper's pseudocode blocks).
 
-What enters: text. What leaves: a `Program`, or a `ProgramError` with line, column, excerpt and what could have stood there.
-It does not check that names and units make sense (see `check`), and knows no map.
+What enters: text. What leaves: a `Program`, or a `ProgramError` with line, column, excerpt and what could have stood
+there. It does not check that names and units make sense (see `check`), and knows no map.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ from importlib.resources import files
 from typing import Any, cast
 
 from lark import Lark, Token, Transformer, v_args
-from lark.exceptions import UnexpectedCharacters, UnexpectedEOF, UnexpectedInput, UnexpectedToken, VisitError
+from lark.exceptions import UnexpectedInput, VisitError
 from lark.tree import Meta
 
 from scenewright.errors import Place, ProgramError, Span
+from scenewright.program.arithmetic import JUST_BEFORE_M, combine, just_before, negate
 from scenewright.program.expressions import (
     LANDMARKS,
-    Arithmetic,
     Compare,
     ComparisonOperator,
     Derived,
@@ -27,7 +27,6 @@ from scenewright.program.expressions import (
     Knot,
     Landmark,
     Logic,
-    Negate,
     Node,
     Number,
     Order,
@@ -38,6 +37,7 @@ from scenewright.program.expressions import (
     Term,
     walk,
 )
+from scenewright.program.syntax_errors import syntax_error
 from scenewright.program.types import (
     DEFAULT_MAP,
     Actor,
@@ -52,34 +52,11 @@ from scenewright.program.types import (
 )
 from scenewright.units import UNITS, unit_of_name
 
-JUST_BEFORE_M = Fraction(5)  # the paper's convention: "just before L" is L - 5.0 m
-
-_TERMINAL_NAMES = {
-    "STATE": "a state such as A1x(t1)",
-    "NAME": "a name",
-    "NUMBER": "a number",
-    "ACTOR": "an actor such as A1",
-    "_NL": "the end of the line",
-    "COMPARATOR": "one of == <= >= < >",
-    "LPAR": "'('",
-    "RPAR": "')'",
-    "LSQB": "'['",
-    "RSQB": "']'",
-    "COMMA": "','",
-    "HEADING": "a heading N, E, S or W",
-    "INTEGER": "a whole number",
-    "UNIT": "a unit",
-    "LABEL": "a label such as c1:",
-    "DERIVED": "gap, tta, ttc or headway",
-    "TEMPORAL": "always, never or eventually",
-    "$END": "the end of the text",
-    "COLON": "':'",
-    "STRING": "a quoted text",
-}
+__all__ = ["JUST_BEFORE_M", "negate", "parse_program"]
 
 
 def parse_program(text: str, name: str = "program") -> Program:
-    """Parse the text form of a program.
+    r"""Parse the text form of a program.
 
     Parameters
     ----------
@@ -100,7 +77,7 @@ def parse_program(text: str, name: str = "program") -> Program:
 
     Examples
     --------
-    >>> program = parse_program("Actor 0:\\n- W\\n- [t0, go, t1]\\nConstraints:\\nA0v(t0) == 5 m/s\\n")
+    >>> program = parse_program("Actor 0:\n- W\n- [t0, go, t1]\nConstraints:\nA0v(t0) == 5 m/s\n")
     >>> len(program.constraints)
     1
     """
@@ -117,7 +94,7 @@ def parse_program(text: str, name: str = "program") -> Program:
         tree = _parser().parse(text)
         return _Builder(text, name).transform(tree)  # type: ignore[no-any-return]
     except UnexpectedInput as error:
-        raise _syntax_error(error, text, name) from None
+        raise syntax_error(error, text, name) from None
     except VisitError as error:
         if isinstance(error.orig_exc, ProgramError):
             raise error.orig_exc from None
@@ -128,44 +105,6 @@ def parse_program(text: str, name: str = "program") -> Program:
 def _parser() -> Lark:
     grammar = files("scenewright.program").joinpath("scene.lark").read_text(encoding="utf-8")
     return Lark(grammar, parser="lalr", propagate_positions=True, maybe_placeholders=True)
-
-
-def _syntax_error(error: UnexpectedInput, text: str, name: str) -> ProgramError:
-    position = error.pos_in_stream
-    start = len(text.rstrip()) if position is None or position < 0 else position
-    accepted: set[str] = set()
-    width = 1
-    if isinstance(error, UnexpectedToken):
-        accepted = set(error.accepts or error.expected)
-        if error.token.type == "$END":
-            start = len(text.rstrip())
-        elif error.token.type != "_NL":
-            width = max(1, len(str(error.token)))
-    elif isinstance(error, UnexpectedCharacters):
-        accepted = set(error.allowed or ())
-    elif isinstance(error, UnexpectedEOF):
-        accepted = set(error.expected)
-    line_end = text.find("\n", start)
-    found = text[start : start + width].strip() or "the end of the line"
-    expected = sorted(_TERMINAL_NAMES.get(item, item.lower()) for item in accepted)
-    return ProgramError(
-        "this is not a program",
-        place=Place(name, text, Span(start, min(start + width, line_end if line_end > start else start + width))),
-        found=repr(found) if found != "the end of the line" else found,
-        expected=", ".join(expected[:8]) or None,
-        fix="compare with a working program: 'scenewright translate \"...\"' prints one",
-    )
-
-
-def _constant(node: Any) -> Fraction | None:
-    return node.value if isinstance(node, Number) else None
-
-
-def negate(operand: Term, span: Span | None = None) -> Term:
-    """Return the negative of a term; numbers are negated in place so that printing and parsing agree."""
-    if isinstance(operand, Number):
-        return Number(-operand.value, span)
-    return Negate(operand, span)
 
 
 @v_args(meta=True)
@@ -221,8 +160,17 @@ class _Builder(Transformer[Token, Any]):
         return value * unit.si_factor / own.si_factor
 
     def signed_number(self, meta: Meta, items: list[Any]) -> tuple[Fraction, str | None]:
-        minus, number, unit = items
-        return (-Fraction(number) if minus else Fraction(number)), unit
+        minus, number, divisor, unit = items
+        value = self._ratio(number, divisor)
+        return (-value if minus else value), unit
+
+    def _ratio(self, number: Token, divisor: Token | None) -> Fraction:
+        if divisor is None:
+            return Fraction(number)
+        if not Fraction(divisor):
+            span = Span(cast(int, divisor.start_pos), cast(int, divisor.end_pos))
+            raise ProgramError("a number is divided by zero", place=self._place(span), found=f"{number}/{divisor}")
+        return Fraction(number) / Fraction(divisor)
 
     def unit(self, meta: Meta, items: list[Any]) -> str:
         return str(items[0])
@@ -317,11 +265,7 @@ class _Builder(Transformer[Token, Any]):
         result: Term = items[0]
         for operator, right in zip(items[1::2], items[2::2], strict=True):
             span = result.span.union(right.span) if result.span and right.span else None
-            left_value, right_value = _constant(result), _constant(right)
-            if str(operator) == "/" and left_value is not None and right_value:
-                result = Number(left_value / right_value, span)
-            else:
-                result = Arithmetic(cast(Any, str(operator)), result, right, span)
+            result = combine(cast(Any, str(operator)), result, right, span)
         return result
 
     def negate(self, meta: Meta, items: list[Any]) -> Term:
@@ -329,6 +273,10 @@ class _Builder(Transformer[Token, Any]):
 
     def number(self, meta: Meta, items: list[Any]) -> Number:
         value, unit = Fraction(items[0]), items[1]
+        return Number(value * UNITS[unit].si_factor if unit else value, self._span(meta))
+
+    def instant(self, meta: Meta, items: list[Any]) -> Number:
+        value, unit = self._ratio(items[0], items[1]), items[2]
         return Number(value * UNITS[unit].si_factor if unit else value, self._span(meta))
 
     def state(self, meta: Meta, items: list[Any]) -> State:
@@ -349,6 +297,13 @@ class _Builder(Transformer[Token, Any]):
 
     def derived(self, meta: Meta, items: list[Any]) -> Derived:
         kind, actor, target, at = items
+        if not isinstance(target, int | Landmark):
+            raise ProgramError(
+                f"{kind} is measured to an actor or a landmark",
+                place=self._place(target.span),
+                found=target.name,
+                expected=f"an actor such as A1, or a landmark ({', '.join(LANDMARKS)})",
+            )
         return Derived(cast(Any, str(kind)), int(str(actor)[1:]), target, at, self._span(meta))
 
     def target_actor(self, meta: Meta, items: list[Any]) -> int:
@@ -369,8 +324,7 @@ class _Builder(Transformer[Token, Any]):
             )
 
     def just_before(self, meta: Meta, items: list[Any]) -> Term:
-        span = self._span(meta)
-        return Arithmetic("-", items[0], Number(JUST_BEFORE_M, span), span)
+        return just_before(items[0], self._span(meta))
 
     def name(self, meta: Meta, items: list[Any]) -> Term:
         name, span = str(items[0]), self._span(meta)

@@ -128,14 +128,14 @@ class Parameter:
         return unit
 
     def bounds(self) -> tuple[Fraction, Fraction]:
-        """Return the allowed range in the parameter's own unit: as declared, else what is plausible for its dimension."""
+        """Return the allowed range in the parameter's own unit: declared, or what is plausible for its dimension."""
         low, high = (bound / self.unit.si_factor for bound in PLAUSIBLE_RANGE[self.unit.dimension])
         return (low if self.low is None else self.low, high if self.high is None else self.high)
 
 
 @dataclass(frozen=True, slots=True)
 class Constraint:
-    """One thing that must hold. `source` points into the program's description, `span` into the text it was parsed from."""
+    """One thing that must hold; `source` points into the program's description, `span` into the text parsed."""
 
     id: str
     formula: Formula

@@ -1,7 +1,7 @@
 """Puts a program on a map: routes for its actors, arc lengths for its landmarks, numbers for its parameters.
 
-What enters: a `Program`, a `RoadMap`, values for parameters. What leaves: a `Scene`, all that later stages need to know of
-the map. It raises where the map lacks a route or a landmark; it decides nothing about motion.
+What enters: a `Program`, a `RoadMap`, values for parameters. What leaves: a `Scene`, all that later stages need to know
+of the map. It raises where the map lacks a route or a landmark; it decides nothing about motion.
 """
 
 from __future__ import annotations
@@ -72,8 +72,12 @@ class Scene:
             raise _no_landmark(self.program, actor, name, self.landmarks_m[actor]) from None
 
     def offset_m(self, actor: int, other: int) -> float:
-        """Return what to add to the arc length of `other` to compare it with that of `actor`; raises MapError where the
-        two never share a lane.
+        """Return what to add to the arc length of `other` to compare it with that of `actor`.
+
+        Raises
+        ------
+        MapError
+            Where the two never share a lane.
         """
         if actor == other:
             return 0.0
@@ -205,7 +209,8 @@ def _check_node(scene: Scene, node: Node) -> None:
         elif isinstance(part, Derived) and isinstance(part.target, int):
             scene.offset_m(part.actor, part.target)
         elif isinstance(part, Arithmetic) and isinstance(part.left, State) and isinstance(part.right, State):
-            if part.left.order == part.right.order == 0:
+            both_positions = part.left.order == part.right.order == 0
+            if both_positions and part.operator == "-":
                 scene.offset_m(part.left.actor, part.right.actor)
 
 

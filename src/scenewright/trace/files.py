@@ -44,14 +44,18 @@ def read_trace(path: Path) -> Trace:
     import pyarrow.parquet as pq
 
     if not path.is_file():
-        raise InputError("there is no trace here", place=Place(str(path)), expected="a run directory with trace.parquet")
+        raise InputError(
+            "there is no trace here", place=Place(str(path)), expected="a run directory with trace.parquet"
+        )
     try:
         table = pq.read_table(path)
     except (pa.ArrowInvalid, OSError) as error:
         raise InputError("the trace cannot be read", place=Place(str(path)), found=str(error).split("\n")[0]) from None
     missing = {"step", "time_s", "actor", *COLUMNS} - set(table.column_names)
     if missing:
-        raise InputError("the trace lacks columns", place=Place(str(path)), found=", ".join(sorted(missing)) + " missing")
+        raise InputError(
+            "the trace lacks columns", place=Place(str(path)), found=", ".join(sorted(missing)) + " missing"
+        )
     actor_column = np.asarray(table.column("actor").to_pylist())
     actors: dict[str, ActorTrace] = {}
     for name in dict.fromkeys(actor_column.tolist()):

@@ -1,7 +1,7 @@
 """States of all actors over time, as they really happened.
 
-What enters: arrays sampled on one time axis. What leaves: a `Trace` that can be asked for a state at any instant between
-its first and last sample. It knows nothing of plans; reading and writing files is in `trace.files`.
+What enters: arrays sampled on one time axis. What leaves: a `Trace` that can be asked for a state at any instant
+between its first and last sample. It knows nothing of plans; reading and writing files is in `trace.files`.
 """
 
 from __future__ import annotations
