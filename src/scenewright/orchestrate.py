@@ -233,7 +233,7 @@ def first_plan(world: _World, request: Request) -> tuple[Replanner, EgoFirstStat
     predictor = ConstantSpeed() if request.mode == "open" else ConstantAcceleration()
     best: tuple[Replanner, EgoFirstState, Attempt] | None = None
     for start in ego_starts(world.scene, world.ego, world.limits[EGO], conditions):
-        planner = Planner(world.scene, world.structure, world.limits, world.backend, request.budget_s)
+        planner = Planner(world.scene, world.structure, world.limits, world.backend, conditions, request.budget_s)
         replanner = Replanner(world.scene, world.structure, planner, predictor, conditions)
         attempt = replanner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
         if best is None or _quality(attempt) > _quality(best[2]):

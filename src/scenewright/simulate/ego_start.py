@@ -13,14 +13,14 @@ from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.arrival import LinearCondition
-from scenewright.solve.limits import Limits
+from scenewright.solve.limits import MOVING_MPS, Limits
 
 _RUN_UP_M = 90.0
 _LEAD_S = 8.0
 _STEP_S = 0.05
 _SLOWEST_MPS = 0.5
 # Of the natural speed, for an ego whose speed the orchestrator may choose: natural first.
-_SPEED_SHARES = (1.0, 0.85, 0.7, 0.55, 0.42, 0.32, 0.24, 0.18, 0.13, 0.1)
+_SPEED_SHARES = (1.0, 0.85, 0.7, 0.55, 0.42, 0.32, 0.24, 0.18, 1.2, 1.35, 1.5)
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +51,9 @@ def ego_starts(
     preferred = ego.policy.preferred_speed_mps(ego.start_at(max(0.0, guess), limits.natural_speed_mps))
     envelope = ego.policy.envelope
     if preferred is None and envelope is not None and envelope.holds_speed:
+        fastest = min(limits.turn_speed_max_mps, limits.speed_max_mps)
         for share in _SPEED_SHARES:
-            speed = share * limits.natural_turn_speed_mps
+            speed = max(min(share * limits.natural_turn_speed_mps, fastest), MOVING_MPS)
             yield EgoFirstState(_position(scene, place, speed, conditions), speed)
         return
     yield _steady(scene, ego, place, conditions, preferred or limits.natural_speed_mps)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Literal
 
-from scenewright.motion.algebra import Symbol, Value, compare, pin
+from scenewright.motion.algebra import Symbol, Value, compare, conjunction, disjunction, pin
 from scenewright.motion.sketched import SketchedMotion
 from scenewright.program.expressions import (
     Arithmetic,
@@ -33,6 +33,7 @@ from scenewright.roads.grounding import VEHICLE_LENGTH_M, Scene
 from scenewright.solve.limits import MOVING_MPS, STANDSTILL_MIN_S, Limits
 from scenewright.solve.lowering import Lowering, NotYet, compared_dimension
 from scenewright.solve.problem import Backend, Problem, Satisfiable, Unsatisfiable
+from scenewright.solve.turns import TurnSpan, keeps_to_turn_speed
 from scenewright.solve.views import MotionView, SketchedView
 from scenewright.units import SI_SYMBOL, format_fraction
 
@@ -223,9 +224,15 @@ class _OuterProblem:
             return
         if actor.is_ego:
             require(compare("==", change, Fraction(0)), f"{actor.name} holds its speed")
+            require(compare(">=", v0, pin(MOVING_MPS)), f"{actor.name} drives at {MOVING_MPS:g} m/s or more")
+            self._bound_in_turn(actor, x0, v0, x1, v1, braking=False)
         elif kind is PieceKind.GO and self._is_approach(actor, piece):
             limits = self.limits[actor.id]
             self._bound_freely(actor, x0, x1, v0, v1, duration, limits.accel_max_mpss, limits.brake_max_mpss)
+            return
+        if kind is PieceKind.ACC and not actor.is_ego:
+            self._bound_acceleration(actor, x0, x1, v0, v1, duration)
+            self._bound_in_turn(actor, x0, v0, x1, v1, braking=False)
             return
         require(compare("==", 2 * rise, (v0 + v1) * duration), laws)
         if kind is PieceKind.GO and not actor.is_ego:
@@ -235,43 +242,40 @@ class _OuterProblem:
             require(compare("==", v0, Fraction(0)), origin)
             require(compare("==", v1, Fraction(0)), origin)
             require(compare(">=", duration, pin(STANDSTILL_MIN_S)), origin)
-        elif kind in (PieceKind.DEC, PieceKind.ACC):
-            self._bound_change(actor, piece, change, v0, v1, duration, kind, positions[piece])
+        elif kind is PieceKind.DEC:
+            self._bound_braking(actor, piece, change, v0, duration)
+            self._bound_in_turn(actor, x0, v0, x1, v1, braking=True)
 
-    def _bound_change(
-        self,
-        actor: Actor,
-        piece: int,
-        change: Value,
-        v0: Symbol,
-        v1: Symbol,
-        duration: Symbol,
-        kind: PieceKind,
-        x0: Symbol,
+    def _bound_braking(self, actor: Actor, piece: int, change: Value, v0: Symbol, duration: Symbol) -> None:
+        least, most = _WEAKEST_MPSS, pin(self.limits[actor.id].brake_max_mpss)
+        origin = f"{actor.name} brakes at {float(least):g} to {float(most):g} m/s^2"
+        self.problem.require(compare("<=", change, -least * duration), origin)
+        self.problem.require(compare(">=", change, -most * duration), origin)
+        if self._begins_at_trigger(actor, piece):
+            origin = f"{actor.name} moves ({MOVING_MPS:g} m/s or more) when it begins to brake"
+            self.problem.require(compare(">=", v0, pin(MOVING_MPS)), origin)
+
+    def _bound_acceleration(
+        self, actor: Actor, x0: Symbol, x1: Symbol, v0: Symbol, v1: Symbol, duration: Symbol
     ) -> None:
-        require, limits = self.problem.require, self.limits[actor.id]
-        if kind is PieceKind.DEC:
-            least, most = _WEAKEST_MPSS, pin(limits.brake_max_mpss)
-            origin = f"{actor.name} brakes at {float(least):g} to {float(most):g} m/s^2"
-            require(compare("<=", change, -least * duration), origin)
-            require(compare(">=", change, -most * duration), origin)
-            if self._begins_at_trigger(actor, piece):
-                require(
-                    compare(">=", v0, pin(MOVING_MPS)),
-                    f"{actor.name} moves ({MOVING_MPS:g} m/s or more) when it begins to brake",
-                )
-        else:
-            most = pin(limits.accel_max_mpss)
-            origin = f"{actor.name} accelerates at up to {float(most):g} m/s^2"
-            require(compare(">", change, Fraction(0)), origin)
-            require(compare("<=", change, most * duration), origin)
-        turn_end = self.scene.routes[actor.id].landmarks.get("turn_end")
-        top = pin(limits.turn_speed_max_mps)
-        if turn_end is not None and limits.turn_speed_max_mps < limits.speed_max_mps:
-            beyond = compare(">=", x0, pin(turn_end))
-            for speed in (v0, v1):
-                slow = compare("<=", speed, top)
-                require(f"(or {beyond} {slow})", f"{actor.name} turns at up to {float(top):.1f} m/s")
+        """Bound a stretch in which an actor speeds up in any way: never slower than before, within its limits."""
+        limits, require = self.limits[actor.id], self.problem.require
+        up, rise, change = pin(limits.accel_max_mpss), x1 - x0, v1 - v0
+        origin = f"{actor.name} accelerates at up to {float(up):g} m/s^2"
+        require(compare(">", change, Fraction(0)), f"{actor.name} speeds up")
+        require(compare("<=", change, up * duration), origin)
+        require(compare("<=", rise, v0 * duration + up * duration * duration * Fraction(1, 2)), origin)
+        require(compare("<=", v1 * v1 - v0 * v0, 2 * up * rise), origin)
+        require(compare(">=", rise, v0 * duration), f"{actor.name} speeds up")
+        require(compare("<=", rise, v1 * duration), f"{actor.name} speeds up")
+
+    def _bound_in_turn(
+        self, actor: Actor, x0: Symbol, v0: Symbol, x1: Symbol, v1: Symbol, braking: bool
+    ) -> None:
+        turn, limits = TurnSpan.of(self.scene.routes[actor.id]), self.limits[actor.id]
+        if turn is not None and limits.turn_speed_max_mps < limits.speed_max_mps:
+            condition = keeps_to_turn_speed(turn, limits.turn_speed_max_mps, x0, v0, x1, v1, braking)
+            self.problem.require(condition, f"{actor.name} turns at up to {limits.turn_speed_max_mps:.1f} m/s")
 
     def _bound_freely(
         self,
@@ -310,7 +314,8 @@ class _OuterProblem:
         return actor.sketch.knots[piece] == self.structure.trigger_knot(actor.id)
 
     def _keep_apart(self, views: Mapping[int, MotionView]) -> None:
-        """Two vehicles that follow each other from the start do not overlap at the start or at the trigger."""
+        """Two vehicles that start in one lane keep their order, and a length between them, up to the trigger."""
+        apart = pin(VEHICLE_LENGTH_M)
         for hero in self.scene.program.heroes:
             if self.scene.routes[hero.id].lanes[0] != self.scene.routes[EGO].lanes[0]:
                 continue
@@ -318,14 +323,14 @@ class _OuterProblem:
             own, egos = self.structure.trigger_knot(hero.id), self.structure.trigger_knot(EGO)
             if own is not None and egos is not None:
                 knots.append((own, egos))
+            ahead, behind = [], []
             for own_knot, ego_knot in knots:
                 mine, other = views[hero.id].at_knot(own_knot, 0), views[EGO].at_knot(ego_knot, 0)
                 if mine is not None and other is not None:
-                    gap = mine[0] - other[0]
-                    apart = pin(VEHICLE_LENGTH_M)
-                    ahead, behind = compare(">=", gap, apart), compare("<=", gap, -apart)
-                    origin = f"two vehicles {VEHICLE_LENGTH_M:g} m long do not overlap"
-                    self.problem.require(f"(or {ahead} {behind})", origin)
+                    ahead.append(compare(">=", mine[0] - other[0], apart))
+                    behind.append(compare("<=", mine[0] - other[0], -apart))
+            origin = f"two vehicles {VEHICLE_LENGTH_M:g} m long in one lane neither overlap nor pass through each other"
+            self.problem.require(disjunction([conjunction(ahead), conjunction(behind)]), origin)
 
 
 # -- what would make it possible ------------------------------------------------------------------------------------

@@ -10,22 +10,25 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from scenewright.motion.algebra import Condition, Symbol, Value, compare, disjunction, pin, smt
+from scenewright.motion.algebra import Condition, Symbol, Value, compare, pin
 from scenewright.motion.profile import Profile, chain
 from scenewright.motion.sketched import SketchedMotion
-from scenewright.program.expressions import Compare, Elapsed, Formula, PieceRef, State, walk
+from scenewright.program.expressions import Compare, Derived, Elapsed, Formula, PieceRef, State, walk
 from scenewright.program.structure import KnotKey, Role, Structure, knots_of
 from scenewright.program.types import EGO, Actor, Constraint, PieceKind
 from scenewright.roads.grounding import Scene
+from scenewright.solve.arrival import LinearCondition
 from scenewright.solve.limits import BRAKE_MAX_MPSS, Limits, Manner
 from scenewright.solve.lowering import Lowering, NotYet
 from scenewright.solve.problem import Problem
+from scenewright.solve.turns import TurnSpan, keeps_to_turn_speed
 from scenewright.solve.views import KnownView, MotionView, SketchedView
 
 # An ego knot that is not in sight is taken to come this much later (s).
 _OUT_OF_SIGHT_S = 60.0
 _START_MARGIN_M = 3.0
 _CLEARANCE_M = 5.0
+_WALKING_MPS = 2.0
 _LONGEST_CLEARANCE_S = 2.0
 _SETTLE_S = Fraction(1, 2)
 _SETTLED_MPSS = Fraction(1, 4)
@@ -83,6 +86,8 @@ class _Stretch:
     end_knot: str | None
     approach: bool = False
     settled: bool = False
+    to_top: bool = False
+    cruise: bool = False
 
 
 class HeroProblem:
@@ -96,8 +101,10 @@ class HeroProblem:
         situation: Situation,
         manner: Manner,
         tolerance: Fraction = Fraction(0),
+        conditions: tuple[LinearCondition, ...] = (),
     ) -> None:
         self.scene = scene
+        self.conditions = conditions
         self.structure = structure
         self.limits = limits
         self.situation = situation
@@ -138,7 +145,8 @@ class HeroProblem:
             duration: Value
             if stretch.duration_s is None:
                 duration = problem.unknown(f"{prefix}d{k}")
-                shortest = _SHORTEST_S if stretch.piece != (state.piece if state else -1) else Fraction(0)
+                begun = state is not None and stretch.piece == state.piece
+                shortest = Fraction(0) if begun or stretch.cruise else _SHORTEST_S
                 problem.bound(duration, shortest, _LONGEST_S, f"{hero.name}'s pieces take some time")
             else:
                 duration = stretch.duration_s
@@ -162,7 +170,7 @@ class HeroProblem:
             return pin(state.time_s), pin(state.s_m), pin(state.speed_mps)
         position, speed = self.problem.unknown(f"a{hero.id}x0"), self.problem.unknown(f"a{hero.id}v0")
         self.problem.bound(position, pin(_START_MARGIN_M), None, f"{hero.name} starts on its route")
-        self._bound_speed(hero, speed, at_trigger=False, start=position)
+        self._bound_speed(hero, speed)
         return Fraction(0), position, speed
 
     def _plan_stretches(self, hero: Actor, state: HeroState | None) -> list[_Stretch]:
@@ -179,6 +187,8 @@ class HeroProblem:
                 stretches += self._approach(piece, pin(planned) - pin(self.situation.time_s), knot)
             elif approach:
                 stretches += [_Stretch(piece, None, None, True), _Stretch(piece, None, knot, True, True)]
+            elif sketch.pieces[piece] is PieceKind.ACC and self._cruises(hero, piece):
+                stretches += [_Stretch(piece, None, None, to_top=True), _Stretch(piece, None, knot, cruise=True)]
             else:
                 stretches.append(_Stretch(piece, None, knot))
         return stretches
@@ -197,13 +207,46 @@ class HeroProblem:
         hold_s = max(_SETTLE_S, rest_s * Fraction(2, 5)) if steps == 2 else _SETTLE_S
         return [*_even(piece, rest_s - hold_s, steps - 1, None), _Stretch(piece, hold_s, knot, True, True)]
 
+    def _cruises(self, hero: Actor, piece: int) -> bool:
+        """Whether an accelerating piece is long enough to get to the top speed and drive on at it.
+
+        Nobody speeds up for ever; and with the speed at its end known the problem stays easy.
+        """
+        knots = hero.sketch.knots
+        end = self._place_of(hero, knots[piece + 1])
+        begin = next((place for k in range(piece, 0, -1) if (place := self._place_of(hero, knots[k])) is not None), None)
+        if end is None or begin is None or _rate_is_given(self.scene, hero, piece):
+            return False
+        top = min(self._top_speeds(hero))
+        start_mps = 0.0 if piece and hero.sketch.pieces[piece - 1] is PieceKind.STOP else self.manner.trigger_speed_mps
+        return (top * top - start_mps * start_mps) / (2 * self.manner.acc_mpss[1]) < end - begin
+
+    def _is_timed(self, hero: Actor, knot_index: int) -> bool:
+        """Whether the program speaks of the hero's speed at a knot, as a time to arrival does: then it cannot stand."""
+        key = (hero.id, hero.sketch.knots[knot_index])
+        return any(
+            condition.weights.get(hero.id, (0.0, 0.0))[1] != 0.0
+            and any(self.structure.same_moment(hero.id, moment) == key[1] for moment in condition.moments)
+            for condition in self.conditions
+        )
+
+    def _place_of(self, hero: Actor, knot: str) -> float | None:
+        """Return the position that the program gives `hero` at `knot`: exactly, or for a time to arrival at walking pace."""
+        for condition in self.conditions:
+            if set(condition.weights) != {hero.id} or condition.weights[hero.id][0] == 0.0:
+                continue
+            if any(self.structure.same_moment(hero.id, key) == knot for key in condition.moments):
+                per_metre, per_speed = condition.weights[hero.id]
+                return -(condition.constant + per_speed * _WALKING_MPS) / per_metre
+        return None
+
     def _add_stretch(
         self, hero: Actor, stretch: _Stretch, x0: Value, v0: Value, x1: Symbol, v1: Symbol, duration: Value
     ) -> None:
         problem, manner = self.problem, self.manner
         problem.require(compare("==", 2 * (x1 - x0), (v0 + v1) * duration), "the laws of motion")
-        at_trigger = not stretch.approach or stretch.end_knot is not None
-        self._bound_speed(hero, v1, at_trigger=at_trigger, start=x0)
+        self._bound_speed(hero, v1)
+        self._bound_in_turn(hero, stretch, x0, v0, x1, v1)
         kind = hero.sketch.pieces[stretch.piece]
         change = v1 - v0
         label = f"{hero.name}'s {kind} piece"
@@ -216,8 +259,8 @@ class HeroProblem:
             self._require_rate(change, duration, -down, up, f"{hero.name}'s acceleration limits")
             if stretch.end_knot is not None:
                 self._bound_trigger_speed(hero, stretch.piece, v1)
-        elif kind is PieceKind.GO:
-            problem.require(compare("==", v1, v0), f"{hero.name} holds its speed in a go piece")
+        elif kind is PieceKind.GO or stretch.cruise:
+            problem.require(compare("==", v1, v0), f"{hero.name} holds its speed")
         elif kind is PieceKind.STOP:
             problem.require(compare("==", v0, Fraction(0)), label)
             problem.require(compare("==", v1, Fraction(0)), label)
@@ -226,6 +269,12 @@ class HeroProblem:
             problem.require(compare("<=", duration, pin(high)), label)
         else:
             given = _rate_is_given(self.scene, hero, stretch.piece)
+            if stretch.to_top:
+                top = pin(min(self._top_speeds(hero)))
+                problem.require(compare("==", v1, top), f"{hero.name} goes at {float(top):.1f} m/s")
+                rate = pin(manner.acc_mpss[1])
+                self._require_rate(change, duration, rate, rate, f"{hero.name} accelerates at {float(rate):g} m/s^2")
+                return
             low, high = manner.dec_mpss if kind is PieceKind.DEC else manner.acc_mpss
             if given:
                 low, high = 0.05, BRAKE_MAX_MPSS if kind is PieceKind.DEC else self.limits[hero.id].accel_max_mpss
@@ -249,21 +298,30 @@ class HeroProblem:
         self.problem.require(compare(">=", change, low * duration), origin)
         self.problem.require(compare("<=", change, high * duration), origin)
 
-    def _bound_speed(self, hero: Actor, speed: Symbol, *, at_trigger: bool, start: Value) -> None:
-        limits, natural = self.limits[hero.id], self.manner.natural_speed
-        top = pin(limits.natural_speed_mps if natural else limits.speed_max_mps)
-        self.problem.bound(speed, 0, top, f"{hero.name} drives at 0 to {float(top):.1f} m/s")
-        turn_end = self.scene.routes[hero.id].landmarks.get("turn_end")
-        turn_top = pin(limits.natural_turn_speed_mps if natural else limits.turn_speed_max_mps)
-        if at_trigger and turn_end is not None and turn_top < top:
-            beyond = compare(">=", start, pin(turn_end))
-            origin = f"{hero.name} turns at up to {float(turn_top):.1f} m/s"
-            self.problem.require(disjunction([beyond, f"(<= {speed.text} {smt(turn_top)})"]), origin)
+    def _top_speeds(self, hero: Actor) -> tuple[float, float]:
+        """Return the top speed on the way and in a turn."""
+        limits = self.limits[hero.id]
+        if self.manner.natural_speed:
+            return limits.natural_speed_mps, limits.natural_turn_speed_mps
+        return limits.speed_max_mps, limits.turn_speed_max_mps
+
+    def _bound_speed(self, hero: Actor, speed: Symbol) -> None:
+        top = self._top_speeds(hero)[0]
+        self.problem.bound(speed, 0, pin(top), f"{hero.name} drives at 0 to {top:.1f} m/s")
+
+    def _bound_in_turn(self, hero: Actor, stretch: _Stretch, x0: Value, v0: Value, x1: Symbol, v1: Symbol) -> None:
+        turn = TurnSpan.of(self.scene.routes[hero.id])
+        top, turn_top = self._top_speeds(hero)
+        if turn is None or turn_top >= top or (stretch.approach and stretch.end_knot is None):
+            return
+        braking = hero.sketch.pieces[stretch.piece] is PieceKind.DEC
+        condition = keeps_to_turn_speed(turn, turn_top, x0, v0, x1, v1, braking)
+        self.problem.require(condition, f"{hero.name} turns at up to {turn_top:.1f} m/s")
 
     def _bound_trigger_speed(self, hero: Actor, piece: int, speed: Symbol) -> None:
         following = hero.sketch.pieces[piece + 1] if piece + 1 < len(hero.sketch.pieces) else PieceKind.GO
         least = self.manner.trigger_speed_mps
-        if following is PieceKind.ACC and not self.manner.natural_speed:
+        if following is PieceKind.ACC and not self.manner.natural_speed and not self._is_timed(hero, piece + 1):
             least = 0.0  # it may wait at its place and set off when the moment comes
         self.problem.bound(speed, pin(least), None, f"{hero.name} moves at {least:g} m/s or more at its trigger")
 
@@ -278,7 +336,8 @@ class HeroProblem:
             tolerance = self.tolerance if role is Role.TRIGGER else Fraction(0)
             try:
                 self.problem.require(self._lower(lowering, constraint.formula, tolerance, margin), constraint.id)
-                self.asserted.append(constraint)
+                if margin >= 0:  # what is only asked for as far as it goes is no promise
+                    self.asserted.append(constraint)
             except NotYet:
                 continue
 
@@ -308,6 +367,8 @@ class HeroProblem:
         role = self.structure.roles[constraint.id]
         if role is Role.OUTCOME and not self.manner.outcome and _speaks_of_ego(constraint.formula):
             return False
+        if _actors_of(constraint.formula) == {EGO}:
+            return False  # the ego's own side is the prediction's affair: it is what sets the trigger's instant
         ahead = any(self._is_ahead(key) for key in knots_of(constraint.formula))
         for node in walk(constraint.formula):
             if isinstance(node, State) and not isinstance(node.at, Elapsed) and node.actor != EGO:
@@ -374,6 +435,16 @@ def _rate_is_given(scene: Scene, hero: Actor, piece: int) -> bool:
 
 def _is_equality(formula: Formula) -> bool:
     return isinstance(formula, Compare) and formula.operator == "=="
+
+
+def _actors_of(formula: Formula) -> set[int]:
+    actors = {actor for actor, _ in knots_of(formula)}
+    for node in walk(formula):
+        if isinstance(node, State | Derived):
+            actors.add(node.actor)
+        if isinstance(node, Derived) and isinstance(node.target, int):
+            actors.add(node.target)
+    return actors
 
 
 def _speaks_of_ego(formula: Formula) -> bool:

@@ -52,7 +52,7 @@ class Manner:
     steps
         Stretches of constant acceleration before the trigger; the last is a settled one where `settle` is set.
     dec_mpss, acc_mpss, stop_s
-        Ranges of braking, accelerating and standing pieces.
+        Ranges of braking, accelerating and standing pieces; one that speeds up and then drives on takes the upper rate.
     trigger_speed_mps
         Smallest speed at the trigger.
     natural_speed

@@ -17,6 +17,7 @@ from scenewright.program.expressions import Compare
 from scenewright.program.structure import Role, Structure
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
+from scenewright.solve.arrival import LinearCondition
 from scenewright.solve.hero_problem import HeroProblem, Situation
 from scenewright.solve.limits import FIRM, GENTLE, STEADY, URGENT, WHOLE, Limits, Manner
 from scenewright.solve.lowering import TIGHT, compared_dimension
@@ -82,6 +83,8 @@ class Planner:
         What is orchestrated, and within which bounds.
     backend
         The solver.
+    conditions
+        The scene's linear conditions (see `solve.arrival.linear_conditions`).
     budget_s
         Wall-clock time that one re-solve may take; the search for a better manner or tolerance stops there.
     """
@@ -92,8 +95,10 @@ class Planner:
         structure: Structure,
         limits: Mapping[int, Limits],
         backend: Backend,
+        conditions: tuple[LinearCondition, ...],
         budget_s: float = DEFAULT_BUDGET_S,
     ) -> None:
+        self.conditions = conditions
         self.scene = scene
         self.structure = structure
         self.limits = limits
@@ -136,7 +141,7 @@ class Planner:
         return Attempt(None, "unsat", reason, time.perf_counter() - started, len(ways)), len(ways)
 
     def _solve(self, situation: Situation, manner: Manner, tolerance: Fraction, timeout_s: float) -> Plan | str:
-        built = HeroProblem(self.scene, self.structure, self.limits, situation, manner, tolerance)
+        built = HeroProblem(self.scene, self.structure, self.limits, situation, manner, tolerance, self.conditions)
         result = self.backend.solve(built.problem, timeout_s)
         if isinstance(result, Unknown):
             return result.reason
