@@ -263,5 +263,31 @@ def test_words_that_matter_are_never_dropped(text: str, first: str, second: str)
     assert bare(program) != bare(original), [print_expression(c.formula) for c in program.constraints]
 
 
+CHANGES = {
+    "left": "right", "right": "left", "west": "east", "east": "west", "westbound": "eastbound",
+    "eastbound": "westbound",
+    "stop line": "conflict point", "conflict point": "stop line", "driveway": "road", "road": "driveway",
+    "ego": "hero", "hero": "ego", "brakes": "accelerates", "accelerates": "brakes", "accelerate": "brake",
+    "decelerate": "accelerate", "before": "after", "behind": "past", "lead": "oncoming", "oncoming": "lead",
+    "turn": "go", "ahead": "behind", "and": "or", "is": "is not", "wants": "does not want", "begins": "never begins",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("text", TEXTS, ids=[text[:40] for text in TEXTS])
+def test_every_single_word_that_matters_counts(text: str) -> None:
+    """With one word changed in one place, a text is refused or says something else."""
+    original = bare(translate_offline(text).program)
+    for word, other in CHANGES.items():
+        for match in re.finditer(rf"\b{word}\b", text):
+            changed = f"{text[: match.start()]}{other}{text[match.end() :]}"
+            if word in ("ego", "hero") and original[0][0][1] == original[0][1][1]:  # type: ignore[index]
+                continue  # behind each other: whose heading is told does not matter
+            try:
+                program = translate_offline(changed).program
+            except TranslationError:
+                continue
+            assert bare(program) != original, changed
+
+
 def test_known_units_have_spellings() -> None:
     assert set(load_lexicon().units.values()) == set(UNITS)

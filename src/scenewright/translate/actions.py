@@ -59,6 +59,8 @@ class ActionReader(DescriptionReader):
         if not merge:
             self.facts.phases.append(Phase("dec", []))
         phase = self.facts.phases[-1]
+        if phase.to_stop and "then" in event.links:
+            raise self._refuse("the hero has stopped already", event.span, "what it does after its stop")
         phase.events.append(event)
         phase.to_stop |= event.to_stop or event.verb in ("stop", "yield")
         phase.yields |= event.verb == "yield"
@@ -115,6 +117,8 @@ class ActionReader(DescriptionReader):
             self.facts.phases.append(phase)
             if last is None:
                 self.facts.assumptions.append(f"the hero may speed up to do so: '{event.span.excerpt(self.text)}'")
+        if last is not None and last.kind == "dec" and "to" in event.links:
+            raise self._refuse("the hero cannot slow down to do this", event.span, "accelerates to pass ...")
         phase.events.append(event)
         if event.verb == "complete":
             goal = "turn_end"

@@ -168,6 +168,8 @@ class Assembler:
             self._assume(f"'{place.span.excerpt(self.text)}': the ego is the one behind")
         else:
             raise self._refuse("it is not clear which vehicle is in front", place.span, "behind or ahead of")
+        if any(each.kind == "lead" and each.actor == rear for each in self.facts.relations):
+            raise self._refuse("the vehicle in the lead cannot be the one behind", place.span)
         kind: DerivedKind = "gap" if place.amount.dimension == "length" else "headway"
         return Compare("==", Derived(kind, rear, 1 - rear, Knot(knot)), place.amount.term)
 

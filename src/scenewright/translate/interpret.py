@@ -8,9 +8,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import groupby, pairwise
 
+from scenewright.errors import Span
 from scenewright.translate.actions import EDGE, GOALS, SLOWING, SPEEDING, ActionReader
 from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place
-from scenewright.translate.facts import Condition, Facts, Order, Phase
+from scenewright.translate.facts import Condition, Facts, LaneRelation, Order, Phase
 
 TELLING = ("be", "sit", "drive", "approach", "lane_follow", "turn", "pull_out", "leave", "wait", "go")
 
@@ -19,8 +20,14 @@ TELLING = ("be", "sit", "drive", "approach", "lane_follow", "turn", "pull_out", 
 class Interpreter(ActionReader):
     """Decides what every event is for."""
 
-    def run(self, events: list[Event]) -> Facts:
-        """Read all events."""
+    def run(self, events: list[Event], described: list[tuple[str, int, Span]]) -> Facts:
+        """Read all events, and what adjectives say of the actors ("the oncoming car", "the westbound hero")."""
+        for word, actor, span in described:
+            mention = Event("be", actor, span, -1)
+            if word in ("lead", "oncoming"):
+                self.facts.relations.append(LaneRelation(word, actor, mention))
+            else:
+                self._wish(actor, "origin_heading", word, mention)
         for _, group in groupby(events, key=lambda event: event.sentence):
             self._sentence(list(group))
         refused = self.facts.not_yielding
@@ -40,6 +47,8 @@ class Interpreter(ActionReader):
                 raise self._refuse(
                     "it is not said who does this", event.span, "the ego or the hero", "name the vehicle"
                 )
+            if event.to_actor == event.actor or any(place.target == event.actor for place in event.places):
+                raise self._refuse("a vehicle is no measure of itself", event.span, "the other vehicle")
             self.facts.mentioned.add(event.actor)
         self._join_conditions(events)
         conditions = [e for e in events if e.mode == "when" and not self._is_marker(e)]
@@ -156,7 +165,7 @@ class Interpreter(ActionReader):
             self.pending_release.append(event)
 
     def _before(self, event: Event) -> None:
-        if event.actor == HERO_ID and event.verb in (*SPEEDING, *GOALS) and self.facts.phases:
+        if event.actor == HERO_ID and event.verb in (*SPEEDING, *GOALS) and self.facts.phases and not event.explicit:
             self._action(event)  # "stops before accelerating"
             return
         if event.actor != EGO_ID:

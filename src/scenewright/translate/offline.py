@@ -90,7 +90,7 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     referents = Referents(text, name)
     phrases = Phrases(text, name, tokens, referents)
     events = ClauseReader(phrases).read()
-    facts = Interpreter(text, name).run(events)
+    facts = Interpreter(text, name).run(events, phrases.described)
     _complete(facts, text, name)
     chosen_map = road_map if road_map is not None else default_map()
     routes = choose_routes(facts, chosen_map, text, name)

@@ -49,6 +49,9 @@ class Phrases:
     last_landmark: str | None = None
     subject: int | None = None
     assumptions: list[str] = field(default_factory=list)
+    described: list[tuple[str, int, Span]] = field(
+        default_factory=list
+    )  # ("oncoming", actor, span), ("W", actor, span)
 
     # -- helpers ----------------------------------------------------------------------------------------------------
     def tag(self, at: int, tag: str) -> str | None:
@@ -75,8 +78,8 @@ class Phrases:
         )
 
     def skip_determiner(self, at: int) -> int:
-        """Step over an article."""
-        return at + 1 if self.tag(at, "determiner") else at
+        """Step over an article; "another" in front of a place is no article."""
+        return at + 1 if self.tag(at, "determiner") not in (None, "another") else at
 
     # -- actors -----------------------------------------------------------------------------------------------------
     def noun_phrase(self, at: int) -> NounPhrase | None:
@@ -107,7 +110,17 @@ class Phrases:
         return NounPhrase(at + 1, "noun", noun, determiner, adjectives, heading, self.span(start, at + 1))
 
     def resolve(self, phrase: NounPhrase) -> int:
-        """Say who `phrase` is."""
+        """Say who `phrase` is, and keep what its adjectives say."""
+        actor = self._who(phrase)
+        self.described += [(each, actor, phrase.span) for each in sorted(phrase.adjectives & {"lead", "oncoming"})]
+        if phrase.heading is not None:
+            self.described.append((phrase.heading, actor, phrase.span))
+        return actor
+
+    def _who(self, phrase: NounPhrase) -> int:
+        mentioned = {"ego": 0, "hero": 1}.get(phrase.kind) in self.refs.nouns
+        if (phrase.kind == "ego" and phrase.determiner == "another") or (phrase.determiner == "another" and mentioned):
+            raise self.refuse("there is more than one such vehicle here", phrase.span, "the ego and one other vehicle")
         if phrase.kind == "ego":
             return self.refs.ego(phrase.noun)
         if phrase.kind == "hero":

@@ -31,7 +31,6 @@ class ReaderState:
     subject_span: Span | None = None
     main_subject: int | None = None
     label: str | None = None
-    pending_relations: list[tuple[str, int, Span]] = field(default_factory=list)
     pending_heading: tuple[str, Span] | None = None
     events: list[Event] = field(default_factory=list)
 
@@ -71,8 +70,6 @@ class ReaderState:
         self._check_subject_used()
         actor = self.phrases.resolve(phrase)
         self._set_subject(actor, phrase.span)
-        for relation in phrase.adjectives & {"lead", "oncoming"}:
-            self.pending_relations.append((relation, actor, phrase.span))
         if phrase.heading:
             self.pending_heading = (phrase.heading, phrase.span)
         self.at = phrase.end
@@ -115,7 +112,6 @@ class ReaderState:
         event.initial = "initial" in self.flags or self.label == "start"
         if self.passive_object is not None:
             event.landmark, event.actor, self.passive_object = self.passive_object, None, None
-        event.relations, self.pending_relations = self.pending_relations, []
         if self.pending_heading is not None:
             event.headings.append(self.pending_heading)
             self.pending_heading = None

@@ -148,6 +148,9 @@ class VerbReader(AdjunctReader):
                 verb, end = "stop", stop
         if verb in ("complete", "exist"):
             return False
+        unlinked = self.current is not None and not self.links and self.subject_span is None
+        if unlinked and self.current is not None and self.current.verb != "be" and "ing" not in token.forms:
+            return False  # two finite verbs without a link: "makes a left go"
         passive = "be" in self.flags and "ed" in token.forms and "ing" not in token.forms
         if passive and verb in MOVES and self.passive_object is None:
             return False
