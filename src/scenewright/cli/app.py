@@ -1,0 +1,71 @@
+"""The commands by name, each with examples that work as they stand.
+
+What enters: nothing. What leaves: `app`. Another group of commands joins by `app.add_typer`.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from scenewright import __version__
+from scenewright.cli import faults, listing, looking, reading, running
+
+SENTENCE = (
+    "The ego drives westbound. An oncoming hero turns left into the driveway. When the ego is 25 m before the "
+    "conflict point and the hero is 15 m before the conflict point, the hero brakes to a stop 5 m before the "
+    "conflict point."
+)
+
+app = typer.Typer(
+    name="scenewright",
+    help="A sentence in, a judged closed-loop traffic test out.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode="rich",
+)
+
+
+def _examples(*commands: str) -> str:
+    """Return the text below a command's help; each example stands on lines of its own."""
+    return "\n\n".join(["[bold]Examples[/bold]", *(command.replace("[", r"\[") for command in commands)])
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"scenewright {__version__}")
+        raise typer.Exit
+
+
+@app.callback(
+    epilog=_examples(f'scenewright run "{SENTENCE}"')
+    + "\n\n[bold]Exit status[/bold]\n\n0 it happened as described, 1 it did not, 2 the input is wrong, "
+    "3 proven impossible, 4 gave up, 130 interrupted"
+)
+def _all(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
+    ] = False,
+    debug: Annotated[bool, typer.Option("--debug", help="Show a traceback where Scenewright itself is at fault.")] = (
+        False
+    ),
+) -> None:
+    faults.debug.set(debug)
+
+
+_TRANSLATE = f'scenewright translate "{SENTENCE}" --out first.scene'
+_RUN = "scenewright run first.scene --out runs/first"
+
+app.command(
+    epilog=_examples(
+        f'scenewright run "{SENTENCE}" --out runs/first', f"{_TRANSLATE}", "scenewright run first.scene --ego dawdler"
+    )
+)(running.run)
+app.command(epilog=_examples(_TRANSLATE, "scenewright translate first.scene --json"))(reading.translate)
+app.command(epilog=_examples(_TRANSLATE, "scenewright check first.scene --ego constant:speed_mps=12"))(reading.check)
+app.command(epilog=_examples(_TRANSLATE, "scenewright solve first.scene --out plan.json"))(reading.solve)
+app.command(epilog=_examples(_TRANSLATE, _RUN, "scenewright judge runs/first --tolerance loose"))(looking.judge)
+app.command(epilog=_examples("scenewright maps", "scenewright maps t_intersection"))(listing.maps)
+app.command(epilog=_examples("scenewright egos", "scenewright egos --json"))(listing.egos)
+app.command(epilog=_examples(_TRANSLATE, _RUN, "scenewright view runs/first --no-browser"))(looking.view)

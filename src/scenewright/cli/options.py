@@ -1,0 +1,144 @@
+"""Arguments and options that several commands share, with their help, checks and shell completion.
+
+What enters: words from the command line. What leaves: values a `Request` takes. Nothing is read from files here but the
+names that completion offers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from scenewright.errors import ParameterError
+
+Mode = Literal["closed", "open"]
+Tolerance = Literal["tight", "loose"]
+
+
+def parameters_of(items: Sequence[str] | None) -> dict[str, str]:
+    """Return parameter values by name from ``NAME=VALUE`` words; whether they are numbers is checked with the program.
+
+    Raises
+    ------
+    ParameterError
+        Where a word has no value, or a name is given twice.
+    """
+    values: dict[str, str] = {}
+    for item in items or ():
+        name, equals, value = (part.strip() for part in item.partition("="))
+        if not (name and equals and value):
+            raise ParameterError(
+                "a parameter is given without a value" if name else "a value is given without a parameter",
+                found=repr(item),
+                expected="NAME=VALUE, the value in the unit that the name ends in",
+                fix=f"-p {name or 'ego_distance_m'}=12.5",
+            )
+        if name in values:
+            raise ParameterError(
+                f"parameter {name} is given twice", found=f"{values[name]} and {value}", fix="give it once"
+            )
+        values[name] = value
+    return values
+
+
+# -- completion -----------------------------------------------------------------------------------------------------
+def complete_source(incomplete: str) -> list[str]:
+    """Offer files that may hold a description or a program."""
+    return _paths(incomplete, (".scene", ".txt"))
+
+
+def complete_map(incomplete: str) -> list[str]:
+    """Offer the shipped maps, and OpenDRIVE files."""
+    from scenewright.roads.load import shipped_maps
+
+    return [name for name in shipped_maps() if name.startswith(incomplete)] + _paths(incomplete, (".xodr",))
+
+
+def complete_ego(incomplete: str) -> list[tuple[str, str]]:
+    """Offer the policies that can be named, each with its line."""
+    from scenewright.drive.loading import policy_descriptions
+
+    return [(name, line) for name, line in policy_descriptions().items() if name.startswith(incomplete)]
+
+
+def complete_run_directory(incomplete: str) -> list[str]:
+    """Offer run directories here and under `runs`."""
+    found = [path.parent for folder in (Path(), Path("runs")) for path in sorted(folder.glob("*/manifest.json"))]
+    return [str(path) for path in found if str(path).startswith(incomplete)]
+
+
+def _paths(incomplete: str, suffixes: tuple[str, ...]) -> list[str]:
+    folder, slash, start = incomplete.rpartition("/")
+    try:
+        here = sorted(Path(f"{folder}{slash}" or ".").iterdir())
+    except OSError:
+        return []
+    fits = [path for path in here if path.name.startswith(start) and not path.name.startswith(".")]
+    return [
+        f"{folder}{slash}{path.name}" + ("/" if path.is_dir() else "")
+        for path in fits
+        if path.is_dir() or path.suffix in suffixes
+    ]
+
+
+# -- arguments and options ------------------------------------------------------------------------------------------
+Source = Annotated[
+    str,
+    typer.Argument(
+        metavar='"TEXT"|FILE',
+        help="A description in quotes, or a file: a description (.txt) or a program (.scene).",
+        autocompletion=complete_source,
+        show_default=False,
+    ),
+]
+RunDirectory = Annotated[
+    Path,
+    typer.Argument(
+        metavar="DIR",
+        help="A run directory, as `scenewright run` leaves it.",
+        autocompletion=complete_run_directory,
+        show_default=False,
+    ),
+]
+Parameters = Annotated[
+    list[str] | None,
+    typer.Option(
+        "-p",
+        "--parameter",
+        metavar="NAME=VALUE",
+        help="Set a parameter, in the unit that its name ends in; may be repeated.",
+        show_default=False,
+    ),
+]
+MapName = Annotated[
+    str | None,
+    typer.Option(
+        "--map",
+        metavar="NAME|FILE",
+        help="A shipped map or an OpenDRIVE file. [default: the program's own, t_intersection for a description]",
+        autocompletion=complete_map,
+        show_default=False,
+    ),
+]
+Ego = Annotated[
+    str,
+    typer.Option(
+        "--ego",
+        metavar="NAME[:k=v,...]",
+        help="The driving policy under test: a built-in one, or module:Class for your own.",
+        autocompletion=complete_ego,
+    ),
+]
+Translator = Annotated[
+    str, typer.Option("--translator", metavar="NAME", help="What turns a description into a program.")
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout and nothing else there.")]
+ModeOption = Annotated[
+    Mode, typer.Option("--mode", help="Re-solve while the ego drives (closed), or carry out the first plan (open).")
+]
+ToleranceOption = Annotated[
+    Tolerance, typer.Option("--tolerance", help="Which tolerance decides whether the run is a success.")
+]

@@ -1,0 +1,256 @@
+"""`run`: a sentence in, a judged run out; and the carrying out that `check` and `solve` share.
+
+What enters: the options of the command. What leaves: a run directory, a report or JSON, and an exit status.
+"""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from scenewright.cli.console import SignsOfLife, print_json, stderr, stdout
+from scenewright.cli.directories import claim
+from scenewright.cli.faults import error_data, tell, told
+from scenewright.cli.options import (
+    AsJson,
+    Ego,
+    MapName,
+    ModeOption,
+    Parameters,
+    Source,
+    ToleranceOption,
+    Translator,
+    parameters_of,
+)
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from scenewright.judge.verdict import Verdict
+    from scenewright.orchestrate import Request, Result, Stop
+    from scenewright.program.types import Program
+
+_SAYS = {
+    "translate": "reading the description",
+    "ground": "putting it on the map",
+    "check": "asking whether it can happen at all",
+    "plan": "planning",
+    "simulate": "driving",
+    "judge": "judging",
+    "write": "writing the run directory",
+}
+
+
+def run(
+    source: Source,
+    parameter: Parameters = None,
+    map_name: MapName = None,
+    ego: Ego = "idm",
+    mode: ModeOption = "closed",
+    tolerance: ToleranceOption = "tight",
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Makes random choices of the ego repeatable.")] = 0,
+    translator: Translator = "offline",
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out", metavar="DIR", help="Where to write. [default: runs/NUMBER-NAME, a new one]", show_default=False
+        ),
+    ] = None,
+    replan_hz: Annotated[
+        float, typer.Option("--replan-hz", min=0.1, max=50.0, help="Re-solves in a simulated second.")
+    ] = 10.0,
+    budget_ms: Annotated[
+        float, typer.Option("--budget-ms", min=1.0, max=60_000.0, help="Wall time that one re-solve may take.")
+    ] = 250.0,
+    as_json: AsJson = False,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Print nothing but where the run is.")] = False,
+    open_page: Annotated[bool, typer.Option("--open", help="Open the run's page in the browser afterwards.")] = False,
+) -> None:
+    """Make what a description says happen around a driving policy, and judge whether it did."""
+    with told(as_json):
+        from scenewright.orchestrate import Request
+
+        values = parameters_of(parameter)
+        folder = claim(out, source)
+        request = Request(
+            source, values, map_name, ego, mode, tolerance, seed, translator, folder.path, replan_hz, budget_ms / 1000
+        )
+        try:
+            result = carry_out(request, quiet=quiet or as_json)
+        finally:
+            folder.give_back()
+        status = _tell(request, result, as_json, quiet)
+        if open_page and result.run_directory is not None:
+            from scenewright.cli.looking import open_in_browser
+
+            open_in_browser(result.run_directory / "index.html", stderr())
+        raise typer.Exit(status)
+
+
+def carry_out(request: Request, until: Stop = "end", quiet: bool = False) -> Result:
+    """Orchestrate, with signs of life; what a policy prints goes to stderr, and Ctrl-C gets through to us."""
+    from scenewright.orchestrate import orchestrate
+
+    with SignsOfLife(not quiet) as signs, _interruptible() as finish, redirect_stdout(sys.stderr):
+
+        def report(stage: str) -> None:
+            if stage == "judge":
+                finish()
+            signs.say(_SAYS.get(stage, stage))
+
+        def progress(time_s: float) -> None:
+            signs.say(f"driving: {time_s:.1f} s of the run")
+
+        return orchestrate(request, report, progress, until)
+
+
+@contextmanager
+def _interruptible() -> Iterator[_Finish]:
+    """Let Ctrl-C through while something is being worked out, and not while its results are being written."""
+    import z3
+
+    z3.set_param("ctrl_c", False)  # its own handler would swallow the signal and say "unknown"
+    finish = _Finish()
+    try:
+        yield finish
+    finally:
+        finish.restore()
+
+
+class _Finish:
+    """From the moment it is called, Ctrl-C waits until what was kept has been written."""
+
+    def __init__(self) -> None:
+        self._before: signal._HANDLER = None
+
+    def __call__(self) -> None:
+        try:
+            self._before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+        except ValueError:  # not in the main thread, where no signal arrives
+            self._before = None
+
+    def restore(self) -> None:
+        """Put back whatever handled the signal before."""
+        if self._before is not None:
+            signal.signal(signal.SIGINT, self._before)
+
+
+# -- telling --------------------------------------------------------------------------------------------------------
+def _tell(request: Request, result: Result, as_json: bool, quiet: bool) -> int:
+    """Print what came of a run and return the exit status."""
+    from scenewright.orchestrate import EXIT_STATUS
+
+    status = EXIT_STATUS[result.status]
+    fault = result.run.fault if result.run is not None else None
+    if as_json:
+        print_json(result_data(request, result, status))
+    elif quiet:
+        if result.run_directory is not None:
+            sys.stdout.write(f"{result.run_directory}\n")
+    elif result.verdict is not None:
+        report_run(stdout(), request, result)
+    if result.run is None and not as_json:
+        tell_no_plan(stderr(), result)
+    if fault is not None:
+        tell(fault)
+    if result.status == "interrupted":
+        stderr().print(f"interrupted; what was driven until then is kept in {result.run_directory}", soft_wrap=True)
+    return status
+
+
+def result_data(request: Request, result: Result, status: int) -> dict[str, object]:
+    """Return what came of a request as plain data."""
+    from scenewright.cli.tables import parameters
+
+    fault = result.run.fault if result.run is not None else None
+    directory = result.run_directory
+    infeasible = result.status == "infeasible" and result.feasibility is not None
+    return {
+        **(error_data(fault, status) if fault is not None else {"error": None}),
+        "status": result.status,
+        "exit_status": status,
+        "run_directory": str(directory) if directory is not None else None,
+        "page": str(directory / "index.html") if directory is not None else None,
+        "tolerance": request.tolerance,
+        "parameters": dict(parameters(result.scene, request.parameters)),
+        "assumptions": list(result.translation.assumptions) if result.translation else [],
+        "verdict": result.verdict.as_dict() if result.verdict is not None else None,
+        "findings": list(result.run.findings) if result.run is not None else [],
+        "feasibility": result.feasibility.as_dict() if result.feasibility is not None else None,
+        "explanation": result.feasibility.explain() if infeasible and result.feasibility else None,
+        "tried": tried(result),
+    }
+
+
+def tell_no_plan(console: Console, result: Result) -> None:
+    """Say why nothing was driven: a proof that it cannot happen, or what was tried in vain."""
+    if result.status == "infeasible" and result.feasibility is not None:
+        console.print(result.feasibility.explain(), soft_wrap=True)
+    elif result.status == "gave up":
+        console.print(f"gave up: {tried(result)}", soft_wrap=True)
+        console.print("Neither a plan nor a proof that there is none was found; more of --budget-ms may help.")
+
+
+def tried(result: Result) -> str | None:
+    """Return what was tried before giving up; None where nothing was given up."""
+    if result.status != "gave up":
+        return None
+    if result.attempt is not None:
+        attempt = result.attempt
+        return f"{attempt.tries} ways to move in {attempt.wall_s:.1f} s; the last: {attempt.reason or attempt.status}"
+    return f"the solver could not tell ({result.feasibility.reason if result.feasibility else 'unknown'})"
+
+
+def report_run(console: Console, request: Request, result: Result) -> None:
+    """Print what was understood, the verdict, and how to look at the run."""
+    from scenewright.cli import tables
+
+    verdict = result.verdict
+    assert verdict is not None
+    console.print(tables.understood(result.scene))
+    report_verdict(console, verdict, result.scene.program, request.tolerance)
+    rows = tables.parameters(result.scene, request.parameters)
+    rows += [("assumed" if not index else "", text) for index, text in enumerate(_assumed(result))]
+    rows += [("finding", text) for text in (result.run.findings if result.run else ())]
+    if rows:
+        console.print(tables.facts(rows))
+    directory = result.run_directory
+    if directory is not None:
+        console.print()
+        console.print(f"page  {directory / 'index.html'}", soft_wrap=True)
+        console.print(f"look  scenewright view {directory}", soft_wrap=True)
+
+
+def _assumed(result: Result) -> list[str]:
+    return [*(result.translation.assumptions if result.translation else ()), *result.scene.notes]
+
+
+def report_verdict(console: Console, verdict: Verdict, program: Program, tolerance: str) -> None:
+    """Print the conditions and the headline."""
+    from rich.text import Text
+
+    from scenewright.cli import tables
+
+    console.print(tables.verdict(verdict, program))
+    console.print(tables.routine(verdict))
+    missed = tables.missed(verdict, tolerance)
+    holds = not missed
+    count = len(verdict.conditions)
+    headline = (
+        f"Success: it happened as described, within the {tolerance} tolerance"
+        if holds
+        else f"Failure: {len(missed)} of {count} conditions miss the {tolerance} tolerance"
+    )
+    triggers = verdict.facts.get("trigger_time_s") or {}
+    when = ", ".join(f"{time_s:.2f} s" for time_s in triggers.values() if time_s is not None)
+    headline += f"; the trigger came at {when}." if when else "."
+    console.print(Text.assemble(tables.mark(holds), " ", (headline, "bold")))
+    if verdict.facts.get("ego_never_met_condition"):
+        console.print("The ego never came to its side of the trigger: that says something about this policy.")
+    console.print()

@@ -1,0 +1,214 @@
+"""What people read of a scenario, a plan and a verdict: tables and lines for a console.
+
+What enters: scenes, plans, verdicts. What leaves: rich renderables. Nothing is decided here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from rich import box
+from rich.table import Table
+from rich.text import Text
+
+from scenewright.cli.console import marks
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from scenewright.judge.verdict import Condition, Verdict
+    from scenewright.program.types import Program
+    from scenewright.roads.grounding import Scene
+    from scenewright.solve.plan import Plan
+    from scenewright.translate.offline import Translation
+
+# Conditions of these kinds are the same in every run; they are shown one by one only where one fails.
+ROUTINE = ("route", "safety")
+_NEAR_M = 0.05
+
+
+def table(*columns: str, right: Sequence[str] = ()) -> Table:
+    """Return an empty table in the house's look; columns named in `right` hold numbers."""
+    made = Table(box=box.SIMPLE_HEAD, pad_edge=False, header_style="bold")
+    for name in columns:
+        made.add_column(name, justify="right" if name in right else "left", no_wrap=name in right)
+    return made
+
+
+def facts(rows: Iterable[tuple[str, str | Text]]) -> Table:
+    """Return names and what is to be said of each, one below the other."""
+    made = Table(box=None, pad_edge=False, show_header=False, padding=(0, 2, 0, 0))
+    made.add_column(style="bold", no_wrap=True)
+    made.add_column(overflow="fold")
+    for name, value in rows:
+        made.add_row(name, value if isinstance(value, Text) else Text(value))
+    return made
+
+
+# -- the scenario ---------------------------------------------------------------------------------------------------
+def understood(scene: Scene) -> Table:
+    """Return in short what the scenario is: ways, and the words or formulas of each part of the story."""
+    from scenewright.program.structure import read_structure, synchronised
+
+    program = scene.program
+    rows = [(actor.name, f"{scene.routes[actor.id]}") for actor in program.actors]
+    rows.append(("map", scene.road_map.name))
+    parts: dict[str, dict[str, None]] = {}
+    roles = read_structure(program).roles
+    for constraint in program.constraints:
+        if next(synchronised(constraint.formula), None) is not None:
+            continue  # that two things are one moment is in the words of each
+        parts.setdefault(str(roles[constraint.id]), {})[_in_words(program, constraint.id)] = None
+    rows += [(part, "; ".join(told)) for part, told in parts.items()]
+    return facts(rows)
+
+
+def _in_words(program: Program, constraint_id: str) -> str:
+    from scenewright.program.printer import print_expression
+
+    constraint = program.constraint(constraint_id)
+    return program.words_of(constraint) or print_expression(constraint.formula)
+
+
+def clauses(translation: Translation) -> Table:
+    """Return how each clause was understood."""
+    made = table("words", "understood as", "constraints")
+    for reading in translation.readings:
+        formulas = list(_formulas(translation, reading.constraint_ids))
+        plain = reading.understood
+        for formula in formulas:
+            plain = plain.replace(formula, "")
+        made.add_row(Text(reading.text), Text(plain.strip("; ")), Text("\n".join(formulas)))
+    return made
+
+
+def _formulas(translation: Translation, ids: Iterable[str]) -> Iterator[str]:
+    from scenewright.program.printer import print_expression
+
+    for identifier in ids:
+        yield print_expression(translation.program.constraint(identifier).formula)
+
+
+def parameters(scene: Scene, given: Iterable[str]) -> list[tuple[str, str]]:
+    """Return every parameter's value and who chose it."""
+    names = set(given)
+    rows = []
+    for parameter in scene.program.parameters:
+        value = float(scene.parameters[parameter.name] / parameter.unit.si_factor)
+        if parameter.name in names:
+            source = "given"
+        elif parameter.value is not None:
+            source = "in the program"
+        else:
+            source = "chosen: you left it open"
+        rows.append((parameter.name, f"{value:g} {parameter.unit.symbol} ({source})"))
+    return rows
+
+
+# -- the plan -------------------------------------------------------------------------------------------------------
+def knots(scene: Scene, plan: Plan) -> Table:
+    """Return when and where each actor is at its knots, and how it goes on from there."""
+    numbers = ("time s", "position m", "speed m/s", "then m/s^2")
+    made = table("actor", "knot", "time s", "position m", "place", "speed m/s", "then m/s^2", right=numbers)
+    for actor_id, profile in sorted(plan.profiles.items()):
+        actor = scene.program.actor(actor_id)
+        for knot, time_s in profile.knot_times_s.items():
+            s_m, speed_mps, _ = profile.state(time_s)
+            accel_mpss = profile.state(time_s + 1e-6)[2]
+            place = relative_to(s_m, scene.landmarks_m[actor_id])
+            made.add_row(
+                actor.name, knot, f"{time_s:.2f}", f"{s_m:.2f}", place, f"{speed_mps:.2f}", f"{accel_mpss:.2f}"
+            )
+        made.add_section()
+    return made
+
+
+def relative_to(s_m: float, landmarks_m: Mapping[str, float]) -> str:
+    """Return a position in terms of a landmark: the conflict point where there is one, else the stop line or junction.
+
+    >>> relative_to(40.0, {"stop_line": 52.0, "route_end": 90.0})
+    '12.00 m before stop line'
+    """
+    for name in ("conflict_point", "stop_line", "junction_start", "route_end"):
+        if name in landmarks_m:
+            ahead_m = landmarks_m[name] - s_m
+            words = name.replace("_", " ")
+            if abs(ahead_m) < _NEAR_M:
+                return f"at {words}"
+            return f"{abs(ahead_m):.2f} m {'before' if ahead_m > 0 else 'past'} {words}"
+    return ""
+
+
+# -- the verdict ----------------------------------------------------------------------------------------------------
+def verdict(judged: Verdict, program: Program) -> Table:
+    """Return the conditions with required and measured values; routine ones only where they fail."""
+    numbers = ("required", "measured", "error")
+    made = table("condition", *numbers, "tight", "loose", right=numbers)
+    kind, said = "", ""
+    for condition in judged.conditions:
+        row = condition.as_dict()
+        if condition.kind in ROUTINE and row["tight"] and row["loose"]:
+            continue
+        if condition.kind != kind:
+            kind = condition.kind
+            made.add_row(Text(kind, style="bold"))
+        words, formula = _wording(condition, program)
+        text = formula if formula and words == said else words
+        said = words
+        made.add_row(
+            Text(f"  {text}"),
+            _quantity(condition.required, condition.unit),
+            _quantity(condition.measured, condition.unit),
+            "-" if condition.error is None else _signed(condition.error),
+            mark(row["tight"]),
+            mark(row["loose"]),
+        )
+    return made
+
+
+def _wording(condition: Condition, program: Program) -> tuple[str, str]:
+    """Return how to call a condition, and its formula where it has one."""
+    from scenewright.program.printer import print_expression
+    from scenewright.program.structure import synchronised
+
+    try:
+        constraint = program.constraint(condition.id)
+    except KeyError:
+        return condition.text, ""
+    formula = print_expression(constraint.formula)
+    if condition.miss is None:  # its text says why it could not be judged
+        return condition.text, ""
+    if next(synchronised(constraint.formula), None) is not None:
+        return f"at one moment: {formula}", ""
+    return program.words_of(constraint) or formula, formula
+
+
+def routine(judged: Verdict) -> str:
+    """Return one line on the conditions that the table leaves out."""
+    held = [c for c in judged.conditions if c.kind in ROUTINE and (d := c.as_dict())["tight"] and d["loose"]]
+    return f"{len(held)} routine checks (on the route, within what a car can do, no collision) hold too."
+
+
+def missed(judged: Verdict, tolerance: str) -> list[Condition]:
+    """Return the conditions that do not hold at a tolerance."""
+    return [condition for condition in judged.conditions if not condition.as_dict()[tolerance]]
+
+
+def mark(holds: bool) -> Text:
+    """Return a sign for yes or no."""
+    yes, no = marks()
+    return Text(yes, style="green") if holds else Text(no, style="bold red")
+
+
+def _quantity(value: float | None, unit: str) -> str:
+    return "-" if value is None else f"{_number(value)} {unit}".strip()
+
+
+def _number(value: float) -> str:
+    return f"{value + 0.0:.2f}" if abs(value) < 1e4 else f"{value:.4g}"
+
+
+def _signed(value: float) -> str:
+    text = f"{value:+.3f}"
+    return text[1:] if float(text) == 0.0 else text
