@@ -164,14 +164,28 @@ class Assembler:
         elif place.relation == "before":
             rear = actor
         elif place.relation == "from":
-            rear = EGO_ID
-            self._assume(f"'{place.span.excerpt(self.text)}': the ego is the one behind")
+            rear = self._rear(place)
         else:
             raise self._refuse("it is not clear which vehicle is in front", place.span, "behind or ahead of")
-        if any(each.kind == "lead" and each.actor == rear for each in self.facts.relations):
+        if any(each.kind in ("lead", "ego_leads") and each.actor == rear for each in self.facts.relations):
             raise self._refuse("the vehicle in the lead cannot be the one behind", place.span)
         kind: DerivedKind = "gap" if place.amount.dimension == "length" else "headway"
         return Compare("==", Derived(kind, rear, 1 - rear, Knot(knot)), place.amount.term)
+
+    def _rear(self, place: Place) -> int:
+        """Return who is behind where a distance does not say it: as told elsewhere, else the ego."""
+        told = set()
+        for each in (*self.facts.initial, *self.facts.trigger):
+            if each.place is not None and isinstance(each.place.target, int) and each.place.relation != "from":
+                told.add(each.actor if each.place.relation in ("behind", "before") else each.place.target)
+        for relation in self.facts.relations:
+            if relation.kind in ("lead", "ego_leads"):
+                told.add(1 - relation.actor)
+        if len(told) > 1:
+            raise self._refuse("it is not clear which vehicle is in front", place.span, "behind or ahead of")
+        if not told:
+            self._assume(f"'{place.span.excerpt(self.text)}': the ego is the one behind")
+        return told.pop() if told else EGO_ID
 
     # -- the interaction --------------------------------------------------------------------------------------------
     def _trigger(self) -> None:

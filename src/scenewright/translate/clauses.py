@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scenewright.translate.events import HERO_ID, Event, Place
+from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place
 from scenewright.translate.modes import resolve_modes
 from scenewright.translate.phrases import NounPhrase
 from scenewright.translate.verbs import VerbReader
@@ -187,7 +187,7 @@ class ClauseReader(VerbReader):
         at += 1
         target: str | int | None = None
         between: tuple[int, int] | None = None
-        while self.phrases.tag(at, "be") is None and self.phrases.tag(at, "colon") is None:
+        while not self.phrases.tokens[at].tags.keys() & {"be", "falls", "colon"}:
             if self.phrases.tag(at, "preposition") == "between" and (pair := self._pair(at + 1)):
                 actor, target, at = pair
                 between = (actor, target) if isinstance(target, int) else None
@@ -229,6 +229,9 @@ class ClauseReader(VerbReader):
         between: tuple[int, int] | None,
     ) -> bool:
         quantity = self.phrases.tokens[end - 1].quantity
+        words = self.phrases.span(start, end).excerpt(self.phrases.text).lower()
+        if target is None and actor is None and "gap" in words:  # "when the gap is 12 m"
+            actor, target = EGO_ID, HERO_ID
         if isinstance(target, int) and actor is None:
             actor = 1 - target
         if actor is None:

@@ -108,7 +108,7 @@ class DescriptionReader:
         self.facts.relations.append(LaneRelation("lead", HERO_ID, event))
         ahead = actor if place.relation == "ahead" else 1 - actor
         if ahead != HERO_ID:
-            self.facts.relations[-1] = LaneRelation("same_lane", actor, event)
+            self.facts.relations[-1] = LaneRelation("ego_leads", EGO_ID, event)
         self._note(event, f"the {ACTOR_NAMES[ahead]} is ahead in the same lane")
 
     def _tell_route(self, event: Event) -> None:

@@ -151,6 +151,8 @@ class Interpreter(ActionReader):
         elif event.verb in ("turn", "complete") and event.direction is None and not event.areas:
             landmark = "turn_end" if event.verb == "complete" else "turn_start"
             found.append(Condition(actor, event, place=Place("at", landmark, None, event.span)))
+        elif event.verb == "reach" and found:
+            pass  # "reaches a point 12 m behind the stop line"
         elif event.verb not in ("be", "sit", "drive", "approach", "ttc", "wait", "lane_follow"):
             raise self._refuse(f"'{event.span.excerpt(self.text)}' is not a moment that can be waited for", event.span)
         if event.verb == "approach" and not found:

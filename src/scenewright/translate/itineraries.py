@@ -66,8 +66,11 @@ def choose_routes(facts: Facts, road_map: RoadMap, text: str, name: str) -> Itin
                 fix="say where each vehicle comes from and where it goes",
             )
         pairs = kept
+    # What a vehicle's own words leave open is filled in before its distance to the other one is used to find its lane.
+    pairs, assumptions = _keep_to_road(facts, pairs, described=True)
     pairs = _behind_each_other(facts, pairs, text, name)
-    pairs, assumptions = _keep_to_road(facts, pairs)
+    pairs, more = _keep_to_road(facts, pairs, described=False)
+    assumptions += more
     shapes = {(ego.headings, hero.headings) for ego, hero in pairs}
     if len(shapes) != 1:
         raise _ambiguous(facts, pairs, text, name)
@@ -111,7 +114,7 @@ def _lane_heading(route: Route) -> str:
 def _fits(relation: LaneRelation, pair: Pair, road_map: RoadMap) -> bool:
     mine, theirs = (pair[0], pair[1]) if relation.actor == EGO_ID else (pair[1], pair[0])
     match relation.kind:
-        case "lead" | "same_lane":
+        case "lead" | "ego_leads":
             return mine.lanes[0] == theirs.lanes[0]
         case "oncoming":
             return mine.origin_kind == theirs.origin_kind == "road" and mine.headings[0] == OPPOSITE[theirs.headings[0]]
@@ -165,7 +168,7 @@ def _behind_each_other(facts: Facts, pairs: list[Pair], text: str, name: str) ->
     return shared
 
 
-def _keep_to_road(facts: Facts, pairs: list[Pair]) -> tuple[list[Pair], list[str]]:
+def _keep_to_road(facts: Facts, pairs: list[Pair], *, described: bool) -> tuple[list[Pair], list[str]]:
     """Let a vehicle on the road that is not said to turn go straight on."""
     assumptions = []
     for actor in (EGO_ID, HERO_ID):
@@ -173,8 +176,8 @@ def _keep_to_road(facts: Facts, pairs: list[Pair]) -> tuple[list[Pair], list[str
         told = wishes.keys() & {"turn", "destination_kind", "destination_heading"}
         turns = {pair[actor].turn for pair in pairs}
         straight = [pair for pair in pairs if pair[actor].turn == "straight"]
-        related = any(relation.kind in ("lead", "same_lane") for relation in facts.relations) or _distances(facts)
-        if not told and len(turns) > 1 and straight and (wishes or related):
+        related = any(relation.kind in ("lead", "ego_leads") for relation in facts.relations) or _distances(facts)
+        if not told and len(turns) > 1 and straight and (wishes if described else related):
             pairs = straight
             assumptions.append(f"the {ACTOR_NAMES[actor]} goes straight on: no turn of it was mentioned")
     return pairs, assumptions

@@ -89,7 +89,7 @@ class ReaderState:
 
     def _stop_noun_at(self, at: int) -> int | None:
         """Return the position after "to a complete stop", or None."""
-        if self.phrases.tag(at, "link") == "to" or self.phrases.tag(at, "preposition") == "to":
+        if self.phrases.tag(at, "link") in ("to", "until") or self.phrases.tag(at, "preposition") == "to":
             at = self.phrases.skip_determiner(at + 1)
         elif self.phrases.tag(at, "pronoun") and self.phrases.tokens[at].text.lower() == "itself":
             return self._stop_noun_at(at + 1)
