@@ -76,7 +76,7 @@ class ClauseReader(VerbReader):
             self.main_subject = main[-1].actor
         self.subject = self.phrases.subject = self.main_subject
         self.subject_span = self.current = None
-        self.links, self.flags, self.label = [], set(), None
+        self.links, self.flags, self.label, self.opening = [], set(), None, None
         self.pending_heading = None
         self.sentence += 1
         self.at += 1
@@ -120,7 +120,7 @@ class ClauseReader(VerbReader):
                     return False
             else:
                 self.current.first = True
-                self._grow()
+                self.current.span = self.current.span.union(self.phrases.tokens[self.at].span)
         elif adverb != "filler":
             word = self.phrases.tokens[self.at].text
             self.phrases.assumptions.append(f"'{word}' sets no number; say a rate in m/s^2 to fix one")
@@ -184,7 +184,21 @@ class ClauseReader(VerbReader):
             return self._intent(owner[0], at + 2)
         if measure is None:
             return False
-        at += 1
+        found = self._between_what(at + 1, actor)
+        if found is None:
+            return False
+        at, actor, target, between = found
+        at = self.phrases.skip_hedges(at + 1)
+        quantity = self.phrases.tokens[at].quantity
+        if quantity is None:
+            return False
+        self.phrases.check_measure(measure, quantity)
+        return self._measured(start, at + 1, measure, actor, target, between)
+
+    def _between_what(
+        self, at: int, actor: int | None
+    ) -> tuple[int, int | None, str | int | None, tuple[int, int] | None] | None:
+        """Read "between the ego and the stop line", "of the ego from it"; stop at the word that gives the amount."""
         target: str | int | None = None
         between: tuple[int, int] | None = None
         while not self.phrases.tokens[at].tags.keys() & {"be", "falls", "colon"}:
@@ -195,7 +209,7 @@ class ClauseReader(VerbReader):
             if self.phrases.tag(at, "preposition") in ("of", "out") and actor is None:
                 phrase = self.phrases.noun_phrase(at + 1)
                 if phrase is None:
-                    return False
+                    return None
                 actor, at = self.phrases.resolve(phrase), phrase.end
                 continue
             if (
@@ -208,16 +222,10 @@ class ClauseReader(VerbReader):
                 elif (phrase := self.phrases.noun_phrase(at + 1)) is not None:
                     target, at = self.phrases.resolve(phrase), phrase.end
                 else:
-                    return False
+                    return None
                 continue
-            return False
-        at += 1
-        at = self.phrases.skip_hedges(at)
-        quantity = self.phrases.tokens[at].quantity
-        if quantity is None:
-            return False
-        self.phrases.check_measure(measure, quantity)
-        return self._measured(start, at + 1, measure, actor, target, between)
+            return None
+        return at, actor, target, between
 
     def _measured(
         self,

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from scenewright.errors import Place, Span, TranslationError
 from scenewright.program.expressions import Number, ParameterRef, walk
 from scenewright.program.printer import print_expression
+from scenewright.program.structure import Role, read_structure
 from scenewright.program.types import Program
 from scenewright.translate.assemble import Assembler
 from scenewright.translate.clauses import ClauseReader
@@ -23,6 +24,13 @@ from scenewright.translate.itineraries import Itineraries, choose_routes, defaul
 from scenewright.translate.phrases import Phrases
 from scenewright.translate.references import Referents
 from scenewright.translate.tokens import Token, tokenise
+
+_ROLES = {
+    Role.INITIAL: "at the start",
+    Role.TRIGGER: "the moment at which the hero reacts",
+    Role.INTERACTION: "what the hero does",
+    Role.OUTCOME: "how it ends",
+}
 
 if TYPE_CHECKING:
     from scenewright.roads import RoadMap
@@ -169,10 +177,10 @@ def _reading(
     event: Event, facts: Facts, routes: Itineraries, assembler: Assembler, program: Program, text: str
 ) -> Reading:
     ids = tuple(dict.fromkeys(assembler.ids.get(id(event), ())))
-    parts = list(facts.understood.get(id(event), ()))
-    formulas = [print_expression(program.constraint(identifier).formula) for identifier in ids]
-    if formulas:
-        parts.append("; ".join(formulas))
-    if not parts and event.actor is not None:
+    roles = read_structure(program).roles
+    parts = list(dict.fromkeys(_ROLES[roles[identifier]] for identifier in ids))
+    parts += facts.understood.get(id(event), ())
+    tells_route = any(said.event is event for wishes in facts.wishes.values() for said in wishes.values())
+    if (tells_route or not parts) and event.actor is not None:
         parts.append(f"the {ACTOR_NAMES[event.actor]}'s route: {routes.of(event.actor)}")
     return Reading(event.span, event.span.excerpt(text), "; ".join(parts), ids)

@@ -338,26 +338,24 @@ class Phrases:
                 end = phrase.end
                 whose = self.resolve(phrase)
         wanted_by = None
-        if kind == "lane" and self.tag(end, "link") == "that":
-            phrase = self.noun_phrase(end + 1)
-            rest = (
-                [
-                    self.verb(phrase.end, "want"),
-                    self.tag(phrase.end + 1, "link"),
-                    self.verb(phrase.end + 2, "turn", "pull_out"),
-                    self.tag(phrase.end + 3, "preposition"),
-                ]
-                if phrase
-                else []
-            )
-            if phrase and rest[0] and rest[1] == "to" and rest[2] and rest[3] == "into":
-                wanted_by, end = self.resolve(phrase), phrase.end + 4
+        if kind == "lane" and (wanted := self._wanted_lane(end)):
+            wanted_by, end = wanted
         if (after := self.heading(end)) and not after[2]:
             if heading and heading != after[0]:
                 raise self.refuse("two headings contradict each other", self.span(start, after[1]))
             heading, end = after[0], after[1]
         span = self.span(start, end)
         return Area(cast("object", role), cast("object", kind), span, heading, side, whose, oncoming, wanted_by), end  # type: ignore[arg-type]
+
+    def _wanted_lane(self, at: int) -> tuple[int, int] | None:
+        """Read "that the ego wants to turn into"; return who wants it and the position after it."""
+        phrase = self.noun_phrase(at + 1)
+        if phrase is None or self.tag(at, "link") != "that" or not self.verb(phrase.end, "want"):
+            return None
+        turns = self.tag(phrase.end + 1, "link") == "to" and self.verb(phrase.end + 2, "turn", "pull_out")
+        if not turns or self.tag(phrase.end + 3, "preposition") != "into":
+            return None
+        return self.resolve(phrase), phrase.end + 4
 
     def heading(self, at: int) -> tuple[str, int, bool] | None:
         """Read a heading: ``travelling westbound``, ``in the westbound direction``; True last for "from the east"."""

@@ -25,6 +25,7 @@ class ReaderState:
     sentence: int = 0
     links: list[str] = field(default_factory=list)
     flags: set[str] = field(default_factory=set)
+    opening: Span | None = None  # of the first word that colours the next verb: "wants", "begins"
     current: Event | None = None
     passive_object: str | None = None
     subject: int | None = None
@@ -101,8 +102,8 @@ class ReaderState:
         """Begin a new event for the current subject with the links and flags gathered so far."""
         tokens = self.phrases.tokens
         span = tokens[start].span
-        if self.subject_span is not None:
-            span = self.subject_span.union(span)
+        for earlier in (self.subject_span, self.opening):
+            span = span.union(earlier) if earlier is not None else span
         event = Event(verb, self.subject, span, self.sentence, self.links)
         event.explicit = self.subject_span is not None
         event.negated = "negated" in self.flags
@@ -115,7 +116,7 @@ class ReaderState:
         if self.pending_heading is not None:
             event.headings.append(self.pending_heading)
             self.pending_heading = None
-        self.links, self.flags, self.subject_span = [], set(), None
+        self.links, self.flags, self.subject_span, self.opening = [], set(), None, None
         self.events.append(event)
         self.current = event
         return event

@@ -207,7 +207,12 @@ def _quantity(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
             raise _no_unit(tagger, raw.span)
         value = Fraction(raw.text.replace("−", "-").lstrip("+"))
         tokens.append(_literal(tagger, value, unit, span))
-        return after
+    else:
+        tokens.append(_parameter(tagger, raw, unit, span))
+    return after
+
+
+def _parameter(tagger: _Tagger, raw: _Raw, unit: Unit | None, span: Span) -> Token:
     name = raw.text.strip("{} \t").replace("\\", "")
     own = unit_of_name(name)
     if own is None:
@@ -226,17 +231,8 @@ def _quantity(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
             expected=own.symbol,
             fix="use the same unit in the name and after it",
         )
-    term = ParameterRef(name, raw.span)
-    tokens.append(
-        Token(
-            span.excerpt(tagger.text),
-            span,
-            {"quantity": own.dimension},
-            frozenset(),
-            Quantity(term, own.dimension, span),
-        )
-    )
-    return after
+    quantity = Quantity(ParameterRef(name, raw.span), own.dimension, span)
+    return Token(span.excerpt(tagger.text), span, {"quantity": own.dimension}, frozenset(), quantity)
 
 
 def _literal(tagger: _Tagger, value: Fraction, unit: Unit, span: Span) -> Token:

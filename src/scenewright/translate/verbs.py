@@ -18,7 +18,15 @@ class VerbReader(AdjunctReader):
     """Opens events."""
 
     def _verb(self) -> bool:
+        """Read one verb, or one word of a verb group."""
         token = self.phrases.tokens[self.at]
+        flags = len(self.flags)
+        read = self._verb_word(token)
+        if len(self.flags) > flags and self.opening is None:
+            self.opening = token.span
+        return read
+
+    def _verb_word(self, token: Token) -> bool:
         if "negation" in token.tags:
             self._negate(token.span)
             self.at += 1
@@ -83,8 +91,6 @@ class VerbReader(AdjunctReader):
             self._open("be", self.at)
             self.at += 1
             return True
-        if verb == "come" and self._stop_noun_at(self.at + 1):
-            return False
         return False
 
     def _turn_noun(self, verb: str) -> bool:
