@@ -61,11 +61,20 @@ def claim(out: Path | None, source: str) -> Claim:
 
 def is_run_directory(path: Path) -> bool:
     """Whether a run was written to this folder."""
+    return "schema_version" in _manifest(path)
+
+
+def run_status(path: Path) -> str:
+    """Return whether a run was finished, interrupted or failed, as its manifest says."""
+    return str(_manifest(path).get("status", "finished"))
+
+
+def _manifest(path: Path) -> dict[str, object]:
     try:
         manifest = json.loads((path / "manifest.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):
-        return False
-    return isinstance(manifest, dict) and "schema_version" in manifest
+        return {}
+    return manifest if isinstance(manifest, dict) else {}
 
 
 def slug(source: str) -> str:

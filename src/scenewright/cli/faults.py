@@ -15,7 +15,7 @@ import typer
 
 from scenewright.cli import BROKEN_PIPE, INTERRUPTED
 from scenewright.cli.console import drop_output, print_json, stderr
-from scenewright.errors import ScenewrightError
+from scenewright.errors import OutputError, ScenewrightError
 
 OUR_FAULT = 70  # EX_SOFTWARE of sysexits.h
 debug: ContextVar[bool] = ContextVar("debug", default=False)
@@ -42,6 +42,11 @@ def told(as_json: bool = False) -> Iterator[None]:
     except BrokenPipeError:
         drop_output()
         raise typer.Exit(BROKEN_PIPE) from None
+    except OSError as error:  # a full disk, a folder that may not be read: the system says no, and we are not at fault
+        what = f"{error.strerror or error}" + (f": {error.filename}" if error.filename else "")
+        tell(OutputError("the system refused something", found=what, fix="make room, or check who may write there"))
+        drop_output()
+        raise typer.Exit(OutputError.exit_status) from None
     except Exception as error:  # whatever else comes is a fault of ours
         _confess(error, as_json)
         raise typer.Exit(OUR_FAULT) from None

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from scenewright.cli.console import print_json, stdout
+from scenewright.cli.directories import run_status
 from scenewright.cli.faults import told
 from scenewright.cli.options import AsJson, RunDirectory, ToleranceOption
 
@@ -32,7 +33,7 @@ def judge(directory: RunDirectory, tolerance: ToleranceOption = "tight", as_json
         if as_json:
             print_json(data)
         else:
-            report_verdict(stdout(), verdict, case.program, tolerance)
+            report_verdict(stdout(), verdict, case.program, tolerance, run_status(directory))
         raise typer.Exit(0 if data["success"][tolerance] else 1)
 
 

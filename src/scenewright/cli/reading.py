@@ -91,7 +91,7 @@ def check(
                 stdout().print(tables.facts(rows))
             if result.status == "success":
                 stdout().print("\nNothing speaks against it: no limit of motion or of the map rules it out.")
-            tell_no_plan(stderr(), result)
+            tell_no_plan(stdout(), result)
         raise typer.Exit(status)
 
 

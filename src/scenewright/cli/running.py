@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from scenewright.cli.console import SignsOfLife, print_json, stderr, stdout
+from scenewright.cli.console import print_json, stderr, stdout
 from scenewright.cli.directories import claim
 from scenewright.cli.faults import error_data, tell, told
 from scenewright.cli.options import (
@@ -28,6 +28,7 @@ from scenewright.cli.options import (
     Translator,
     parameters_of,
 )
+from scenewright.errors import PolicyError
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -95,9 +96,10 @@ def run(
 
 def carry_out(request: Request, until: Stop = "end", quiet: bool = False) -> Result:
     """Orchestrate, with signs of life; what a policy prints goes to stderr, and Ctrl-C gets through to us."""
+    from scenewright.cli.terminal import SignsOfLife
     from scenewright.orchestrate import orchestrate
 
-    with SignsOfLife(not quiet) as signs, _interruptible() as finish, redirect_stdout(sys.stderr):
+    with SignsOfLife(stderr(), not quiet) as signs, _interruptible() as finish, redirect_stdout(sys.stderr):
 
         def report(stage: str) -> None:
             if stage == "judge":
@@ -107,7 +109,15 @@ def carry_out(request: Request, until: Stop = "end", quiet: bool = False) -> Res
         def progress(time_s: float) -> None:
             signs.say(f"driving: {time_s:.1f} s of the run")
 
-        return orchestrate(request, report, progress, until)
+        try:
+            return orchestrate(request, report, progress, until)
+        except SystemExit as error:  # else a policy that calls sys.exit() would decide on our exit status
+            raise PolicyError(
+                f"policy {request.ego!r} ended the process",
+                found=f"SystemExit({error.code!r})",
+                expected="a policy that returns or raises",
+                fix="leave sys.exit() and the like out of the policy",
+            ) from None
 
 
 @contextmanager
@@ -214,7 +224,9 @@ def report_run(console: Console, request: Request, result: Result) -> None:
     verdict = result.verdict
     assert verdict is not None
     console.print(tables.understood(result.scene))
-    report_verdict(console, verdict, result.scene.program, request.tolerance)
+    report_verdict(
+        console, verdict, result.scene.program, request.tolerance, result.run.status if result.run else "finished"
+    )
     rows = tables.parameters(result.scene, request.parameters)
     rows += [("assumed" if not index else "", text) for index, text in enumerate(_assumed(result))]
     rows += [("finding", text) for text in (result.run.findings if result.run else ())]
@@ -231,26 +243,35 @@ def _assumed(result: Result) -> list[str]:
     return [*(result.translation.assumptions if result.translation else ()), *result.scene.notes]
 
 
-def report_verdict(console: Console, verdict: Verdict, program: Program, tolerance: str) -> None:
-    """Print the conditions and the headline."""
+def report_verdict(
+    console: Console, verdict: Verdict, program: Program, tolerance: str, status: str = "finished"
+) -> None:
+    """Print the conditions and the headline; `status` says whether the run came to its end."""
     from rich.text import Text
 
     from scenewright.cli import tables
 
     console.print(tables.verdict(verdict, program))
     console.print(tables.routine(verdict))
-    missed = tables.missed(verdict, tolerance)
-    holds = not missed
-    count = len(verdict.conditions)
-    headline = (
-        f"Success: it happened as described, within the {tolerance} tolerance"
-        if holds
-        else f"Failure: {len(missed)} of {count} conditions miss the {tolerance} tolerance"
-    )
-    triggers = verdict.facts.get("trigger_time_s") or {}
-    when = ", ".join(f"{time_s:.2f} s" for time_s in triggers.values() if time_s is not None)
-    headline += f"; the trigger came at {when}." if when else "."
-    console.print(Text.assemble(tables.mark(holds), " ", (headline, "bold")))
-    if verdict.facts.get("ego_never_met_condition"):
-        console.print("The ego never came to its side of the trigger: that says something about this policy.")
+    missed = len(tables.missed(verdict, tolerance))
+    if status != "finished":
+        end = "was interrupted" if status == "interrupted" else "ended in a fault of the policy"
+        headline = f"The run {end}; as far as it got, {missed} conditions miss the {tolerance} tolerance."
+    elif missed:
+        headline = f"Failure: {missed} of {len(verdict.conditions)} conditions miss the {tolerance} tolerance."
+    else:
+        headline = f"Success: it happened as described, within the {tolerance} tolerance."
+    console.print(Text.assemble(tables.mark(not missed and status == "finished"), " ", (headline, "bold")))
+    if status == "finished":
+        console.print(_trigger(verdict))
     console.print()
+
+
+def _trigger(verdict: Verdict) -> str:
+    facts = verdict.facts
+    if facts.get("ego_never_met_condition"):
+        return "The ego never came to its side of the trigger: that says something about this policy in this scenario."
+    times_s = [time_s for time_s in (facts.get("trigger_time_s") or {}).values() if time_s is not None]
+    return (
+        "The trigger came at " + ", ".join(f"{time_s:.2f} s." for time_s in times_s) if times_s else "No trigger came."
+    )

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from rich import box
+from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
@@ -30,7 +31,7 @@ _NEAR_M = 0.05
 
 def table(*columns: str, right: Sequence[str] = ()) -> Table:
     """Return an empty table in the house's look; columns named in `right` hold numbers."""
-    made = Table(box=box.SIMPLE_HEAD, pad_edge=False, header_style="bold")
+    made = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0), header_style="bold")
     for name in columns:
         made.add_column(name, justify="right" if name in right else "left", no_wrap=name in right)
     return made
@@ -157,7 +158,7 @@ def verdict(judged: Verdict, program: Program) -> Table:
         text = formula if formula and words == said else words
         said = words
         made.add_row(
-            Text(f"  {text}"),
+            Padding(Text(text), (0, 0, 0, 2)),
             _quantity(condition.required, condition.unit),
             _quantity(condition.measured, condition.unit),
             "-" if condition.error is None else _signed(condition.error),
