@@ -25,8 +25,9 @@ from scenewright.program.types import EGO, Program
 from scenewright.roads.grounding import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.simulate.ego_start import EgoFirstState, ego_starts
+from scenewright.simulate.hindsight import ego_left_no_room
 from scenewright.simulate.loop import Rates, Run, simulate
-from scenewright.simulate.prediction import ConstantAcceleration, ConstantSpeed
+from scenewright.simulate.prediction import ConstantSpeed, Predictor, RoadAware
 from scenewright.simulate.replanner import Replanner
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.arrival import linear_conditions
@@ -83,6 +84,8 @@ class Result:
     ----------
     status
         ``success`` or ``failure`` are verdicts; ``failed`` and ``interrupted`` runs were cut short.
+    hindsight
+        For a run that failed: the proof that against the ego as it drove no hero could have done it, where there is one.
     run_directory
         Where the files are; None where nothing was driven or nothing was to be written.
     """
@@ -93,6 +96,7 @@ class Result:
     feasibility: Feasibility | None = None
     attempt: Attempt | None = None
     run: Run | None = None
+    hindsight: Feasibility | None = None
     verdict: Verdict | None = None
     run_directory: Path | None = None
     timings_s: dict[str, float] = field(default_factory=dict)
@@ -230,7 +234,7 @@ class _World:
 def first_plan(world: _World, request: Request) -> tuple[Replanner, EgoFirstState, Attempt]:
     """Choose the ego's first state and plan from it; where several states may be chosen, the first that plans well."""
     conditions = linear_conditions(world.scene, world.structure)
-    predictor = ConstantSpeed() if request.mode == "open" else ConstantAcceleration()
+    predictor = predictor_for(world, request)
     best: tuple[Replanner, EgoFirstState, Attempt] | None = None
     for start in ego_starts(world.scene, world.ego, world.limits[EGO], conditions):
         planner = Planner(world.scene, world.structure, world.limits, world.backend, conditions, request.budget_s)
@@ -242,6 +246,13 @@ def first_plan(world: _World, request: Request) -> tuple[Replanner, EgoFirstStat
             break
     assert best is not None
     return best
+
+
+def predictor_for(world: _World, request: Request) -> Predictor:
+    """Return how the ego is foreseen: by the road, unless it has promised to hold its speed or nobody looks again."""
+    if request.mode == "open" or world.ego_bounds.holds_speed:
+        return ConstantSpeed()
+    return RoadAware.on(world.scene.routes[EGO])
 
 
 _GENTLENESS = {"steady": 5, "gentle": 4, "firm": 3, "whole": 2, "urgent": 1}
@@ -291,6 +302,13 @@ def _record(
         result.verdict = judge(case_of(world.scene, run, world.limits))
     holds = result.verdict.holds_at(TIGHT if request.tolerance == "tight" else LOOSE)
     result.status = "success" if holds else "failure"
+    if not holds and run.status == "finished":
+        with stages("hindsight"):
+            result.hindsight = ego_left_no_room(world.scene, world.structure, world.limits, world.backend, run.trace)
+        if result.hindsight is not None:
+            run.findings.append(
+                "The ego left no room: against the way it drove no vehicle within its limits could have met all conditions."
+            )
     if run.status != "finished":
         result.status = "interrupted" if run.status == "interrupted" else "failed"
     if request.out is None:

@@ -230,7 +230,7 @@ def test_reversed_order_is_wrong_by_any_margin() -> None:
         assert condition.holds_at(LOOSE) == (condition.measured >= 0) == condition.holds_at(TIGHT)
 
 
-def test_collision_before_the_interaction_is_over_fails_and_later_is_a_fact() -> None:
+def test_collision_before_the_trigger_fails_and_later_is_a_fact() -> None:
     over_there = replace(YIELDS, hero_line=(YIELDS.ego.s_m + 16.0, YIELDS.hero.s_m + 24.0, -np.pi / 2))
     verdict = judge(over_there.case())
     assert failed(verdict, LOOSE) == {"no_collision"}

@@ -1,8 +1,7 @@
 """What happened between the vehicles: collisions, distances, times to collision, post-encroachment time.
 
-What enters: a `Case` and what was measured. What leaves: facts, and one condition: a crash before or within the
-interaction means that the interaction asked for did not take place. A crash after it is what the test was for, and a
-fact.
+What enters: a `Case` and what was measured. What leaves: facts, and one condition: a crash before the trigger means that
+the situation asked for did not come about. A crash after it is what the test was to find out: a fact about the ego.
 """
 
 from __future__ import annotations
@@ -29,13 +28,13 @@ def safety_facts(case: Case) -> dict[str, Any]:
 
 
 def no_collision(case: Case, measured: Measured, facts: dict[str, Any]) -> Condition:
-    """Judge that nobody collides before the interaction is over."""
-    over_s = _interaction_end(case, measured)
+    """Judge that nobody collides before the trigger."""
+    over_s = _trigger_time_s(case, measured)
     times = [pair["collision_time_s"] for pair in facts.values() if pair["collision_time_s"] is not None]
     first = min(times, default=None)
     early = max(0.0, over_s - first) if first is not None else 0.0
     return bounded(
-        "no_collision", "safety", "no collision before the trigger or during the interaction",
+        "no_collision", "safety", "no collision before the trigger",
         required=over_s, measured=first, error=early, dimension="time", exact=True,
     )  # fmt: skip
 
@@ -44,13 +43,14 @@ def _pairs(case: Case) -> Iterator[tuple[int, int]]:
     return combinations(sorted(actor.id for actor in case.program.actors), 2)
 
 
-def _interaction_end(case: Case, measured: Measured) -> float:
-    """Return when the last hero had done its last piece; the end of the run where one never did."""
-    ends = []
+def _trigger_time_s(case: Case, measured: Measured) -> float:
+    """Return when the last trigger came; the end of the run where one never did or there is none."""
+    times = []
     for hero in case.program.heroes:
-        time_s = float(np.max(measured.moments.knots.get((hero.id, hero.sketch.knots[-1]), np.inf)))
-        ends.append(min(time_s, case.end_s))
-    return max(ends, default=case.end_s)
+        knot = case.structure.trigger_knot(hero.id)
+        time_s = float(np.max(measured.moments.knots.get((hero.id, knot or ""), np.inf)))
+        times.append(min(time_s, case.end_s))
+    return max(times, default=case.end_s)
 
 
 def _pair(case: Case, a: int, b: int) -> dict[str, Any]:

@@ -97,6 +97,17 @@ def knots_of(formula: Formula) -> Iterator[KnotKey]:
                 pass
 
 
+def actors_of(formula: Formula) -> set[int]:
+    """Return the ids of all actors that `formula` speaks of."""
+    actors = {actor for actor, _ in knots_of(formula)}
+    for node in walk(formula):
+        if isinstance(node, State | Derived):
+            actors.add(node.actor)
+        if isinstance(node, Derived) and isinstance(node.target, int):
+            actors.add(node.target)
+    return actors
+
+
 def synchronised(formula: Formula) -> Iterator[tuple[KnotKey, KnotKey]]:
     """Yield the pairs of knots that `formula` says are the same moment."""
     if isinstance(formula, Compare) and formula.operator == "==":

@@ -20,7 +20,7 @@ _LEAD_S = 8.0
 _STEP_S = 0.05
 _SLOWEST_MPS = 0.5
 # Of the natural speed, for an ego whose speed the orchestrator may choose: natural first.
-_SPEED_SHARES = (1.0, 0.85, 0.7, 0.55, 0.42, 0.32, 0.24, 0.18, 1.2, 1.35, 1.5)
+_SPEED_SHARES = (1.0, 0.85, 0.7, 0.55, 0.42, 0.32, 0.24, 0.18, 0.13, 0.1, 0.08, 1.2, 1.35, 1.5)
 
 
 @dataclass(frozen=True, slots=True)

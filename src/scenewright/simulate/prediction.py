@@ -6,14 +6,21 @@ no policy.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 from scenewright.motion.profile import Profile, chain
+from scenewright.roads.routes import Route
+from scenewright.solve.turns import TurnSpan, tightest_curvature
 
 # (time_s, s_m, speed_mps, accel_mpss) of one past step.
 EgoSample = tuple[float, float, float, float]
+
+# A driver stops with the bumper at the line, and takes a turn at this lateral acceleration.
+_BUMPER_M = 2.6
+_LATERAL_MPSS = 2.5
 
 
 class Predictor(Protocol):
@@ -60,7 +67,7 @@ class ConstantAcceleration:
     def predict(self, history: Sequence[EgoSample]) -> Profile:
         """Return motion with the recent acceleration for `hold_s`, then at constant speed."""
         time_s, s_m, speed_mps, _ = history[-1]
-        accel = self._recent_acceleration(history)
+        accel = self.recent_acceleration(history)
         moves: list[tuple[float, float, int]] = []
         end_speed = max(0.0, speed_mps + accel * self.hold_s)
         if end_speed > 0.3:
@@ -72,8 +79,102 @@ class ConstantAcceleration:
             moves.append((self.restart_speed_mps / self.restart_mpss, self.restart_mpss, 0))
         return Profile(chain(time_s, s_m, speed_mps if speed_mps > 0.05 else 0.0, moves))
 
-    def _recent_acceleration(self, history: Sequence[EgoSample]) -> float:
+    def recent_acceleration(self, history: Sequence[EgoSample]) -> float:
+        """Return the mean acceleration (m/s^2) of the last moments."""
         last = history[-1][0]
         values = [sample[3] for sample in history[-12:] if sample[0] >= last - self.average_s]
         mean = sum(values) / len(values)
         return 0.0 if abs(mean) < 0.02 else max(-9.0, min(5.0, mean))
+
+
+@dataclass(frozen=True, slots=True)
+class RoadAware:
+    """The ego drives as `ConstantAcceleration` says, and slows for its turn and stops at its stop line as people do.
+
+    Whoever is too near and too fast to do so gently, and does not brake, is taken not to: a speeder is believed late, not
+    never.
+
+    Attributes
+    ----------
+    places
+        ``(s_m, speed_mps)``: where it slows down to what.
+    base
+        What it does otherwise.
+    gentle_mpss
+        How it slows down.
+    disregard_mpss
+        One that would have to brake harder than this, and does not brake at all, does not mean to.
+    """
+
+    places: tuple[tuple[float, float], ...]
+    base: ConstantAcceleration = ConstantAcceleration()
+    gentle_mpss: float = 1.8
+    disregard_mpss: float = 2.8
+    step_s: float = 0.2
+    horizon_s: float = 20.0
+
+    @classmethod
+    def on(cls, route: Route) -> RoadAware:
+        """Return the predictor for an ego on `route`."""
+        places: list[tuple[float, float]] = []
+        if route.origin_kind == "driveway" and "stop_line" in route.landmarks:
+            places.append((route.landmarks["stop_line"] - _BUMPER_M, 0.0))
+        turn, curvature = TurnSpan.of(route), tightest_curvature(route)
+        if turn is not None and curvature > 1e-3:
+            places.append((turn.start_m + 0.25 * (turn.end_m - turn.start_m), math.sqrt(_LATERAL_MPSS / curvature)))
+        return cls(tuple(places))
+
+    def predict(self, history: Sequence[EgoSample]) -> Profile:
+        """Return the motion step by step; without a place ahead that matters, that of `base`."""
+        time_s, s_m, speed, accel = history[-1]
+        if speed < 0.3:
+            return self.base.predict(history)
+        ahead = [place for place in self.places if self._means_to(place, s_m, speed, accel)]
+        if not ahead:
+            return self.base.predict(history)
+        first = self.base.recent_acceleration(history)
+        moves: list[tuple[float, float, int]] = []
+        elapsed = 0.0
+        while elapsed < self.horizon_s:
+            wanted = first if elapsed < self.base.hold_s else 0.0
+            needed = max((self._needed(place, s_m, speed) for place in ahead), default=0.0)
+            if needed > 0.85 * self.gentle_mpss:
+                wanted = min(wanted, -needed) if elapsed < self.base.hold_s and first < 0 else -needed
+            if speed + wanted * self.step_s <= 0.05:
+                return self._stopping(time_s, history[-1], moves, speed, wanted)
+            moves.append((self.step_s, wanted, 0))
+            s_m += (speed + 0.5 * wanted * self.step_s) * self.step_s
+            speed += wanted * self.step_s
+            elapsed += self.step_s
+            ahead = [place for place in ahead if place[0] > s_m]
+        return Profile(chain(time_s, history[-1][1], history[-1][2], moves))
+
+    def _stopping(
+        self,
+        time_s: float,
+        start: EgoSample,
+        moves: list[tuple[float, float, int]],
+        speed: float,
+        accel: float,
+    ) -> Profile:
+        """Return a motion that comes to a stand, waits, and sets off again."""
+        if accel < 0:
+            moves.append((speed / -accel, accel, 0))
+        base = self.base
+        moves += [
+            (base.standstill_s, 0.0, 0),
+            (base.restart_speed_mps / base.restart_mpss, base.restart_mpss, 0),
+        ]
+        return Profile(chain(time_s, start[1], start[2], moves))
+
+    def _means_to(self, place: tuple[float, float], s_m: float, speed: float, accel: float) -> bool:
+        if place[0] <= s_m or speed <= place[1]:
+            return False
+        return accel < -0.5 or self._needed(place, s_m, speed) < self.disregard_mpss
+
+    @staticmethod
+    def _needed(place: tuple[float, float], s_m: float, speed: float) -> float:
+        """Return the deceleration (m/s^2) that leads to the place's speed at the place."""
+        distance = place[0] - s_m
+        rise = speed * speed - place[1] * place[1]
+        return rise / (2.0 * distance) if distance > 0.05 and rise > 0 else 0.0

@@ -15,8 +15,8 @@ from scenewright.motion.algebra import Symbol, Value
 from scenewright.motion.profile import Profile, Segment
 from scenewright.motion.sketched import ONE, Ratio
 from scenewright.program.evaluate import landmark_owner
-from scenewright.program.expressions import Compare, Derived, Elapsed, State, walk
-from scenewright.program.structure import KnotKey, Structure, knots_of
+from scenewright.program.expressions import Compare, Elapsed
+from scenewright.program.structure import KnotKey, Structure, actors_of, knots_of
 from scenewright.roads.grounding import Scene
 from scenewright.solve.lowering import Lowering, NotYet
 
@@ -105,7 +105,7 @@ def linear_conditions(scene: Scene, structure: Structure) -> tuple[LinearConditi
 def _linearised(
     scene: Scene, structure: Structure, constraint_id: str, formula: Compare, moments: frozenset[KnotKey]
 ) -> LinearCondition | None:
-    actors = sorted(_actors_of(formula))
+    actors = sorted(actors_of(formula))
     zero = dict.fromkeys(actors, (0, 0))
     origin = _probe(scene, structure, formula, zero)
     if origin is None or not actors:
@@ -123,16 +123,6 @@ def _linearised(
     if everything is None or abs(float(everything) - expected) > _LINEAR_SLACK or not weights:
         return None
     return LinearCondition(constraint_id, moments, float(origin), weights)
-
-
-def _actors_of(formula: Compare) -> set[int]:
-    actors: set[int] = set()
-    for node in walk(formula):
-        if isinstance(node, State | Derived):
-            actors.add(node.actor)
-        if isinstance(node, Derived) and isinstance(node.target, int):
-            actors.add(node.target)
-    return actors
 
 
 class _Probe:

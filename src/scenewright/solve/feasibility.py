@@ -13,6 +13,7 @@ from fractions import Fraction
 from typing import Literal
 
 from scenewright.motion.algebra import Symbol, Value, compare, conjunction, disjunction, pin
+from scenewright.motion.profile import Profile
 from scenewright.motion.sketched import SketchedMotion
 from scenewright.program.expressions import (
     Arithmetic,
@@ -27,14 +28,14 @@ from scenewright.program.expressions import (
     walk,
 )
 from scenewright.program.printer import print_expression
-from scenewright.program.structure import Structure
+from scenewright.program.structure import Structure, actors_of
 from scenewright.program.types import EGO, Actor, Constraint, PieceKind, Program
 from scenewright.roads.grounding import VEHICLE_LENGTH_M, Scene
 from scenewright.solve.limits import MOVING_MPS, STANDSTILL_MIN_S, Limits
 from scenewright.solve.lowering import Lowering, NotYet, compared_dimension
 from scenewright.solve.problem import Backend, Problem, Satisfiable, Unsatisfiable
 from scenewright.solve.turns import TurnSpan, keeps_to_turn_speed
-from scenewright.solve.views import MotionView, SketchedView
+from scenewright.solve.views import KnownView, MotionView, SketchedView
 from scenewright.units import SI_SYMBOL, format_fraction
 
 _PROOF_TIMEOUT_S = 3.0
@@ -52,6 +53,14 @@ class EgoBounds:
     accel_max_mpss: float = 8.0
     brake_max_mpss: float = 12.0
     holds_speed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class EgoDrive:
+    """How the ego really drove, and when it passed its knots: to ask whether any hero could have done better."""
+
+    motion: Profile
+    knot_times_s: Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,13 +135,16 @@ def check_feasibility(
     backend: Backend,
     ego: EgoBounds | None = None,
     explain: bool = True,
+    drive: EgoDrive | None = None,
 ) -> Feasibility:
     """Decide whether any ego within `ego` and any heroes within `limits` can do what the program asks.
 
     Open parameters are free within their ranges. With `explain` an infeasible answer comes with clashes and suggestions.
+    With `drive` the ego is not any, but drives just so: infeasible then means that no hero could have met all conditions
+    against this drive. (Another hero might have made the ego drive differently.)
     """
     bounds = ego or EgoBounds()
-    problem = _OuterProblem(scene, structure, limits, bounds).problem
+    problem = _OuterProblem(scene, structure, limits, bounds, drive=drive).problem
     result = backend.solve(problem, _PROOF_TIMEOUT_S)
     if isinstance(result, Satisfiable):
         names = (parameter.name for parameter in scene.open_parameters())
@@ -144,7 +156,7 @@ def check_feasibility(
     proof = backend.solve(problem, _PROOF_TIMEOUT_S, want_core=True)
     core = proof.core if isinstance(proof, Unsatisfiable) else ()
     clashes = tuple(_clash(scene.program, origin) for origin in core)
-    suggestions = tuple(_suggest(scene, structure, limits, bounds, backend, set(core)))
+    suggestions = () if drive else tuple(_suggest(scene, structure, limits, bounds, backend, set(core)))
     return Feasibility("infeasible", clashes, suggestions)
 
 
@@ -166,6 +178,7 @@ class _OuterProblem:
         limits: Mapping[int, Limits],
         ego: EgoBounds,
         freed: Mapping[str, tuple[Fraction, Fraction]] | None = None,
+        drive: EgoDrive | None = None,
     ) -> None:
         self.scene = scene
         self.structure = structure
@@ -181,12 +194,19 @@ class _OuterProblem:
         for name, (low, high) in (freed or {}).items():
             symbol = parameters[name] = self.problem.unknown(f"p_{name}")
             self.problem.bound(symbol, low, high, f"the range of {name}")
-        views: dict[int, MotionView] = {actor.id: self._add_actor(actor) for actor in scene.program.actors}
+        views: dict[int, MotionView] = {
+            actor.id: KnownView(drive.motion, drive.knot_times_s) if drive and actor.is_ego else self._add_actor(actor)
+            for actor in scene.program.actors
+        }
         self._keep_apart(views)
         lowering = Lowering(scene, structure, views, parameters)
+        # Against one drive all that counts is what a judge would let pass.
+        tolerance = Fraction(1) if drive else Fraction(0)
         for constraint in scene.program.constraints:
+            if drive and actors_of(constraint.formula) == {EGO}:
+                continue  # what the ego did alone is a fact
             try:
-                self.problem.require(lowering.condition(constraint.formula), constraint.id)
+                self.problem.require(lowering.condition(constraint.formula, tolerance), constraint.id)
             except NotYet:
                 continue
 
@@ -267,7 +287,8 @@ class _OuterProblem:
         require(compare("<=", rise, v0 * duration + up * duration * duration * Fraction(1, 2)), origin)
         require(compare("<=", v1 * v1 - v0 * v0, 2 * up * rise), origin)
         require(compare(">=", rise, v0 * duration), f"{actor.name} speeds up")
-        require(compare("<=", rise, v1 * duration), f"{actor.name} speeds up")
+        # However it speeds up to v1, it falls behind one that drives v1 all along by at least this much.
+        require(compare("<=", change * change, 2 * up * (v1 * duration - rise)), origin)
 
     def _bound_in_turn(
         self, actor: Actor, x0: Symbol, v0: Symbol, x1: Symbol, v1: Symbol, braking: bool

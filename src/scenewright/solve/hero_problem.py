@@ -13,8 +13,8 @@ from fractions import Fraction
 from scenewright.motion.algebra import Condition, Symbol, Value, compare, pin
 from scenewright.motion.profile import Profile, chain
 from scenewright.motion.sketched import SketchedMotion
-from scenewright.program.expressions import Compare, Derived, Elapsed, Formula, PieceRef, State, walk
-from scenewright.program.structure import KnotKey, Role, Structure, knots_of
+from scenewright.program.expressions import Compare, Elapsed, Formula, PieceRef, State, walk
+from scenewright.program.structure import KnotKey, Role, Structure, actors_of, knots_of
 from scenewright.program.types import EGO, Actor, Constraint, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
@@ -27,9 +27,8 @@ from scenewright.solve.views import KnownView, MotionView, SketchedView
 # An ego knot that is not in sight is taken to come this much later (s).
 _OUT_OF_SIGHT_S = 60.0
 _START_MARGIN_M = 3.0
-_CLEARANCE_M = 5.0
 _WALKING_MPS = 2.0
-_LONGEST_CLEARANCE_S = 2.0
+_LONGEST_CLEARANCE_S = 8.0
 _SETTLE_S = Fraction(1, 2)
 _SETTLED_MPSS = Fraction(1, 4)
 _SHORTEST_S = Fraction(1, 20)
@@ -342,13 +341,19 @@ class HeroProblem:
                 continue
 
     def _outcome_margin_s(self, constraint: Constraint) -> float:
-        """Return by how much the hero must be first: some time, and where asked the time the ego needs for a length."""
+        """Return by how much the hero must be first: some time, and where asked as long as the ego takes from where the
+        two could touch to its knot.
+        """
         margin = self.manner.outcome_margin_s
-        if self.manner.clear:
-            for actor, knot in knots_of(constraint.formula):
-                if actor == EGO and knot in self.situation.ego_knots_s:
-                    speed = self.situation.ego.state(self.situation.ego_knots_s[knot])[1]
-                    margin += min(_CLEARANCE_M / max(speed, 0.1), _LONGEST_CLEARANCE_S)
+        keys = set(knots_of(constraint.formula))
+        heroes = [actor for actor, _ in keys if actor != EGO]
+        if not self.manner.clear or not heroes:
+            return margin
+        conflict = self.scene.conflict(EGO, heroes[0])
+        for actor, knot in keys:
+            if actor == EGO and conflict is not None and knot in self.situation.ego_knots_s:
+                s_m, speed, _ = self.situation.ego.state(self.situation.ego_knots_s[knot])
+                margin += min(max(0.0, s_m - conflict.zone_a_m[0]) / max(speed, 0.1), _LONGEST_CLEARANCE_S)
         return margin
 
     @staticmethod
@@ -367,7 +372,7 @@ class HeroProblem:
         role = self.structure.roles[constraint.id]
         if role is Role.OUTCOME and not self.manner.outcome and _speaks_of_ego(constraint.formula):
             return False
-        if _actors_of(constraint.formula) == {EGO}:
+        if actors_of(constraint.formula) == {EGO}:
             return False  # the ego's own side is the prediction's affair: it is what sets the trigger's instant
         ahead = any(self._is_ahead(key) for key in knots_of(constraint.formula))
         for node in walk(constraint.formula):
@@ -435,16 +440,6 @@ def _rate_is_given(scene: Scene, hero: Actor, piece: int) -> bool:
 
 def _is_equality(formula: Formula) -> bool:
     return isinstance(formula, Compare) and formula.operator == "=="
-
-
-def _actors_of(formula: Formula) -> set[int]:
-    actors = {actor for actor, _ in knots_of(formula)}
-    for node in walk(formula):
-        if isinstance(node, State | Derived):
-            actors.add(node.actor)
-        if isinstance(node, Derived) and isinstance(node.target, int):
-            actors.add(node.target)
-    return actors
 
 
 def _speaks_of_ego(formula: Formula) -> bool:

@@ -5,10 +5,11 @@ What enters: a route and its speed limits. What leaves: `Limits` (never exceeded
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route
+from scenewright.solve.turns import tightest_curvature
 
 ACCEL_MAX_MPSS = 4.0
 BRAKE_MAX_MPSS = 8.0
@@ -87,11 +88,16 @@ FIRM = Manner("firm", 2.5, 3.0, 3, True, (0.7, 6.0), (0.8, 3.5), (0.5, 3.0), MOV
 WHOLE = Manner("whole", ACCEL_MAX_MPSS, 6.0, 5, True, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)
 URGENT = Manner("urgent", ACCEL_MAX_MPSS, 8.0, 4, False, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)
 
+# Where the hero is to be first, whatever the ego does: it loses no time after its trigger.
+GENTLE_QUICK = replace(GENTLE, dec_mpss=(1.8, 4.0), acc_mpss=(1.0, 2.5), stop_s=(0.5, 0.8))
+FIRM_QUICK = replace(FIRM, dec_mpss=(2.0, 6.0), stop_s=(0.5, 0.7))
+WHOLE_QUICK = replace(WHOLE, dec_mpss=(2.0, 8.0), stop_s=(0.5, 0.6))
+
 
 def limits_on(route: Route, road_map: RoadMap) -> Limits:
     """Return the limits of a vehicle on `route`: from the approach's speed limit and the tightest curve of the turn."""
     approach = road_map.lanes[route.lanes[0]].speed_limit_mps or DEFAULT_SPEED_LIMIT_MPS
-    tightest = _tightest_curvature(route)
+    tightest = tightest_curvature(route)
     turn = (LATERAL_MAX_MPSS / tightest) ** 0.5 if tightest > 1e-3 else float("inf")
     comfortable = (2.5 / tightest) ** 0.5 if tightest > 1e-3 else float("inf")
     speed_max = max(SPEED_OVER_LIMIT * approach, 8.0)
@@ -101,11 +107,3 @@ def limits_on(route: Route, road_map: RoadMap) -> Limits:
         natural_speed_mps=approach,
         natural_turn_speed_mps=min(comfortable, approach),
     )
-
-
-def _tightest_curvature(route: Route) -> float:
-    start, end = route.landmarks.get("turn_start"), route.landmarks.get("turn_end")
-    if start is None or end is None or route.turn == "straight":
-        return 0.0
-    steps = max(2, int((end - start) / 0.5))
-    return max(abs(route.path.curvature(start + (end - start) * i / steps)) for i in range(steps + 1))

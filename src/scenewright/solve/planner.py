@@ -19,7 +19,18 @@ from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
 from scenewright.solve.hero_problem import HeroProblem, Situation
-from scenewright.solve.limits import FIRM, GENTLE, STEADY, URGENT, WHOLE, Limits, Manner
+from scenewright.solve.limits import (
+    FIRM,
+    FIRM_QUICK,
+    GENTLE,
+    GENTLE_QUICK,
+    STEADY,
+    URGENT,
+    WHOLE,
+    WHOLE_QUICK,
+    Limits,
+    Manner,
+)
 from scenewright.solve.lowering import TIGHT, compared_dimension
 from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.solve.problem import Backend, Satisfiable, Unknown
@@ -39,7 +50,8 @@ def _with_margin(manner: Manner, margin_s: float) -> Manner:
 
 _EXACT = tuple(Trial(manner) for manner in (GENTLE, FIRM, WHOLE))
 # Where the prediction denies the outcome, the hero does the most it can for it: the ego may still give way.
-_FOR_OUTCOME = tuple(Trial(_with_margin(WHOLE, -late_s)) for late_s in (-0.1, 0.5, 1.0, 2.0, 4.0, 8.0))
+_QUICK = tuple(Trial(manner) for manner in (GENTLE_QUICK, FIRM_QUICK, WHOLE_QUICK))
+_FOR_OUTCOME = tuple(Trial(_with_margin(WHOLE_QUICK, -late_s)) for late_s in (-0.1, 0.5, 1.0, 2.0, 4.0, 8.0))
 _WITHOUT_OUTCOME = tuple(Trial(replace(manner, outcome=False)) for manner in (FIRM, WHOLE))
 _OFF = tuple(
     Trial(replace(manner, outcome=False), Fraction(tolerance))
@@ -104,13 +116,14 @@ class Planner:
         self.limits = limits
         self.backend = backend
         self.budget_s = budget_s
-        outcome = Role.OUTCOME in structure.roles.values()
-        self.trials = (*_EXACT, *(_FOR_OUTCOME if outcome else ()), *(_WITHOUT_OUTCOME if outcome else ()), *_OFF)
+        outcome = self._outcome = Role.OUTCOME in structure.roles.values()
+        self.trials = (*_QUICK, *_EXACT, *_FOR_OUTCOME, *_WITHOUT_OUTCOME, *_OFF) if outcome else (*_EXACT, *_OFF)
         self._last_trial = 0
 
     def first_plan(self, situations: Sequence[Situation], budget_s: float = 10.0) -> Attempt:
         """Plan from the start, with the heroes' first states free; `situations` differ in the trigger's instant."""
-        trials = (Trial(STEADY), *self.trials)
+        steady = replace(STEADY, dec_mpss=(1.8, 3.0), stop_s=(0.5, 0.8)) if self._outcome else STEADY
+        trials = (Trial(steady), *self.trials)
         return self._search([(trial, situation) for trial in trials for situation in situations], budget_s)[0]
 
     def replan(self, situations: Sequence[Situation]) -> Attempt:

@@ -42,3 +42,13 @@ def keeps_to_turn_speed(
     falling = compare("<=", (v0 * v0 - v1 * v1) * (x1 - start), (top * top - v1 * v1) * (x1 - x0))
     entering = conjunction([compare("<", x0, start), falling])
     return disjunction([*outside, within, entering])
+
+
+def tightest_curvature(route: Route) -> float:
+    """Return the largest curvature (1/m) of a route's turn; 0 where it goes straight."""
+    turn = TurnSpan.of(route)
+    if turn is None:
+        return 0.0
+    steps = max(2, int((turn.end_m - turn.start_m) / 0.5))
+    places = (turn.start_m + (turn.end_m - turn.start_m) * i / steps for i in range(steps + 1))
+    return max(abs(route.path.curvature(s_m)) for s_m in places)
