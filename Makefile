@@ -48,6 +48,7 @@ dev: $(VENV)/dev.stamp ## Make .venv with what tests, checks and documentation n
 .PHONY: demo
 demo: $(VENV)/core.stamp ## Run the example scenario; the page to open is runs/demo/index.html
 	$(BIN)/scenewright run examples/demo.txt --out runs/demo
+	@echo "To see it, open runs/demo/index.html in a browser, or type: $(BIN)/scenewright view runs/demo"
 
 .PHONY: test
 test: $(VENV)/dev.stamp browser ## Run all tests

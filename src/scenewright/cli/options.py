@@ -118,7 +118,7 @@ MapName = Annotated[
     typer.Option(
         "--map",
         metavar="NAME|FILE",
-        help="A shipped map or an OpenDRIVE file. [default: the program's own, t_intersection for a description]",
+        help="A shipped map or an OpenDRIVE file. Default: the program's own; t_intersection for a description.",
         autocompletion=complete_map,
         show_default=False,
     ),

@@ -60,7 +60,7 @@ def run(
     out: Annotated[
         Path | None,
         typer.Option(
-            "--out", metavar="DIR", help="Where to write. [default: runs/NUMBER-NAME, a new one]", show_default=False
+            "--out", metavar="DIR", help="Where to write. Default: a new runs/NUMBER-NAME.", show_default=False
         ),
     ] = None,
     replan_hz: Annotated[
@@ -176,7 +176,7 @@ def _tell(request: Request, result: Result, as_json: bool, quiet: bool) -> int:
 
 def result_data(request: Request, result: Result, status: int) -> dict[str, object]:
     """Return what came of a request as plain data."""
-    from scenewright.cli.tables import parameters
+    from scenewright.cli.tables import parameter_data
 
     fault = result.run.fault if result.run is not None else None
     directory = result.run_directory
@@ -188,7 +188,7 @@ def result_data(request: Request, result: Result, status: int) -> dict[str, obje
         "run_directory": str(directory) if directory is not None else None,
         "page": str(directory / "index.html") if directory is not None else None,
         "tolerance": request.tolerance,
-        "parameters": dict(parameters(result.scene, request.parameters)),
+        "parameters": parameter_data(result.scene, request.parameters),
         "assumptions": list(result.translation.assumptions) if result.translation else [],
         "verdict": result.verdict.as_dict() if result.verdict is not None else None,
         "findings": list(result.run.findings) if result.run is not None else [],

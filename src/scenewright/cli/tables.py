@@ -92,19 +92,24 @@ def _formulas(translation: Translation, ids: Iterable[str]) -> Iterator[str]:
 
 
 def parameters(scene: Scene, given: Iterable[str]) -> list[tuple[str, str]]:
-    """Return every parameter's value and who chose it."""
+    """Return every parameter's value and who chose it, in words."""
+    words = {"given": "given", "program": "in the program", "solver": "chosen: you left it open"}
+    return [
+        (name, f"{data['value']:g} {data['unit']} ({words[str(data['source'])]})")
+        for name, data in parameter_data(scene, given).items()
+    ]
+
+
+def parameter_data(scene: Scene, given: Iterable[str]) -> dict[str, dict[str, float | str]]:
+    """Return every parameter's value, unit and source, as `params.json` has them."""
     names = set(given)
-    rows = []
+    data: dict[str, dict[str, float | str]] = {}
     for parameter in scene.program.parameters:
         value = float(scene.parameters[parameter.name] / parameter.unit.si_factor)
-        if parameter.name in names:
-            source = "given"
-        elif parameter.value is not None:
-            source = "in the program"
-        else:
-            source = "chosen: you left it open"
-        rows.append((parameter.name, f"{value:g} {parameter.unit.symbol} ({source})"))
-    return rows
+        source = "solver" if parameter.value is None else "program"
+        source = "given" if parameter.name in names else source
+        data[parameter.name] = {"value": value, "unit": parameter.unit.symbol, "source": source}
+    return data
 
 
 # -- the plan -------------------------------------------------------------------------------------------------------
@@ -170,6 +175,7 @@ def verdict(judged: Verdict, program: Program) -> Table:
 
 def _wording(condition: Condition, program: Program) -> tuple[str, str]:
     """Return how to call a condition, and its formula where it has one."""
+    from scenewright.program.expressions import Compare, Elapsed
     from scenewright.program.printer import print_expression
     from scenewright.program.structure import synchronised
 
@@ -182,6 +188,8 @@ def _wording(condition: Condition, program: Program) -> tuple[str, str]:
         return condition.text, ""
     if next(synchronised(constraint.formula), None) is not None:
         return f"at one moment: {formula}", ""
+    if isinstance(constraint.formula, Compare) and isinstance(constraint.formula.left, Elapsed):
+        return f"in this order: {formula}", ""
     return program.words_of(constraint) or formula, formula
 
 
