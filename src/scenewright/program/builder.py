@@ -23,6 +23,7 @@ from scenewright.program.check import check_constraint, check_program
 from scenewright.program.expressions import ParameterRef
 from scenewright.program.printer import print_program
 from scenewright.program.quantities import (
+    Computed,
     Condition,
     Place,
     Quantity,
@@ -179,7 +180,7 @@ class Scenario:
         if low is not None or high is not None:
             parameter = replace(parameter, low=least, high=most)  # the text form has both ends or none
         self._parameters.append(parameter)
-        return Quantity(ParameterRef(name))
+        return Computed(ParameterRef(name))
 
     def require(self, condition: Condition, id: str | None = None, words: str | None = None) -> str:
         """Require `condition` and return its id.

@@ -105,7 +105,7 @@ class Quantity:
         return _arithmetic("/", other, self)
 
     def __neg__(self) -> Quantity:
-        return Quantity(arithmetic.negate(self.term))
+        return Computed(arithmetic.negate(self.term))
 
     def __pos__(self) -> Quantity:
         return self
@@ -140,6 +140,15 @@ class Quantity:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Computed(Quantity):
+    """Any quantity but a bare landmark.
+
+    A sibling of `Place`: Python asks the right side first where its class is below that of the left, and
+    ``ego.x("t1") == stop_line`` would be written the wrong way round.
+    """
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Place(Quantity):
     """A landmark: a named arc length (m) on a route. It belongs to the actor whose position it is compared with."""
 
@@ -165,7 +174,7 @@ route_end = Place(Landmark("route_end"))
 
 def just_before(place: Quantity) -> Quantity:
     """Return the position just before `place`, which the paper takes to be 5 m."""
-    return Quantity(arithmetic.just_before(place.term))
+    return Computed(arithmetic.just_before(place.term))
 
 
 def si(value: float | int | Fraction, unit: str) -> Fraction:
@@ -208,7 +217,7 @@ class Vehicle:
     def time(self, knot: str) -> Quantity:
         """Return the time from the start of the scenario to a knot (s)."""
         self._known_moment(Knot(knot))
-        return Quantity(Elapsed(self.id, knot))
+        return Computed(Elapsed(self.id, knot))
 
     def tta(self, place: Place, at: Moment = None) -> Quantity:
         """Return the time to arrival at `place`: distance over speed (s)."""
@@ -230,13 +239,13 @@ class Vehicle:
         return self._derived("headway", other.id, at)
 
     def _state(self, order: Order, at: Moment) -> Quantity:
-        return Quantity(State(self.id, order, self._moment(at)))
+        return Computed(State(self.id, order, self._moment(at)))
 
     def _derived(self, kind: DerivedKind, target: int | Landmark, at: Moment) -> Quantity:
         moment = self._moment(at)
         if isinstance(moment, PieceRef):
             raise ProgramError(f"{kind} has a moment, not a piece", found=moment.name, expected="a knot or a time in s")
-        return Quantity(Derived(kind, self.id, target, moment))
+        return Computed(Derived(kind, self.id, target, moment))
 
     def _moment(self, at: Moment) -> At:
         if at is None:
@@ -304,7 +313,7 @@ def formula_of(value: object) -> Formula:
 
 
 def _arithmetic(operator: Literal["+", "-", "*", "/"], left: object, right: object) -> Quantity:
-    return Quantity(arithmetic.combine(operator, _term(left), _term(right)))
+    return Computed(arithmetic.combine(operator, _term(left), _term(right)))
 
 
 def _comparison(operator: ComparisonOperator, left: Quantity, right: object) -> Condition:

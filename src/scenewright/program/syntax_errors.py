@@ -11,28 +11,42 @@ from lark.exceptions import UnexpectedCharacters, UnexpectedEOF, UnexpectedInput
 
 from scenewright.errors import Place, ProgramError, Span
 
+# In the order of how much they help: a message shows the first few of what is possible.
 _TERMINAL_NAMES = {
-    "STATE": "a state such as A1x(t1)",
-    "NAME": "a name",
-    "NUMBER": "a number",
-    "ACTOR": "an actor such as A1",
     "_NL": "the end of the line",
+    "STATE": "a state such as A1x(t1)",
     "COMPARATOR": "one of == <= >= < >",
-    "LPAR": "'('",
+    "NUMBER": "a number",
+    "NAME": "a name",
+    "UNIT": "a unit",
     "RPAR": "')'",
-    "LSQB": "'['",
     "RSQB": "']'",
     "COMMA": "','",
-    "HEADING": "a heading N, E, S or W",
-    "INTEGER": "a whole number",
-    "UNIT": "a unit",
-    "LABEL": "a label such as c1:",
+    "COLON": "':'",
+    "LPAR": "'('",
+    "LSQB": "'['",
+    "ACTOR": "an actor such as A1",
     "DERIVED": "gap, tta, ttc or headway",
     "TEMPORAL": "always, never or eventually",
-    "$END": "the end of the text",
-    "COLON": "':'",
+    "HEADING": "a heading N, E, S or W",
+    "INTEGER": "a whole number",
     "STRING": "a quoted text",
+    "LABEL": "a label such as c1:",
+    "$END": "the end of the text",
+    "PLUS": "'+'",
+    "MINUS": "'-'",
+    "TIMES": "'*'",
+    "DIVIDE": "'/'",
+    "AT": "'@'",
+    "DOTS": "'..'",
+    "ACTOR_HEAD": "'Actor 0:'",
+    "ACTOR_HEAD_SMALL": "'Actor 0:'",
+    "PARAMETERS_HEAD": "'parameters:'",
+    "PARAMETERS_HEAD_SMALL": "'parameters:'",
+    "CONSTRAINTS_HEAD": "'Constraints:'",
+    "CONSTRAINTS_HEAD_SMALL": "'Constraints:'",
 }
+_SHOWN = 8
 
 
 def syntax_error(error: UnexpectedInput, text: str, name: str) -> ProgramError:
@@ -40,11 +54,11 @@ def syntax_error(error: UnexpectedInput, text: str, name: str) -> ProgramError:
     position = cast("int | None", error.pos_in_stream)
     start = len(text.rstrip()) if position is None or position < 0 else position
     accepted: set[str] = set()
-    width = 1
+    width, end = 1, "the end of the line"
     if isinstance(error, UnexpectedToken):
         accepted = set(error.accepts or error.expected)
         if error.token.type == "$END":
-            start = len(text.rstrip())
+            start, end = len(text.rstrip()), "the end of the text"
         elif error.token.type != "_NL":
             width = max(1, len(str(error.token)))
     elif isinstance(error, UnexpectedCharacters):
@@ -52,12 +66,16 @@ def syntax_error(error: UnexpectedInput, text: str, name: str) -> ProgramError:
     elif isinstance(error, UnexpectedEOF):
         accepted = set(error.expected)
     line_end = text.find("\n", start)
-    found = text[start : start + width].strip() or "the end of the line"
-    expected = sorted(_TERMINAL_NAMES.get(item, item.lower()) for item in accepted)
+    found = text[start : start + width].strip() or end
+    if not text[:start].rsplit("\n", maxsplit=1)[-1].strip():
+        accepted.discard("_NL")  # an empty line would do no harm, and no good
+    rank = {terminal: number for number, terminal in enumerate(_TERMINAL_NAMES)}
+    helpful = sorted(accepted, key=lambda terminal: (rank.get(terminal, len(rank)), terminal))
+    expected = list(dict.fromkeys(_TERMINAL_NAMES.get(terminal, terminal.lower()) for terminal in helpful))
     return ProgramError(
         "this is not a program",
         place=Place(name, text, Span(start, min(start + width, line_end if line_end > start else start + width))),
-        found=repr(found) if found != "the end of the line" else found,
-        expected=", ".join(expected[:8]) or None,
+        found=repr(found) if found != end else found,
+        expected=", ".join(expected[:_SHOWN]) or None,
         fix="compare with a working program: 'scenewright translate \"...\"' prints one",
     )

@@ -6,6 +6,7 @@ there. It does not check that names and units make sense (see `check`), and know
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 from importlib.resources import files
@@ -252,6 +253,11 @@ class _Builder(Transformer[Token, Any]):
             for i in range(0, len(items) - 2, 2)
         ]
         return pairs[0] if len(pairs) == 1 else Logic("and", tuple(pairs), span)
+
+    def group(self, meta: Meta, items: list[Any]) -> Node:
+        """Let what stands in parentheses cover them too, so that every span is a text that parses by itself."""
+        node: Node = items[0]
+        return replace(node, span=self._span(meta))
 
     # -- terms ------------------------------------------------------------------------------------------------------
     def sum(self, meta: Meta, items: list[Any]) -> Term:

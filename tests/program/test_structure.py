@@ -1,0 +1,75 @@
+"""What constraints are for: instants, triggers and roles on the canonical programs."""
+
+from __future__ import annotations
+
+import pytest
+
+from scenarios import EXAMPLE_TABLE, YIELDS_THEN_GOES, Example, example
+from scenewright.program.structure import Role, read_structure
+from scenewright.program.text import parse_program
+
+THREE = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2, go, t3]
+Actor 1 (lead):
+- W
+- [t0, go, t1, dec, t2]
+Actor 2 (oncoming):
+- E, N
+- [t0, go, t1, dec, t2]
+Constraints:
+A0(t1) == A1(t1)
+gap(A0, A1, t1) == 30
+A0(t2) == A2(t1)
+A2x(t1) == conflict_point - 30
+A1v(t2) == 0
+A2v(t2) == 0
+A1(t2) < A2(t2)
+"""
+
+
+@pytest.mark.parametrize("case", EXAMPLE_TABLE, ids=lambda case: case.name)
+def test_roles_and_triggers_of_the_examples(case: Example) -> None:
+    program = case.program()
+    structure = read_structure(program)
+    assert tuple(structure.roles[c.id] for c in program.constraints) == case.roles
+    assert structure.triggers == {1: case.trigger}
+
+
+def test_knots_of_one_moment() -> None:
+    structure = read_structure(YIELDS_THEN_GOES.program())
+    assert structure.same_moment(1, (0, "t1")) == "t1"
+    assert structure.same_moment(0, (0, "t2")) == "t2"
+    assert structure.same_moment(1, (0, "t2")) is None
+    assert structure.trigger_knot(0) == structure.trigger_knot(1) == "t1"
+
+
+def test_each_hero_has_a_trigger_of_its_own() -> None:
+    program = parse_program(THREE)
+    structure = read_structure(program)
+    assert structure.triggers == {1: frozenset({(0, "t1"), (1, "t1")}), 2: frozenset({(0, "t2"), (2, "t1")})}
+    assert structure.trigger_knot(2) == "t1"
+    assert structure.trigger_knot(1) == "t1"
+    assert structure.trigger_knot(0) == "t1"
+    roles = [structure.roles[c.id] for c in program.constraints]
+    assert roles == [*(Role.TRIGGER,) * 4, *(Role.INTERACTION,) * 3]
+
+
+def test_moments_are_joined_across_constraints_and_within_a_conjunction() -> None:
+    text = example("W", "t0, go, t1, dec, t2", "A0(t1) == A1(t1) and A0(t0) == A1(t0)\nA1(t1) == A0(t2)")
+    structure = read_structure(parse_program(text))
+    assert set(structure.instants) == {
+        frozenset({(0, "t1"), (1, "t1"), (0, "t2")}),
+        frozenset({(0, "t0"), (1, "t0")}),
+    }
+
+
+@pytest.mark.parametrize(
+    "line", ["A0(t1) == A1(t1) + 1", "A0(t1) <= A1(t1)", "A0(t1) == A1(t1) or A0v(t1) == 5", "not A0(t1) == A1(t1)"]
+)
+def test_what_does_not_say_that_two_knots_are_one_moment(line: str) -> None:
+    structure = read_structure(parse_program(example("W", "t0, go, t1, dec, t2", line)))
+    assert structure.instants == ()
+    assert structure.triggers == {}
+    assert structure.trigger_knot(1) is None
