@@ -6,11 +6,15 @@ What enters: a `Trace`, or a path. What leaves: a file, or a `Trace`. The same t
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from scenewright.errors import InputError, Place
-from scenewright.trace.model import COLUMNS, ActorTrace, Trace
+from scenewright.trace.model import COLUMNS, ActorTrace, FloatArray, Trace
+
+if TYPE_CHECKING:
+    from pyarrow import ChunkedArray
 
 TRACE_FILE = "trace.parquet"
 
@@ -56,13 +60,31 @@ def read_trace(path: Path) -> Trace:
         raise InputError(
             "the trace lacks columns", place=Place(str(path)), found=", ".join(sorted(missing)) + " missing"
         )
-    actor_column = np.asarray(table.column("actor").to_pylist())
+    numbers = {column: _numbers(table.column(column), column, path) for column in ("time_s", *COLUMNS)}
+    actor_column = np.asarray(table.column("actor").to_pylist(), dtype=object)
     actors: dict[str, ActorTrace] = {}
     for name in dict.fromkeys(actor_column.tolist()):
         rows = actor_column == name
-        values = {c: table.column(c).to_numpy().astype(np.float64)[rows] for c in ("time_s", *COLUMNS)}
-        order = np.argsort(values["time_s"], kind="stable")
-        actors[str(name)] = ActorTrace(**{key: value[order] for key, value in values.items()})
+        order = np.argsort(numbers["time_s"][rows], kind="stable")
+        actors[str(name)] = ActorTrace(**{column: values[rows][order] for column, values in numbers.items()})
     if not actors:
         raise InputError("the trace is empty", place=Place(str(path)))
+    axes = [actor.time_s for actor in actors.values()]
+    if any(not np.array_equal(axis, axes[0]) for axis in axes) or not np.all(np.diff(axes[0]) > 0):
+        raise InputError(
+            "the actors of the trace are not all sampled once at the same instants",
+            place=Place(str(path)),
+            found=", ".join(f"{name}: {len(actor.time_s)} samples" for name, actor in actors.items()),
+            expected="one row per step and actor",
+        )
     return Trace(actors)
+
+
+def _numbers(column: ChunkedArray[Any], name: str, path: Path) -> FloatArray:
+    """Return a column as floats; a column of texts or with gaps is told by what it holds."""
+    import pyarrow as pa
+
+    if not (pa.types.is_floating(column.type) or pa.types.is_integer(column.type)) or column.null_count:
+        found = f"{column.null_count} gaps" if column.null_count else f"values of type {column.type}"
+        raise InputError(f"a value of {name} is not a number", place=Place(str(path)), found=found)
+    return np.asarray(column.to_numpy(), dtype=np.float64)
