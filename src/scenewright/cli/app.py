@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from scenewright import __version__
-from scenewright.cli import faults, listing, looking, reading, running
+from scenewright.cli import bench, faults, listing, looking, reading, running
 
 SENTENCE = (
     "The ego drives westbound. An oncoming hero turns left into the driveway. When the ego is 25 m before the "
@@ -69,3 +69,4 @@ app.command(epilog=_examples(_TRANSLATE, _RUN, "scenewright judge runs/first --t
 app.command(epilog=_examples("scenewright maps", "scenewright maps t_intersection"))(listing.maps)
 app.command(epilog=_examples("scenewright egos", "scenewright egos --json"))(listing.egos)
 app.command(epilog=_examples(_TRANSLATE, _RUN, "scenewright view runs/first --no-browser"))(looking.view)
+app.add_typer(bench.app, name="bench")

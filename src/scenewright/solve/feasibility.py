@@ -290,9 +290,7 @@ class _OuterProblem:
         # However it speeds up to v1, it falls behind one that drives v1 all along by at least this much.
         require(compare("<=", change * change, 2 * up * (v1 * duration - rise)), origin)
 
-    def _bound_in_turn(
-        self, actor: Actor, x0: Symbol, v0: Symbol, x1: Symbol, v1: Symbol, braking: bool
-    ) -> None:
+    def _bound_in_turn(self, actor: Actor, x0: Symbol, v0: Symbol, x1: Symbol, v1: Symbol, braking: bool) -> None:
         turn, limits = TurnSpan.of(self.scene.routes[actor.id]), self.limits[actor.id]
         if turn is not None and limits.turn_speed_max_mps < limits.speed_max_mps:
             condition = keeps_to_turn_speed(turn, limits.turn_speed_max_mps, x0, v0, x1, v1, braking)

@@ -18,7 +18,7 @@ from scenewright.program.structure import KnotKey, Role, Structure, actors_of, k
 from scenewright.program.types import EGO, Actor, Constraint, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
-from scenewright.solve.limits import BRAKE_MAX_MPSS, Limits, Manner
+from scenewright.solve.limits import BRAKE_MAX_MPSS, MOVING_MPS, Limits, Manner
 from scenewright.solve.lowering import Lowering, NotYet
 from scenewright.solve.problem import Problem
 from scenewright.solve.turns import TurnSpan, keeps_to_turn_speed
@@ -170,6 +170,8 @@ class HeroProblem:
         position, speed = self.problem.unknown(f"a{hero.id}x0"), self.problem.unknown(f"a{hero.id}v0")
         self.problem.bound(position, pin(_START_MARGIN_M), None, f"{hero.name} starts on its route")
         self._bound_speed(hero, speed)
+        if self.manner.steps <= 3:
+            self.problem.bound(speed, pin(MOVING_MPS), None, f"{hero.name} drives when the scenario begins")
         return Fraction(0), position, speed
 
     def _plan_stretches(self, hero: Actor, state: HeroState | None) -> list[_Stretch]:
@@ -213,7 +215,9 @@ class HeroProblem:
         """
         knots = hero.sketch.knots
         end = self._place_of(hero, knots[piece + 1])
-        begin = next((place for k in range(piece, 0, -1) if (place := self._place_of(hero, knots[k])) is not None), None)
+        begin = next(
+            (place for k in range(piece, 0, -1) if (place := self._place_of(hero, knots[k])) is not None), None
+        )
         if end is None or begin is None or _rate_is_given(self.scene, hero, piece):
             return False
         top = min(self._top_speeds(hero))

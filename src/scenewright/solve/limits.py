@@ -89,9 +89,10 @@ WHOLE = Manner("whole", ACCEL_MAX_MPSS, 6.0, 5, True, (0.6, 8.0), (0.6, 4.0), (0
 URGENT = Manner("urgent", ACCEL_MAX_MPSS, 8.0, 4, False, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)
 
 # Where the hero is to be first, whatever the ego does: it loses no time after its trigger.
-GENTLE_QUICK = replace(GENTLE, dec_mpss=(1.8, 4.0), acc_mpss=(1.0, 2.5), stop_s=(0.5, 0.8))
-FIRM_QUICK = replace(FIRM, dec_mpss=(2.0, 6.0), stop_s=(0.5, 0.7))
-WHOLE_QUICK = replace(WHOLE, dec_mpss=(2.0, 8.0), stop_s=(0.5, 0.6))
+GENTLE_QUICK = replace(GENTLE, dec_mpss=(1.8, 4.0), acc_mpss=(1.0, 2.5), stop_s=(0.5, 0.8), outcome_margin_s=1.5)
+FIRM_QUICK = replace(FIRM, dec_mpss=(2.0, 6.0), stop_s=(0.5, 0.7), outcome_margin_s=1.0)
+HASTE = replace(FIRM, dec_mpss=(2.0, 8.0), acc_mpss=(0.8, 4.0), stop_s=(0.5, 0.6))
+WHOLE_QUICK = replace(WHOLE, dec_mpss=(2.0, 8.0), stop_s=(0.5, 0.6), outcome_margin_s=0.7)
 
 
 def limits_on(route: Route, road_map: RoadMap) -> Limits:

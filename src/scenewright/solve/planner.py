@@ -24,6 +24,7 @@ from scenewright.solve.limits import (
     FIRM_QUICK,
     GENTLE,
     GENTLE_QUICK,
+    HASTE,
     STEADY,
     URGENT,
     WHOLE,
@@ -51,7 +52,9 @@ def _with_margin(manner: Manner, margin_s: float) -> Manner:
 _EXACT = tuple(Trial(manner) for manner in (GENTLE, FIRM, WHOLE))
 # Where the prediction denies the outcome, the hero does the most it can for it: the ego may still give way.
 _QUICK = tuple(Trial(manner) for manner in (GENTLE_QUICK, FIRM_QUICK, WHOLE_QUICK))
-_FOR_OUTCOME = tuple(Trial(_with_margin(WHOLE_QUICK, -late_s)) for late_s in (-0.1, 0.5, 1.0, 2.0, 4.0, 8.0))
+_FOR_OUTCOME = tuple(
+    Trial(_with_margin(HASTE, -late_s)) for late_s in (-0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0)
+)
 _WITHOUT_OUTCOME = tuple(Trial(replace(manner, outcome=False)) for manner in (FIRM, WHOLE))
 _OFF = tuple(
     Trial(replace(manner, outcome=False), Fraction(tolerance))
@@ -65,7 +68,9 @@ _OFF = tuple(
         (URGENT, "16"),
     )
 )
-_TRIES_A_TICK = 6
+_TRIES_A_TICK = 4
+# How often a re-solve asks whether a gentler way has become possible.
+_EASE_EVERY = 3
 # Pinning rounds by at most 5e-5 at each of a handful of numbers; a checked plan may be off by that, no more.
 _CHECK_SLACK = 5e-3
 DEFAULT_BUDGET_S = 0.25
@@ -119,6 +124,7 @@ class Planner:
         outcome = self._outcome = Role.OUTCOME in structure.roles.values()
         self.trials = (*_QUICK, *_EXACT, *_FOR_OUTCOME, *_WITHOUT_OUTCOME, *_OFF) if outcome else (*_EXACT, *_OFF)
         self._last_trial = 0
+        self._replans = 0
 
     def first_plan(self, situations: Sequence[Situation], budget_s: float = 10.0) -> Attempt:
         """Plan from the start, with the heroes' first states free; `situations` differ in the trigger's instant."""
@@ -127,8 +133,9 @@ class Planner:
         return self._search([(trial, situation) for trial in trials for situation in situations], budget_s)[0]
 
     def replan(self, situations: Sequence[Situation]) -> Attempt:
-        """Plan the rest; begins one trial gentler than what the last re-solve needed, and makes a few tries at most."""
-        first = max(0, self._last_trial - 1)
+        """Plan the rest; begins with what the last re-solve needed, now and then one gentler, and makes a few tries."""
+        self._replans += 1
+        first = max(0, self._last_trial - (1 if self._replans % _EASE_EVERY == 0 else 0))
         ways = [(trial, situation) for trial in self.trials[first:] for situation in situations]
         attempt, tried = self._search(ways[:_TRIES_A_TICK], self.budget_s)
         index = first + tried // len(situations)
