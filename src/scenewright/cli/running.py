@@ -271,7 +271,7 @@ def _trigger(verdict: Verdict) -> str:
     facts = verdict.facts
     if facts.get("ego_never_met_condition"):
         return "The ego never came to its side of the trigger: that says something about this policy in this scenario."
-    times_s = [time_s for time_s in (facts.get("trigger_time_s") or {}).values() if time_s is not None]
-    return (
-        "The trigger came at " + ", ".join(f"{time_s:.2f} s." for time_s in times_s) if times_s else "No trigger came."
-    )
+    times = {hero: time_s for hero, time_s in (facts.get("trigger_time_s") or {}).items() if time_s is not None}
+    if len(times) > 1:
+        return "The triggers came at " + ", ".join(f"{time_s:.2f} s ({hero})" for hero, time_s in times.items()) + "."
+    return "".join(f"The trigger came at {time_s:.2f} s." for time_s in times.values()) or "No trigger came."
