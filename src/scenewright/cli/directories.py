@@ -61,7 +61,7 @@ def claim(out: Path | None, source: str) -> Claim:
 
 def is_run_directory(path: Path) -> bool:
     """Whether a run was written to this folder."""
-    return "schema_version" in _manifest(path)
+    return {"schema_version", "scenewright_version"} <= _manifest(path).keys()
 
 
 def run_status(path: Path) -> str:
