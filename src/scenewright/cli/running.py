@@ -8,7 +8,7 @@ from __future__ import annotations
 import signal
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager, redirect_stdout
+from contextlib import contextmanager, redirect_stdout, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -46,6 +46,7 @@ _SAYS = {
     "judge": "judging",
     "write": "writing the run directory",
 }
+_UNBROKEN = ("judge", "write")
 
 
 def run(
@@ -99,11 +100,13 @@ def carry_out(request: Request, until: Stop = "end", quiet: bool = False) -> Res
     from scenewright.cli.terminal import SignsOfLife
     from scenewright.orchestrate import orchestrate
 
-    with SignsOfLife(stderr(), not quiet) as signs, _interruptible() as finish, redirect_stdout(sys.stderr):
+    with SignsOfLife(stderr(), not quiet) as signs, _interruptible() as shield, redirect_stdout(sys.stderr):
 
         def report(stage: str) -> None:
-            if stage == "judge":
-                finish()
+            if stage in _UNBROKEN:
+                shield.up()
+            else:
+                shield.down()
             signs.say(_SAYS.get(stage, stage))
 
         def progress(time_s: float) -> None:
@@ -121,34 +124,35 @@ def carry_out(request: Request, until: Stop = "end", quiet: bool = False) -> Res
 
 
 @contextmanager
-def _interruptible() -> Iterator[_Finish]:
+def _interruptible() -> Iterator[_Shield]:
     """Let Ctrl-C through while something is being worked out, and not while its results are being written."""
     import z3
 
     z3.set_param("ctrl_c", False)  # its own handler would swallow the signal and say "unknown"
-    finish = _Finish()
+    shield = _Shield()
     try:
-        yield finish
+        yield shield
     finally:
-        finish.restore()
+        shield.down()
 
 
-class _Finish:
-    """From the moment it is called, Ctrl-C waits until what was kept has been written."""
+class _Shield:
+    """Makes Ctrl-C wait while what was kept is judged and written."""
 
     def __init__(self) -> None:
         self._before: signal._HANDLER = None
 
-    def __call__(self) -> None:
-        try:
-            self._before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-        except ValueError:  # not in the main thread, where no signal arrives
-            self._before = None
+    def up(self) -> None:
+        """Let nothing through; where this is not the main thread no signal arrives anyway."""
+        if self._before is None:
+            with suppress(ValueError):
+                self._before = signal.signal(signal.SIGINT, signal.SIG_IGN)
 
-    def restore(self) -> None:
+    def down(self) -> None:
         """Put back whatever handled the signal before."""
         if self._before is not None:
             signal.signal(signal.SIGINT, self._before)
+            self._before = None
 
 
 # -- telling --------------------------------------------------------------------------------------------------------
@@ -231,6 +235,7 @@ def report_run(console: Console, request: Request, result: Result) -> None:
     rows += [("assumed" if not index else "", text) for index, text in enumerate(_assumed(result))]
     rows += [("finding", text) for text in (result.run.findings if result.run else ())]
     if rows:
+        console.print()
         console.print(tables.facts(rows))
     directory = result.run_directory
     if directory is not None:
@@ -264,7 +269,6 @@ def report_verdict(
     console.print(Text.assemble(tables.mark(not missed and status == "finished"), " ", (headline, "bold")))
     if status == "finished":
         console.print(_trigger(verdict))
-    console.print()
 
 
 def _trigger(verdict: Verdict) -> str:
