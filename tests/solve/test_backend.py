@@ -1,4 +1,4 @@
-"""What any solver backend must keep to: answers as data, models that satisfy, cores that are needed, one answer always."""
+"""What any solver backend must keep to: answers as data, models that satisfy, cores that are needed, repeatable."""
 
 from __future__ import annotations
 
