@@ -33,6 +33,8 @@ _MERGE_CLEARANCE_S = 0.8
 _KEEP_DECISION_S = 0.5  # a gap once taken is given up only where it has become this much shorter
 _WONT_STOP_MPSS = 3.5  # nobody is expected to brake harder than this for others
 _SETS_OFF_MPSS, _SETS_OFF_S = 0.3, 2.5
+_PULLS_OUT_MPSS = 1.5  # one that speeds up like this means to go first
+_SPEEDS_UP_S = 2.0  # how long one that speeds up is taken to go on doing so
 _GAP_ACCEL = 0.85  # of the full acceleration, since the driver model approaches its speed slowly
 _NEAR_M = 120.0
 
@@ -214,18 +216,18 @@ class Driver:
             needed_s += _MERGE_CLEARANCE_S + slower_mps * slower_mps / (4.0 * max(other.speed_mps, 1.0))
         needed_s = max(needed_s, traits.critical_gap_s) - (_KEEP_DECISION_S if approach.accepted else 0.0)
         assert approach.foot.s_m is not None
-        arrival_s = (stream.in_m - approach.foot.s_m) / other.speed_mps
+        arrival_s = _arrival_s(other, stream.in_m - approach.foot.s_m)
         leaves_s = (stream.out_m - approach.foot.s_m) / other.speed_mps
         in_s = travel_time(stream.ego_in_m - s_m, speed_mps, traits.accel_mpss, top_mps)
         approach.accepted = arrival_s > needed_s
         return approach.accepted or leaves_s + _CLEARANCE_S < in_s
 
     def _in_the_way(self, approach: Approach, other: VehicleState, s_m: float, speed_mps: float) -> bool:
-        """Return whether a vehicle will be in the conflict zone when the ego is, by constant speeds."""
+        """Return whether a vehicle will be in the conflict zone when the ego is."""
         stream, traits = approach.stream, self.traits
         assert approach.foot.s_m is not None
-        in_m, other_mps = stream.in_m - approach.foot.s_m, max(other.speed_mps, 0.1)
-        in_s, out_s = in_m / other_mps, (stream.out_m - approach.foot.s_m) / other_mps
+        in_m, out_m = stream.in_m - approach.foot.s_m, stream.out_m - approach.foot.s_m
+        in_s, out_s = _arrival_s(other, in_m), _arrival_s(other, out_m)
         if in_s > _HORIZON_S or (in_m > 0.0 and not _will_enter(other, in_m, in_s, stream.ego_yields)):
             return False
         top_mps = max(self.profile.at(stream.ego_in_m), 1.0)
@@ -233,6 +235,14 @@ class Driver:
         ego_out_s = travel_time(stream.ego_out_m - s_m, speed_mps, _GAP_ACCEL * traits.accel_mpss, top_mps)
         first, last = ego_out_s + _CLEARANCE_S < in_s, out_s + _CLEARANCE_S < ego_in_s
         return not first and not last
+
+
+def _arrival_s(other: VehicleState, distance_m: float) -> float:
+    """Return when another vehicle will have covered a distance: one that speeds up goes on doing so for a while."""
+    speed_mps = max(other.speed_mps, 0.1)
+    if other.accel_mps2 <= _PULLS_OUT_MPSS or distance_m <= 0.0:
+        return distance_m / speed_mps
+    return travel_time(distance_m, speed_mps, other.accel_mps2, speed_mps + _SPEEDS_UP_S * other.accel_mps2)
 
 
 def _will_enter(other: VehicleState, in_m: float, in_s: float, has_priority: bool) -> bool:
