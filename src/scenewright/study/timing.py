@@ -13,7 +13,7 @@ from scenewright.orchestrate import Request, Result, orchestrate
 
 # One scenario of each kind: yield, stop and go, go first, brake at a rate; distances and times to arrival.
 SCENARIOS: tuple[str, ...] = (
-    "The ego drives westbound and starts 90 m before the intersection. An oncoming hero turns left into the driveway. "
+    "The ego drives westbound and is 90 m before the intersection. An oncoming hero turns left into the driveway. "
     "When the ego is 30 m before the conflict point and the hero is 18 m before the conflict point, the hero brakes to "
     "a stop 6 m before the conflict point.",
     "The ego is on the driveway, 50 m behind the stop line, and turns right onto the road. A hero drives westbound on "
