@@ -1,7 +1,7 @@
 """Where and how fast the ego starts: what the program says, and for the rest what its policy would hold by itself.
 
-What enters: the program's conditions on the ego's first state, and the policy. What leaves: candidates, best first. A start
-that the policy would not hold begins the run with a transient that nobody foresaw.
+What enters: the program's conditions on the ego's first state, and the policy. What leaves: candidates, best first. A
+start that the policy would not hold begins the run with a transient that nobody foresaw.
 """
 
 from __future__ import annotations

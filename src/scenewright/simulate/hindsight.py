@@ -1,12 +1,13 @@
-"""After a run that missed: could any hero have met all conditions against the ego as it drove?
+"""Tells, after a run that missed, whether any hero could have met all conditions against the ego as it drove.
 
-What enters: the scene and the trace. What leaves: a finding with its evidence, or None. It tells what the ego denied from what
-the orchestrator failed to do; it changes no verdict.
+What enters: the scene and the trace. What leaves: a finding with its evidence, or None. It tells what the ego denied
+from what the orchestrator failed to do; it changes no verdict.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import pairwise
 
 import numpy as np
 
@@ -54,7 +55,7 @@ def drive_profile(actor: ActorTrace) -> Profile:
     """Return what an actor drove as a profile with stretches of a tenth of a second."""
     ends = np.arange(0.0, float(actor.time_s[-1]) + 1e-9, _STRETCH_S)
     segments = []
-    for begin, end in zip(ends[:-1], ends[1:], strict=True):
+    for begin, end in pairwise(ends):
         duration = float(end - begin)
         v0, v1 = actor.speed(float(begin)), actor.speed(float(end))
         segments.append(Segment(float(begin), duration, actor.position(float(begin)), v0, (v1 - v0) / duration))

@@ -1,7 +1,7 @@
 """The built-in simulator: steps the ego's policy and the heroes' motions, re-solves every tick, records what happened.
 
-What enters: a scene, a policy, rates and a seed. What leaves: a `Run` with the trace, the plans and every re-solve. It judges
-nothing. A run that is cut short, by the user or by a policy that fails, keeps what it had.
+What enters: a scene, a policy, rates and a seed. What leaves: a `Run` with the trace, the plans and every re-solve.
+It judges nothing. A run that is cut short, by the user or by a policy that fails, keeps what it had.
 """
 
 from __future__ import annotations
@@ -109,8 +109,12 @@ def simulate(
             step += 1
             replanner.observe((round(step * rates.step_s, 9), ego.s_m, ego.speed_mps, ego.accel_mpss))
     except KeyboardInterrupt:
+        if not times:
+            raise  # nothing was driven, so nothing is kept
         status = "interrupted"
     except PolicyError as error:
+        if not times:
+            raise
         status, fault = "failed", error
     trace = _trace(scene, times, rows)
     findings = list(ego.policy.findings)

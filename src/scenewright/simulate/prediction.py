@@ -1,7 +1,7 @@
 """Predicts the ego: a part that can be changed, since a trigger is met as well as the ego is foreseen.
 
-What enters: the ego's states up to now. What leaves: a `Profile` from now on. A predictor sees only what happened; it knows
-no policy.
+What enters: the ego's states up to now. What leaves: a `Profile` from now on. A predictor sees only what happened; it
+knows no policy.
 """
 
 from __future__ import annotations
@@ -91,8 +91,8 @@ class ConstantAcceleration:
 class RoadAware:
     """The ego drives as `ConstantAcceleration` says, and slows for its turn and stops at its stop line as people do.
 
-    Whoever is too near and too fast to do so gently, and does not brake, is taken not to: a speeder is believed late, not
-    never.
+    Whoever is too near and too fast to do so gently, and does not brake, is taken not to: a speeder is believed late,
+    not never.
 
     Attributes
     ----------

@@ -1,7 +1,7 @@
 """Writes a run directory: everything of one run but its verdict and its page.
 
-What enters: a scene, a run, and how it came about. What leaves: files as the outside contract names them. Each is written
-whole and then put in place, so that a reader never sees half of one.
+What enters: a scene, a run, and how it came about. What leaves: files as the outside contract names them. Each is
+written whole and then put in place, so that a reader never sees half of one.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
 """The closed loop's mind: holds the plan, and solves the rest of it again as the ego turns out to drive.
 
-What enters: the ego's states, tick by tick. What leaves: the heroes' motions, and a record of every re-solve. History is fixed;
-a hero freezes at its trigger, but for later pieces that react to the ego; when nothing can be solved the last plan goes on.
+What enters: the ego's states, tick by tick. What leaves: the heroes' motions, and a record of every re-solve. History
+is fixed; a hero freezes at its trigger, but for later pieces that react to the ego; when nothing can be solved the
+last plan goes on.
 """
 
 from __future__ import annotations
@@ -163,7 +164,7 @@ class Replanner:
         return all(earlier in self.ego_knots_s for earlier in knots[: knots.index(knot)])
 
     def _pass_shared_knots(self, time_s: float) -> None:
-        """A trigger that a hero carried out is the ego's knot too: the moment is the same."""
+        """Take a trigger that a hero carried out as the ego's knot too: the moment is the same."""
         for hero, instant in self.structure.triggers.items():
             knot = self.structure.trigger_knot(hero)
             planned = self.plan.profiles[hero].knot_times_s.get(knot or "")

@@ -1,7 +1,8 @@
 """When motions meet a condition: the instant at which the ego, as predicted, is where a trigger wants it.
 
-What enters: equalities that speak of actors' states at one moment. What leaves: conditions that are linear in positions and
-speeds, and the first time at which given motions meet them, exactly within each stretch of constant acceleration.
+What enters: equalities that speak of actors' states at one moment. What leaves: conditions that are linear in
+positions and speeds, and the first time at which given motions meet them, exactly within each stretch of constant
+acceleration.
 """
 
 from __future__ import annotations
@@ -56,7 +57,7 @@ class LinearCondition:
         return LinearCondition(self.constraint_id, self.moments, constant, rest)
 
     def first_time(self, profiles: Mapping[int, Profile], after_s: float) -> float | None:
-        """Return the first instant from `after_s` on at which the motions meet the condition; None within the horizon."""
+        """Return the first instant from `after_s` on at which the motions meet the condition, None past the horizon."""
         for start_s, duration_s, states in _common_stretches([(a, profiles[a]) for a in self.weights], after_s):
             elapsed = self._root(duration_s, states)
             if elapsed is not None:

@@ -1,8 +1,9 @@
-"""Asks whether a scenario can happen at all, with any ego that keeps its promises, and if not, why not and what would help.
+"""Asks whether a scenario can happen at all with any ego that keeps its promises; if not, why not and what would help.
 
-What enters: a scene and bounds on everybody's motion. What leaves: a verdict with the clashing constraints in the user's words
-and the nearest values that would do. The motion of the ego, and of heroes on their way to the trigger, is not sketched but
-bounded from outside by what any motion within the limits must obey, so that an unsatisfiable problem is a proof.
+What enters: a scene and bounds on everybody's motion. What leaves: a verdict with the clashing constraints in the
+user's words and the nearest values that would do. The motion of the ego, and of heroes on their way to the trigger,
+is not sketched but bounded from outside by what any motion within the limits must obey, so that an unsatisfiable
+problem is a proof.
 """
 
 from __future__ import annotations
@@ -139,9 +140,9 @@ def check_feasibility(
 ) -> Feasibility:
     """Decide whether any ego within `ego` and any heroes within `limits` can do what the program asks.
 
-    Open parameters are free within their ranges. With `explain` an infeasible answer comes with clashes and suggestions.
-    With `drive` the ego is not any, but drives just so: infeasible then means that no hero could have met all conditions
-    against this drive. (Another hero might have made the ego drive differently.)
+    Open parameters are free within their ranges. With `explain` an infeasible answer comes with clashes and
+    suggestions. With `drive` the ego is not any, but drives just so: infeasible then means that no hero could have met
+    all conditions against this drive. (Another hero might have made the ego drive differently.)
     """
     bounds = ego or EgoBounds()
     problem = _OuterProblem(scene, structure, limits, bounds, drive=drive).problem

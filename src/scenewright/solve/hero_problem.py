@@ -1,7 +1,8 @@
 """Builds the problem of one re-solve: the rest of every hero's motion, given where all are and where the ego will be.
 
-What enters: a scene, a `Situation`, a `Manner`. What leaves: a `Problem` and how to read a model of it back as profiles.
-History is fixed, the ego is a prediction, and what of a hero's motion has a known duration makes linear conditions.
+What enters: a scene, a `Situation`, a `Manner`. What leaves: a `Problem` and how to read a model of it back as
+profiles. History is fixed, the ego is a prediction, and what of a hero's motion has a known duration makes linear
+conditions.
 """
 
 from __future__ import annotations
@@ -78,7 +79,7 @@ class Situation:
 
 @dataclass(frozen=True, slots=True)
 class _Stretch:
-    """A stretch of constant acceleration: the piece it belongs to, its duration if known, the knot at its end if any."""
+    """A stretch of constant acceleration: its piece, its duration if known, the knot at its end if there is one."""
 
     piece: int
     duration_s: Fraction | None
@@ -234,7 +235,7 @@ class HeroProblem:
         )
 
     def _place_of(self, hero: Actor, knot: str) -> float | None:
-        """Return the position that the program gives `hero` at `knot`: exactly, or for a time to arrival at walking pace."""
+        """Return where the program puts `hero` at `knot`: exactly, or for a time to arrival at walking pace."""
         for condition in self.conditions:
             if set(condition.weights) != {hero.id} or condition.weights[hero.id][0] == 0.0:
                 continue
@@ -345,8 +346,9 @@ class HeroProblem:
                 continue
 
     def _outcome_margin_s(self, constraint: Constraint) -> float:
-        """Return by how much the hero must be first: some time, and where asked as long as the ego takes from where the
-        two could touch to its knot.
+        """Return by how much the hero must be first (s).
+
+        That is some time, and where asked as long as the ego takes from where the two could touch to its knot.
         """
         margin = self.manner.outcome_margin_s
         keys = set(knots_of(constraint.formula))
@@ -436,9 +438,12 @@ def _even(piece: int, rest_s: Fraction, steps: int, knot: str | None) -> list[_S
 def _rate_is_given(scene: Scene, hero: Actor, piece: int) -> bool:
     for constraint in scene.program.constraints:
         for node in walk(constraint.formula):
-            if isinstance(node, State) and node.actor == hero.id and node.order == 2 and isinstance(node.at, PieceRef):
-                if hero.sketch.piece_index(node.at.name) == piece and _is_equality(constraint.formula):
-                    return True
+            if not (isinstance(node, State) and node.actor == hero.id and node.order == 2):
+                continue
+            if not isinstance(node.at, PieceRef) or not _is_equality(constraint.formula):
+                continue
+            if hero.sketch.piece_index(node.at.name) == piece:
+                return True
     return False
 
 

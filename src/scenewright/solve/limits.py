@@ -1,6 +1,7 @@
 """What a vehicle can do, and what it would do of itself: bounds in steps from natural to its whole authority.
 
-What enters: a route and its speed limits. What leaves: `Limits` (never exceeded) and `Manner`s (how gently to try first).
+What enters: a route and its speed limits. What leaves: `Limits` (never exceeded) and `Manner`s (how gently to try
+first).
 """
 
 from __future__ import annotations
@@ -89,8 +90,8 @@ WHOLE = Manner("whole", ACCEL_MAX_MPSS, 6.0, 5, True, (0.6, 8.0), (0.6, 4.0), (0
 URGENT = Manner("urgent", ACCEL_MAX_MPSS, 8.0, 4, False, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)
 
 # Where the hero is to be first, whatever the ego does: it loses no time after its trigger.
-GENTLE_QUICK = replace(GENTLE, dec_mpss=(1.8, 4.0), acc_mpss=(1.0, 2.5), stop_s=(0.5, 0.8), outcome_margin_s=1.5)
-FIRM_QUICK = replace(FIRM, dec_mpss=(2.0, 6.0), stop_s=(0.5, 0.7), outcome_margin_s=1.0)
+GENTLE_QUICK = replace(GENTLE, dec_mpss=(1.8, 4.0), acc_mpss=(1.0, 3.5), stop_s=(0.5, 0.6), outcome_margin_s=1.5)
+FIRM_QUICK = replace(FIRM, dec_mpss=(2.0, 6.0), acc_mpss=(0.8, 4.0), stop_s=(0.5, 0.6), outcome_margin_s=1.0)
 HASTE = replace(FIRM, dec_mpss=(2.0, 8.0), acc_mpss=(0.8, 4.0), stop_s=(0.5, 0.6))
 WHOLE_QUICK = replace(WHOLE, dec_mpss=(2.0, 8.0), stop_s=(0.5, 0.6), outcome_margin_s=0.7)
 

@@ -1,7 +1,8 @@
 """Lowers a program's constraints, on a scene, to conditions over the actors' motions.
 
-What enters: formulas of a program and a view of every actor's motion. What leaves: conditions for a solver, or truth values
-where everything is known. Divisions are multiplied out (accelerations, times to arrival), so that what is linear stays so.
+What enters: formulas of a program and a view of every actor's motion. What leaves: conditions for a solver, or truth
+values where everything is known. Divisions are multiplied out (accelerations, times to arrival), so that what is
+linear stays so.
 """
 
 from __future__ import annotations
@@ -51,7 +52,7 @@ _OF_ORDER = ("length", "speed", "acceleration")
 _OF_DERIVED = {"gap": "length", "tta": "time", "ttc": "time", "headway": "time"}
 
 
-class NotYet(Exception):
+class NotYet(Exception):  # noqa: N818 - a signal between passes, no fault of anybody
     """A formula speaks of a moment that is not known in the motions given (the ego is not predicted to get there)."""
 
 
@@ -206,7 +207,8 @@ class Lowering:
         right_num, right_den = self.term(term.right, owner)
         if _are_positions(term) and term.operator == "-":
             left_state, right_state = term.left, term.right
-            assert isinstance(left_state, State) and isinstance(right_state, State)
+            assert isinstance(left_state, State)
+            assert isinstance(right_state, State)
             shift = pin(self.scene.offset_m(left_state.actor, right_state.actor))
             return left_num - right_num - shift, ONE
         match term.operator:

@@ -1,7 +1,8 @@
 """Plans: tries manners from natural to whole authority, then the tightest tolerance that admits a solution.
 
-What enters: situations, one after another. What leaves: attempts, each a checked `Plan` or the reason why there is none. Every
-model is evaluated against the program by `program.evaluate` before it is returned; the solver's word is not taken.
+What enters: situations, one after another. What leaves: attempts, each a checked `Plan` or the reason why there is
+none. Every model is evaluated against the program by `program.evaluate` before it is returned; the solver's word is
+not taken.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ from scenewright.solve.problem import Backend, Satisfiable, Unknown
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """One way to try: how to move, how far off the trigger may be (in tight tolerances), how firm the outcome must be."""
+    """One way to try: how to move, and how far off the trigger may be (in tight tolerances)."""
 
     manner: Manner
     tolerance: Fraction = Fraction(0)
@@ -177,7 +178,7 @@ class Planner:
 
 
 def _retimed(situation: Situation, tolerance: Fraction) -> Situation:
-    """Return `situation` with the trigger moved towards where it was planned, as far as the tolerance lets the ego be off.
+    """Return `situation` with the trigger moved towards where it was planned, as far as the ego may be off its side.
 
     A late ego is met half way: the hero a little off its place, the ego a little off its own.
     """

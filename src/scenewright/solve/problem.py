@@ -1,7 +1,8 @@
 """What a solver is asked, and what it may answer.
 
-What enters: named conditions over real unknowns. What leaves: SMT-LIB text for any solver, and results as data: satisfiable
-with a model, unsatisfiable with a core, unknown, out of time. A result that claims a model cannot be built without one.
+What enters: named conditions over real unknowns. What leaves: SMT-LIB text for any solver, and results as data:
+satisfiable with a model, unsatisfiable with a core, unknown, out of time. A result that claims a model cannot be
+built without one.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
-"""How fast a vehicle may be in a turn: the condition that a stretch of motion keeps to it, at every instant of the turn.
+"""How fast a vehicle may be in a turn: the condition that a stretch of motion keeps to it all through the turn.
 
-What enters: positions and speeds at the ends of a stretch, where the turn lies, its top speed. What leaves: a condition. Speed
-over distance is monotone within a stretch of one acceleration, so its largest value within the turn is at a known place.
+What enters: positions and speeds at the ends of a stretch, where the turn lies, its top speed. What leaves: a
+condition. Speed over distance is monotone within a stretch of one acceleration, so its largest value within the turn
+is at a known place.
 """
 
 from __future__ import annotations

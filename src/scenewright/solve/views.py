@@ -1,6 +1,7 @@
-"""How the lowering sees an actor's motion: by knot, by piece, by time. Known motion gives numbers, sketched motion unknowns.
+"""How the lowering sees an actor's motion: by knot, by piece, by time.
 
-What enters: a `Profile` (prediction, history) or a `SketchedMotion` with the knots that it passes. What leaves: values.
+What enters: a `Profile` (prediction, history) or a `SketchedMotion` with the knots that it passes. What leaves: values:
+known motion gives numbers, sketched motion unknowns.
 """
 
 from __future__ import annotations
@@ -65,8 +66,16 @@ class KnownView:
 
 @dataclass(frozen=True, slots=True)
 class SketchedView:
-    """A motion to be found. `knots` maps names to indices in `motion`; `pieces` maps a piece of the sketch to the first and
-    last stretch in `motion` that carries it out; `past` holds the knots that are history.
+    """A motion to be found.
+
+    Attributes
+    ----------
+    knots
+        Indices in `motion` by name.
+    pieces
+        The first and last stretch of `motion` that carries out a piece of the sketch.
+    past
+        The knots that are history.
     """
 
     motion: SketchedMotion

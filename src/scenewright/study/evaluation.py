@@ -1,7 +1,7 @@
 """Runs descriptions against egos with drawn parameters, and counts what came of it: how often, and why not.
 
-What enters: descriptions, egos, a number of draws, a seed. What leaves: one `Outcome` a case and tables over them. Every case
-is a whole run through `orchestrate`, judged as a user's run is; nothing is left out.
+What enters: descriptions, egos, a number of draws, a seed. What leaves: one `Outcome` a case and tables over them.
+Every case is a whole run through `orchestrate`, judged as a user's run is; nothing is left out.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from scenewright.errors import InputError, Place, ScenewrightError
 from scenewright.orchestrate import Request, Result, orchestrate, read_scenario
 from scenewright.study.draws import RANGES, draw_parameters
 
-# In the order in which tables show them. The first two are what was asked for, the next three the ego's or the text's doing.
+# In the order in which tables show them: what was asked for, then the text's and the ego's doing, then ours.
 CAUSES = (
     "success",
     "loose only",

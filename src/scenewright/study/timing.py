@@ -1,4 +1,4 @@
-"""Times re-solves as they occur in runs: how long a tick takes with everything counted, and how much of a core a run needs.
+"""Times re-solves as they occur in runs: how long a tick takes, everything counted, and what share of a core runs need.
 
 What enters: scenarios and egos that make much re-solving necessary. What leaves: percentiles and sums. Times are for
 comparing within one machine and one session.

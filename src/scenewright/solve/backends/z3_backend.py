@@ -1,7 +1,8 @@
 """Solves problems with z3, through SMT-LIB text.
 
-What enters: a `Problem`. What leaves: a `Result`. Text costs a third of building the same expressions in Python; a fresh
-solver each time stays on the fast path (push and pop leave it). Algebraic numbers in models are rounded to rationals.
+What enters: a `Problem`. What leaves: a `Result`. Text costs a third of building the same expressions in Python; a
+fresh solver each time stays on the fast path (push and pop leave it). Algebraic numbers in models are rounded to
+rationals.
 """
 
 from __future__ import annotations
