@@ -220,7 +220,9 @@ class Driver:
         leaves_s = (stream.out_m - approach.foot.s_m) / other.speed_mps
         in_s = travel_time(stream.ego_in_m - s_m, speed_mps, traits.accel_mpss, top_mps)
         approach.accepted = arrival_s > needed_s
-        return approach.accepted or leaves_s + _CLEARANCE_S < in_s
+        # Behind one that passes it sets off when that one is through the middle, not when it is seen coming.
+        passing = approach.foot.s_m > 0.5 * (stream.in_m + stream.out_m)
+        return approach.accepted or (passing and leaves_s + _CLEARANCE_S < in_s)
 
     def _in_the_way(self, approach: Approach, other: VehicleState, s_m: float, speed_mps: float) -> bool:
         """Return whether a vehicle will be in the conflict zone when the ego is."""

@@ -57,7 +57,7 @@ class GuardedPolicy:
         promise: object = None
         try:
             promise = getattr(self.policy, "envelope", None)
-        except Exception as error:  # a property of the user's may do anything
+        except (Exception, SystemExit) as error:  # a property of the user's may do anything
             self._raised("its envelope", error)
         if promise is None:
             return None
@@ -77,7 +77,7 @@ class GuardedPolicy:
             return None
         try:
             speed_mps = ask(start)
-        except Exception as error:  # a user's policy may raise anything
+        except (Exception, SystemExit) as error:  # a user's policy may raise anything
             self._raised("preferred_speed_mps()", error)
         if speed_mps is None:
             return None
@@ -103,7 +103,7 @@ class GuardedPolicy:
         self._seen.clear()
         try:
             self.policy.reset(start)
-        except Exception as error:  # a user's policy may raise anything
+        except (Exception, SystemExit) as error:  # a user's policy may raise anything
             self._raised("reset()", error)
         self._envelope = self.envelope
 
@@ -118,7 +118,7 @@ class GuardedPolicy:
         """
         try:
             action: object = self.policy.step(observation, dt_s)
-        except Exception as error:  # a user's policy may raise anything
+        except (Exception, SystemExit) as error:  # a user's policy may raise anything
             self._raised(f"step() at {observation.time_s:.2f} s", error)
         if isinstance(action, EgoMotion):
             return self._checked_motion(action, observation, dt_s)
@@ -202,7 +202,7 @@ class GuardedPolicy:
     def _fault(self, what: str, time_s: float, found: str, expected: str, fix: str) -> PolicyError:
         return PolicyError(f"policy {self.name!r} {what} at {time_s:.2f} s", found=found, expected=expected, fix=fix)
 
-    def _raised(self, where: str, error: Exception) -> NoReturn:
+    def _raised(self, where: str, error: BaseException) -> NoReturn:
         frames = traceback.extract_tb(error.__traceback__)
         last = frames[-1] if frames else None
         line = f" (line {last.lineno} of {last.filename.rsplit('/', 1)[-1]}: {last.line})" if last else ""

@@ -13,8 +13,8 @@ from typing import TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, RootModel, ValidationError
 
-from scenewright.errors import InputError, OutputError, Place
-from scenewright.judge.case import Box, Case, Limits
+from scenewright.errors import InputError, MapError, OutputError, Place
+from scenewright.judge.case import Box, Case, Limits, PathLike
 from scenewright.judge.judgement import judge
 from scenewright.judge.verdict import Verdict
 from scenewright.program.text import parse_program
@@ -34,6 +34,14 @@ class RouteModel(_Model):
     """A route as the manifest states it."""
 
     headings: tuple[str, ...] = ()
+    lanes: tuple[str, ...] = ()
+
+
+class MapModel(_Model):
+    """Which map the run was on."""
+
+    name: str
+    file: str
 
 
 class VehicleModel(_Model):
@@ -69,6 +77,7 @@ class ManifestModel(_Model):
     vehicles: dict[str, VehicleModel] = {}
     limits: dict[str, LimitsModel] = {}
     shared_offsets: list[SharedOffsetModel] = []
+    map: MapModel | None = None
 
 
 class ParameterModel(_Model):
@@ -116,6 +125,7 @@ def read_case(directory: Path) -> Case:
             expected=str(SCHEMA_VERSION),
         )
     program = parse_program(_read_text(directory / "program.scene"), "program.scene")
+    paths = _paths(manifest)
     parameters = _si_values(_read_model(directory / "params.json", ParametersModel), program, directory)
     return Case(
         program=program,
@@ -129,7 +139,27 @@ def read_case(directory: Path) -> Case:
         vehicles={name: Box(box.length_m, box.width_m) for name, box in manifest.vehicles.items()},
         limits={name: Limits(**limits.model_dump(exclude_none=True)) for name, limits in manifest.limits.items()},
         expected_headings={name: route.headings for name, route in manifest.routes.items() if route.headings},
+        paths=paths,
     )
+
+
+def _paths(manifest: ManifestModel) -> dict[str, PathLike]:
+    """Return the routes' paths where the map is still to be had; without it the map coordinates go unchecked."""
+    from scenewright.roads.load import load_map
+    from scenewright.roads.routes import find_route
+
+    if manifest.map is None:
+        return {}
+    paths: dict[str, PathLike] = {}
+    for source in (manifest.map.file, manifest.map.name):
+        try:
+            road_map = load_map(source)
+            for name, route in manifest.routes.items():
+                paths[name] = find_route(road_map, lanes=route.lanes).path
+            return paths
+        except MapError:
+            continue
+    return {}
 
 
 def write_verdict(verdict: Verdict, path: Path) -> None:

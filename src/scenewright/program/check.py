@@ -250,8 +250,8 @@ class _Checker:
 
     def _powers(self, term: Term) -> Powers:
         match term:
-            case Number():
-                return None
+            case Number(dimension=dimension):
+                return _OF_DIMENSION[dimension] if dimension else None
             case ParameterRef(name=name):
                 unit = unit_of_name(name)
                 return _OF_DIMENSION[unit.dimension] if unit else None

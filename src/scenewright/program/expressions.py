@@ -12,6 +12,7 @@ from fractions import Fraction
 from typing import Literal
 
 from scenewright.errors import Span
+from scenewright.units import Dimension
 
 Order = Literal[0, 1, 2]
 ORDER_LETTERS = ("x", "v", "a")
@@ -35,10 +36,11 @@ def _span() -> Span | None:
 
 @dataclass(frozen=True, slots=True)
 class Number:
-    """A literal in SI units, exact."""
+    """A literal in SI units, exact. `dimension` is that of the unit it was written with, if any."""
 
     value: Fraction
     span: Span | None = _span()
+    dimension: Dimension | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)

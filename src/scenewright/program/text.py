@@ -279,7 +279,9 @@ class _Builder(Transformer[Token, Any]):
 
     def number(self, meta: Meta, items: list[Any]) -> Number:
         value, unit = Fraction(items[0]), items[1]
-        return Number(value * UNITS[unit].si_factor if unit else value, self._span(meta))
+        if unit is None:
+            return Number(value, self._span(meta))
+        return Number(value * UNITS[unit].si_factor, self._span(meta), UNITS[unit].dimension)
 
     def instant(self, meta: Meta, items: list[Any]) -> Number:
         value, unit = self._ratio(items[0], items[1]), items[2]

@@ -56,7 +56,7 @@ _QUICK = tuple(Trial(manner) for manner in (GENTLE_QUICK, FIRM_QUICK, WHOLE_QUIC
 _FOR_OUTCOME = tuple(
     Trial(_with_margin(HASTE, -late_s)) for late_s in (-0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0)
 )
-_WITHOUT_OUTCOME = tuple(Trial(replace(manner, outcome=False)) for manner in (FIRM, WHOLE))
+_WITHOUT_OUTCOME = tuple(Trial(replace(manner, outcome=False)) for manner in (FIRM_QUICK, WHOLE_QUICK, FIRM, WHOLE))
 _OFF = tuple(
     Trial(replace(manner, outcome=False), Fraction(tolerance))
     for manner, tolerance in (

@@ -337,12 +337,12 @@ class Assembler:
             Compare("==", State(HERO_ID, _POSITION, Knot("t2")), self._landmark("turn_end", HERO_ID, event.span)),
             *turn.events,
         )
-        piece = "go"
-        if turn.to_speed is not None:
-            self._add(Compare("==", State(HERO_ID, _SPEED, Knot("t2")), turn.to_speed.term), turn.events[-1])
-            piece = "acc"
         self._order("t2")
-        return _sketch(f"go {piece} go" if turn.to_speed is not None else f"go {piece}")
+        if turn.to_speed is None:
+            return _sketch("go go")
+        # The speed is that of the drive after the turn: it is reached on the road, not in the curve.
+        self._add(Compare("==", State(HERO_ID, _SPEED, Knot("t3")), turn.to_speed.term), turn.events[-1])
+        return _sketch("go go acc go")
 
     # -- without a trigger ------------------------------------------------------------------------------------------
     def _untriggered(self, phases: list[Phase]) -> Sketch:
