@@ -131,8 +131,8 @@ LONGER_TEXTS = [
                          ("gap(A0, A1, t1) == distance_ahead_of_ego_m",), ("A1x(t1) == turn", STANDS))),
     (ONCOMING_TURN, Expected("W", "EN", "go go", EGO_100, ("tta(A0, conflict_point, t1) == ttc_s",),
                              ("A1x(t1) == turn_start", "A1x(t2) == turn_end"))),
-    (INTO_PATH, Expected("W", "SW", "go acc go", EGO_100, ("tta(A0, turn, t1) == tta_s",),
-                         ("A1x(t1) == turn_start", "A1x(t2) == turn_end", "A1v(t2) == target_speed_mps"))),
+    (INTO_PATH, Expected("W", "SW", "go go acc go", EGO_100, ("tta(A0, turn, t1) == tta_s",),
+                         ("A1x(t1) == turn_start", "A1x(t2) == turn_end", "A1v(t3) == target_speed_mps"))),
     (ACROSS_PATH, Expected("W", "SE", "go go", EGO_100, ("tta(A0, turn, t1) == tta_s",),
                            ("A1x(t1) == turn_start", "A1x(t2) == turn_end"))),
 ]  # fmt: skip

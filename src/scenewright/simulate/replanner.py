@@ -267,11 +267,20 @@ class Replanner:
         for condition in here:
             alone = condition.given(hero.id, *known) if hero.id in condition.weights and known else condition
             if set(alone.weights) == {EGO} and alone.weights[EGO][0]:
-                arrival = alone.first_time({EGO: prediction}, time_s)
-                return [max(arrival, time_s + _SHORTEST_LEAD_S) if arrival is not None else time_s + _FAR_S]
+                return [self._ego_arrival_s(alone, time_s, prediction)]
         if hero.id not in heroes:
             return list(_FIRST_TRIGGERS_S)
         return self._joint_instants(hero, here, time_s, prediction)
+
+    def _ego_arrival_s(self, condition: LinearCondition, time_s: float, prediction: Profile) -> float:
+        """Return when the ego will be at its side of the trigger: at once where it is past it, late where not in sight."""
+        arrival = condition.first_time({EGO: prediction}, time_s)
+        if arrival is None and self._samples:
+            first, now = self._samples[0], self._samples[-1]
+            before, after = condition.value({EGO: first[1:3]}), condition.value({EGO: now[1:3]})
+            if before * after < 0.0:
+                arrival = time_s
+        return time_s + _FAR_S if arrival is None else max(arrival, time_s + _SHORTEST_LEAD_S)
 
     def _hero_place(self, hero: Actor, conditions: list[LinearCondition]) -> tuple[float, float] | None:
         """Return position and speed of the hero at its trigger where the program fixes the position."""
