@@ -1,67 +1,28 @@
 """Asks whether a scenario can happen at all with any ego that keeps its promises; if not, why not and what would help.
 
 What enters: a scene and bounds on everybody's motion. What leaves: a verdict with the clashing constraints in the
-user's words and the nearest values that would do. The motion of the ego, and of heroes on their way to the trigger,
-is not sketched but bounded from outside by what any motion within the limits must obey, so that an unsatisfiable
-problem is a proof.
+user's words and the nearest values that would do.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal
 
-from scenewright.motion.algebra import Symbol, Value, compare, conjunction, disjunction, pin
-from scenewright.motion.profile import Profile
-from scenewright.motion.sketched import SketchedMotion
-from scenewright.program.expressions import (
-    Arithmetic,
-    Compare,
-    Formula,
-    Logic,
-    Negate,
-    Node,
-    Number,
-    ParameterRef,
-    Term,
-    walk,
-)
 from scenewright.program.printer import print_expression
-from scenewright.program.structure import Structure, actors_of
-from scenewright.program.types import EGO, Actor, Constraint, PieceKind, Program
-from scenewright.roads.grounding import VEHICLE_LENGTH_M, Scene
-from scenewright.solve.limits import MOVING_MPS, STANDSTILL_MIN_S, Limits
-from scenewright.solve.lowering import Lowering, NotYet, compared_dimension
-from scenewright.solve.problem import Backend, Problem, Satisfiable, Unsatisfiable
-from scenewright.solve.turns import TurnSpan, keeps_to_turn_speed
-from scenewright.solve.views import KnownView, MotionView, SketchedView
-from scenewright.units import SI_SYMBOL, format_fraction
+from scenewright.program.structure import Structure
+from scenewright.program.types import Program
+from scenewright.roads.grounding import Scene
+from scenewright.solve.limits import Limits
+from scenewright.solve.outer_problem import EgoBounds, EgoDrive, OuterProblem
+from scenewright.solve.problem import Backend, Satisfiable, Unsatisfiable
+from scenewright.solve.suggestions import Suggestion, suggest
+
+__all__ = ["Clash", "EgoBounds", "EgoDrive", "Feasibility", "Suggestion", "check_feasibility"]
 
 _PROOF_TIMEOUT_S = 3.0
-_QUERY_TIMEOUT_S = 0.6
-_BISECTIONS = 10
-_SUGGESTIONS = 4
-_WEAKEST_MPSS = Fraction(1, 20)
-
-
-@dataclass(frozen=True, slots=True)
-class EgoBounds:
-    """What is taken for granted of the ego. The defaults hold for any road vehicle."""
-
-    speed_max_mps: float = 60.0
-    accel_max_mpss: float = 8.0
-    brake_max_mpss: float = 12.0
-    holds_speed: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class EgoDrive:
-    """How the ego really drove, and when it passed its knots: to ask whether any hero could have done better."""
-
-    motion: Profile
-    knot_times_s: Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,20 +37,6 @@ class Clash:
         if self.formula is None:
             return self.id
         return f"{self.id}: {self.formula}" + (f'  ("{self.words}")' if self.words else "")
-
-
-@dataclass(frozen=True, slots=True)
-class Suggestion:
-    """A change that makes the scenario possible: another value of one number."""
-
-    what: str
-    value: float
-    nearest: float
-    unit: str
-
-    def __str__(self) -> str:
-        unit = f" {self.unit}" if self.unit else ""
-        return f"{self.what}: {self.nearest:.4g}{unit} instead of {self.value:.4g}{unit}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,7 +92,7 @@ def check_feasibility(
     all conditions against this drive. (Another hero might have made the ego drive differently.)
     """
     bounds = ego or EgoBounds()
-    problem = _OuterProblem(scene, structure, limits, bounds, drive=drive).problem
+    problem = OuterProblem(scene, structure, limits, bounds, drive=drive).problem
     result = backend.solve(problem, _PROOF_TIMEOUT_S)
     if isinstance(result, Satisfiable):
         names = (parameter.name for parameter in scene.open_parameters())
@@ -157,7 +104,7 @@ def check_feasibility(
     proof = backend.solve(problem, _PROOF_TIMEOUT_S, want_core=True)
     core = proof.core if isinstance(proof, Unsatisfiable) else ()
     clashes = tuple(_clash(scene.program, origin) for origin in core)
-    suggestions = () if drive else tuple(_suggest(scene, structure, limits, bounds, backend, set(core)))
+    suggestions = () if drive else tuple(suggest(scene, structure, limits, bounds, backend, set(core)))
     return Feasibility("infeasible", clashes, suggestions)
 
 
@@ -167,320 +114,3 @@ def _clash(program: Program, origin: str) -> Clash:
     except KeyError:
         return Clash(origin, None, None)
     return Clash(origin, print_expression(constraint.formula), program.words_of(constraint))
-
-
-class _OuterProblem:
-    """Everybody's motion at once, bounded from outside where it is not sketched."""
-
-    def __init__(
-        self,
-        scene: Scene,
-        structure: Structure,
-        limits: Mapping[int, Limits],
-        ego: EgoBounds,
-        freed: Mapping[str, tuple[Fraction, Fraction]] | None = None,
-        drive: EgoDrive | None = None,
-    ) -> None:
-        self.scene = scene
-        self.structure = structure
-        self.limits = limits
-        self.ego = ego
-        self.problem = Problem()
-        parameters: dict[str, Value] = dict(scene.parameters)
-        for parameter in scene.open_parameters():
-            symbol = parameters[parameter.name] = self.problem.unknown(f"p_{parameter.name}")
-            low, high = (bound * parameter.unit.si_factor for bound in parameter.bounds())
-            assert isinstance(symbol, Symbol)
-            self.problem.bound(symbol, low, high, f"the range of {parameter.name}")
-        for name, (low, high) in (freed or {}).items():
-            symbol = parameters[name] = self.problem.unknown(f"p_{name}")
-            self.problem.bound(symbol, low, high, f"the range of {name}")
-        views: dict[int, MotionView] = {
-            actor.id: KnownView(drive.motion, drive.knot_times_s) if drive and actor.is_ego else self._add_actor(actor)
-            for actor in scene.program.actors
-        }
-        self._keep_apart(views)
-        lowering = Lowering(scene, structure, views, parameters)
-        # Against one drive all that counts is what a judge would let pass.
-        tolerance = Fraction(1) if drive else Fraction(0)
-        for constraint in scene.program.constraints:
-            if drive and actors_of(constraint.formula) == {EGO}:
-                continue  # what the ego did alone is a fact
-            try:
-                self.problem.require(lowering.condition(constraint.formula, tolerance), constraint.id)
-            except NotYet:
-                continue
-
-    def _add_actor(self, actor: Actor) -> SketchedView:
-        problem, prefix = self.problem, f"a{actor.id}"
-        count = len(actor.sketch.knots)
-        positions = tuple(problem.unknown(f"{prefix}x{k}") for k in range(count))
-        speeds = tuple(problem.unknown(f"{prefix}v{k}") for k in range(count))
-        durations = tuple(problem.unknown(f"{prefix}d{k}") for k in range(count - 1))
-        top = pin(self.ego.speed_max_mps if actor.is_ego else self.limits[actor.id].speed_max_mps)
-        end = pin(self.scene.routes[actor.id].landmarks["route_end"])
-        for position, speed in zip(positions, speeds, strict=True):
-            problem.bound(position, 0, end, f"{actor.name} stays on its route (0 to {float(end):.0f} m)")
-            problem.bound(speed, 0, top, f"{actor.name} drives forwards, at up to {float(top):.1f} m/s")
-        for duration in durations:
-            problem.bound(duration, 0, 120, "time runs forwards, for two minutes at most")
-        accelerations: list[Value | None] = []
-        for piece in range(count - 1):
-            accelerations.append(None)
-            self._add_piece(actor, piece, positions, speeds, durations[piece])
-        motion = SketchedMotion(Fraction(0), positions, speeds, durations, tuple(accelerations))
-        knots = {knot: k for k, knot in enumerate(actor.sketch.knots)}
-        return SketchedView(motion, knots, {piece: (piece, piece) for piece in range(count - 1)})
-
-    def _add_piece(
-        self, actor: Actor, piece: int, positions: tuple[Symbol, ...], speeds: tuple[Symbol, ...], duration: Symbol
-    ) -> None:
-        require = self.problem.require
-        x0, x1, v0, v1 = positions[piece], positions[piece + 1], speeds[piece], speeds[piece + 1]
-        rise, change = x1 - x0, v1 - v0
-        kind = actor.sketch.pieces[piece]
-        laws = "the laws of motion"
-        if actor.is_ego and not self.ego.holds_speed:
-            self._bound_freely(actor, x0, x1, v0, v1, duration, self.ego.accel_max_mpss, self.ego.brake_max_mpss)
-            return
-        if actor.is_ego:
-            require(compare("==", change, Fraction(0)), f"{actor.name} holds its speed")
-            require(compare(">=", v0, pin(MOVING_MPS)), f"{actor.name} drives at {MOVING_MPS:g} m/s or more")
-            self._bound_in_turn(actor, x0, v0, x1, v1, braking=False)
-        elif kind is PieceKind.GO and self._is_approach(actor, piece):
-            limits = self.limits[actor.id]
-            self._bound_freely(actor, x0, x1, v0, v1, duration, limits.accel_max_mpss, limits.brake_max_mpss)
-            return
-        if kind is PieceKind.ACC and not actor.is_ego:
-            self._bound_acceleration(actor, x0, x1, v0, v1, duration)
-            self._bound_in_turn(actor, x0, v0, x1, v1, braking=False)
-            return
-        require(compare("==", 2 * rise, (v0 + v1) * duration), laws)
-        if kind is PieceKind.GO and not actor.is_ego:
-            require(compare("==", change, Fraction(0)), f"{actor.name} holds its speed in a go piece")
-        elif kind is PieceKind.STOP:
-            origin = f"{actor.name} stands still for {STANDSTILL_MIN_S:g} s or more"
-            require(compare("==", v0, Fraction(0)), origin)
-            require(compare("==", v1, Fraction(0)), origin)
-            require(compare(">=", duration, pin(STANDSTILL_MIN_S)), origin)
-        elif kind is PieceKind.DEC:
-            self._bound_braking(actor, piece, change, v0, duration)
-            self._bound_in_turn(actor, x0, v0, x1, v1, braking=True)
-
-    def _bound_braking(self, actor: Actor, piece: int, change: Value, v0: Symbol, duration: Symbol) -> None:
-        least, most = _WEAKEST_MPSS, pin(self.limits[actor.id].brake_max_mpss)
-        origin = f"{actor.name} brakes at {float(least):g} to {float(most):g} m/s^2"
-        self.problem.require(compare("<=", change, -least * duration), origin)
-        self.problem.require(compare(">=", change, -most * duration), origin)
-        if self._begins_at_trigger(actor, piece):
-            origin = f"{actor.name} moves ({MOVING_MPS:g} m/s or more) when it begins to brake"
-            self.problem.require(compare(">=", v0, pin(MOVING_MPS)), origin)
-
-    def _bound_acceleration(
-        self, actor: Actor, x0: Symbol, x1: Symbol, v0: Symbol, v1: Symbol, duration: Symbol
-    ) -> None:
-        """Bound a stretch in which an actor speeds up in any way: never slower than before, within its limits."""
-        limits, require = self.limits[actor.id], self.problem.require
-        up, rise, change = pin(limits.accel_max_mpss), x1 - x0, v1 - v0
-        origin = f"{actor.name} accelerates at up to {float(up):g} m/s^2"
-        require(compare(">", change, Fraction(0)), f"{actor.name} speeds up")
-        require(compare("<=", change, up * duration), origin)
-        require(compare("<=", rise, v0 * duration + up * duration * duration * Fraction(1, 2)), origin)
-        require(compare("<=", v1 * v1 - v0 * v0, 2 * up * rise), origin)
-        require(compare(">=", rise, v0 * duration), f"{actor.name} speeds up")
-        # However it speeds up to v1, it falls behind one that drives v1 all along by at least this much.
-        require(compare("<=", change * change, 2 * up * (v1 * duration - rise)), origin)
-
-    def _bound_in_turn(self, actor: Actor, x0: Symbol, v0: Symbol, x1: Symbol, v1: Symbol, braking: bool) -> None:
-        turn, limits = TurnSpan.of(self.scene.routes[actor.id]), self.limits[actor.id]
-        if turn is not None and limits.turn_speed_max_mps < limits.speed_max_mps:
-            condition = keeps_to_turn_speed(turn, limits.turn_speed_max_mps, x0, v0, x1, v1, braking)
-            self.problem.require(condition, f"{actor.name} turns at up to {limits.turn_speed_max_mps:.1f} m/s")
-
-    def _bound_freely(
-        self,
-        actor: Actor,
-        x0: Symbol,
-        x1: Symbol,
-        v0: Symbol,
-        v1: Symbol,
-        duration: Symbol,
-        accel_mpss: float,
-        brake_mpss: float,
-    ) -> None:
-        """Bound a stretch of any motion by what all motions within the limits obey: none is excluded."""
-        up, down = pin(accel_mpss), pin(brake_mpss)
-        rise, change = x1 - x0, v1 - v0
-        square = duration * duration * Fraction(1, 2)
-        origin = f"{actor.name} accelerates at up to {float(up):g} and brakes at up to {float(down):g} m/s^2"
-        require = self.problem.require
-        require(compare(">=", rise, Fraction(0)), f"{actor.name} does not reverse")
-        require(compare("<=", change, up * duration), origin)
-        require(compare(">=", change, -down * duration), origin)
-        require(compare("<=", rise, v0 * duration + up * square), origin)
-        require(compare(">=", rise, v0 * duration - down * square), origin)
-        require(compare("<=", rise, v1 * duration + down * square), origin)
-        require(compare(">=", rise, v1 * duration - up * square), origin)
-        require(compare("<=", v1 * v1 - v0 * v0, 2 * up * rise), origin)
-        require(compare("<=", v0 * v0 - v1 * v1, 2 * down * rise), origin)
-        top = pin(self.ego.speed_max_mps if actor.is_ego else self.limits[actor.id].speed_max_mps)
-        require(compare("<=", rise, top * duration), f"{actor.name} drives forwards, at up to {float(top):.1f} m/s")
-
-    def _is_approach(self, actor: Actor, piece: int) -> bool:
-        trigger = self.structure.trigger_knot(actor.id)
-        return trigger is not None and piece < actor.sketch.knots.index(trigger)
-
-    def _begins_at_trigger(self, actor: Actor, piece: int) -> bool:
-        return actor.sketch.knots[piece] == self.structure.trigger_knot(actor.id)
-
-    def _keep_apart(self, views: Mapping[int, MotionView]) -> None:
-        """Two vehicles that start in one lane keep their order, and a length between them, up to the trigger."""
-        apart = pin(VEHICLE_LENGTH_M)
-        for hero in self.scene.program.heroes:
-            if self.scene.routes[hero.id].lanes[0] != self.scene.routes[EGO].lanes[0]:
-                continue
-            knots = [(hero.sketch.knots[0], self.scene.program.ego.sketch.knots[0])]
-            own, egos = self.structure.trigger_knot(hero.id), self.structure.trigger_knot(EGO)
-            if own is not None and egos is not None:
-                knots.append((own, egos))
-            ahead, behind = [], []
-            for own_knot, ego_knot in knots:
-                mine, other = views[hero.id].at_knot(own_knot, 0), views[EGO].at_knot(ego_knot, 0)
-                if mine is not None and other is not None:
-                    ahead.append(compare(">=", mine[0] - other[0], apart))
-                    behind.append(compare("<=", mine[0] - other[0], -apart))
-            origin = f"two vehicles {VEHICLE_LENGTH_M:g} m long in one lane neither overlap nor pass through each other"
-            self.problem.require(disjunction([conjunction(ahead), conjunction(behind)]), origin)
-
-
-# -- what would make it possible ------------------------------------------------------------------------------------
-@dataclass(frozen=True, slots=True)
-class _Lever:
-    """One number in a clashing constraint that could be another."""
-
-    what: str
-    value: Fraction
-    dimension: str
-    program: Program
-    name: str
-
-
-def _suggest(
-    scene: Scene,
-    structure: Structure,
-    limits: Mapping[int, Limits],
-    ego: EgoBounds,
-    backend: Backend,
-    core: set[str],
-) -> Iterator[Suggestion]:
-    found = 0
-    for lever in _levers(scene, core):
-        if found >= _SUGGESTIONS:
-            return
-        nearest = _nearest(scene, structure, limits, ego, backend, lever)
-        if nearest is not None:
-            found += 1
-            unit = SI_SYMBOL.get(lever.dimension, "")  # type: ignore[call-overload]
-            yield Suggestion(lever.what, float(lever.value), float(nearest), unit)
-
-
-def _levers(scene: Scene, core: set[str]) -> Iterator[_Lever]:
-    program = scene.program
-    seen: set[str] = set()
-    for constraint in program.constraints:
-        if constraint.id not in core:
-            continue
-        for node in walk(constraint.formula):
-            if isinstance(node, ParameterRef) and node.name in scene.parameters and node.name not in seen:
-                seen.add(node.name)
-                parameter = next(p for p in program.parameters if p.name == node.name)
-                yield _Lever(node.name, scene.parameters[node.name], parameter.unit.dimension, program, node.name)
-            elif isinstance(node, Number) and node.value != 0:
-                name = f"free_{constraint.id}"
-                changed = replace(constraint, formula=_with_name(constraint.formula, node, name))
-                words = program.words_of(constraint)
-                what = f"{format_fraction(node.value)} in " + (
-                    f'"{words}"' if words else print_expression(constraint.formula)
-                )
-                yield _Lever(what, node.value, _dimension_of(constraint), _with_constraint(program, changed), name)
-
-
-def _dimension_of(constraint: Constraint) -> str:
-    return compared_dimension(constraint.formula)
-
-
-def _with_constraint(program: Program, changed: Constraint) -> Program:
-    constraints = tuple(changed if c.id == changed.id else c for c in program.constraints)
-    return replace(program, constraints=constraints)
-
-
-def _nearest(
-    scene: Scene,
-    structure: Structure,
-    limits: Mapping[int, Limits],
-    ego: EgoBounds,
-    backend: Backend,
-    lever: _Lever,
-) -> Fraction | None:
-    """Return the value nearest to the lever's own with which the scenario is possible, rounded to a readable number."""
-    freed_scene = replace(
-        scene,
-        program=lever.program,
-        parameters={name: value for name, value in scene.parameters.items() if name != lever.name},
-    )
-    if any(parameter.name == lever.name for parameter in scene.program.parameters):
-        rest = tuple(p for p in lever.program.parameters if p.name != lever.name)
-        freed_scene = replace(freed_scene, program=replace(lever.program, parameters=rest))
-
-    def possible(low: Fraction, high: Fraction) -> Fraction | None:
-        problem = _OuterProblem(freed_scene, structure, limits, ego, {lever.name: (low, high)}).problem
-        result = backend.solve(problem, _QUERY_TIMEOUT_S)
-        return result.model.get(f"p_{lever.name}") if isinstance(result, Satisfiable) else None
-
-    value = lever.value
-    sign = 1 if value > 0 else -1
-    candidates: list[Fraction] = []
-    for low, high in ((value, sign * 10 * abs(value) + 20 * sign), (Fraction(0), value)):
-        first, last = min(low, high), max(low, high)
-        found = possible(first, last)
-        if found is None:
-            continue
-        near, far = value, found
-        for _ in range(_BISECTIONS):
-            middle = (near + far) / 2
-            better = possible(min(middle, value), max(middle, value))
-            if better is None:
-                near = middle
-            else:
-                far = better
-        candidates.append(far)
-    if not candidates:
-        return None
-    best = min(candidates, key=lambda candidate: abs(candidate - value))
-    return _rounded_away(best, value)
-
-
-def _rounded_away(found: Fraction, origin: Fraction) -> Fraction:
-    """Round to two decimals away from the value that did not work, so that the suggestion does."""
-    scaled = found * 100
-    floor = scaled.numerator // scaled.denominator
-    return Fraction(floor if found < origin else floor + 1, 100)
-
-
-def _with_name(formula: Formula, number: Number, name: str) -> Formula:
-    """Return `formula` with one number (by identity) replaced by a named unknown."""
-    return _replaced(formula, number, ParameterRef(name))  # type: ignore[return-value]
-
-
-def _replaced(node: Node, old: Number, new: Term) -> Node:
-    if node is old:
-        return new
-    match node:
-        case Arithmetic(left=left, right=right) | Compare(left=left, right=right):
-            return replace(node, left=_replaced(left, old, new), right=_replaced(right, old, new))  # type: ignore[arg-type]
-        case Negate(operand=operand):
-            return replace(node, operand=_replaced(operand, old, new))  # type: ignore[arg-type]
-        case Logic(operands=operands):
-            return replace(node, operands=tuple(_replaced(o, old, new) for o in operands))  # type: ignore[misc]
-        case _:
-            return node

@@ -1,0 +1,193 @@
+"""Suggests what would make an infeasible scenario possible: the nearest other value of one number that clashes.
+
+What enters: a scene that is proven infeasible, and the core of the proof. What leaves: suggestions, each tried: with
+that value no proof of infeasibility is left.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from scenewright.program.expressions import (
+    Arithmetic,
+    Compare,
+    Formula,
+    Logic,
+    Negate,
+    Node,
+    Number,
+    ParameterRef,
+    Term,
+    walk,
+)
+from scenewright.program.printer import print_expression
+from scenewright.program.structure import Structure
+from scenewright.program.types import Constraint, Program
+from scenewright.roads.grounding import Scene
+from scenewright.solve.limits import Limits
+from scenewright.solve.lowering import compared_dimension
+from scenewright.solve.outer_problem import EgoBounds, OuterProblem
+from scenewright.solve.problem import Backend, Satisfiable
+from scenewright.units import SI_SYMBOL, format_fraction
+
+_QUERY_TIMEOUT_S = 0.6
+_BISECTIONS = 10
+_SUGGESTIONS = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Suggestion:
+    """A change that makes the scenario possible: another value of one number."""
+
+    what: str
+    value: float
+    nearest: float
+    unit: str
+
+    def __str__(self) -> str:
+        unit = f" {self.unit}" if self.unit else ""
+        return f"{self.what}: {self.nearest:.4g}{unit} instead of {self.value:.4g}{unit}"
+
+
+@dataclass(frozen=True, slots=True)
+class _Lever:
+    """One number in a clashing constraint that could be another."""
+
+    what: str
+    value: Fraction
+    dimension: str
+    program: Program
+    name: str
+
+
+def suggest(
+    scene: Scene,
+    structure: Structure,
+    limits: Mapping[int, Limits],
+    ego: EgoBounds,
+    backend: Backend,
+    core: set[str],
+) -> Iterator[Suggestion]:
+    """Yield a few changes of one number, each with the value nearest to the present one that is possible.
+
+    Parameters
+    ----------
+    core
+        Ids of the constraints that clash; only their numbers are tried.
+    """
+    found = 0
+    for lever in _levers(scene, core):
+        if found >= _SUGGESTIONS:
+            return
+        nearest = _nearest(scene, structure, limits, ego, backend, lever)
+        if nearest is not None:
+            found += 1
+            unit = SI_SYMBOL.get(lever.dimension, "")  # type: ignore[call-overload]
+            yield Suggestion(lever.what, float(lever.value), float(nearest), unit)
+
+
+def _levers(scene: Scene, core: set[str]) -> Iterator[_Lever]:
+    program = scene.program
+    seen: set[str] = set()
+    for constraint in program.constraints:
+        if constraint.id not in core:
+            continue
+        for node in walk(constraint.formula):
+            if isinstance(node, ParameterRef) and node.name in scene.parameters and node.name not in seen:
+                seen.add(node.name)
+                parameter = next(p for p in program.parameters if p.name == node.name)
+                yield _Lever(node.name, scene.parameters[node.name], parameter.unit.dimension, program, node.name)
+            elif isinstance(node, Number) and node.value != 0:
+                name = f"free_{constraint.id}"
+                changed = replace(constraint, formula=_with_name(constraint.formula, node, name))
+                words = program.words_of(constraint)
+                what = f"{format_fraction(node.value)} in " + (
+                    f'"{words}"' if words else print_expression(constraint.formula)
+                )
+                yield _Lever(what, node.value, _dimension_of(constraint), _with_constraint(program, changed), name)
+
+
+def _dimension_of(constraint: Constraint) -> str:
+    return compared_dimension(constraint.formula)
+
+
+def _with_constraint(program: Program, changed: Constraint) -> Program:
+    constraints = tuple(changed if c.id == changed.id else c for c in program.constraints)
+    return replace(program, constraints=constraints)
+
+
+def _nearest(
+    scene: Scene,
+    structure: Structure,
+    limits: Mapping[int, Limits],
+    ego: EgoBounds,
+    backend: Backend,
+    lever: _Lever,
+) -> Fraction | None:
+    """Return the value nearest to the lever's own with which the scenario is possible, rounded to a readable number."""
+    freed_scene = _freed(scene, lever)
+
+    def possible(low: Fraction, high: Fraction) -> Fraction | None:
+        problem = OuterProblem(freed_scene, structure, limits, ego, {lever.name: (low, high)}).problem
+        result = backend.solve(problem, _QUERY_TIMEOUT_S)
+        return result.model.get(f"p_{lever.name}") if isinstance(result, Satisfiable) else None
+
+    value, sign = lever.value, 1 if lever.value > 0 else -1
+    ends = (sign * 10 * abs(value) + 20 * sign, Fraction(0))
+    found = [nearest for end in ends if (nearest := _nearest_towards(value, end, possible)) is not None]
+    if not found:
+        return None
+    return _rounded_away(min(found, key=lambda candidate: abs(candidate - value)), value)
+
+
+def _freed(scene: Scene, lever: _Lever) -> Scene:
+    """Return the scene in which the lever's number is an unknown."""
+    parameters = {name: value for name, value in scene.parameters.items() if name != lever.name}
+    declared = tuple(p for p in lever.program.parameters if p.name != lever.name)
+    return replace(scene, program=replace(lever.program, parameters=declared), parameters=parameters)
+
+
+def _nearest_towards(
+    value: Fraction, end: Fraction, possible: Callable[[Fraction, Fraction], Fraction | None]
+) -> Fraction | None:
+    """Bisect between `value`, which does not work, and what works on the way to `end`; None where nothing does."""
+    far = possible(min(value, end), max(value, end))
+    if far is None:
+        return None
+    near = value
+    for _ in range(_BISECTIONS):
+        middle = (near + far) / 2
+        better = possible(min(middle, value), max(middle, value))
+        if better is None:
+            near = middle
+        else:
+            far = better
+    return far
+
+
+def _rounded_away(found: Fraction, origin: Fraction) -> Fraction:
+    """Round to two decimals away from the value that did not work, so that the suggestion does."""
+    scaled = found * 100
+    floor = scaled.numerator // scaled.denominator
+    return Fraction(floor if found < origin else floor + 1, 100)
+
+
+def _with_name(formula: Formula, number: Number, name: str) -> Formula:
+    """Return `formula` with one number (by identity) replaced by a named unknown."""
+    return _replaced(formula, number, ParameterRef(name))  # type: ignore[return-value]
+
+
+def _replaced(node: Node, old: Number, new: Term) -> Node:
+    if node is old:
+        return new
+    match node:
+        case Arithmetic(left=left, right=right) | Compare(left=left, right=right):
+            return replace(node, left=_replaced(left, old, new), right=_replaced(right, old, new))  # type: ignore[arg-type]
+        case Negate(operand=operand):
+            return replace(node, operand=_replaced(operand, old, new))  # type: ignore[arg-type]
+        case Logic(operands=operands):
+            return replace(node, operands=tuple(_replaced(o, old, new) for o in operands))  # type: ignore[misc]
+        case _:
+            return node
