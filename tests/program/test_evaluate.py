@@ -91,13 +91,23 @@ class Straight:
     ],
 )
 def test_violations(text: str, off: float) -> None:
-    assert violation(formula(text), Straight()) == pytest.approx(off, abs=1e-9)
+    assert violation(formula(text), Straight()) == pytest.approx(off, abs=1e-6)
+
+
+@pytest.mark.parametrize(("operator", "holds"), [("always", True), ("never", False), ("eventually", True)])
+def test_the_pieces_around_an_interval_are_not_part_of_it(operator: str, holds: bool) -> None:
+    """A car that brakes from 2 s to 4 s brakes all through that time, though at 4 s it has stopped braking."""
+    world = Straight()
+    world.motions[1] = (lambda t: 0.0, lambda t: 0.0, lambda t: -2.0 if 2.0 <= t < 4.0 else 0.0)
+    assert (violation(formula(f"{operator}[2, 4](A1a <= -1)"), world) <= 0) is holds
+    assert (violation(formula(f"{operator}[2, 4](A1a >= -1)"), world) <= 0) is (operator == "never")
 
 
 def test_a_knot_that_never_comes_is_no_match() -> None:
     assert violation(formula("A0(t9) == 3"), Straight()) == math.inf
     assert violation(formula("A0(t9) <= 3"), Straight()) == math.inf
     assert violation(formula("A0(t1) < A1(t9)"), Straight()) == -math.inf
+    assert violation(formula("always[0, A0(t9)](A0v > 0)"), Straight()) == math.inf
 
 
 def test_a_landmark_that_belongs_to_nobody_and_a_state_without_a_moment_are_refused() -> None:

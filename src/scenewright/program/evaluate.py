@@ -31,6 +31,7 @@ from scenewright.program.expressions import (
 )
 
 _TEMPORAL_STEP_S = 0.02
+_EDGE_S = 1e-7
 
 
 class World(Protocol):
@@ -98,14 +99,27 @@ def violation(formula: Formula, world: World, now_s: float | None = None) -> flo
             return min(-violation(left, world, now_s), violation(right, world, now_s))
         case Temporal(operator=operator, start=start, end=end, body=body):
             first, last = term_value(start, world, None, now_s), term_value(end, world, None, now_s)
-            count = max(2, math.ceil((last - first) / _TEMPORAL_STEP_S) + 1) if last > first else 1
-            times = [first + (last - first) * i / max(1, count - 1) for i in range(count)]
-            values = [violation(body, world, time_s) for time_s in times]
+            if not (math.isfinite(first) and math.isfinite(last)):
+                return math.inf  # an interval that never begins or ends was not kept to
+            values = [violation(body, world, time_s) for time_s in _instants(first, last)]
             if operator == "always":
                 return max(values)
             return min(values) if operator == "eventually" else -min(values)
         case _:
             raise TypeError(f"not a formula: {formula!r}")
+
+
+def _instants(first_s: float, last_s: float) -> list[float]:
+    """Return the instants at which a condition over ``[first_s, last_s]`` is looked at.
+
+    A hair inside: at its very ends an interval between two knots touches the pieces before and after it, whose
+    acceleration is another.
+    """
+    if last_s <= first_s + 2 * _EDGE_S:
+        return [first_s]
+    begin, end = first_s + _EDGE_S, last_s - _EDGE_S
+    count = max(2, math.ceil((end - begin) / _TEMPORAL_STEP_S) + 1)
+    return [begin + (end - begin) * i / (count - 1) for i in range(count)]
 
 
 def term_value(term: Term, world: World, owner: int | None = None, now_s: float | None = None) -> float:

@@ -1,0 +1,191 @@
+"""Plans: whatever the planner returns is a motion that a car can drive and that does what the program says."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import Phase, given, settings
+from hypothesis import strategies as st
+
+from scenarios import (
+    BEHIND_ITSELF,
+    BOUNDED,
+    BRAKES,
+    NOT_YIELDING,
+    ONE_SIDED,
+    TOO_FAST,
+    YIELDS,
+    YIELDS_THEN_GOES,
+    Example,
+    limits_of,
+    read_structure,
+)
+from scenewright.motion.profile import Profile, chain
+from scenewright.program.evaluate import violation
+from scenewright.program.structure import knots_of
+from scenewright.roads.grounding import Scene
+from scenewright.solve.arrival import linear_conditions
+from scenewright.solve.backends.z3_backend import Z3Backend
+from scenewright.solve.hero_problem import HeroState, Situation
+from scenewright.solve.limits import Limits
+from scenewright.solve.plan import Plan, PlanWorld
+from scenewright.solve.planner import Planner
+
+PLANNED = (BRAKES, YIELDS, NOT_YIELDING, YIELDS_THEN_GOES, ONE_SIDED, BOUNDED)
+_STEP_S = 0.001
+_SLACK = 5e-3
+
+
+def planner_of(scene: Scene) -> Planner:
+    structure = read_structure(scene.program)
+    conditions = linear_conditions(scene, structure)
+    return Planner(scene, structure, limits_of(scene), Z3Backend(), conditions, budget_s=20.0)
+
+
+def ego_at(speed_mps: float, s_m: float, time_s: float) -> Profile:
+    """An ego that drives at one speed and is at `s_m` at `time_s`."""
+    return Profile(chain(0.0, s_m - speed_mps * time_s, speed_mps, [(60.0, 0.0, 0)]))
+
+
+def situation_of(scene: Scene, speed_mps: float, trigger_s: float) -> Situation:
+    """The ego at one speed all along, at its trigger when asked, its later knots where the program wants them."""
+    conditions = [c for c in linear_conditions(scene, read_structure(scene.program)) if set(c.weights) == {0}]
+    placed = {
+        knot: -(c.constant + c.weights[0][1] * speed_mps) / c.weights[0][0]
+        for c in conditions
+        if c.weights[0][0]
+        for owner, knot in c.moments
+        if owner == 0
+    }
+    if "t1" in placed:
+        ego = ego_at(speed_mps, placed["t1"], trigger_s)
+    else:
+        ego = ego_at(speed_mps, placed.get("t0", scene.landmark_m(0, "intersection") - 110.0), 0.0)
+    knots = {"t0": 0.0, "t1": trigger_s}
+    if "t2" in placed:
+        arrival = ego.time_at(placed["t2"])
+        assert arrival is not None
+        knots["t2"] = arrival
+    return Situation(0.0, ego, knots, {}, {1: trigger_s})
+
+
+def assert_drivable(profile: Profile, limits: Limits, until_s: float, scene: Scene) -> None:
+    """Check at every millisecond, from positions alone where possible: nothing jumps, nothing exceeds a limit."""
+    times = np.arange(profile.start_s, until_s, _STEP_S)
+    states = np.array([profile.state(float(t)) for t in times])
+    position, speed, accel = states.T
+    assert speed.min() >= 0
+    assert speed.max() <= limits.speed_max_mps + 1e-4
+    assert accel.min() >= -limits.brake_max_mpss - 1e-3
+    assert accel.max() <= limits.accel_max_mpss + 1e-3
+    # What positions do between two samples is what the speeds say, and speeds change no faster than is allowed.
+    travelled, changed = np.diff(position), np.diff(speed)
+    largest = max(limits.accel_max_mpss, limits.brake_max_mpss)
+    np.testing.assert_allclose(travelled, (speed[1:] + speed[:-1]) / 2 * _STEP_S, atol=largest * _STEP_S**2)
+    assert abs(changed).max() <= largest * _STEP_S + 1e-6
+    turn = scene.routes[1].landmarks
+    if scene.routes[1].turn != "straight":
+        inside = (position >= turn["turn_start"]) & (position <= turn["turn_end"])
+        inside &= times >= profile.knot_times_s["t1"]
+        if inside.any():
+            assert speed[inside].max() <= limits.turn_speed_max_mps + 1e-3
+
+
+def assert_does_what_it_should(scene: Scene, plan: Plan, ego_knots: set[str]) -> None:
+    """Evaluate every constraint on the plan whose moments are known in it."""
+    world = PlanWorld(scene, plan.profiles, {name: float(value) for name, value in scene.parameters.items()})
+    for constraint in scene.program.constraints:
+        knots = set(knots_of(constraint.formula))
+        alone = {actor for actor, _ in knots} == {0}
+        if alone or any(actor == 0 and knot not in ego_knots for actor, knot in knots):
+            continue
+        assert violation(constraint.formula, world) <= _SLACK, constraint.id
+
+
+@pytest.mark.parametrize("case", PLANNED, ids=lambda case: case.name)
+@pytest.mark.parametrize(("speed_mps", "trigger_s"), [(8.0, 7.0), (5.5, 10.0)])
+def test_a_first_plan_is_drivable_and_does_what_it_should(case: Example, speed_mps: float, trigger_s: float) -> None:
+    scene = case.scene()
+    situation = situation_of(scene, speed_mps, trigger_s)
+    attempt = planner_of(scene).first_plan([situation], budget_s=20.0)
+    assert attempt.plan is not None, attempt.reason
+    assert attempt.status == "sat"
+    hero = attempt.plan.profiles[1]
+    assert hero.knot_times_s["t0"] == 0.0
+    assert hero.knot_times_s["t1"] == pytest.approx(trigger_s, abs=1e-6)
+    assert list(hero.knot_times_s.values()) == sorted(hero.knot_times_s.values())
+    assert_drivable(hero, limits_of(scene)[1], hero.end_s + 1.0, scene)
+    known = set(situation.ego_knots_s) if attempt.promises_outcome else {"t0", "t1"}
+    assert_does_what_it_should(scene, attempt.plan, known)
+
+
+@settings(max_examples=12, phases=[Phase.explicit, Phase.reuse, Phase.generate])
+@given(
+    case=st.sampled_from([YIELDS, BRAKES, BOUNDED]),
+    faster=st.floats(-0.8, 0.8),
+    now_s=st.floats(1.0, 5.0),
+    ahead_m=st.floats(-2.0, 2.0),
+)
+def test_a_replan_goes_on_from_where_all_are(case: Example, faster: float, now_s: float, ahead_m: float) -> None:
+    scene = case.scene()
+    planner = planner_of(scene)
+    first = situation_of(scene, 8.0, 9.0)
+    plan = planner.first_plan([first], budget_s=20.0).plan
+    assert plan is not None
+    hero = plan.profiles[1]
+    place, speed, _ = hero.state(now_s)
+    ego_m, ego_speed, _ = first.ego.state(now_s)
+    ego = Profile(chain(now_s, ego_m + ahead_m, ego_speed + faster, [(60.0, 0.0, 0)]))
+    trigger_s = ego.time_at(first.ego.state(9.0)[0])
+    assert trigger_s is not None
+    state = HeroState(now_s, place, speed, 0, {"t0": 0.0}, hero)
+    again = Situation(
+        now_s, ego, {"t0": 0.0, "t1": trigger_s}, {1: state}, {1: trigger_s}, {1: hero.knot_times_s["t1"]}, 0.05
+    )
+    attempt = planner.replan([again])
+    if attempt.plan is None:
+        return  # a few tries a tick may be too few; what is returned must be right
+    moved = attempt.plan.profiles[1]
+    assert moved.start_s == pytest.approx(now_s)
+    assert moved.state(now_s)[:2] == pytest.approx((place, speed), abs=1e-6)
+    assert_drivable(moved, limits_of(scene)[1], moved.end_s + 1.0, scene)
+    if attempt.status == "sat":
+        joined = replace(attempt.plan, profiles={**attempt.plan.profiles, 0: Profile(ego.segments, again.ego_knots_s)})
+        late = {c.id for c in scene.program.constraints if any(k == "t0" for _, k in knots_of(c.formula))}
+        trimmed = replace(scene.program, constraints=tuple(c for c in scene.program.constraints if c.id not in late))
+        assert_does_what_it_should(replace(scene, program=trimmed), joined, {"t0", "t1"})
+
+
+@pytest.mark.parametrize("case", [TOO_FAST, BEHIND_ITSELF], ids=lambda case: case.name)
+def test_there_is_no_exact_plan_for_what_cannot_happen(case: Example) -> None:
+    scene = case.scene()
+    attempt = planner_of(scene).first_plan([situation_of(scene, 8.0, 7.0)], budget_s=20.0)
+    assert attempt.status in ("unsat", "relaxed")
+    assert (attempt.plan is None) is (attempt.status == "unsat")
+    assert attempt.plan is not None or attempt.reason
+
+
+def test_the_same_situation_has_the_same_plan() -> None:
+    plans = []
+    for _ in range(2):
+        scene = YIELDS.scene()
+        plan = planner_of(scene).first_plan([situation_of(scene, 8.0, 7.0)], budget_s=20.0).plan
+        assert plan is not None
+        plans.append(plan.as_dict(scene))
+    assert plans[0] == plans[1]
+
+
+def test_a_plan_as_data() -> None:
+    scene = YIELDS.scene()
+    plan = planner_of(scene).first_plan([situation_of(scene, 8.0, 7.0)], budget_s=20.0).plan
+    assert plan is not None
+    data = plan.as_dict(scene)
+    assert data["schema_version"] == 1
+    hero = data["actors"]["hero"]
+    assert [knot["name"] for knot in hero["knots"]] == ["t0", "t1", "t2"]
+    assert {segment["piece"] for segment in hero["segments"]} == {"go", "dec"}
+    for segment in hero["segments"]:
+        s_m, speed, _ = plan.profiles[1].state(segment["start_s"])
+        assert (segment["s_m"], segment["speed_mps"]) == pytest.approx((s_m, speed))
