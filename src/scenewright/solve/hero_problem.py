@@ -8,7 +8,6 @@ conditions.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from fractions import Fraction
 
 from scenewright.motion.algebra import Condition, Symbol, Value, compare, pin
@@ -22,72 +21,20 @@ from scenewright.solve.arrival import LinearCondition
 from scenewright.solve.limits import BRAKE_MAX_MPSS, MOVING_MPS, Limits, Manner
 from scenewright.solve.lowering import Lowering, NotYet
 from scenewright.solve.problem import Problem
+from scenewright.solve.situation import HeroState, Situation
+from scenewright.solve.stretches import Division, Stretch, rate_is_given
 from scenewright.solve.turns import TurnSpan, keeps_to_turn_speed
 from scenewright.solve.views import KnownView, MotionView, SketchedView
+
+__all__ = ["HeroProblem", "HeroState", "Situation"]
 
 # An ego knot that is not in sight is taken to come this much later (s).
 _OUT_OF_SIGHT_S = 60.0
 _START_MARGIN_M = 3.0
-_WALKING_MPS = 2.0
 _LONGEST_CLEARANCE_S = 8.0
-_SETTLE_S = Fraction(1, 2)
 _SETTLED_MPSS = Fraction(1, 4)
 _SHORTEST_S = Fraction(1, 20)
 _LONGEST_S = Fraction(90)
-
-
-@dataclass(frozen=True, slots=True)
-class HeroState:
-    """Where a hero is: exactly, at `time_s`, within piece `piece` of its sketch; `knots_s` are the knots behind it."""
-
-    time_s: float
-    s_m: float
-    speed_mps: float
-    piece: int
-    knots_s: Mapping[str, float]
-    history: Profile
-
-
-@dataclass(frozen=True, slots=True)
-class Situation:
-    """All that a re-solve starts from.
-
-    Attributes
-    ----------
-    time_s
-        Now.
-    ego
-        The ego's past and predicted motion, with the times of its knots, past and predicted, in `ego_knots_s`.
-    heroes
-        The state of every hero by id; one that has not started yet (its first state is still free) is absent.
-    trigger_s
-        For each hero that has a trigger ahead: the instant at which it should come now.
-    planned_trigger_s
-        The instant that the plan in force has for it.
-    ego_slack_s
-        By how much the instant may move until the ego is one tight tolerance off its own side.
-    """
-
-    time_s: float
-    ego: Profile
-    ego_knots_s: Mapping[str, float]
-    heroes: Mapping[int, HeroState]
-    trigger_s: Mapping[int, float]
-    planned_trigger_s: Mapping[int, float] = field(default_factory=dict)
-    ego_slack_s: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class _Stretch:
-    """A stretch of constant acceleration: its piece, its duration if known, the knot at its end if there is one."""
-
-    piece: int
-    duration_s: Fraction | None
-    end_knot: str | None
-    approach: bool = False
-    settled: bool = False
-    to_top: bool = False
-    cruise: bool = False
 
 
 class HeroProblem:
@@ -112,7 +59,7 @@ class HeroProblem:
         self.tolerance = tolerance
         self.problem = Problem()
         self.asserted: list[Constraint] = []
-        self._stretches: dict[int, list[_Stretch]] = {}
+        self._stretches: dict[int, list[Stretch]] = {}
         self._views: dict[int, MotionView] = {EGO: self._ego_view()}
         self._parameters: dict[str, Value] = dict(scene.parameters)
         for hero in scene.program.heroes:
@@ -130,7 +77,9 @@ class HeroProblem:
     # -- heroes -----------------------------------------------------------------------------------------------------
     def _add_hero(self, hero: Actor) -> MotionView:
         state = self.situation.heroes.get(hero.id)
-        stretches = self._plan_stretches(hero, state)
+        stretches = Division(
+            self.scene.program, self.structure, self.limits[hero.id], self.situation, self.manner, self.conditions
+        ).stretches(hero)
         self._stretches[hero.id] = stretches
         problem, prefix = self.problem, f"a{hero.id}"
         start, position, speed = self._first_state(hero, state)
@@ -175,56 +124,6 @@ class HeroProblem:
             self.problem.bound(speed, pin(MOVING_MPS), None, f"{hero.name} drives when the scenario begins")
         return Fraction(0), position, speed
 
-    def _plan_stretches(self, hero: Actor, state: HeroState | None) -> list[_Stretch]:
-        sketch = hero.sketch
-        first = state.piece if state else 0
-        trigger = self.structure.trigger_knot(hero.id)
-        trigger_index = sketch.knots.index(trigger) if trigger in sketch.knots else 0
-        stretches: list[_Stretch] = []
-        for piece in range(first, len(sketch.pieces)):
-            knot = sketch.knots[piece + 1]
-            approach = piece < trigger_index and sketch.pieces[piece] is PieceKind.GO
-            planned = self.situation.trigger_s.get(hero.id)
-            if approach and piece + 1 == trigger_index and piece == first and planned is not None:
-                stretches += self._approach(piece, pin(planned) - pin(self.situation.time_s), knot)
-            elif approach:
-                stretches += [_Stretch(piece, None, None, True), _Stretch(piece, None, knot, True, True)]
-            elif sketch.pieces[piece] is PieceKind.ACC and self._cruises(hero, piece):
-                stretches += [_Stretch(piece, None, None, to_top=True), _Stretch(piece, None, knot, cruise=True)]
-            else:
-                stretches.append(_Stretch(piece, None, knot))
-        return stretches
-
-    def _approach(self, piece: int, rest_s: Fraction, knot: str) -> list[_Stretch]:
-        """Divide the time that is left before the trigger into steps, the last one settled where that is asked for."""
-        steps, settle = self.manner.steps, self.manner.settle
-        if rest_s <= 0:
-            return []
-        if steps == 1 or rest_s < Fraction(1, 5):
-            return [_Stretch(piece, rest_s, knot, True, settle and steps == 1)]
-        if not settle:
-            return _even(piece, rest_s, steps, knot)
-        if rest_s <= _SETTLE_S * Fraction(11, 10):
-            return [_Stretch(piece, rest_s, knot, True, True)]
-        hold_s = max(_SETTLE_S, rest_s * Fraction(2, 5)) if steps == 2 else _SETTLE_S
-        return [*_even(piece, rest_s - hold_s, steps - 1, None), _Stretch(piece, hold_s, knot, True, True)]
-
-    def _cruises(self, hero: Actor, piece: int) -> bool:
-        """Whether an accelerating piece is long enough to get to the top speed and drive on at it.
-
-        Nobody speeds up for ever; and with the speed at its end known the problem stays easy.
-        """
-        knots = hero.sketch.knots
-        end = self._place_of(hero, knots[piece + 1])
-        begin = next(
-            (place for k in range(piece, 0, -1) if (place := self._place_of(hero, knots[k])) is not None), None
-        )
-        if end is None or begin is None or _rate_is_given(self.scene, hero, piece):
-            return False
-        top = min(self._top_speeds(hero))
-        start_mps = 0.0 if piece and hero.sketch.pieces[piece - 1] is PieceKind.STOP else self.manner.trigger_speed_mps
-        return (top * top - start_mps * start_mps) / (2 * self.manner.acc_mpss[1]) < end - begin
-
     def _is_timed(self, hero: Actor, knot_index: int) -> bool:
         """Whether the program speaks of the hero's speed at a knot, as a time to arrival does: then it cannot stand."""
         key = (hero.id, hero.sketch.knots[knot_index])
@@ -234,60 +133,60 @@ class HeroProblem:
             for condition in self.conditions
         )
 
-    def _place_of(self, hero: Actor, knot: str) -> float | None:
-        """Return where the program puts `hero` at `knot`: exactly, or for a time to arrival at walking pace."""
-        for condition in self.conditions:
-            if set(condition.weights) != {hero.id} or condition.weights[hero.id][0] == 0.0:
-                continue
-            if any(self.structure.same_moment(hero.id, key) == knot for key in condition.moments):
-                per_metre, per_speed = condition.weights[hero.id]
-                return -(condition.constant + per_speed * _WALKING_MPS) / per_metre
-        return None
-
     def _add_stretch(
-        self, hero: Actor, stretch: _Stretch, x0: Value, v0: Value, x1: Symbol, v1: Symbol, duration: Value
+        self, hero: Actor, stretch: Stretch, x0: Value, v0: Value, x1: Symbol, v1: Symbol, duration: Value
     ) -> None:
-        problem, manner = self.problem, self.manner
-        problem.require(compare("==", 2 * (x1 - x0), (v0 + v1) * duration), "the laws of motion")
+        self.problem.require(compare("==", 2 * (x1 - x0), (v0 + v1) * duration), "the laws of motion")
         self._bound_speed(hero, v1)
         self._bound_in_turn(hero, stretch, x0, v0, x1, v1)
         kind = hero.sketch.pieces[stretch.piece]
-        change = v1 - v0
-        label = f"{hero.name}'s {kind} piece"
         if stretch.approach:
-            up, down = Fraction(str(manner.approach_accel_mpss)), Fraction(str(manner.approach_brake_mpss))
-            if stretch.settled:
-                # The gentlest shapes hold their speed at the end; the others only settle.
-                limit = Fraction(0) if manner.steps <= 2 else _SETTLED_MPSS
-                up, down = min(up, limit), min(down, limit)
-            self._require_rate(change, duration, -down, up, f"{hero.name}'s acceleration limits")
-            if stretch.end_knot is not None:
-                self._bound_trigger_speed(hero, stretch.piece, v1)
+            self._bound_approach(hero, stretch, v1, v1 - v0, duration)
         elif kind is PieceKind.GO or stretch.cruise:
-            problem.require(compare("==", v1, v0), f"{hero.name} holds its speed")
+            self.problem.require(compare("==", v1, v0), f"{hero.name} holds its speed")
         elif kind is PieceKind.STOP:
-            problem.require(compare("==", v0, Fraction(0)), label)
-            problem.require(compare("==", v1, Fraction(0)), label)
-            low, high = manner.stop_s
-            problem.require(compare(">=", duration, self._stop_rest(hero, stretch, low)), label)
-            problem.require(compare("<=", duration, pin(high)), label)
+            self._bound_standing(hero, stretch, v0, v1, duration)
+        elif stretch.to_top:
+            top = pin(min(self.manner.top_speeds_mps(self.limits[hero.id])))
+            self.problem.require(compare("==", v1, top), f"{hero.name} goes at {float(top):.1f} m/s")
+            rate = pin(self.manner.acc_mpss[1])
+            self._require_rate(v1 - v0, duration, rate, rate, f"{hero.name} accelerates at {float(rate):g} m/s^2")
         else:
-            given = _rate_is_given(self.scene, hero, stretch.piece)
-            if stretch.to_top:
-                top = pin(min(self._top_speeds(hero)))
-                problem.require(compare("==", v1, top), f"{hero.name} goes at {float(top):.1f} m/s")
-                rate = pin(manner.acc_mpss[1])
-                self._require_rate(change, duration, rate, rate, f"{hero.name} accelerates at {float(rate):g} m/s^2")
-                return
-            low, high = manner.dec_mpss if kind is PieceKind.DEC else manner.acc_mpss
-            if given:
-                low, high = 0.05, BRAKE_MAX_MPSS if kind is PieceKind.DEC else self.limits[hero.id].accel_max_mpss
-            sign = -1 if kind is PieceKind.DEC else 1
-            rates = sorted((sign * pin(low), sign * pin(high)))
-            origin = f"{hero.name} {'brakes' if sign < 0 else 'accelerates'} at {low:g} to {high:g} m/s^2"
-            self._require_rate(change, duration, rates[0], rates[1], origin)
+            self._bound_speeding(hero, stretch, v1 - v0, duration)
 
-    def _stop_rest(self, hero: Actor, stretch: _Stretch, standing_s: float) -> Fraction:
+    def _bound_approach(self, hero: Actor, stretch: Stretch, v1: Symbol, change: Value, duration: Value) -> None:
+        """Bound a stretch on the way to the trigger."""
+        manner = self.manner
+        up, down = Fraction(str(manner.approach_accel_mpss)), Fraction(str(manner.approach_brake_mpss))
+        if stretch.settled:
+            # The gentlest shapes hold their speed at the end; the others only settle.
+            limit = Fraction(0) if manner.steps <= 2 else _SETTLED_MPSS
+            up, down = min(up, limit), min(down, limit)
+        self._require_rate(change, duration, -down, up, f"{hero.name}'s acceleration limits")
+        if stretch.end_knot is not None:
+            self._bound_trigger_speed(hero, stretch.piece, v1)
+
+    def _bound_standing(self, hero: Actor, stretch: Stretch, v0: Value, v1: Symbol, duration: Value) -> None:
+        """Bound a stretch in which the hero stands."""
+        require, label = self.problem.require, f"{hero.name}'s {PieceKind.STOP} piece"
+        require(compare("==", v0, Fraction(0)), label)
+        require(compare("==", v1, Fraction(0)), label)
+        low, high = self.manner.stop_s
+        require(compare(">=", duration, self._stop_rest(hero, stretch, low)), label)
+        require(compare("<=", duration, pin(high)), label)
+
+    def _bound_speeding(self, hero: Actor, stretch: Stretch, change: Value, duration: Value) -> None:
+        """Bound a braking or accelerating stretch: as the manner says, unless the program gives its rate."""
+        braking = hero.sketch.pieces[stretch.piece] is PieceKind.DEC
+        low, high = self.manner.dec_mpss if braking else self.manner.acc_mpss
+        if rate_is_given(self.scene.program, hero, stretch.piece):
+            low, high = 0.05, BRAKE_MAX_MPSS if braking else self.limits[hero.id].accel_max_mpss
+        sign = -1 if braking else 1
+        rates = sorted((sign * pin(low), sign * pin(high)))
+        origin = f"{hero.name} {'brakes' if braking else 'accelerates'} at {low:g} to {high:g} m/s^2"
+        self._require_rate(change, duration, rates[0], rates[1], origin)
+
+    def _stop_rest(self, hero: Actor, stretch: Stretch, standing_s: float) -> Fraction:
         """Return how much longer the hero must stand: what it has stood already counts."""
         state = self.situation.heroes.get(hero.id)
         if state is None or state.piece != stretch.piece:
@@ -302,20 +201,13 @@ class HeroProblem:
         self.problem.require(compare(">=", change, low * duration), origin)
         self.problem.require(compare("<=", change, high * duration), origin)
 
-    def _top_speeds(self, hero: Actor) -> tuple[float, float]:
-        """Return the top speed on the way and in a turn."""
-        limits = self.limits[hero.id]
-        if self.manner.natural_speed:
-            return limits.natural_speed_mps, limits.natural_turn_speed_mps
-        return limits.speed_max_mps, limits.turn_speed_max_mps
-
     def _bound_speed(self, hero: Actor, speed: Symbol) -> None:
-        top = self._top_speeds(hero)[0]
+        top = self.manner.top_speeds_mps(self.limits[hero.id])[0]
         self.problem.bound(speed, 0, pin(top), f"{hero.name} drives at 0 to {top:.1f} m/s")
 
-    def _bound_in_turn(self, hero: Actor, stretch: _Stretch, x0: Value, v0: Value, x1: Symbol, v1: Symbol) -> None:
+    def _bound_in_turn(self, hero: Actor, stretch: Stretch, x0: Value, v0: Value, x1: Symbol, v1: Symbol) -> None:
         turn = TurnSpan.of(self.scene.routes[hero.id])
-        top, turn_top = self._top_speeds(hero)
+        top, turn_top = self.manner.top_speeds_mps(self.limits[hero.id])
         if turn is None or turn_top >= top or (stretch.approach and stretch.end_knot is None):
             return
         braking = hero.sketch.pieces[stretch.piece] is PieceKind.DEC
@@ -428,27 +320,6 @@ class HeroProblem:
                 knots[stretch.end_knot] = now
         start = 0.0 if state is None else state.time_s
         return Profile(chain(start, position, speed, moves), knots)
-
-
-def _even(piece: int, rest_s: Fraction, steps: int, knot: str | None) -> list[_Stretch]:
-    part = rest_s / steps
-    return [_Stretch(piece, part, knot if k == steps - 1 else None, True) for k in range(steps)]
-
-
-def _rate_is_given(scene: Scene, hero: Actor, piece: int) -> bool:
-    for constraint in scene.program.constraints:
-        for node in walk(constraint.formula):
-            if not (isinstance(node, State) and node.actor == hero.id and node.order == 2):
-                continue
-            if not isinstance(node.at, PieceRef) or not _is_equality(constraint.formula):
-                continue
-            if hero.sketch.piece_index(node.at.name) == piece:
-                return True
-    return False
-
-
-def _is_equality(formula: Formula) -> bool:
-    return isinstance(formula, Compare) and formula.operator == "=="
 
 
 def _speaks_of_ego(formula: Formula) -> bool:

@@ -82,6 +82,12 @@ class Manner:
     outcome_margin_s: float = 0.3
     clear: bool = True
 
+    def top_speeds_mps(self, limits: Limits) -> tuple[float, float]:
+        """Return the top speed on the way and in a turn, for an actor within `limits`."""
+        if self.natural_speed:
+            return limits.natural_speed_mps, limits.natural_turn_speed_mps
+        return limits.speed_max_mps, limits.turn_speed_max_mps
+
 
 STEADY = Manner("steady", 0.0, 0.0, 1, True, (1.2, 2.4), (1.2, 2.5), (0.6, 1.2), 2.0, True)
 GENTLE = Manner("gentle", 1.0, 1.2, 2, True, (0.9, 4.0), (1.0, 2.5), (0.6, 1.5), 1.5, True)

@@ -1,0 +1,52 @@
+"""Where everybody is when a re-solve begins, and when the triggers should come.
+
+What enters: states, history, a prediction of the ego. What leaves: nothing but these, as data.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from scenewright.motion.profile import Profile
+
+
+@dataclass(frozen=True, slots=True)
+class HeroState:
+    """Where a hero is: exactly, at `time_s`, within piece `piece` of its sketch; `knots_s` are the knots behind it."""
+
+    time_s: float
+    s_m: float
+    speed_mps: float
+    piece: int
+    knots_s: Mapping[str, float]
+    history: Profile
+
+
+@dataclass(frozen=True, slots=True)
+class Situation:
+    """All that a re-solve starts from.
+
+    Attributes
+    ----------
+    time_s
+        Now.
+    ego
+        The ego's past and predicted motion, with the times of its knots, past and predicted, in `ego_knots_s`.
+    heroes
+        The state of every hero by id; one that has not started yet (its first state is still free) is absent.
+    trigger_s
+        For each hero that has a trigger ahead: the instant at which it should come now.
+    planned_trigger_s
+        The instant that the plan in force has for it.
+    ego_slack_s
+        By how much the instant may move until the ego is one tight tolerance off its own side.
+    """
+
+    time_s: float
+    ego: Profile
+    ego_knots_s: Mapping[str, float]
+    heroes: Mapping[int, HeroState]
+    trigger_s: Mapping[int, float]
+    planned_trigger_s: Mapping[int, float] = field(default_factory=dict)
+    ego_slack_s: float = 0.0

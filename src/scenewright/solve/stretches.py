@@ -1,0 +1,138 @@
+"""Divides what is left of a hero's sketch into stretches of one acceleration each.
+
+What enters: a sketch, a `Situation`, a `Manner`. What leaves: stretches, in order. Where the instant of the trigger is
+given, those on the way to it have known durations, which keeps the problem linear. It bounds nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from scenewright.motion.algebra import pin
+from scenewright.program.expressions import Compare, Formula, PieceRef, State, walk
+from scenewright.program.structure import Structure
+from scenewright.program.types import Actor, PieceKind, Program
+from scenewright.solve.arrival import LinearCondition
+from scenewright.solve.limits import Limits, Manner
+from scenewright.solve.situation import Situation
+
+_WALKING_MPS = 2.0
+_SETTLE_S = Fraction(1, 2)
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """A stretch of constant acceleration: its piece, its duration if known, the knot at its end if there is one."""
+
+    piece: int
+    duration_s: Fraction | None
+    end_knot: str | None
+    approach: bool = False
+    settled: bool = False
+    to_top: bool = False
+    cruise: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Division:
+    """How one hero's motion is divided, in one manner.
+
+    Attributes
+    ----------
+    limits
+        Those of the hero.
+    conditions
+        The scene's linear conditions (see `solve.arrival.linear_conditions`).
+    """
+
+    program: Program
+    structure: Structure
+    limits: Limits
+    situation: Situation
+    manner: Manner
+    conditions: tuple[LinearCondition, ...]
+
+    def stretches(self, hero: Actor) -> list[Stretch]:
+        """Return the stretches of what is left of the hero's sketch, in order."""
+        state = self.situation.heroes.get(hero.id)
+        sketch = hero.sketch
+        first = state.piece if state else 0
+        trigger = self.structure.trigger_knot(hero.id)
+        trigger_index = sketch.knots.index(trigger) if trigger in sketch.knots else 0
+        found: list[Stretch] = []
+        for piece in range(first, len(sketch.pieces)):
+            knot = sketch.knots[piece + 1]
+            approach = piece < trigger_index and sketch.pieces[piece] is PieceKind.GO
+            planned = self.situation.trigger_s.get(hero.id)
+            if approach and piece + 1 == trigger_index and piece == first and planned is not None:
+                found += self._approach(piece, pin(planned) - pin(self.situation.time_s), knot)
+            elif approach:
+                found += [Stretch(piece, None, None, True), Stretch(piece, None, knot, True, True)]
+            elif sketch.pieces[piece] is PieceKind.ACC and self._cruises(hero, piece):
+                found += [Stretch(piece, None, None, to_top=True), Stretch(piece, None, knot, cruise=True)]
+            else:
+                found.append(Stretch(piece, None, knot))
+        return found
+
+    def _approach(self, piece: int, rest_s: Fraction, knot: str) -> list[Stretch]:
+        """Divide the time that is left before the trigger into steps, the last one settled where that is asked for."""
+        steps, settle = self.manner.steps, self.manner.settle
+        if rest_s <= 0:
+            return []
+        if steps == 1 or rest_s < Fraction(1, 5):
+            return [Stretch(piece, rest_s, knot, True, settle and steps == 1)]
+        if not settle:
+            return _even(piece, rest_s, steps, knot)
+        if rest_s <= _SETTLE_S * Fraction(11, 10):
+            return [Stretch(piece, rest_s, knot, True, True)]
+        hold_s = max(_SETTLE_S, rest_s * Fraction(2, 5)) if steps == 2 else _SETTLE_S
+        return [*_even(piece, rest_s - hold_s, steps - 1, None), Stretch(piece, hold_s, knot, True, True)]
+
+    def _cruises(self, hero: Actor, piece: int) -> bool:
+        """Whether an accelerating piece is long enough to get to the top speed and drive on at it.
+
+        Nobody speeds up for ever; and with the speed at its end known the problem stays easy.
+        """
+        knots = hero.sketch.knots
+        end = self._place_of(hero, knots[piece + 1])
+        begin = next(
+            (place for k in range(piece, 0, -1) if (place := self._place_of(hero, knots[k])) is not None), None
+        )
+        if end is None or begin is None or rate_is_given(self.program, hero, piece):
+            return False
+        top = min(self.manner.top_speeds_mps(self.limits))
+        start_mps = 0.0 if piece and hero.sketch.pieces[piece - 1] is PieceKind.STOP else self.manner.trigger_speed_mps
+        return (top * top - start_mps * start_mps) / (2 * self.manner.acc_mpss[1]) < end - begin
+
+    def _place_of(self, hero: Actor, knot: str) -> float | None:
+        """Return where the program puts `hero` at `knot`: exactly, or for a time to arrival at walking pace."""
+        for condition in self.conditions:
+            if set(condition.weights) != {hero.id} or condition.weights[hero.id][0] == 0.0:
+                continue
+            if any(self.structure.same_moment(hero.id, key) == knot for key in condition.moments):
+                per_metre, per_speed = condition.weights[hero.id]
+                return -(condition.constant + per_speed * _WALKING_MPS) / per_metre
+        return None
+
+
+def _even(piece: int, rest_s: Fraction, steps: int, knot: str | None) -> list[Stretch]:
+    part = rest_s / steps
+    return [Stretch(piece, part, knot if k == steps - 1 else None, True) for k in range(steps)]
+
+
+def rate_is_given(program: Program, hero: Actor, piece: int) -> bool:
+    """Whether the program gives the acceleration of a piece of the hero's sketch."""
+    for constraint in program.constraints:
+        for node in walk(constraint.formula):
+            if not (isinstance(node, State) and node.actor == hero.id and node.order == 2):
+                continue
+            if not isinstance(node.at, PieceRef) or not _is_equality(constraint.formula):
+                continue
+            if hero.sketch.piece_index(node.at.name) == piece:
+                return True
+    return False
+
+
+def _is_equality(formula: Formula) -> bool:
+    return isinstance(formula, Compare) and formula.operator == "=="
