@@ -11,7 +11,8 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -236,7 +237,9 @@ def first_plan(world: _World, request: Request) -> tuple[Replanner, EgoFirstStat
     conditions = linear_conditions(world.scene, world.structure)
     predictor = predictor_for(world, request)
     best: tuple[Replanner, EgoFirstState, Attempt] | None = None
-    for start in ego_starts(world.scene, world.ego, world.limits[EGO], conditions):
+    for start in chain(ego_starts(world.scene, world.ego, world.limits[EGO], conditions), _solved_start(world)):
+        if best is not None and best[2].plan is not None and start.last_resort:
+            break
         planner = Planner(world.scene, world.structure, world.limits, world.backend, conditions, request.budget_s)
         replanner = Replanner(world.scene, world.structure, planner, predictor, conditions)
         attempt = replanner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
@@ -246,6 +249,14 @@ def first_plan(world: _World, request: Request) -> tuple[Replanner, EgoFirstStat
             break
     assert best is not None
     return best
+
+
+def _solved_start(world: _World) -> Iterator[EgoFirstState]:
+    """Yield, once all others have failed, the first state in which an ego that holds its speed makes it possible."""
+    bounds = replace(world.ego_bounds, holds_speed=True)
+    found = check_feasibility(world.scene, world.structure, world.limits, world.backend, bounds, explain=False)
+    if found.ego_start is not None:
+        yield EgoFirstState(float(found.ego_start[0]), float(found.ego_start[1]), last_resort=True)
 
 
 def predictor_for(world: _World, request: Request) -> Predictor:

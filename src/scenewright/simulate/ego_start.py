@@ -25,11 +25,15 @@ _SPEED_SHARES = (1.0, 0.85, 0.7, 0.55, 0.42, 0.32, 0.24, 0.18, 0.13, 0.1, 0.08, 
 
 @dataclass(frozen=True, slots=True)
 class EgoFirstState:
-    """A first state of the ego, with the acceleration that it has there when it drives by itself."""
+    """A first state of the ego, with the acceleration that it has there when it drives by itself.
+
+    A last resort is only for when no other state leads to a plan.
+    """
 
     s_m: float
     speed_mps: float
     accel_mpss: float = 0.0
+    last_resort: bool = False
 
 
 def ego_starts(

@@ -13,7 +13,7 @@ from typing import Literal
 
 from scenewright.program.printer import print_expression
 from scenewright.program.structure import Structure
-from scenewright.program.types import Program
+from scenewright.program.types import EGO, Program
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.outer_problem import EgoBounds, EgoDrive, OuterProblem
@@ -49,6 +49,8 @@ class Feasibility:
         ``feasible`` (as far as the outer bounds tell), ``infeasible`` (proven) or ``unknown``.
     parameters
         SI values of open parameters with which it is feasible, where it is.
+    ego_start
+        A first position (m) and speed (m/s) of the ego with which it is feasible, where it is.
     """
 
     answer: Literal["feasible", "infeasible", "unknown"]
@@ -56,6 +58,7 @@ class Feasibility:
     suggestions: tuple[Suggestion, ...] = ()
     reason: str = ""
     parameters: Mapping[str, Fraction] = field(default_factory=dict)
+    ego_start: tuple[Fraction, Fraction] | None = None
 
     def explain(self) -> str:
         """Return the proof for people: what clashes, and what would make it possible."""
@@ -96,7 +99,9 @@ def check_feasibility(
     result = backend.solve(problem, _PROOF_TIMEOUT_S)
     if isinstance(result, Satisfiable):
         names = (parameter.name for parameter in scene.open_parameters())
-        return Feasibility("feasible", parameters={name: result.model[f"p_{name}"] for name in names})
+        start = (result.model[f"a{EGO}x0"], result.model[f"a{EGO}v0"]) if drive is None else None
+        parameters = {name: result.model[f"p_{name}"] for name in names}
+        return Feasibility("feasible", parameters=parameters, ego_start=start)
     if not isinstance(result, Unsatisfiable):
         return Feasibility("unknown", reason=result.reason)
     if not explain:
