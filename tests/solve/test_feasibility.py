@@ -229,3 +229,13 @@ def test_what_has_happened_is_never_called_impossible(
     limits = limits_of(scene)[1]
     assert max(hero.speeds) <= limits.turn_speed_max_mps
     assert feasibility(scene, explain=False).answer != "infeasible"
+
+
+@pytest.mark.xfail(reason="the lowering demands that the two close in", strict=True)
+def test_a_time_to_collision_that_never_comes_is_long_enough() -> None:
+    text = example(
+        "W",
+        "t0, go, t1, dec, t2",
+        "A0(t1) == A1(t1)\nA0v(t1) == 5\nA1v(t1) == 8\ngap(A0, A1, t1) == 20\nttc(A0, A1, t1) >= 3\nA1v(t2) == 0",
+    )
+    assert feasibility(ground(parse_program(text), T), explain=False).answer == "feasible"

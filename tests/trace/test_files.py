@@ -1,4 +1,4 @@
-"""Trace files: what is written is read back, the same trace gives the same bytes, broken files are told by their fault."""
+"""Trace files: written and read back, the same bytes for the same trace, broken files told by their fault."""
 
 from __future__ import annotations
 

@@ -1,0 +1,98 @@
+"""The speed in turns, bounded at every place of the turn; values for parameters that were left open."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from motions import tenths
+
+from scenarios import YIELDS, example, feasibility, limits_of, read_structure
+from scenewright.motion.algebra import pin
+from scenewright.program.text import parse_program
+from scenewright.program.types import Parameter
+from scenewright.roads import find_route, load_map
+from scenewright.roads.grounding import ground
+from scenewright.solve.backends.z3_backend import Z3Backend
+from scenewright.solve.parameters import choose_open_parameters, everyday_value
+from scenewright.solve.turns import TurnSpan, keeps_to_turn_speed, tightest_curvature
+
+T = load_map("t_intersection")
+TURN = TurnSpan(100.0, 120.0)
+TOP = 8.0
+
+
+@settings(max_examples=300)
+@given(
+    start=tenths(60, 130),
+    before=tenths(0, 16),
+    after=tenths(0, 16),
+    lasting=tenths(0.5, 8),
+)
+def test_the_bound_in_a_turn_is_what_a_fine_scan_finds(
+    start: Fraction, before: Fraction, after: Fraction, lasting: Fraction
+) -> None:
+    end = start + (before + after) * lasting / 2
+    if end == start:
+        return
+    parts = [Fraction(k, 400) for k in range(401)]
+    speeds = [
+        float(before + (after - before) * part)
+        for part in parts
+        if 100 < start + lasting * part * (before + (after - before) * part / 2) < 120
+    ]
+    fastest = max(speeds, default=0.0)
+    allowed = keeps_to_turn_speed(TURN, TOP, start, before, end, after, braking=after < before)
+    if fastest > TOP + 0.05:
+        assert allowed is False
+    # Speeding up, the end counts even where it lies behind the turn: never too fast, at times too careful.
+    elif fastest < TOP - 0.05 and after < before:
+        assert allowed is True
+
+
+def test_the_turn_of_a_route() -> None:
+    assert TurnSpan.of(find_route(T, headings=("W",))) is None
+    assert tightest_curvature(find_route(T, headings=("W",))) == 0.0
+    right, left = (find_route(T, headings=h) for h in (("S", "W"), ("S", "E")))
+    assert TurnSpan.of(right) == TurnSpan(right.landmarks["turn_start"], right.landmarks["turn_end"])
+    assert tightest_curvature(right) > tightest_curvature(left) > 0.02
+
+
+@given(
+    name=st.sampled_from(["gap_m", "initial_gap_m", "end_gap_m", "wait_s", "speed_mps", "rate_mpss", "speed_kmph"]),
+    ends=st.none() | st.tuples(tenths(0, 50), tenths(0, 50)),
+)
+def test_everyday_values_lie_in_their_range(name: str, ends: tuple[Fraction, Fraction] | None) -> None:
+    low, high = (None, None) if ends is None else (min(ends), max(ends))
+    parameter = Parameter(name, None, low, high)
+    least, most = parameter.bounds()
+    assert least <= everyday_value(parameter) / parameter.unit.si_factor <= most
+
+
+@pytest.mark.parametrize("tight", [False, True])
+def test_open_parameters_get_values_that_work(tight: bool) -> None:
+    """Everyday ones where those will do; where they will not, such as a stop beyond its beginning, found ones."""
+    text = example(
+        "E, N",
+        "t0, go, t1, dec, t2",
+        "A0(t1) == A1(t1)\nA0x(t1) == stop_line - ego_m\nA1x(t1) == conflict_point - near_m\n"
+        "A1x(t2) == conflict_point - end_m\nA1v(t2) == 0",
+    )
+    program = parse_program(("parameters:\n- end_m in [40, 60]\n" if tight else "") + text)
+    scene = ground(program, T)
+    chosen = choose_open_parameters(scene, read_structure(program), limits_of(scene), Z3Backend())
+    assert set(chosen.parameters) == {"ego_m", "near_m", "end_m"}
+    assert not chosen.open_parameters()
+    assert feasibility(chosen).answer == "feasible"
+    if not tight:
+        assert chosen.parameters == {p.name: everyday_value(p) for p in program.parameters}
+    else:
+        assert 40 <= chosen.parameters["end_m"] <= 60
+
+
+def test_given_parameters_stay_as_they_are() -> None:
+    scene = YIELDS.scene()
+    assert choose_open_parameters(scene, read_structure(scene.program), limits_of(scene), Z3Backend()) is scene
+    assert pin(scene.parameters["end_distance_m"]) == Fraction(13, 2)
