@@ -7,11 +7,13 @@ not taken.
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from scenewright.motion.polynomial import bernstein_coefficients
 from scenewright.motion.profile import Profile
 from scenewright.program.evaluate import violation
 from scenewright.program.expressions import Compare
@@ -74,6 +76,7 @@ _TRIES_A_TICK = 4
 _EASE_EVERY = 3
 # Pinning rounds by at most 5e-5 at each of a handful of numbers; a checked plan may be off by that, no more.
 _CHECK_SLACK = 5e-3
+_LIMIT_SLACK = 5e-3
 DEFAULT_BUDGET_S = 0.25
 
 
@@ -161,6 +164,13 @@ class Planner:
             reason = found
         return Attempt(None, "unsat", reason, time.perf_counter() - started, len(ways)), len(ways)
 
+    def _broken_limit(self, profiles: Mapping[int, Profile], after_s: float) -> str | None:
+        for hero in self.scene.program.heroes:
+            fault = broken_limit(profiles[hero.id], self.limits[hero.id], after_s)
+            if fault is not None:
+                return f"{hero.name} would break its limits: {fault}"
+        return None
+
     def _solve(self, situation: Situation, manner: Manner, tolerance: Fraction, timeout_s: float) -> Plan | str:
         built = HeroProblem(self.scene, self.structure, self.limits, situation, manner, tolerance, self.conditions)
         result = self.backend.solve(built.problem, timeout_s)
@@ -171,10 +181,26 @@ class Planner:
         profiles: dict[int, Profile] = dict(built.profiles(result.model))
         profiles[EGO] = Profile(situation.ego.segments, dict(situation.ego_knots_s))
         parameters = {name: float(value) for name, value in self.scene.parameters.items()}
-        fault = check_profiles(self.scene, profiles, parameters, built.asserted, float(tolerance))
+        fault = self._broken_limit(profiles, situation.time_s)
+        fault = fault or check_profiles(self.scene, profiles, parameters, built.asserted, float(tolerance))
         if fault is not None:
             return f"the model fails its check: {fault}"
         return Plan(profiles, float(tolerance), manner.name, parameters)
+
+
+def broken_limit(profile: Profile, limits: Limits, after_s: float = -math.inf) -> str | None:
+    """Return which limit a motion breaks from `after_s` on, or None: at every instant, by Bernstein coefficients."""
+    top, up, down = limits.speed_max_mps, limits.accel_max_mpss, limits.brake_max_mpss
+    for segment in profile.segments:
+        if segment.end_s <= after_s:
+            continue
+        if not -down - _LIMIT_SLACK <= segment.accel_mpss <= up + _LIMIT_SLACK:
+            return f"acceleration {segment.accel_mpss:.3f} m/s^2"
+        derivatives = [segment.s_m, segment.speed_mps, segment.accel_mpss]
+        speeds = bernstein_coefficients(derivatives, segment.duration_s, order=1)
+        if min(speeds) < -_LIMIT_SLACK or max(speeds) > top + _LIMIT_SLACK:
+            return f"speed {min(speeds):.3f} to {max(speeds):.3f} m/s"
+    return None
 
 
 def _retimed(situation: Situation, tolerance: Fraction) -> Situation:
