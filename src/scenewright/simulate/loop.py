@@ -71,12 +71,7 @@ def simulate(
     progress
         Called with the simulated time (s) at every re-solve.
     """
-    first_plan = replanner.plan
-    heroes = scene.program.heroes
-    paths = {hero.id: scene.routes[hero.id].path for hero in heroes}
-    names = {hero.id: hero.name for hero in heroes}
-    rows: dict[int, list[tuple[float, ...]]] = {EGO: [], **{hero.id: [] for hero in heroes}}
-    times: list[float] = []
+    first_plan, log = replanner.plan, _Log(scene)
     steps_a_tick = max(1, round(rates.replan_s / rates.step_s)) if rates.replan_s else 0
     status, fault, step = "finished", None, 0
     try:
@@ -86,41 +81,66 @@ def simulate(
                 replanner.tick(time_s)
                 if progress is not None:
                     progress(time_s)
-            others = []
-            states: dict[int, tuple[float, float, float]] = {}
-            for hero in heroes:
-                state = replanner.plan.profiles[hero.id].state(time_s)
-                states[hero.id] = state
-                x_m, y_m, heading = paths[hero.id].pose(state[0])
-                others.append(
-                    VehicleState(
-                        names[hero.id], x_m, y_m, heading, state[1], state[2], VEHICLE_LENGTH_M, VEHICLE_WIDTH_M,
-                        None, None,
-                    )
-                )  # fmt: skip
-            action = ego.decide(time_s, tuple(others), rates.step_s)
-            times.append(time_s)
-            rows[EGO].append((ego.s_m, ego.d_m, *ego.pose, ego.speed_mps, ego.accel_mpss))
-            for hero in heroes:
-                rows[hero.id].append(states[hero.id])
+            states = {hero.id: replanner.plan.profiles[hero.id].state(time_s) for hero in scene.program.heroes}
+            action = ego.decide(time_s, _seen(scene, states), rates.step_s)
+            log.add(time_s, ego, states)
             if _is_over(scene, replanner, ego, time_s):
                 break
             ego.advance(action, rates.step_s)
             step += 1
             replanner.observe((round(step * rates.step_s, 9), ego.s_m, ego.speed_mps, ego.accel_mpss))
     except KeyboardInterrupt:
-        if not times:
+        if not log.times:
             raise  # nothing was driven, so nothing is kept
         status = "interrupted"
     except PolicyError as error:
-        if not times:
+        if not log.times:
             raise
         status, fault = "failed", error
-    trace = _trace(scene, times, rows)
-    findings = list(ego.policy.findings)
-    return Run(
-        trace, first_plan, replanner.plan, replanner.records, status, fault, dict(replanner.ego_knots_s), findings
-    )
+    knots, findings = dict(replanner.ego_knots_s), list(ego.policy.findings)
+    return Run(log.trace(), first_plan, replanner.plan, replanner.records, status, fault, knots, findings)
+
+
+def _seen(scene: Scene, states: Mapping[int, tuple[float, float, float]]) -> tuple[VehicleState, ...]:
+    """Return the heroes as the ego sees them: where they are, not where they are going."""
+    seen = []
+    for hero in scene.program.heroes:
+        s_m, speed, accel = states[hero.id]
+        x_m, y_m, heading = scene.routes[hero.id].path.pose(s_m)
+        seen.append(
+            VehicleState(
+                hero.name, x_m, y_m, heading, speed, accel, VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, s_m=None, route=None
+            )
+        )
+    return tuple(seen)
+
+
+class _Log:
+    """What happened, step by step. A step that was interrupted while it was written down is left out of the trace."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.times: list[float] = []
+        self._scene = scene
+        self._rows: dict[int, list[tuple[float, ...]]] = {actor.id: [] for actor in scene.program.actors}
+
+    def add(self, time_s: float, ego: EgoVehicle, states: Mapping[int, tuple[float, float, float]]) -> None:
+        """Write down the state of everybody at the beginning of a step."""
+        self.times.append(time_s)
+        self._rows[EGO].append((ego.s_m, ego.d_m, *ego.pose, ego.speed_mps, ego.accel_mpss))
+        for hero, state in states.items():
+            self._rows[hero].append(state)
+
+    def trace(self) -> Trace:
+        """Return all complete steps."""
+        count = min(len(self.times), *(len(rows) for rows in self._rows.values()))
+        time_s, program = np.asarray(self.times[:count]), self._scene.program
+        s_m, d_m, x_m, y_m, heading, speed, accel = np.asarray(self._rows[EGO][:count]).T
+        actors = {program.ego.name: ActorTrace(time_s, x_m, y_m, heading, speed, accel, s_m, d_m)}
+        for hero in program.heroes:
+            s_m, speed, accel = np.asarray(self._rows[hero.id][:count]).T
+            x_m, y_m, heading = self._scene.routes[hero.id].path.poses(s_m).T[:3]
+            actors[hero.name] = ActorTrace(time_s, x_m, y_m, heading, speed, accel, s_m, np.zeros(count))
+        return Trace(actors)
 
 
 def _is_over(scene: Scene, replanner: Replanner, ego: EgoVehicle, time_s: float) -> bool:
@@ -148,20 +168,3 @@ def _any_at_end(scene: Scene, profiles: Mapping[int, Profile], time_s: float) ->
 def _stalled(replanner: Replanner, time_s: float) -> bool:
     """Whether the ego has stood so long that waiting for it makes no sense."""
     return replanner.ego_stood_s(time_s) > _STALLED_S
-
-
-def _trace(scene: Scene, times: list[float], rows: dict[int, list[tuple[float, ...]]]) -> Trace:
-    count = min(len(times), *(len(values) for values in rows.values()))
-    time_s = np.asarray(times[:count])
-    actors: dict[str, ActorTrace] = {}
-    ego = np.asarray(rows[EGO][:count])
-    actors[scene.program.ego.name] = ActorTrace(
-        time_s, ego[:, 2], ego[:, 3], ego[:, 4], ego[:, 5], ego[:, 6], ego[:, 0], ego[:, 1]
-    )
-    for hero in scene.program.heroes:
-        values = np.asarray(rows[hero.id][:count])
-        poses = scene.routes[hero.id].path.poses(values[:, 0])
-        actors[hero.name] = ActorTrace(
-            time_s, poses[:, 0], poses[:, 1], poses[:, 2], values[:, 1], values[:, 2], values[:, 0], np.zeros(count)
-        )
-    return Trace(actors)
