@@ -19,7 +19,7 @@ from scenewright.roads.grounding import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, Scene
 from scenewright.simulate.replanner import Replan, Replanner
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.plan import Plan
-from scenewright.trace.model import ActorTrace, Trace
+from scenewright.trace.model import ActorTrace, FloatArray, Trace
 
 DEFAULT_STEP_S = 0.02
 DEFAULT_REPLAN_S = 0.1
@@ -90,11 +90,11 @@ def simulate(
             step += 1
             replanner.observe((round(step * rates.step_s, 9), ego.s_m, ego.speed_mps, ego.accel_mpss))
     except KeyboardInterrupt:
-        if not log.times:
+        if not log.steps:
             raise  # nothing was driven, so nothing is kept
         status = "interrupted"
     except PolicyError as error:
-        if not log.times:
+        if not log.steps:
             raise
         status, fault = "failed", error
     knots, findings = dict(replanner.ego_knots_s), list(ego.policy.findings)
@@ -119,28 +119,37 @@ class _Log:
     """What happened, step by step. A step that was interrupted while it was written down is left out of the trace."""
 
     def __init__(self, scene: Scene) -> None:
-        self.times: list[float] = []
+        self._times: list[float] = []
         self._scene = scene
         self._rows: dict[int, list[tuple[float, ...]]] = {actor.id: [] for actor in scene.program.actors}
 
     def add(self, time_s: float, ego: EgoVehicle, states: Mapping[int, tuple[float, float, float]]) -> None:
         """Write down the state of everybody at the beginning of a step."""
-        self.times.append(time_s)
+        self._times.append(time_s)
         self._rows[EGO].append((ego.s_m, ego.d_m, *ego.pose, ego.speed_mps, ego.accel_mpss))
         for hero, state in states.items():
             self._rows[hero].append(state)
 
+    @property
+    def steps(self) -> int:
+        """Number of complete steps."""
+        return min(len(self._times), *(len(rows) for rows in self._rows.values()))
+
     def trace(self) -> Trace:
-        """Return all complete steps."""
-        count = min(len(self.times), *(len(rows) for rows in self._rows.values()))
-        time_s, program = np.asarray(self.times[:count]), self._scene.program
-        s_m, d_m, x_m, y_m, heading, speed, accel = np.asarray(self._rows[EGO][:count]).T
+        """Return all complete steps, of which there must be one."""
+        count = self.steps
+        time_s, program = np.asarray(self._times[:count]), self._scene.program
+        s_m, d_m, x_m, y_m, heading, speed, accel = self._columns(EGO, count)
         actors = {program.ego.name: ActorTrace(time_s, x_m, y_m, heading, speed, accel, s_m, d_m)}
         for hero in program.heroes:
-            s_m, speed, accel = np.asarray(self._rows[hero.id][:count]).T
+            s_m, speed, accel = self._columns(hero.id, count)
             x_m, y_m, heading = self._scene.routes[hero.id].path.poses(s_m).T[:3]
             actors[hero.name] = ActorTrace(time_s, x_m, y_m, heading, speed, accel, s_m, np.zeros(count))
         return Trace(actors)
+
+    def _columns(self, actor: int, count: int) -> FloatArray:
+        """Return one row of numbers a quantity, each contiguous: traces are asked for single states very often."""
+        return np.ascontiguousarray(np.asarray(self._rows[actor][:count]).T)
 
 
 def _is_over(scene: Scene, replanner: Replanner, ego: EgoVehicle, time_s: float) -> bool:

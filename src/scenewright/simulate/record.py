@@ -22,6 +22,7 @@ from scenewright.errors import OutputError, Place
 from scenewright.program.printer import print_program
 from scenewright.roads.conflicts import shared_offset_m
 from scenewright.roads.grounding import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, Scene
+from scenewright.roads.model import RoadMap
 from scenewright.simulate.loop import Rates, Run
 from scenewright.solve.limits import Limits
 from scenewright.solve.plan import SCHEMA_VERSION
@@ -121,7 +122,6 @@ def _write_replans(run: Run, path: Path) -> None:
 
 def _manifest(scene: Scene, run: Run, limits: Mapping[int, Limits], circumstances: Circumstances) -> dict[str, Any]:
     program = scene.program
-    source = scene.road_map.source
     return {
         "schema_version": SCHEMA_VERSION,
         "scenewright_version": __version__,
@@ -135,11 +135,7 @@ def _manifest(scene: Scene, run: Run, limits: Mapping[int, Limits], circumstance
         "tolerance": circumstances.tolerance,
         "translator": circumstances.translator,
         "ego": {"name": circumstances.ego_name, "options": dict(circumstances.ego_options)},
-        "map": {
-            "name": scene.road_map.name,
-            "file": str(source),
-            "sha256": hashlib.sha256(source.read_bytes()).hexdigest(),
-        },
+        "map": _map(scene.road_map),
         "routes": {actor.name: _route(scene, actor.id) for actor in program.actors},
         "landmarks": {actor.name: dict(scene.landmarks_m[actor.id]) for actor in program.actors},
         "vehicles": {
@@ -161,6 +157,11 @@ def _manifest(scene: Scene, run: Run, limits: Mapping[int, Limits], circumstance
         "notes": [*circumstances.notes, *scene.notes],
         "findings": list(run.findings),
     }
+
+
+def _map(road_map: RoadMap) -> dict[str, str]:
+    digest = hashlib.sha256(road_map.source.read_bytes()).hexdigest()
+    return {"name": road_map.name, "file": str(road_map.source), "sha256": digest}
 
 
 def _route(scene: Scene, actor: int) -> dict[str, Any]:
