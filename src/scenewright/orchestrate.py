@@ -86,7 +86,7 @@ class Result:
     status
         ``success`` or ``failure`` are verdicts; ``failed`` and ``interrupted`` runs were cut short.
     hindsight
-        For a run that failed: the proof that against the ego as it drove no hero could have done it, where there is one.
+        For a run that missed: the proof, where there is one, that against the ego as it drove no hero could have done it.
     run_directory
         Where the files are; None where nothing was driven or nothing was to be written.
     """
@@ -126,21 +126,9 @@ def orchestrate(
         Where the input is wrong; every subclass says what and how to mend it.
     """
     stages = _Stages(report)
-    if request.out is not None:
-        from scenewright.simulate.record import prepare_directory
-
-        prepare_directory(request.out)
-    with stages("translate"):
-        program, translation = read_scenario(request.source, request.translator, request.map_name)
-    with stages("ground"):
-        scene = ground(program, load_map(request.map_name or program.map_name), request.parameters)
-    policy = load_policy(request.ego)
-    world = _World(
-        scene, EgoVehicle(GuardedPolicy(policy.policy, policy.name), scene.routes[EGO], scene.road_map, request.seed)
-    )
+    world, translation = _set_up(request, stages)
     with stages("check"):
-        world.scene = choose_open_parameters(scene, world.structure, world.limits, world.backend, world.ego_bounds)
-        feasibility = check_feasibility(world.scene, world.structure, world.limits, world.backend, world.ego_bounds)
+        feasibility = world.choose_and_check()
     result = Result("infeasible", world.scene, translation, feasibility, timings_s=stages.seconds)
     if feasibility.answer == "infeasible":
         return result
@@ -153,12 +141,28 @@ def orchestrate(
     if attempt.plan is None or until == "plan":
         result.status = "success" if attempt.plan is not None else "gave up"
         return result
-    rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
     with stages("simulate"):
         world.ego.reset(start.s_m, start.speed_mps)
-        result.run = simulate(world.scene, world.ego, replanner, rates, progress)
-    _record(request, result, world, rates, policy.name, policy.options, stages)
+        result.run = simulate(world.scene, world.ego, replanner, world.rates, progress)
+    _judge(request, result, world, stages)
+    if request.out is not None:
+        with stages("write"):
+            _write(request.out, request, result, world, stages.seconds)
+        result.run_directory = request.out
     return result
+
+
+def _set_up(request: Request, stages: _Stages) -> tuple[_World, Translation | None]:
+    """Read the source, put it on its map, and load the policy; nothing that is wrong with them is found out late."""
+    if request.out is not None:
+        from scenewright.simulate.record import prepare_directory
+
+        prepare_directory(request.out)
+    with stages("translate"):
+        program, translation = read_scenario(request.source, request.translator, request.map_name)
+    with stages("ground"):
+        scene = ground(program, load_map(request.map_name or program.map_name), request.parameters)
+    return _World(scene, request), translation
 
 
 # -- reading --------------------------------------------------------------------------------------------------------
@@ -216,20 +220,29 @@ def _text_of(source: str) -> tuple[str, str]:
 class _World:
     """What stays the same all through one request."""
 
-    def __init__(self, scene: Scene, ego: EgoVehicle) -> None:
+    def __init__(self, scene: Scene, request: Request) -> None:
         from scenewright.solve.backends.z3_backend import Z3Backend
 
         self.scene = scene
-        self.ego = ego
+        self.policy = load_policy(request.ego)
+        guarded = GuardedPolicy(self.policy.policy, self.policy.name)
+        self.ego = EgoVehicle(guarded, scene.routes[EGO], scene.road_map, request.seed)
+        self.rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
         self.structure: Structure = read_structure(scene.program)
         self.limits: dict[int, Limits] = {i: limits_on(route, scene.road_map) for i, route in scene.routes.items()}
         self.backend: Backend = Z3Backend()
-        envelope = ego.policy.envelope
+        envelope = guarded.envelope
         self.ego_bounds = (
             EgoBounds(envelope.speed_max_mps, envelope.accel_max_mpss, -envelope.accel_min_mpss, envelope.holds_speed)
             if envelope is not None
             else EgoBounds()
         )
+
+    def choose_and_check(self) -> Feasibility:
+        """Give open parameters values, and ask whether the scenario can happen with them."""
+        world = (self.structure, self.limits, self.backend, self.ego_bounds)
+        self.scene = choose_open_parameters(self.scene, *world)
+        return check_feasibility(self.scene, *world)
 
 
 def first_plan(world: _World, request: Request) -> tuple[Replanner, EgoFirstState, Attempt]:
@@ -279,59 +292,54 @@ def _quality(attempt: Attempt) -> int:
 
 
 # -- what is left behind --------------------------------------------------------------------------------------------
-def _record(
-    request: Request,
-    result: Result,
-    world: _World,
-    rates: Rates,
-    ego_name: str,
-    ego_options: Mapping[str, object],
-    stages: _Stages,
-) -> None:
-    """Judge the run, and write its directory where one is asked for."""
+def _judge(request: Request, result: Result, world: _World, stages: _Stages) -> None:
+    """Judge the run; where it missed, ask whether the ego left any room."""
     from scenewright.judge.judgement import judge
     from scenewright.judge.tolerance import LOOSE, TIGHT
-    from scenewright.simulate.record import Circumstances, write_run
 
     run = result.run
     assert run is not None
-    given = frozenset(request.parameters)
-    circumstances = Circumstances(
-        ego_name,
-        ego_options,
-        request.mode,
-        request.tolerance,
-        request.seed,
-        request.translator if result.translation else "none",
-        rates,
-        frozenset(p.name for p in world.scene.program.parameters if p.name not in given and p.value is None),
-        given,
-        stages.seconds,
-        result.translation.assumptions if result.translation else (),
-    )
     with stages("judge"):
         result.verdict = judge(case_of(world.scene, run, world.limits))
     holds = result.verdict.holds_at(TIGHT if request.tolerance == "tight" else LOOSE)
     result.status = "success" if holds else "failure"
-    if not holds and run.status == "finished":
+    if run.status != "finished":
+        result.status = "interrupted" if run.status == "interrupted" else "failed"
+    elif not holds:
         with stages("hindsight"):
             result.hindsight = ego_left_no_room(world.scene, world.structure, world.limits, world.backend, run.trace)
         if result.hindsight is not None:
             run.findings.append(
-                "The ego left no room: against the way it drove no vehicle within its limits could have met all conditions."
+                "The ego left no room: against the way it drove no vehicle within its limits could have met all "
+                "conditions."
             )
-    if run.status != "finished":
-        result.status = "interrupted" if run.status == "interrupted" else "failed"
-    if request.out is None:
-        return
+
+
+def _write(directory: Path, request: Request, result: Result, world: _World, timings_s: Mapping[str, float]) -> None:
+    """Write the run directory."""
     from scenewright.judge.files import write_verdict
+    from scenewright.simulate.record import Circumstances, write_run
     from scenewright.studio.page import write_page
 
-    with stages("write"):
-        write_run(request.out, world.scene, run, world.limits, circumstances)
-        write_verdict(result.verdict, request.out / "verdict.json")
-        write_page(request.out)
-    result.run_directory = request.out
+    assert result.run is not None
+    assert result.verdict is not None
+    given = frozenset(request.parameters)
+    circumstances = Circumstances(
+        world.policy.name,
+        world.policy.options,
+        request.mode,
+        request.tolerance,
+        request.seed,
+        request.translator if result.translation else "none",
+        world.rates,
+        frozenset(p.name for p in world.scene.program.parameters if p.name not in given and p.value is None),
+        given,
+        timings_s,
+        result.translation.assumptions if result.translation else (),
+    )
+    write_run(directory, world.scene, result.run, world.limits, circumstances)
+    write_verdict(result.verdict, directory / "verdict.json")
+    write_page(directory)
 
 
 def case_of(scene: Scene, run: Run, limits: Mapping[int, Limits]) -> Case:
