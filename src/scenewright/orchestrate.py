@@ -86,7 +86,7 @@ class Result:
     status
         ``success`` or ``failure`` are verdicts; ``failed`` and ``interrupted`` runs were cut short.
     hindsight
-        For a run that missed: the proof, where there is one, that against the ego as it drove no hero could have done it.
+        For a run that missed: the proof that against the ego as it drove no hero could have done it, if there is one.
     run_directory
         Where the files are; None where nothing was driven or nothing was to be written.
     """

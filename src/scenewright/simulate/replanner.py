@@ -17,9 +17,9 @@ from scenewright.program.types import EGO, Actor
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.prediction import EgoSample, Predictor
 from scenewright.solve.arrival import LinearCondition
-from scenewright.solve.hero_problem import HeroState, Situation
 from scenewright.solve.plan import Plan
 from scenewright.solve.planner import Attempt, Planner
+from scenewright.solve.situation import HeroState, Situation
 
 # While much time is left a late or early ego is nothing to act on; the dead band shrinks to almost nothing.
 _DEAD_BAND_S = 0.003

@@ -26,8 +26,6 @@ from scenewright.solve.stretches import Division, Stretch, rate_is_given
 from scenewright.solve.turns import TurnSpan, keeps_to_turn_speed
 from scenewright.solve.views import KnownView, MotionView, SketchedView
 
-__all__ = ["HeroProblem", "HeroState", "Situation"]
-
 # An ego knot that is not in sight is taken to come this much later (s).
 _OUT_OF_SIGHT_S = 60.0
 _START_MARGIN_M = 3.0

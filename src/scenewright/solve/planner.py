@@ -21,7 +21,7 @@ from scenewright.program.structure import Role, Structure
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
-from scenewright.solve.hero_problem import HeroProblem, Situation
+from scenewright.solve.hero_problem import HeroProblem
 from scenewright.solve.limits import (
     FIRM,
     FIRM_QUICK,
@@ -38,6 +38,7 @@ from scenewright.solve.limits import (
 from scenewright.solve.lowering import TIGHT, compared_dimension
 from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.solve.problem import Backend, Satisfiable, Unknown
+from scenewright.solve.situation import Situation
 
 
 @dataclass(frozen=True, slots=True)
