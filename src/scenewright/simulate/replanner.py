@@ -273,7 +273,7 @@ class Replanner:
         return self._joint_instants(hero, here, time_s, prediction)
 
     def _ego_arrival_s(self, condition: LinearCondition, time_s: float, prediction: Profile) -> float:
-        """Return when the ego will be at its side of the trigger: at once where it is past it, late where not in sight."""
+        """Return when the ego will be at its side: at once where it is past it, late where that is not in sight."""
         arrival = condition.first_time({EGO: prediction}, time_s)
         if arrival is None and self._samples:
             first, now = self._samples[0], self._samples[-1]
