@@ -75,12 +75,12 @@ def test_what_cannot_happen_is_explained_by_what_clashes(case: Example) -> None:
     assert len(plain["clashes"]) == len(found.clashes)
 
 
-ROUNDING = pytest.mark.xfail(reason="a suggestion is rounded off the one value that an equality admits", strict=True)
+ROUNDING = pytest.mark.xfail(reason="where only an irrational value would do, a decimal one is off it", strict=True)
 
 
 @pytest.mark.parametrize(
     "case",
-    [pytest.param(case, marks=[ROUNDING] if case is TOO_WEAK else []) for case in INFEASIBLE],
+    INFEASIBLE,
     ids=lambda case: case.name,
 )
 def test_every_suggestion_works_when_taken(case: Example) -> None:
@@ -231,7 +231,6 @@ def test_what_has_happened_is_never_called_impossible(
     assert feasibility(scene, explain=False).answer != "infeasible"
 
 
-@pytest.mark.xfail(reason="the lowering demands that the two close in", strict=True)
 def test_a_time_to_collision_that_never_comes_is_long_enough() -> None:
     text = example(
         "W",

@@ -137,7 +137,6 @@ SIGNED = [
 ]
 
 
-@pytest.mark.xfail(reason="the lowering multiplies denominators out as if all were positive", strict=True)
 @pytest.mark.parametrize("form", SIGNED)
 @example(
     pair=(

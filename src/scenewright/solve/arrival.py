@@ -119,8 +119,10 @@ def _linearised(
             return None
         if metre != origin or speed != origin:
             weights[actor] = (float(metre - origin), float(speed - origin))
-    everything = _probe(scene, structure, formula, dict.fromkeys(actors, (3, 2)))
-    expected = float(origin) + sum(3 * m + 2 * v for m, v in weights.values())
+    # Different for every actor, so that a product of two actors' states cannot pass for a sum.
+    states = {actor: (3 + 4 * k, 2 + 3 * k) for k, actor in enumerate(actors)}
+    everything = _probe(scene, structure, formula, states)
+    expected = float(origin) + sum(m * states[actor][0] + v * states[actor][1] for actor, (m, v) in weights.items())
     if everything is None or abs(float(everything) - expected) > _LINEAR_SLACK or not weights:
         return None
     return LinearCondition(constraint_id, moments, float(origin), weights)
@@ -173,7 +175,9 @@ def _common_stretches(
         {t for _, p in profiles for s in p.segments for t in (s.start_s, s.end_s) if t > after_s} | {after_s}
     )
     for begin, end in zip(breaks, [*breaks[1:], breaks[-1] + HORIZON_S], strict=True):
-        yield begin, end - begin, {actor: profile.state(begin) for actor, profile in profiles}
+        # At the break itself rounding may still tell the acceleration that ends there; in the middle there is no doubt.
+        middle = 0.5 * (begin + end)
+        yield begin, end - begin, {a: (*profile.state(begin)[:2], profile.state(middle)[2]) for a, profile in profiles}
 
 
 def _with_rest(profile: Profile) -> Iterator[Segment]:

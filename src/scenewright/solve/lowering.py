@@ -118,19 +118,31 @@ class Lowering:
 
     def _compare(self, formula: Compare, tolerance: Fraction) -> Condition:
         owner = landmark_owner(formula)
-        left_num, left_den = self.term(formula.left, owner)
-        right_num, right_den = self.term(formula.right, owner)
+        left_num, left_den = self._side(formula.left, owner)
+        right_num, right_den = self._side(formula.right, owner)
         left, right = left_num * right_den, right_num * left_den
-        common = left_den * right_den
-        positive = [] if not isinstance(common, Symbol) else [compare(">", common, Fraction(0))]
+        positive = [compare(">", den, Fraction(0)) for den in (left_den, right_den)]
         if formula.operator == "==" and tolerance:
-            slack = TIGHT[compared_dimension(formula)] * tolerance * common
+            slack = TIGHT[compared_dimension(formula)] * tolerance * left_den * right_den
             bounds = [compare("<=", left, right + slack), compare(">=", left, right - slack)]
             return conjunction([*positive, *bounds])
-        return conjunction([*positive, compare(formula.operator, left, right)])
+        finite = conjunction([*positive, compare(formula.operator, left, right)])
+        # A time to arrival of one that stands, or to a collision of two that part, is longer than any time.
+        if formula.operator in (">", ">=") and _may_be_endless(formula.left):
+            return disjunction([negation(positive[0]), finite])
+        if formula.operator in ("<", "<=") and _may_be_endless(formula.right):
+            return disjunction([negation(positive[1]), finite])
+        return finite
+
+    def _side(self, term: Term, owner: int | None) -> Ratio:
+        """Return one side of a comparison; a quotient by a known negative number is written with a positive one."""
+        numerator, denominator = self.term(term, owner)
+        if not isinstance(denominator, Symbol) and denominator < 0 and not _may_be_endless(term):
+            return -numerator, -denominator
+        return numerator, denominator
 
     def term(self, term: Term, owner: int | None) -> Ratio:
-        """Return a term as numerator and positive denominator."""
+        """Return a term as numerator and denominator."""
         match term:
             case Number(value=value):
                 return value, ONE
@@ -258,6 +270,10 @@ def _are_positions(term: Arithmetic) -> bool:
         and left.order == right.order == 0
         and left.actor != right.actor
     )
+
+
+def _may_be_endless(term: Term) -> bool:
+    return any(isinstance(node, Derived) and node.kind != "gap" for node in walk(term))
 
 
 def _known(value: Value | None) -> Value:

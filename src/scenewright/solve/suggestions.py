@@ -139,7 +139,11 @@ def _nearest(
     found = [nearest for end in ends if (nearest := _nearest_towards(value, end, possible)) is not None]
     if not found:
         return None
-    return _rounded_away(min(found, key=lambda candidate: abs(candidate - value)), value)
+    best = min(found, key=lambda candidate: abs(candidate - value))
+    for readable in (Fraction(round(best * 100), 100), _rounded_away(best, value)):
+        if possible(readable, readable) is not None:
+            return readable
+    return best
 
 
 def _freed(scene: Scene, lever: _Lever) -> Scene:

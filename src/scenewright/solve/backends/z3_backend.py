@@ -24,7 +24,8 @@ class Z3Backend:
 
     def solve(self, problem: Problem, timeout_s: float, want_core: bool = False) -> Result:
         """Solve `problem` within `timeout_s`; unsatisfiable results carry a minimal core where `want_core` is set."""
-        solver = z3.Solver()
+        # Cores name their assertions, and names stay behind in a context: a fresh one keeps answers repeatable.
+        solver = z3.Solver(ctx=z3.Context()) if want_core else z3.Solver()
         solver.set("timeout", max(1, int(timeout_s * 1000)))
         solver.from_string(problem.smtlib(named=want_core))
         answer = solver.check()
