@@ -228,20 +228,19 @@ class Replanner:
         self, time_s: float, prediction: Profile, ego_past: Mapping[str, float], heroes: Mapping[int, HeroState]
     ) -> list[Situation]:
         """Return what to solve for: one situation where the ego alone decides when the trigger comes, else several."""
-        hero = self.scene.program.heroes[0]
-        trigger = self.structure.trigger_knot(hero.id)
-        ahead = hero.id not in heroes or (trigger is not None and trigger not in heroes[hero.id].knots_s)
-        instants: list[float | None] = [None]
-        if trigger is not None and ahead:
-            instants = list(self._trigger_instants(hero, time_s, prediction, heroes))
+        choices: dict[int, list[float]] = {}
+        for hero in self.scene.program.heroes:
+            trigger = self.structure.trigger_knot(hero.id)
+            if trigger is not None and (hero.id not in heroes or trigger not in heroes[hero.id].knots_s):
+                choices[hero.id] = self._trigger_instants(hero, time_s, prediction, heroes)
         situations = []
-        for instant in instants:
-            knots = self._ego_knots(time_s, prediction, ego_past, hero, instant)
-            triggers = {} if instant is None else {hero.id: instant}
-            planned, slack_s = {}, 0.0
-            if instant is not None and hero.id in heroes:
-                planned = {hero.id: self._planned_trigger_s(hero)}
-                slack_s = self._ego_slack_s(prediction, instant)
+        for k in range(max((len(instants) for instants in choices.values()), default=1)):
+            triggers = {hero: instants[min(k, len(instants) - 1)] for hero, instants in choices.items()}
+            knots = self._ego_knots(time_s, prediction, ego_past, triggers)
+            planned = {
+                hero: self._planned_trigger_s(self.scene.program.actor(hero)) for hero in triggers if hero in heroes
+            }
+            slack_s = min((self._ego_slack_s(prediction, triggers[hero]) for hero in planned), default=0.0)
             situations.append(Situation(time_s, prediction, knots, heroes, triggers, planned, slack_s))
         return situations
 
@@ -312,19 +311,14 @@ class Replanner:
         return Profile(approach or profile.segments[:1])
 
     def _ego_knots(
-        self,
-        time_s: float,
-        prediction: Profile,
-        past: Mapping[str, float],
-        hero: Actor,
-        trigger_s: float | None,
+        self, time_s: float, prediction: Profile, past: Mapping[str, float], triggers_s: Mapping[int, float]
     ) -> dict[str, float]:
-        """Return when the ego passes its knots: those behind it, its trigger, and those it is predicted to reach."""
+        """Return when the ego passes its knots: those behind it, its triggers, and those it is predicted to reach."""
         knots = dict(past)
-        if trigger_s is not None:
-            for owner, name in self.structure.triggers[hero.id]:
+        for hero, instant_s in triggers_s.items():
+            for owner, name in self.structure.triggers[hero]:
                 if owner == EGO:
-                    knots[name] = trigger_s
+                    knots[name] = instant_s
         latest = max([time_s, *knots.values()])
         for condition in self._ego_alone():
             name = next(iter(condition.moments))[1]
