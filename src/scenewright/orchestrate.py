@@ -28,7 +28,7 @@ from scenewright.roads.load import load_map
 from scenewright.simulate.ego_start import EgoFirstState, ego_starts
 from scenewright.simulate.hindsight import ego_left_no_room
 from scenewright.simulate.loop import Rates, Run, simulate
-from scenewright.simulate.prediction import ConstantSpeed, Predictor, RoadAware
+from scenewright.simulate.prediction import ConstantSpeed, Predictor, predictor_called
 from scenewright.simulate.replanner import Replanner
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.arrival import linear_conditions
@@ -75,6 +75,7 @@ class Request:
     out: Path | None = None
     replan_hz: float = 10.0
     budget_s: float = 0.25
+    predictor: str = "road"
 
 
 @dataclass(slots=True)
@@ -273,10 +274,9 @@ def _solved_start(world: _World) -> Iterator[EgoFirstState]:
 
 
 def predictor_for(world: _World, request: Request) -> Predictor:
-    """Return how the ego is foreseen: by the road, unless it has promised to hold its speed or nobody looks again."""
-    if request.mode == "open" or world.ego_bounds.holds_speed:
-        return ConstantSpeed()
-    return RoadAware.on(world.scene.routes[EGO])
+    """Return how the ego is foreseen: as asked for, unless it has promised to hold its speed or nobody looks again."""
+    chosen = predictor_called(request.predictor, world.scene.routes[EGO])
+    return ConstantSpeed() if request.mode == "open" or world.ego_bounds.holds_speed else chosen
 
 
 _GENTLENESS = {"steady": 5, "gentle": 4, "firm": 3, "whole": 2, "urgent": 1}

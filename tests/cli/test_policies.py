@@ -22,7 +22,7 @@ BODIES = {
         "ego = observation.ego\nreturn EgoMotion(ego.x_m + 50.0, ego.y_m, ego.heading_rad, ego.speed_mps)",
         "50.00 m from where the ego was",
     ),
-    "ends the process": ("sys.exit(0)", "SystemExit(0)"),
+    "ends the process": ("sys.exit(0)", "SystemExit: 0"),
 }
 
 

@@ -67,6 +67,9 @@ def run(
     replan_hz: Annotated[
         float, typer.Option("--replan-hz", min=0.1, max=50.0, help="Re-solves in a simulated second.")
     ] = 10.0,
+    predictor: Annotated[
+        str, typer.Option(help="How the ego is foreseen: road (slows for turns and lines), acceleration or speed.")
+    ] = "road",
     budget_ms: Annotated[
         float, typer.Option("--budget-ms", min=1.0, max=60_000.0, help="Wall time that one re-solve may take.")
     ] = 250.0,
@@ -81,7 +84,18 @@ def run(
         values = parameters_of(parameter)
         folder = claim(out, source)
         request = Request(
-            source, values, map_name, ego, mode, tolerance, seed, translator, folder.path, replan_hz, budget_ms / 1000
+            source,
+            values,
+            map_name,
+            ego,
+            mode,
+            tolerance,
+            seed,
+            translator,
+            folder.path,
+            replan_hz,
+            budget_ms / 1000,
+            predictor,
         )
         try:
             result = carry_out(request, quiet=quiet or as_json)

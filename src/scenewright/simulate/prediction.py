@@ -7,10 +7,11 @@ knows no policy.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from scenewright.errors import InputError
 from scenewright.motion.profile import Profile, chain
 from scenewright.roads.routes import Route
 from scenewright.solve.turns import TurnSpan, tightest_curvature
@@ -178,3 +179,21 @@ class RoadAware:
         distance = place[0] - s_m
         rise = speed * speed - place[1] * place[1]
         return rise / (2.0 * distance) if distance > 0.05 and rise > 0 else 0.0
+
+
+def predictor_called(name: str, route: Route) -> Predictor:
+    """Return a predictor by its name, for an ego on `route`.
+
+    Raises
+    ------
+    InputError
+        Where there is none of that name.
+    """
+    makers: dict[str, Callable[[], Predictor]] = {
+        "road": lambda: RoadAware.on(route),
+        "acceleration": ConstantAcceleration,
+        "speed": ConstantSpeed,
+    }
+    if name not in makers:
+        raise InputError("there is no such predictor", found=name, expected=", ".join(makers))
+    return makers[name]()
