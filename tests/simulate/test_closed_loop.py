@@ -1,0 +1,165 @@
+"""The closed loop: what was asked for happens, and however often it is re-solved the hero moves as a car can."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from stories import HERO, STEP_S, STORIES, TICK_S, Scripted, Stage, driven
+
+from scenewright.judge.tolerance import TIGHT
+from scenewright.program.types import PieceKind
+from scenewright.simulate.hindsight import ego_left_no_room
+from scenewright.simulate.loop import Run
+from scenewright.solve.backends.z3_backend import Z3Backend
+from scenewright.solve.limits import ACCEL_MAX_MPSS, BRAKE_MAX_MPSS
+
+TABLE = [
+    ("yields, distance", "constant", 0),
+    ("yields, distance", "idm", 0),
+    ("yields, distance", "dawdler", 0),
+    ("yields, distance", "noisy", 0),
+    ("yields, time", "constant", 0),
+    ("yields, time", "idm", 0),
+    ("stops and goes", "constant", 0),
+    ("stops and goes", "idm", 0),
+    ("stops and goes", "dawdler", 1),
+    ("goes first, distance", "dawdler", 0),
+    ("goes first, distance", "noisy", 1),
+    ("goes first, time", "constant", 0),
+    ("goes first, time", "idm", 0),
+    ("brakes at a rate", "idm", 0),
+    ("brakes at a rate", "dawdler", 1),
+    ("brakes at a rate", "noisy", 0),
+]
+every_run = pytest.mark.parametrize(("story", "ego", "seed"), TABLE)
+
+
+def run_of(story: str, ego: str, seed: int) -> Run:
+    run = driven(story, ego, seed).run
+    assert run is not None
+    return run
+
+
+def hero_knots_s(run: Run) -> dict[str, float]:
+    return run.last_plan.profiles[HERO].knot_times_s
+
+
+@every_run
+def test_what_was_asked_for_happens_at_tight_tolerance(story: str, ego: str, seed: int) -> None:
+    result = driven(story, ego, seed)
+    assert result.verdict is not None
+    assert [c for c in result.verdict.conditions if not c.holds_at(TIGHT)] == []
+    assert (result.status, run_of(story, ego, seed).status) == ("success", "finished")
+
+
+@every_run
+def test_hero_moves_as_a_car_can_through_every_resolve(story: str, ego: str, seed: int) -> None:
+    run = run_of(story, ego, seed)
+    hero = run.trace.actors["hero"]
+    assert np.allclose(np.diff(hero.time_s), STEP_S)
+    speed, accel = hero.speed_mps, hero.accel_mps2
+    assert np.all(speed >= 0.0)
+    assert np.all(np.diff(speed) <= ACCEL_MAX_MPSS * STEP_S + 1e-6)
+    assert np.all(np.diff(speed) >= -BRAKE_MAX_MPSS * STEP_S - 1e-6)
+    assert np.all((accel >= -BRAKE_MAX_MPSS - 1e-6) & (accel <= ACCEL_MAX_MPSS + 1e-6))
+    # Speed is linear within a step, or broken once where a piece ends in it: then the trapezoid is off by this much.
+    most_m = (ACCEL_MAX_MPSS + BRAKE_MAX_MPSS) * STEP_S**2 / 8
+    off_m = np.diff(hero.s_m) - 0.5 * (speed[1:] + speed[:-1]) * STEP_S
+    assert np.all(np.abs(off_m) <= most_m + 1e-6)
+
+
+@every_run
+def test_ego_moves_as_its_accelerations_say(story: str, ego: str, seed: int) -> None:
+    actor = run_of(story, ego, seed).trace.actors["ego"]
+    assert np.allclose(np.diff(actor.speed_mps), actor.accel_mps2[:-1] * STEP_S, atol=1e-9)
+    assert np.allclose(np.diff(actor.s_m), 0.5 * (actor.speed_mps[1:] + actor.speed_mps[:-1]) * STEP_S, atol=1e-9)
+
+
+@every_run
+def test_interaction_begins_at_the_trigger_and_not_before(story: str, ego: str, seed: int) -> None:
+    result, run = driven(story, ego, seed), run_of(story, ego, seed)
+    hero, trigger_s = run.trace.actors["hero"], hero_knots_s(run)["t1"]
+    braking = result.scene.program.actor(HERO).sketch.pieces[1] is PieceKind.DEC
+    before = hero.accel_mps2[(hero.time_s >= trigger_s - 0.5) & (hero.time_s < trigger_s - STEP_S)]
+    after = hero.accel_mps2[(hero.time_s > trigger_s) & (hero.time_s < trigger_s + 0.2)]
+    assert np.all(np.abs(before) <= 0.5)
+    assert np.all(after <= -0.6) if braking else np.all(after >= 0.6)
+
+
+@every_run
+def test_record_tells_every_tick(story: str, ego: str, seed: int) -> None:
+    run = run_of(story, ego, seed)
+    times = [record.time_s for record in run.replans]
+    assert times == pytest.approx([TICK_S * tick for tick in range(len(times))])
+    assert run.trace.duration_s - times[-1] < TICK_S + 1e-9
+    for record in run.replans:
+        assert record.status in ("sat", "relaxed", "kept", "frozen") or record.status.endswith("last plan goes on")
+        assert bool(record.backend) == (record.status not in ("kept", "frozen"))
+        assert record.wall_s >= 0.0
+        assert record.reason
+
+
+@every_run
+def test_no_run_that_succeeded_is_proven_impossible(story: str, ego: str, seed: int) -> None:
+    result, run = driven(story, ego, seed), run_of(story, ego, seed)
+    assert result.hindsight is None
+    stage = Stage(STORIES[story], Scripted(lambda time_s, speed_mps: 0.0))
+    assert ego_left_no_room(stage.scene, stage.structure, stage.limits, Z3Backend(), run.trace) is None
+
+
+@pytest.mark.parametrize("ego", ["dawdler", "noisy"])
+@pytest.mark.parametrize("story", ["yields, distance", "stops and goes", "brakes at a rate"])
+def test_trigger_is_met_between_ticks(story: str, ego: str) -> None:
+    run = run_of(story, ego, 0)
+    trigger_s = hero_knots_s(run)["t1"]
+    for period_s in (STEP_S, TICK_S):
+        assert abs(trigger_s / period_s - round(trigger_s / period_s)) * period_s > 1e-4
+    result = driven(story, ego, 0)
+    assert result.verdict is not None
+    assert result.verdict.facts["trigger_time_s"]["hero"] == pytest.approx(trigger_s, abs=0.1)
+
+
+def turning_away(then_mpss: float, at_s: float) -> Scripted:
+    """An ego that holds its speed until `at_s`, and then does something else."""
+    return Scripted(lambda time_s, speed_mps: then_mpss if time_s >= at_s and 0.0 < speed_mps < 18.0 else 0.0)
+
+
+@pytest.mark.parametrize("story", ["yields, distance", "yields, time", "goes first, distance", "brakes at a rate"])
+def test_after_its_trigger_the_hero_does_not_adapt(story: str) -> None:
+    speed_mps = 6.0 if story == "yields, time" else 10.0
+    traces, trigger_s = [], None
+    for then_mpss in (0.0, -4.0, 3.0):
+        stage = Stage(STORIES[story], turning_away(then_mpss, np.inf if trigger_s is None else trigger_s + 0.01))
+        place = next(c for c in stage.conditions if c.moments == {(0, "t0")})
+        per_metre, per_speed = place.weights[0]
+        assert stage.begin(-(place.constant + per_speed * speed_mps) / per_metre, speed_mps).plan is not None
+        run = stage.run()
+        trigger_s = trigger_s or hero_knots_s(run)["t1"]
+        frozen = [record.status for record in run.replans if record.time_s > trigger_s]
+        assert frozen
+        assert set(frozen) == {"frozen"}
+        traces.append(run.trace)
+    steps = min(len(trace.time_s) for trace in traces)
+    assert traces[0].time_s[steps - 1] > trigger_s + 1.0
+    egos = [trace.actors["ego"].s_m[:steps] for trace in traces]
+    assert not np.allclose(egos[0], egos[1])
+    for trace in traces[1:]:
+        assert np.array_equal(trace.actors["hero"].s_m[:steps], traces[0].actors["hero"].s_m[:steps])
+        assert np.array_equal(trace.actors["hero"].accel_mps2[:steps], traces[0].actors["hero"].accel_mps2[:steps])
+
+
+def test_hero_that_stands_decides_anew_when_to_go() -> None:
+    runs, trigger_s = [], None
+    for then_mpss in (0.0, -1.0):
+        stage = Stage(STORIES["stops and goes"], turning_away(then_mpss, np.inf if trigger_s is None else trigger_s))
+        assert stage.begin(stage.scene.landmarks_m[0]["stop_line"] - 50.0, 3.0).plan is not None
+        runs.append(stage.run())
+        trigger_s = trigger_s or hero_knots_s(runs[0])["t1"]
+    for run in runs:
+        knots = hero_knots_s(run)
+        assert knots["t1"] == trigger_s
+        assert knots["t2"] == hero_knots_s(runs[0])["t2"]  # what it does up to its standstill is settled
+        standing = [r.status for r in run.replans if trigger_s < r.time_s < knots["t3"]]
+        going = [r.status for r in run.replans if r.time_s > knots["t3"] + TICK_S]
+        assert "frozen" not in standing
+        assert set(going) == {"frozen"}
