@@ -71,13 +71,13 @@ class Replanner:
     # -- the first plan ---------------------------------------------------------------------------------------------
     def begin(self, ego: EgoSample) -> Attempt:
         """Plan from the ego's first state; the plan is kept if there is one."""
+        self._samples = [ego]
         prediction = self.predictor.predict([ego])
         knots = {self.scene.program.ego.sketch.knots[0]: 0.0}
         attempt = self.planner.first_plan(self._situations(0.0, prediction, knots, {}))
         if attempt.plan is not None:
             self.plan = attempt.plan
             self.ego_knots_s = knots
-            self._samples = [ego]
             self.records = [self._record(0.0, attempt)]
         return attempt
 
@@ -274,11 +274,8 @@ class Replanner:
     def _ego_arrival_s(self, condition: LinearCondition, time_s: float, prediction: Profile) -> float:
         """Return when the ego will be at its side: at once where it is past it, late where that is not in sight."""
         arrival = condition.first_time({EGO: prediction}, time_s)
-        if arrival is None and self._samples:
-            first, now = self._samples[0], self._samples[-1]
-            before, after = condition.value({EGO: first[1:3]}), condition.value({EGO: now[1:3]})
-            if before * after < 0.0:
-                arrival = time_s
+        if arrival is None and self._samples and self._is_behind(condition, self._samples[-1][1:4]):
+            arrival = time_s
         return time_s + _FAR_S if arrival is None else max(arrival, time_s + _SHORTEST_LEAD_S)
 
     def _hero_place(self, hero: Actor, conditions: list[LinearCondition]) -> tuple[float, float] | None:
@@ -324,9 +321,17 @@ class Replanner:
             name = next(iter(condition.moments))[1]
             if name not in knots:
                 arrival = condition.first_time({EGO: prediction}, max(time_s, latest))
+                if arrival is None and self._is_behind(condition, prediction.state(latest)):
+                    arrival = latest  # it is past that place before it may be: nothing can come before it any more
                 if arrival is not None:
                     knots[name] = arrival
         return knots
+
+    def _is_behind(self, condition: LinearCondition, state: tuple[float, float, float]) -> bool:
+        """Whether the ego, in `state`, is past a place that lay ahead of it when the run began."""
+        if not self._samples:
+            return False
+        return condition.value({EGO: self._samples[0][1:3]}) * condition.value({EGO: state[:2]}) < 0.0
 
     def _plan_still_fits(self, time_s: float, situation: Situation) -> bool:
         """Whether the plan, as it goes on, meets the trigger and the outcome under the new prediction."""

@@ -32,6 +32,7 @@ _START_MARGIN_M = 3.0
 _LONGEST_CLEARANCE_S = 8.0
 _SETTLED_MPSS = Fraction(1, 4)
 _SHORTEST_S = Fraction(1, 20)
+_SEEN_S = Fraction(3, 5)  # braking or speeding up for less is hardly seen to have begun
 _LONGEST_S = Fraction(90)
 
 
@@ -93,7 +94,7 @@ class HeroProblem:
             if stretch.duration_s is None:
                 duration = problem.unknown(f"{prefix}d{k}")
                 begun = state is not None and stretch.piece == state.piece
-                shortest = Fraction(0) if begun or stretch.cruise else _SHORTEST_S
+                shortest = Fraction(0) if begun or stretch.cruise else self._shortest_s(hero, stretch)
                 problem.bound(duration, shortest, _LONGEST_S, f"{hero.name}'s pieces take some time")
             else:
                 duration = stretch.duration_s
@@ -130,6 +131,11 @@ class HeroProblem:
             and any(self.structure.same_moment(hero.id, moment) == key[1] for moment in condition.moments)
             for condition in self.conditions
         )
+
+    def _shortest_s(self, hero: Actor, stretch: Stretch) -> Fraction:
+        """Return how long a stretch must last at least: long enough to be seen where it is what was asked for."""
+        seen = hero.sketch.pieces[stretch.piece] in (PieceKind.DEC, PieceKind.ACC) and self.manner.settle
+        return _SEEN_S if seen else _SHORTEST_S
 
     def _add_stretch(
         self, hero: Actor, stretch: Stretch, x0: Value, v0: Value, x1: Symbol, v1: Symbol, duration: Value
