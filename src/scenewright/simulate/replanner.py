@@ -24,6 +24,8 @@ from scenewright.solve.situation import HeroState, Situation
 # While much time is left a late or early ego is nothing to act on; the dead band shrinks to almost nothing.
 _DEAD_BAND_S = 0.003
 _DEAD_BAND_SHARE = 0.02
+_DEAD_BAND_M = 0.05
+_DEAD_BAND_MPS = 0.1
 _SETTLE_S = 0.5
 _LATE_SHARE = 0.35
 _FAR_S = 40.0
@@ -349,9 +351,17 @@ class Replanner:
         planned = self._planned_trigger_s(hero)
         off_s = abs(situation.trigger_s[hero.id] - planned)
         left_s = max(0.0, planned - time_s)
+        if self._joint_miss_m(hero, planned, situation.ego) > _DEAD_BAND_M + _DEAD_BAND_MPS * left_s:
+            return False
         if left_s <= _SETTLE_S and off_s <= _LATE_SHARE * situation.ego_slack_s:
             return True  # within the last half second the hero stays settled for as long as that is good enough
         return self.plan.tolerance == 0.0 and off_s <= _DEAD_BAND_S + _DEAD_BAND_SHARE * left_s
+
+    def _joint_miss_m(self, hero: Actor, planned_s: float, prediction: Profile) -> float:
+        """Return by how much the plan would miss a condition on both, such as a gap, at the planned instant."""
+        states = {EGO: prediction.state(planned_s)[:2], hero.id: self.plan.profiles[hero.id].state(planned_s)[:2]}
+        both = [c for c in self._at_trigger() if set(c.weights) == set(states)]
+        return max((abs(c.value(states)) for c in both), default=0.0)
 
     def _outcome_fits(self, hero: Actor, situation: Situation, times: Mapping[str, float]) -> bool:
         last_ego = max(situation.ego_knots_s.values(), default=0.0)
