@@ -130,6 +130,7 @@ class Planner:
         self.trials = (*_QUICK, *_EXACT, *_FOR_OUTCOME, *_WITHOUT_OUTCOME, *_OFF) if outcome else (*_EXACT, *_OFF)
         self._last_trial = 0
         self._replans = 0
+        self._tried_on = 0
 
     def first_plan(self, situations: Sequence[Situation], budget_s: float = 10.0) -> Attempt:
         """Plan from the start, with the heroes' first states free; `situations` differ in the trigger's instant."""
@@ -140,12 +141,18 @@ class Planner:
     def replan(self, situations: Sequence[Situation]) -> Attempt:
         """Plan the rest; begins with what the last re-solve needed, now and then one gentler, and makes a few tries."""
         self._replans += 1
-        first = max(0, self._last_trial - (1 if self._replans % _EASE_EVERY == 0 else 0))
+        ease = 1 if self._replans % _EASE_EVERY == 0 and not self._tried_on else 0
+        first = max(0, self._last_trial - ease)
         ways = [(trial, situation) for trial in self.trials[first:] for situation in situations]
-        attempt, tried = self._search(ways[:_TRIES_A_TICK], self.budget_s)
-        index = first + tried // len(situations)
-        # What was not reached in this tick is where the next one goes on; after the last hope it starts over midway.
-        self._last_trial = index if index < len(self.trials) else len(self.trials) // 2
+        ways = ways[self._tried_on : self._tried_on + _TRIES_A_TICK]
+        attempt, tried = self._search(ways, self.budget_s)
+        reached = self._tried_on + tried
+        self._last_trial, self._tried_on = first + reached // len(situations), 0
+        if attempt.plan is None:
+            # What was not reached in this tick is where the next one goes on.
+            self._tried_on = reached % len(situations)
+        if self._last_trial >= len(self.trials):
+            self._last_trial, self._tried_on = len(self.trials) // 2, 0
         return attempt
 
     def _search(self, ways: Sequence[tuple[Trial, Situation]], budget_s: float) -> tuple[Attempt, int]:
