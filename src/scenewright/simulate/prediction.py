@@ -141,14 +141,18 @@ class RoadAware:
             needed = max((self._needed(place, s_m, speed) for place in ahead), default=0.0)
             if needed > 0.85 * self.gentle_mpss:
                 wanted = min(wanted, -needed) if elapsed < self.base.hold_s and first < 0 else -needed
-            if speed + wanted * self.step_s <= 0.05:
-                return self._stopping(time_s, history[-1], moves, speed, wanted)
+            if speed + wanted * self.step_s <= 0.05 or self._comes_to_stop(ahead, s_m, speed):
+                return self._stopping(time_s, history[-1], moves, speed, min(wanted, -self.gentle_mpss))
             moves.append((self.step_s, wanted, 0))
             s_m += (speed + 0.5 * wanted * self.step_s) * self.step_s
             speed += wanted * self.step_s
             elapsed += self.step_s
             ahead = [place for place in ahead if place[0] > s_m]
         return Profile(chain(time_s, history[-1][1], history[-1][2], moves))
+
+    def _comes_to_stop(self, ahead: list[tuple[float, float]], s_m: float, speed: float) -> bool:
+        """Whether the next step leads to a place where it stops; steps of finite length would carry it past that."""
+        return any(place[1] == 0.0 and place[0] - s_m <= speed * self.step_s for place in ahead)
 
     def _stopping(
         self,
@@ -159,8 +163,7 @@ class RoadAware:
         accel: float,
     ) -> Profile:
         """Return a motion that comes to a stand, waits, and sets off again."""
-        if accel < 0:
-            moves.append((speed / -accel, accel, 0))
+        moves.append((speed / -accel, accel, 0))
         base = self.base
         moves += [
             (base.standstill_s, 0.0, 0),

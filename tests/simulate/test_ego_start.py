@@ -1,0 +1,132 @@
+"""Where the ego starts: what the program says is met exactly, and the rest is what its policy would do by itself."""
+
+from __future__ import annotations
+
+import pytest
+from stories import Stage, program
+
+from scenewright.drive.guarded import GuardedPolicy
+from scenewright.drive.loading import load_policy
+from scenewright.drive.protocol import EgoPolicy
+from scenewright.simulate.ego_start import EgoFirstState, ego_starts
+
+REST = """
+A0(t1) == A1(t1)
+A0x(t1) == conflict_point - 30
+A1x(t1) == conflict_point - 18
+A1x(t2) == conflict_point - 6
+A1v(t2) == 0
+"""
+EGOS = ["constant", "idm", "dawdler", "noisy"]
+
+
+def stage(initial: str, ego: str | EgoPolicy) -> Stage:
+    policy = load_policy(ego).policy if isinstance(ego, str) else ego
+    return Stage(program("E, N", "t0, go, t1, dec, t2", initial + REST), policy)
+
+
+def starts(on: Stage) -> list[EgoFirstState]:
+    return list(ego_starts(on.scene, on.ego, on.limits[0], on.conditions))
+
+
+@pytest.mark.parametrize("ego", EGOS)
+def test_given_place(ego: str) -> None:
+    on = stage("A0x(t0) == intersection - 90", ego)
+    found = starts(on)
+    assert found
+    for start in found:
+        assert start.s_m == pytest.approx(on.scene.landmarks_m[0]["intersection"] - 90.0)
+        assert 0.0 < start.speed_mps <= on.limits[0].speed_max_mps
+
+
+@pytest.mark.parametrize("ego", EGOS)
+def test_given_speed_leaves_no_choice(ego: str) -> None:
+    on = stage("A0v(t0) == 7", ego)
+    (start,) = starts(on)
+    assert start.speed_mps == pytest.approx(7.0)
+    trigger_m = on.scene.landmarks_m[0]["conflict_point"] - 30.0
+    assert trigger_m - start.s_m > 2.0 * start.speed_mps, "the trigger does not come at once"
+
+
+def test_given_place_and_speed() -> None:
+    on = stage("A0x(t0) == intersection - 60\nA0v(t0) == 25 km/h", "idm")
+    (start,) = starts(on)
+    assert start.s_m == pytest.approx(on.scene.landmarks_m[0]["intersection"] - 60.0)
+    assert start.speed_mps == pytest.approx(25 / 3.6)
+
+
+@pytest.mark.parametrize("ego", EGOS)
+def test_given_time_to_arrival(ego: str) -> None:
+    on = stage("tta(A0, intersection, t0) == 8", ego)
+    for start in starts(on):
+        distance_m = on.scene.landmarks_m[0]["intersection"] - start.s_m
+        assert distance_m / start.speed_mps == pytest.approx(8.0, abs=1e-4)
+
+
+@pytest.mark.parametrize("ego", EGOS)
+def test_free_start_lies_well_before_the_trigger(ego: str) -> None:
+    on = stage("", ego)
+    trigger_m = on.scene.landmarks_m[0]["conflict_point"] - 30.0
+    for start in starts(on):
+        assert start.s_m >= 1.0
+        assert (trigger_m - start.s_m) / start.speed_mps > 2.0
+
+
+@pytest.mark.parametrize("ego", ["idm", "dawdler"])
+@pytest.mark.parametrize("initial", ["", "A0x(t0) == intersection - 90", "tta(A0, intersection, t0) == 8"])
+def test_ego_goes_on_as_it_starts(ego: str, initial: str) -> None:
+    on = stage(initial, ego)
+    (start,) = starts(on)
+    on.ego.reset(start.s_m, start.speed_mps)
+    for step in range(25):
+        on.ego.advance(on.ego.decide(0.02 * step, (), 0.02), 0.02)
+        assert on.ego.speed_mps == pytest.approx(start.speed_mps + 0.02 * (step + 1) * start.accel_mpss, abs=0.15)
+
+
+def test_constant_tries_natural_speeds_first() -> None:
+    on = stage("A0x(t0) == intersection - 90", "constant")
+    speeds = [start.speed_mps for start in starts(on)]
+    natural, fastest = on.limits[0].natural_turn_speed_mps, on.limits[0].turn_speed_max_mps
+    assert speeds[0] == pytest.approx(natural)
+    slower = [speed for speed in speeds if speed <= natural]
+    assert speeds[: len(slower)] == sorted(slower, reverse=True)
+    assert len(slower) > 5
+    assert all(natural < speed <= fastest for speed in speeds[len(slower) :])
+
+
+def test_constant_with_a_speed_of_its_own_keeps_it() -> None:
+    on = stage("A0x(t0) == intersection - 90", "constant:speed_mps=6.5")
+    (start,) = starts(on)
+    assert start.speed_mps == pytest.approx(6.5)
+
+
+def test_speed_that_a_policy_prefers_is_taken() -> None:
+    class Tractor:
+        def preferred_speed_mps(self, start: object) -> float:
+            return 5.5
+
+        def reset(self, start: object) -> None:
+            pass
+
+        def step(self, observation: object, dt_s: float) -> float:
+            return 0.0
+
+    on = stage("A0x(t0) == intersection - 90", Tractor())
+    assert isinstance(on.ego.policy, GuardedPolicy)
+    (start,) = starts(on)
+    assert start.speed_mps == pytest.approx(5.5)
+    assert start.s_m == pytest.approx(on.scene.landmarks_m[0]["intersection"] - 90.0)
+
+
+def test_policy_that_never_gets_to_its_place_still_starts_there() -> None:
+    class Parked:
+        def reset(self, start: object) -> None:
+            pass
+
+        def step(self, observation: object, dt_s: float) -> float:
+            return -9.0
+
+    on = stage("A0x(t0) == intersection - 90", Parked())
+    (start,) = starts(on)
+    assert start.s_m == pytest.approx(on.scene.landmarks_m[0]["intersection"] - 90.0)
+    assert start.speed_mps > 0.0

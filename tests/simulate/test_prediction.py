@@ -1,0 +1,174 @@
+"""Predictors: what each believes of an ego, and that any of them can take the place of another."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import pytest
+from stories import STORIES, Stage
+
+from scenewright.drive.hostile import Noisy
+from scenewright.errors import InputError
+from scenewright.judge.judgement import judge
+from scenewright.judge.tolerance import TIGHT
+from scenewright.motion.profile import Profile
+from scenewright.orchestrate import case_of
+from scenewright.roads.load import load_map
+from scenewright.roads.routes import Route, find_route
+from scenewright.simulate.prediction import (
+    ConstantAcceleration,
+    ConstantSpeed,
+    EgoSample,
+    Predictor,
+    RoadAware,
+    predictor_called,
+)
+
+MAP = load_map("t_intersection")
+BUMPER_M = 2.25
+
+
+def route(*headings: str) -> Route:
+    return find_route(MAP, headings=headings)
+
+
+def steadily(s_m: float, speed_mps: float, accel_mpss: float, steps: int = 20) -> list[EgoSample]:
+    """A past of one acceleration that leads to a state at 4 s."""
+    ages = [0.02 * k for k in range(steps - 1, -1, -1)]
+    return [
+        (4.0 - age, s_m - speed_mps * age + 0.5 * accel_mpss * age * age, speed_mps - accel_mpss * age, accel_mpss)
+        for age in ages
+    ]
+
+
+@pytest.mark.parametrize("predictor", [ConstantSpeed(), ConstantAcceleration(), RoadAware(())])
+@pytest.mark.parametrize("accel_mpss", [-6.0, -0.5, 0.0, 1.5])
+def test_prediction_begins_where_the_ego_is_and_never_reverses(predictor: Predictor, accel_mpss: float) -> None:
+    profile = predictor.predict(steadily(30.0, 8.0, accel_mpss))
+    assert profile.start_s == 4.0
+    assert profile.state(4.0)[:2] == pytest.approx((30.0, 8.0))
+    places = [profile.state(4.0 + 0.1 * k)[0] for k in range(200)]
+    assert all(after >= before for before, after in pairwise(places))
+
+
+def test_constant_speed_keeps_the_last_speed() -> None:
+    profile = ConstantSpeed().predict(steadily(30.0, 8.0, -3.0))
+    assert profile.state(14.0)[:2] == pytest.approx((110.0, 8.0))
+
+
+def test_constant_acceleration_lasts_for_a_while() -> None:
+    profile = ConstantAcceleration(hold_s=2.0).predict(steadily(30.0, 8.0, 1.5))
+    assert profile.state(5.0)[:2] == pytest.approx((30.0 + 8.0 + 0.75, 9.5))
+    assert profile.state(6.0)[1] == pytest.approx(11.0)
+    assert profile.state(9.0)[1] == pytest.approx(11.0)
+
+
+def test_acceleration_is_averaged_and_jitter_left_out() -> None:
+    past = [(0.02 * k, 0.16 * k, 8.0, 2.0 if k % 2 else -1.0) for k in range(20)]
+    even = ConstantAcceleration(average_s=0.1).recent_acceleration(past)
+    assert -1.0 < even < 2.0
+    assert ConstantAcceleration(average_s=0.0).recent_acceleration(past) == 2.0
+    assert ConstantAcceleration().recent_acceleration(steadily(0.0, 8.0, 0.01)) == 0.0
+
+
+def test_ego_that_stands_sets_off_again() -> None:
+    predictor = ConstantAcceleration(standstill_s=1.5, restart_mpss=1.2, restart_speed_mps=5.0)
+    profile = predictor.predict([(4.0, 30.0, 0.0, 0.0)])
+    assert profile.state(5.4)[:2] == pytest.approx((30.0, 0.0))
+    assert profile.state(6.5)[1] == pytest.approx(1.2)
+    assert profile.state(60.0)[1] == pytest.approx(5.0)
+
+
+def test_ego_that_brakes_to_a_stand_stops_first_and_sets_off_then() -> None:
+    profile = ConstantAcceleration().predict(steadily(30.0, 2.0, -4.0))
+    assert profile.state(4.5)[:2] == pytest.approx((30.5, 0.0))
+    assert profile.state(5.9)[1] == pytest.approx(0.0)
+    assert profile.state(6.1)[1] > 0.0
+
+
+def test_road_aware_stops_with_its_bumper_at_the_line() -> None:
+    own = route("S", "W")
+    line_m = own.landmarks["stop_line"]
+    profile = RoadAware.on(own).predict([(4.0, line_m - 40.0, 8.0, 0.0)])
+    stands_m = [s for s, v in (profile.state(4.0 + 0.05 * k)[:2] for k in range(400)) if v == 0.0]
+    assert stands_m
+    assert line_m - 3.5 <= stands_m[0] <= line_m - BUMPER_M
+    assert profile.state(20.0)[0] > line_m + 10.0, "nobody stands for ever, or creeps"
+
+
+def test_road_aware_slows_down_for_its_turn() -> None:
+    own = route("E", "N")
+    start_m, end_m = own.landmarks["turn_start"], own.landmarks["turn_end"]
+    predictor = RoadAware.on(own)
+    profile = predictor.predict([(4.0, start_m - 60.0, 13.0, 0.0)])
+    assert profile.state(4.0)[1] == pytest.approx(13.0)
+    in_turn = profile.state(profile.time_at(0.5 * (start_m + end_m)) or 0.0)[1]
+    assert in_turn < 9.0
+    assert profile.time_at(start_m) > ConstantSpeed().predict([(4.0, start_m - 60.0, 13.0, 0.0)]).time_at(start_m)
+
+
+def test_road_aware_believes_one_that_does_not_brake_in_time() -> None:
+    own = route("S", "W")
+    line_m = own.landmarks["stop_line"]
+    speeds = {}
+    for accel_mpss in (0.0, -2.0):
+        profile = RoadAware((((line_m - 2.6), 0.0),)).predict(steadily(line_m - 12.0, 9.0, accel_mpss))
+        speeds[accel_mpss] = min(profile.state(4.0 + 0.05 * k)[1] for k in range(100))
+    assert speeds[0.0] == pytest.approx(9.0)  # it would have to brake at 4.3 m/s^2 and does not even begin to
+    assert speeds[-2.0] == 0.0
+
+
+def test_road_aware_looks_at_nothing_behind_it() -> None:
+    own = route("S", "W")
+    past = steadily(own.landmarks["turn_end"] + 5.0, 8.0, 0.5)
+    assert [s.accel_mpss for s in RoadAware.on(own).predict(past).segments] == [
+        s.accel_mpss for s in ConstantAcceleration().predict(past).segments
+    ]
+
+
+def test_predictors_have_names() -> None:
+    own = route("S", "W")
+    assert predictor_called("speed", own) == ConstantSpeed()
+    assert predictor_called("acceleration", own) == ConstantAcceleration()
+    assert predictor_called("road", own) == RoadAware.on(own)
+    with pytest.raises(InputError, match="no such predictor"):
+        predictor_called("crystal ball", own)
+
+
+@dataclass
+class Counted:
+    """Another predictor, with what it was asked."""
+
+    inner: Predictor
+    asked: list[float] = field(default_factory=list)
+
+    def predict(self, history: Sequence[EgoSample]) -> Profile:
+        assert [sample[0] for sample in history] == sorted({sample[0] for sample in history})
+        self.asked.append(history[-1][0])
+        return self.inner.predict(history)
+
+
+@pytest.mark.parametrize("inner", [ConstantSpeed(), ConstantAcceleration(), RoadAware.on(route("W"))])
+def test_any_predictor_can_drive_the_loop(inner: Predictor) -> None:
+    predictor = Counted(inner)
+    stage = Stage(STORIES["yields, distance"], Noisy(), seed=3, predictor=predictor)
+    assert stage.begin(stage.scene.landmarks_m[0]["intersection"] - 90.0, 12.0).plan is not None
+    run = stage.run()
+    assert judge(case_of(stage.scene, run, stage.limits)).holds_at(TIGHT)
+    looked = [record.time_s for record in run.replans if record.status != "frozen"]
+    assert predictor.asked == pytest.approx(looked)
+    assert len(looked) < len(run.replans)
+
+
+def test_hero_of_a_predictor_that_errs_misses() -> None:
+    class Parked:
+        def predict(self, history: Sequence[EgoSample]) -> Profile:
+            time_s, s_m, _, _ = history[-1]
+            return ConstantSpeed().predict([(time_s, s_m, 0.3, 0.0)])
+
+    stage = Stage(STORIES["yields, distance"], Noisy(), seed=3, predictor=Parked())
+    start_m = stage.scene.landmarks_m[0]["intersection"] - 90.0
+    if stage.begin(start_m, 12.0).plan is not None:
+        assert not judge(case_of(stage.scene, stage.run(), stage.limits)).holds_at(TIGHT)
