@@ -29,6 +29,9 @@ _DEAD_BAND_MPS = 0.1
 _SETTLE_S = 0.5
 _LATE_SHARE = 0.35
 _FAR_S = 40.0
+# After so many failures in a row only every so many ticks are tried: the time of a hopeless run is better spent.
+_PATIENT_FAILURES = 6
+_RETRY_EVERY = 3
 TIGHT_LENGTH_M = 0.5
 TIGHT_TIME_S = 0.1
 _SHORTEST_LEAD_S = 0.02
@@ -69,6 +72,7 @@ class Replanner:
     ego_knots_s: dict[str, float] = field(init=False, default_factory=dict)
     records: list[Replan] = field(init=False, default_factory=list)
     _samples: list[EgoSample] = field(init=False, default_factory=list)
+    _failures: int = field(init=False, default=0)
 
     # -- the first plan ---------------------------------------------------------------------------------------------
     def begin(self, ego: EgoSample) -> Attempt:
@@ -119,7 +123,10 @@ class Replanner:
         situations = self._situations(time_s, prediction, self.ego_knots_s, heroes)
         if self._plan_still_fits(time_s, situations[0]):
             return Replan(time_s, "kept", "", 0.0, self.plan.tolerance, "the plan still fits the ego")
+        if self._failures >= _PATIENT_FAILURES and len(self.records) % _RETRY_EVERY:
+            return Replan(time_s, "unsat, last plan goes on", "", 0.0, self.plan.tolerance, "failed a moment ago")
         attempt = self.planner.replan(situations)
+        self._failures = 0 if attempt.plan is not None else self._failures + 1
         if attempt.plan is not None:
             self.plan = self._continued(attempt.plan, time_s)
         return self._record(time_s, attempt)
