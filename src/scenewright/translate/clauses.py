@@ -8,16 +8,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place
+from scenewright.translate.events import HERO_ID, Event, Place
+from scenewright.translate.measures import MeasureReader
 from scenewright.translate.modes import resolve_modes
 from scenewright.translate.phrases import NounPhrase
-from scenewright.translate.verbs import VerbReader
 
 _UNSUPPORTED_FIX = "leave it out: the offline translator knows two vehicles that drive along their lanes"
 
 
 @dataclass(slots=True)
-class ClauseReader(VerbReader):
+class ClauseReader(MeasureReader):
     """Reads a whole description."""
 
     def read(self) -> list[Event]:
@@ -56,6 +56,7 @@ class ClauseReader(VerbReader):
             or self._adverb()
             or self._existence()
             or self._measure()
+            or self._intention()
             or self._adjunct()
             or self._link()
             or self._verb()
@@ -171,107 +172,12 @@ class ClauseReader(VerbReader):
                 self._grow()
         return True
 
-    def _measure(self) -> bool:
-        """Read "the ego's distance to the stop line is 12 m", "the time to collision between A and B is 4 s"."""
-        start = self.at
+    def _intention(self) -> bool:
+        """Read "the ego's intent is to ..."."""
         owner = self.phrases.possessor(self.at)
-        at = owner[1] if owner else self.phrases.skip_determiner(self.at)
-        actor = owner[0] if owner else None
-        if actor is None and (phrase := self.phrases.noun_phrase(at)) and self.phrases.tag(phrase.end, "measure"):
-            actor, at = self.phrases.resolve(phrase), phrase.end  # "ego speed is 10 m/s"
-        measure = self.phrases.tag(at, "measure")
-        if owner and self.phrases.tag(at, "intent_noun") and self.phrases.tag(at + 1, "be"):
-            return self._intent(owner[0], at + 2)
-        if measure is None:
-            return False
-        found = self._between_what(at + 1, actor)
-        if found is None:
-            return False
-        at, actor, target, between = found
-        at = self.phrases.skip_hedges(at + 1)
-        quantity = self.phrases.tokens[at].quantity
-        if quantity is None:
-            return False
-        self.phrases.check_measure(measure, quantity)
-        return self._measured(start, at + 1, measure, actor, target, between)
-
-    def _between_what(
-        self, at: int, actor: int | None
-    ) -> tuple[int, int | None, str | int | None, tuple[int, int] | None] | None:
-        """Read "between the ego and the stop line", "of the ego from it"; stop at the word that gives the amount."""
-        target: str | int | None = None
-        between: tuple[int, int] | None = None
-        while not self.phrases.tokens[at].tags.keys() & {"be", "falls", "colon"}:
-            if self.phrases.tag(at, "preposition") == "between" and (pair := self._pair(at + 1)):
-                actor, target, at = pair
-                between = (actor, target) if isinstance(target, int) else None
-                continue
-            if self.phrases.tag(at, "preposition") in ("of", "out") and actor is None:
-                phrase = self.phrases.noun_phrase(at + 1)
-                if phrase is None:
-                    return None
-                actor, at = self.phrases.resolve(phrase), phrase.end
-                continue
-            if (
-                self.phrases.tag(at, "preposition") in ("to", "at", "out")
-                or self.phrases.tag(at, "relation")
-                or self.phrases.tag(at, "link") == "to"
-            ):
-                if found := self.phrases.landmark(at + 1):
-                    target, at = ("turn_start" if found[0] == "mouth" else found[0]), found[1]
-                elif (phrase := self.phrases.noun_phrase(at + 1)) is not None:
-                    target, at = self.phrases.resolve(phrase), phrase.end
-                else:
-                    return None
-                continue
-            return None
-        return at, actor, target, between
-
-    def _measured(
-        self,
-        start: int,
-        end: int,
-        measure: str,
-        actor: int | None,
-        target: str | int | None,
-        between: tuple[int, int] | None,
-    ) -> bool:
-        quantity = self.phrases.tokens[end - 1].quantity
-        words = self.phrases.span(start, end).excerpt(self.phrases.text).lower()
-        if target is None and actor is None and "gap" in words:  # "when the gap is 12 m"
-            actor, target = EGO_ID, HERO_ID
-        if isinstance(target, int) and actor is None:
-            actor = 1 - target
-        if actor is None:
-            actor = self.subject
-        if actor is None or quantity is None:
-            return False
-        self._set_subject(actor, None)
-        self.at = start
-        event = self._open("ttc" if measure == "ttc" else "be", start)
-        if measure == "ttc":
-            event.ttc, event.between = quantity, between
-        elif measure == "speed":
-            event.speed = quantity
-        elif measure == "rate" or target is None:
-            return False
-        else:
-            event.places.append(Place("from", target, quantity, self.phrases.span(start, end)))
-            event.between = between
-        self.at = end
-        self._grow()
-        return True
-
-    def _pair(self, at: int) -> tuple[int, str | int, int] | None:
-        first = self.phrases.noun_phrase(at)
-        if first is None or self.phrases.tag(first.end, "link") != "and":
-            return None
-        actor = self.phrases.resolve(first)
-        second = self.phrases.noun_phrase(first.end + 1)
-        if second is not None:
-            return actor, self.phrases.resolve(second), second.end
-        found = self.phrases.landmark(first.end + 1)
-        return (actor, found[0], found[1]) if found else None
+        if owner and self.phrases.tag(owner[1], "intent_noun") and self.phrases.tag(owner[1] + 1, "be"):
+            return self._intent(owner[0], owner[1] + 2)
+        return False
 
     def _intent(self, actor: int, at: int) -> bool:
         self._set_subject(actor, self.phrases.span(self.at, at))

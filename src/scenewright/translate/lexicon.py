@@ -13,41 +13,8 @@ from functools import lru_cache
 from importlib.resources import files
 
 VOWELS = "aeiou"
-# Forms: base, s (he brakes), ing, ed (past and participle).
-IRREGULAR: dict[str, tuple[str, ...]] = {
-    "be": ("be is are", "is are", "being", "been was were"),
-    "begin": ("begin", "begins", "beginning", "began begun"),
-    "bring": ("bring", "brings", "bringing", "brought"),
-    "come": ("come", "comes", "coming", "came come"),
-    "do": ("do", "does", "doing", "did done"),
-    "draw": ("draw", "draws", "drawing", "drew drawn"),
-    "drive": ("drive", "drives", "driving", "drove driven"),
-    "find": ("find", "finds", "finding", "found"),
-    "forget": ("forget", "forgets", "forgetting", "forgot forgotten"),
-    "get": ("get", "gets", "getting", "got gotten"),
-    "give": ("give", "gives", "giving", "gave given"),
-    "go": ("go", "goes", "going", "went gone"),
-    "have": ("have", "has", "having", "had"),
-    "let": ("let", "lets", "letting", "let"),
-    "hit": ("hit", "hits", "hitting", "hit"),
-    "hold": ("hold", "holds", "holding", "held"),
-    "keep": ("keep", "keeps", "keeping", "kept"),
-    "lose": ("lose", "loses", "losing", "lost"),
-    "make": ("make", "makes", "making", "made"),
-    "mean": ("mean", "means", "meaning", "meant"),
-    "omit": ("omit", "omits", "omitting", "omitted"),
-    "ride": ("ride", "rides", "riding", "rode ridden"),
-    "set": ("set", "sets", "setting", "set"),
-    "shed": ("shed", "sheds", "shedding", "shed"),
-    "sit": ("sit", "sits", "sitting", "sat"),
-    "speed": ("speed", "speeds", "speeding", "sped speeded"),
-    "stand": ("stand", "stands", "standing", "stood"),
-    "swing": ("swing", "swings", "swinging", "swung"),
-    "take": ("take", "takes", "taking", "took taken"),
-    "plan": ("plan", "plans", "planning", "planned"),
-    "stop": ("stop", "stops", "stopping", "stopped"),
-    "travel": ("travel", "travels", "travelling traveling", "travelled traveled"),
-}
+SLOT = "~"
+SLOT_WORDS = (("the",), ("its",), ("his",), ("her",), ("their",), ())
 FORM_NAMES = ("base", "s", "ing", "ed")
 
 
@@ -90,34 +57,44 @@ def load_lexicon() -> Lexicon:
     entries: dict[tuple[str, ...], dict[str, str]] = {}
     forms: dict[tuple[str, ...], set[str]] = {}
     units = {spelling: symbol for symbol, spellings in table.pop("unit").items() for spelling in spellings}
+    irregular = table.pop("irregular")
     for tag, values in table.items():
         for value, phrases in values.items():
             for phrase in phrases:
                 if tag != "verb":
                     entries.setdefault(tuple(phrase.split()), {})[tag] = value
                     continue
-                for form, words in inflect(phrase):
+                for form, words in inflect(phrase, irregular):
                     entries.setdefault(words, {})["verb"] = value
                     forms.setdefault(words, set()).add(form)
     longest = max(len(words) for words in entries)
     return Lexicon(entries, {words: frozenset(names) for words, names in forms.items()}, units, longest)
 
 
-def inflect(phrase: str) -> list[tuple[str, tuple[str, ...]]]:
+def inflect(phrase: str, irregular: Mapping[str, Sequence[str]]) -> list[tuple[str, tuple[str, ...]]]:
     """Return the forms of a verb phrase, inflected by its first word or the one marked with a star.
 
-    >>> inflect("slow down")[1]
+    >>> inflect("slow down", {})[1]
     ('s', ('slows', 'down'))
     """
     words = phrase.split()
     at = next((index for index, word in enumerate(words) if word.endswith("*")), 0)
     head = words[at].rstrip("*")
-    groups = IRREGULAR.get(head) or (head, _third(head), _gerund(head), _past(head))
+    groups = irregular.get(head) or (head, _third(head), _gerund(head), _past(head))
     return [
-        (name, (*words[:at], form, *words[at + 1 :]))
+        (name, each)
         for name, forms in zip(FORM_NAMES, groups, strict=True)
         for form in forms.split()
+        for each in _filled((*words[:at], form, *words[at + 1 :]))
     ]
+
+
+def _filled(words: tuple[str, ...]) -> list[tuple[str, ...]]:
+    """Return a phrase with every article or possessive that can stand for its slot."""
+    if SLOT not in words:
+        return [words]
+    at = words.index(SLOT)
+    return [(*words[:at], *slot, *words[at + 1 :]) for slot in SLOT_WORDS]
 
 
 def _third(verb: str) -> str:
