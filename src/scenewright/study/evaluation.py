@@ -52,10 +52,12 @@ class Case:
 
     def command(self) -> str:
         """Return the command that runs this case again."""
-        values = " ".join(f"-p {name}={value}" for name, value in self.parameters.items())
-        mode = "" if self.mode == "closed" else f" --mode {self.mode}"
-        text = shlex.quote(self.description.text)
-        return f"scenewright run {text} {values} --ego {self.ego} --seed {self.seed}{mode}"
+        words = ["scenewright", "run", self.description.text]
+        for name, value in self.parameters.items():
+            words += ["-p", f"{name}={value}"]
+        words += ["--ego", self.ego, "--seed", str(self.seed)]
+        words += [] if self.mode == "closed" else ["--mode", self.mode]
+        return shlex.join(words)
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,12 +85,12 @@ def read_descriptions(path: Path) -> list[Description]:
         Where there are none.
     """
     if path.is_dir():
-        found = [Description(p.stem, p.read_text(encoding="utf-8")) for p in sorted(path.glob("*.txt"))]
+        found = [_described_in(file) for file in sorted(path.glob("*.txt"))]
     elif path.suffix == ".json" and path.is_file():
         try:
             rows = json.loads(path.read_text(encoding="utf-8"))
             found = [Description(str(row["id"]), str(row["text"])) for row in rows]
-        except (ValueError, KeyError, TypeError) as error:
+        except (OSError, ValueError, KeyError, TypeError) as error:
             raise InputError(
                 "these are no descriptions",
                 place=Place(str(path)),
@@ -96,12 +98,19 @@ def read_descriptions(path: Path) -> list[Description]:
                 expected='a list of {"id", "text"}',
             ) from None
     elif path.is_file():
-        found = [Description(path.stem, path.read_text(encoding="utf-8"))]
+        found = [_described_in(path)]
     else:
         raise InputError("there are no descriptions here", place=Place(str(path)), expected="a .json, .txt or a folder")
     if not found:
         raise InputError("there are no descriptions here", place=Place(str(path)), expected="at least one .txt file")
     return found
+
+
+def _described_in(file: Path) -> Description:
+    try:
+        return Description(file.stem, file.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError("the file cannot be read as text", place=Place(str(file)), found=str(error)) from None
 
 
 def make_cases(
@@ -146,6 +155,8 @@ def run_case(case: Case) -> Outcome:
         result = orchestrate(request)
     except ScenewrightError as error:
         return _outcome(case, "error", message=error.message)
+    if result.run is not None and result.run.fault is not None:
+        return _outcome(case, "error", result=result, message=result.run.fault.message)
     failed: tuple[str, ...] = ()
     if result.verdict is not None:
         from scenewright.judge.tolerance import TIGHT
