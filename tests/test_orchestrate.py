@@ -1,0 +1,195 @@
+"""The whole way: what a source may be, where it may stop, what is reported, and what is written down of a request."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from scenewright.errors import InputError, OutputError, ParameterError, ScenewrightError, TranslationError
+from scenewright.judge.files import judge_run_directory
+from scenewright.judge.tolerance import LOOSE, TIGHT
+from scenewright.orchestrate import EXIT_STATUS, Request, Result, is_program, orchestrate, read_scenario
+from scenewright.program.printer import print_program
+from scenewright.program.text import parse_program
+from scenewright.trace.files import read_trace
+
+SENTENCE = (
+    "The ego drives westbound and is 90 m before the intersection. An oncoming hero turns left into the driveway. "
+    "When the ego is ego_gap_m before the conflict point and the hero is hero_gap_m before the conflict point, the "
+    "hero brakes to a stop 6 m before the conflict point."
+)
+FINE = {"ego_gap_m": 30.0, "hero_gap_m": 18.0}
+STAGES = ["translate", "ground", "check", "plan", "simulate", "judge"]
+
+
+def program_text() -> str:
+    return print_program(read_scenario(SENTENCE)[0])
+
+
+def test_sentence_file_program_and_text_of_a_program_are_one_scenario(tmp_path: Path) -> None:
+    (tmp_path / "left turn.txt").write_text(SENTENCE, encoding="utf-8")
+    (tmp_path / "turn.scene").write_text(program_text(), encoding="utf-8")
+    sources = [SENTENCE, str(tmp_path / "left turn.txt"), str(tmp_path / "turn.scene"), program_text()]
+    found = [orchestrate(Request(source, FINE, budget_s=30.0)) for source in sources]
+    assert {result.status for result in found} == {"success"}
+    assert [result.translation is not None for result in found] == [True, True, False, False]
+    traces = [result.run.trace for result in found if result.run is not None]
+    assert len({trace.actors["hero"].s_m.tobytes() for trace in traces}) == 1
+
+
+def test_program_is_told_from_a_description() -> None:
+    assert is_program(program_text())
+    assert is_program("  ACTOR 0 (ego):\n- W")
+    assert not is_program(SENTENCE)
+    assert not is_program("The actor 1 m before the line brakes.")
+
+
+def test_source_that_is_no_file_is_told_by_its_name(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="no such file"):
+        read_scenario(str(tmp_path / "nothing.scene"))
+    (tmp_path / "picture.txt").write_bytes(b"\xff\xfe\x00\xd8")
+    with pytest.raises(InputError, match="cannot be read as text"):
+        read_scenario(str(tmp_path / "picture.txt"))
+
+
+@pytest.mark.parametrize("source", ["", "   \n", "x" * 5000, "\0", "It rains."])
+def test_nonsense_is_a_told_error(source: str) -> None:
+    with pytest.raises(ScenewrightError):
+        orchestrate(Request(source))
+
+
+def test_unknown_names_are_told() -> None:
+    with pytest.raises(InputError, match="no translator oracle"):
+        read_scenario(SENTENCE, translator="oracle")
+    with pytest.raises(ScenewrightError, match="nowhere_at_all"):
+        orchestrate(Request(SENTENCE, FINE, map_name="nowhere_at_all"))
+    with pytest.raises(ScenewrightError, match="nobody"):
+        orchestrate(Request(SENTENCE, FINE, ego="nobody"))
+    with pytest.raises(InputError, match="no such predictor"):
+        orchestrate(Request(SENTENCE, FINE, predictor="crystal ball"))
+    with pytest.raises(ParameterError):
+        orchestrate(Request(SENTENCE, {"no_such_m": 3}))
+    with pytest.raises(TranslationError):
+        orchestrate(Request("The ego juggles westbound."))
+
+
+def test_folder_that_cannot_be_written_is_told_before_any_work(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    began: list[str] = []
+    with pytest.raises(OutputError):
+        orchestrate(Request(SENTENCE, FINE, out=tmp_path / "file" / "run"), report=began.append)
+    assert began == []
+
+
+def test_stages_are_reported_in_order_and_timed(tmp_path: Path) -> None:
+    began: list[str] = []
+    times: list[float] = []
+    result = orchestrate(Request(SENTENCE, FINE, out=tmp_path / "run"), began.append, times.append)
+    assert began == [*STAGES, "write"]
+    assert list(result.timings_s) == began
+    assert all(seconds >= 0.0 for seconds in result.timings_s.values())
+    assert times == pytest.approx([0.1 * (k + 1) for k in range(len(times))])
+    assert len(times) > 50
+
+
+@pytest.mark.parametrize(("until", "stages"), [("check", STAGES[:3]), ("plan", STAGES[:4])])
+def test_stops_where_it_is_asked_to(until: str, stages: list[str], tmp_path: Path) -> None:
+    began: list[str] = []
+    result = orchestrate(Request(SENTENCE, FINE, out=tmp_path / "run"), began.append, until=until)  # type: ignore[arg-type]
+    assert (result.status, began) == ("success", stages)
+    assert (result.attempt is not None) == (until == "plan")
+    assert (result.run, result.run_directory) == (None, None)
+    assert list((tmp_path / "run").iterdir()) == []
+
+
+def test_every_status_has_its_exit_status() -> None:
+    assert EXIT_STATUS == {
+        "success": 0, "failure": 1, "failed": 2, "infeasible": 3, "gave up": 4, "interrupted": 130,
+    }  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Result, Path]:
+    out = tmp_path_factory.mktemp("runs") / "one"
+    request = Request(
+        SENTENCE, {"hero_gap_m": 18.0}, ego="noisy:sigma_mpss=0.3", seed=11, tolerance="loose", out=out,
+        replan_hz=5.0, budget_s=30.0,
+    )  # fmt: skip
+    return orchestrate(request), out
+
+
+def test_manifest_says_how_the_run_came_about(written: tuple[Result, Path]) -> None:
+    result, out = written
+    manifest = json.loads((out / "manifest.json").read_text(encoding="utf-8"))
+    assert manifest["schema_version"] == 1
+    assert (manifest["seed"], manifest["mode"], manifest["tolerance"], manifest["status"]) == (
+        11, "closed", "loose", "finished",
+    )  # fmt: skip
+    assert manifest["ego"] == {"name": "noisy", "options": {"sigma_mpss": 0.3}}
+    assert manifest["translator"] == "offline"
+    assert manifest["rates"] == {"simulation_hz": 50.0, "replan_hz": 5.0}
+    assert manifest["routes"]["hero"]["headings"] == ["E", "N"]
+    assert manifest["landmarks"]["hero"] == pytest.approx(dict(result.scene.landmarks_m[1]))
+    assert manifest["knots"]["hero"].keys() == {"t0", "t1", "t2"}
+    assert set(STAGES) <= set(manifest["timings"])
+    assert len(manifest["map"]["sha256"]) == 64
+
+
+def test_parameters_say_where_they_come_from(written: tuple[Result, Path]) -> None:
+    _, out = written
+    parameters = json.loads((out / "params.json").read_text(encoding="utf-8"))
+    assert parameters["hero_gap_m"] == {"value": 18.0, "unit": "m", "source": "given"}
+    assert parameters["ego_gap_m"]["source"] == "solver"
+    assert 5.0 <= parameters["ego_gap_m"]["value"] <= 60.0
+
+
+def test_written_program_is_the_one_that_was_run(written: tuple[Result, Path]) -> None:
+    result, out = written
+    text = (out / "program.scene").read_text(encoding="utf-8")
+    assert parse_program(text, "program.scene") == result.scene.program
+
+
+def test_written_run_is_judged_as_it_was(written: tuple[Result, Path]) -> None:
+    result, out = written
+    assert result.verdict is not None
+    assert result.run is not None
+    assert judge_run_directory(out).as_dict()["success"] == result.verdict.as_dict()["success"]
+    trace = read_trace(out / "trace.parquet")
+    assert trace.duration_s == result.run.trace.duration_s
+
+
+def test_plan_and_resolves_are_written(written: tuple[Result, Path]) -> None:
+    import pyarrow.parquet as pq
+
+    result, out = written
+    assert result.run is not None
+    plan = json.loads((out / "plan.json").read_text(encoding="utf-8"))
+    assert [knot["name"] for knot in plan["actors"]["hero"]["knots"]] == ["t0", "t1", "t2"]
+    for segment, after in zip(plan["actors"]["hero"]["segments"], plan["actors"]["hero"]["segments"][1:], strict=False):
+        assert segment["start_s"] + segment["duration_s"] == pytest.approx(after["start_s"])
+        reached_mps = segment["speed_mps"] + segment["accel_mpss"] * segment["duration_s"]
+        assert reached_mps == pytest.approx(after["speed_mps"], abs=1e-6)
+    rows = pq.read_table(out / "replans.parquet").to_pylist()
+    assert [row["time_s"] for row in rows] == [record.time_s for record in result.run.replans]
+    assert {"time_s", "status", "backend", "wall_s", "tolerance", "reason"} <= set(rows[0])
+
+
+def test_tolerance_decides_the_status() -> None:
+    # Open loop against an ego that does not drive as foreseen is off by some; how much is admitted is the user's choice.
+    statuses = set()
+    for ego in ("idm", "noisy", "stop-and-go"):
+        for name, tolerance in (("tight", TIGHT), ("loose", LOOSE)):
+            result = orchestrate(Request(SENTENCE, FINE, ego=ego, mode="open", tolerance=name, seed=4))
+            assert result.verdict is not None
+            assert (result.status == "success") == result.verdict.holds_at(tolerance)
+            statuses.add(result.status)
+    assert statuses == {"success", "failure"}
+
+
+def test_nothing_is_written_where_nothing_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    result = orchestrate(Request(SENTENCE, FINE))
+    assert (result.status, result.run_directory) == ("success", None)
+    assert list(tmp_path.iterdir()) == []
