@@ -177,7 +177,7 @@ def test_plan_and_resolves_are_written(written: tuple[Result, Path]) -> None:
 
 
 def test_tolerance_decides_the_status() -> None:
-    # Open loop against an ego that drives otherwise than foreseen is off by some; what is admitted is the user's choice.
+    # Open loop against an ego that drives otherwise than foreseen is off by some; what passes is the user's choice.
     statuses = set()
     for ego in ("idm", "noisy", "stop-and-go"):
         for name, tolerance in (("tight", TIGHT), ("loose", LOOSE)):
