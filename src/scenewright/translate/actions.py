@@ -155,6 +155,10 @@ class ActionReader(DescriptionReader):
         last = self.facts.phases[-1] if self.facts.phases else None
         if event.places or event.rate or event.to_speed:
             raise self._refuse("a turn takes no place or rate of its own", event.span)
+        pulled_out = last is not None and last.kind == "turn" and last.events[-1].verb == "pull_out"
+        if last is not None and pulled_out and event.verb == "turn" and "then" not in event.links:
+            last.events.append(event)  # "pulls out and turns right"
+            return last
         if last is not None and last.kind == "acc" and last.goal == "turn_start":
             last.kind, last.goal = "turn", None  # "arrives at the mouth of the driveway and turns left"
             self.facts.assumptions = [each for each in self.facts.assumptions if "may speed up" not in each]

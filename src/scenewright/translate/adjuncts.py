@@ -5,9 +5,9 @@ What enters: the reader's state at some token. What leaves: True where an adjunc
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from scenewright.translate.events import Event
+from scenewright.translate.events import Area, Event, Place
 from scenewright.translate.reader import TURNS, ReaderState
 from scenewright.translate.tokens import Quantity
 
@@ -18,7 +18,8 @@ class AdjunctReader(ReaderState):
 
     def _adjunct(self) -> bool:
         return (
-            self._amount_adjunct()
+            self._shared_place()
+            or self._amount_adjunct()
             or self._stop_adjunct()
             or self._place_adjunct()
             or self._through()
@@ -54,6 +55,44 @@ class AdjunctReader(ReaderState):
         self._grow()
         return True
 
+    def _shared_place(self) -> bool:
+        """Read a bare amount whose place another vehicle names: "the ego is 35 m and the hero 20 m from it"."""
+        amount = self.phrases.tokens[self.at].quantity
+        if amount is None or amount.dimension not in ("length", "time"):
+            return False
+        after = self.phrases.tokens[self.at + 1].tags
+        ends = "end" in after or "comma" in after or after.get("link") == "and"
+        shared = (self._place_before() or self._place_after(self.at + 1)) if ends else None
+        if shared is None or not isinstance(shared.target, str) or shared.of_whom is not None:
+            return False
+        if shared.amount is None or shared.amount.dimension != amount.dimension:
+            return False
+        host = self._host()
+        if host is None or host.verb not in ("be", "sit"):
+            return False
+        host.places.append(replace(shared, amount=amount, span=amount.span))
+        self.at += 1
+        self._grow()
+        return True
+
+    def _place_before(self) -> Place | None:
+        """Return the place that the vehicle before is compared with: "the ego is 35 m from it and the hero 20 m"."""
+        last = self.events[-1] if self.events else None
+        if last is None or last.sentence != self.sentence or self.subject_span is None or last.actor == self.subject:
+            return None
+        return last.places[0] if last.verb in ("be", "sit") and len(last.places) == 1 else None
+
+    def _place_after(self, at: int) -> Place | None:
+        """Return the place that follows for the other vehicle: "... 35 m and the hero 20 m from it"."""
+        at += self.phrases.tag(at, "comma") is not None
+        at += self.phrases.tag(at, "link") == "and"
+        phrase = self.phrases.noun_phrase(at)
+        if phrase is None or phrase.kind == "pronoun":
+            return None
+        at = phrase.end + (self.phrases.tag(phrase.end, "be") is not None)
+        found = self.phrases.place(at) if self.phrases.tokens[at].quantity is not None else None
+        return found[0] if found else None
+
     def _stop_adjunct(self) -> bool:
         end = self._stop_noun_at(self.at)
         if end is None or self.current is None or self.current.verb not in ("brake", "stop"):
@@ -75,6 +114,8 @@ class AdjunctReader(ReaderState):
         if host is None:
             return False
         host.places.append(place)
+        if place.target == "stop_line" and self.phrases.tag(end - 1, "area") == "driveway":
+            host.areas.append(Area("on", "driveway", place.span))  # "at the stop line of the driveway"
         self.at = end
         self._grow()
         return True
@@ -137,8 +178,15 @@ class AdjunctReader(ReaderState):
     def _oncoming(self) -> bool:
         """Read "is oncoming" and "in the opposite direction"."""
         event = self.current
+        if event is None and self.subject_span is not None and self._tag("actor_adjective") == "oncoming":
+            event = self._host()  # "GVT oncoming."
         if event is None or event.actor is None or self.links:
             return False
+        if self._tag("oncoming_way") and event.verb in ("be", "drive", "approach"):  # "coming the other way"
+            event.relations.append(("oncoming", event.actor, self.phrases.tokens[self.at].span))
+            self.at += 1
+            self._grow()
+            return True
         if self._tag("preposition") in ("in", "out"):  # "in the opposite direction", "from the opposite direction"
             at = self.phrases.skip_determiner(self.at + 1)
             if self.phrases.tag(at, "actor_adjective") == "oncoming" and self.phrases.tag(at + 1, "direction_noun"):
@@ -173,6 +221,8 @@ class AdjunctReader(ReaderState):
             self._grow()
             return True
         host = self.current
+        if host is not None and host.verb == "be" and direction == "straight" and self.links == ["comma"]:
+            self.links = []  # "Ego: westbound, straight"
         allowed = TURNS if direction != "straight" else ("drive", "lane_follow", "go", "be")
         if host is None or host.verb not in allowed or host.direction is not None or self.links:
             return False

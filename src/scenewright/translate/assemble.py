@@ -94,6 +94,10 @@ class Assembler:
                 "a moment on its own way, such as passing the conflict point",
                 "say 'passes the conflict point'",
             )
+        if name == "stop_line" and "stop_line" not in self.routes.of(actor).landmarks:
+            raise self._refuse(
+                f"the {ACTOR_NAMES[actor]} has no stop line on its way", span, "the conflict point or the intersection"
+            )
         return Landmark(name, span=span)
 
     # -- conditions -------------------------------------------------------------------------------------------------
@@ -201,6 +205,8 @@ class Assembler:
         if not self.facts.trigger:
             return self._untriggered(phases)
         self._trigger()
+        if self.facts.standing is not None:
+            return self._from_standstill(self.facts.standing, phases)
         if kinds == ["dec"]:
             self._slow(phases[0], "t2")
             return _sketch("go dec")
@@ -212,6 +218,27 @@ class Assembler:
         if kinds[0] == "turn" and kinds in (["turn"], ["turn", "dec"]):
             return self._turning(phases)
         raise self._refuse("this sequence of actions is not supported", phases[0].events[0].span)
+
+    def _from_standstill(self, standing: Event, phases: list[Phase]) -> Sketch:
+        """Build the script of a hero that waits for its trigger and then goes."""
+        event, phase = phases[0].events[0], phases[0]
+        if len(phases) > 1 or phase.kind not in ("turn", "acc") or phase.to_speed is not None:
+            raise self._refuse(
+                "a hero that stands at the start can only go, turn or pass then",
+                event.span,
+                "that it turns, or accelerates to pass the conflict point",
+            )
+        placed = [c for c in (*self.facts.initial, *self.facts.trigger) if c.actor == HERO_ID]
+        if any(c.speed is not None for c in placed) or len(placed) > 1:
+            raise self._refuse("a hero that stands has one place and no speed", placed[-1].event.span)
+        self._add(Compare("==", State(HERO_ID, _SPEED, PieceRef("stop")), Number(Fraction(0))), standing)
+        if phase.kind == "turn":
+            aim = self._landmark("turn_end", HERO_ID, event.span)
+            self._add(Compare("==", State(HERO_ID, _POSITION, Knot("t2")), aim), *phase.events)
+            self._order("t2")
+        else:
+            self._run(phase, "t2", "acc")
+        return _sketch("stop acc")
 
     def _slow(self, phase: Phase, knot: str) -> None:
         event = phase.events[0]

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from scenewright.translate.events import HERO_ID, Event, Place
-from scenewright.translate.measures import MeasureReader
+from scenewright.translate.frames import FrameReader
 from scenewright.translate.modes import resolve_modes
 from scenewright.translate.phrases import NounPhrase
 
@@ -17,7 +17,7 @@ _UNSUPPORTED_FIX = "leave it out: the offline translator knows two vehicles that
 
 
 @dataclass(slots=True)
-class ClauseReader(MeasureReader):
+class ClauseReader(FrameReader):
     """Reads a whole description."""
 
     def read(self) -> list[Event]:
@@ -53,9 +53,13 @@ class ClauseReader(MeasureReader):
             self._stop()
             or self._label()
             or self._comma()
+            or self._frame()
             or self._adverb()
             or self._existence()
             or self._measure()
+            or self._front()
+            or self._apposition()
+            or self._both()
             or self._intention()
             or self._adjunct()
             or self._link()
@@ -72,10 +76,14 @@ class ClauseReader(MeasureReader):
         if left_over or self.flags - {"initial"} or self.passive_object:
             raise self._stuck_before("this sentence is not finished")
         resolve_modes([event for event in self.events if event.sentence == self.sentence])
+        both = bool(self.events) and self.events[-1].both
+        self._spread()
         main = [e for e in self.events if e.sentence == self.sentence and e.mode == "main" and e.actor is not None]
         if main:
             self.main_subject = main[-1].actor
+        self.main_subject = None if both else self.main_subject
         self.subject = self.phrases.subject = self.main_subject
+        self.pair, self.reduced = False, None
         self.subject_span = self.current = None
         self.links, self.flags, self.label, self.opening = [], set(), None, None
         self.pending_heading = None
@@ -117,7 +125,8 @@ class ClauseReader(MeasureReader):
                 "complete",
                 "turn",
             ):
-                if self.links or self.current is not None:
+                sequence = self.subject_span is not None and self.phrases.verb(self.at + 1, "brake", "stop", "yield")
+                if not sequence and (self.links or self.current is not None):
                     return False
             else:
                 self.current.first = True
@@ -204,9 +213,10 @@ class ClauseReader(MeasureReader):
         if link == "there":
             return False
         if self.phrases.tokens[self.at].text.lower() in ("with", "as well as", "plus"):
-            if self.phrases.noun_phrase(after) is None:
+            if self.phrases.noun_phrase(after) is None and self.phrases.tag(after, "pair") is None:
                 return False
             link = "when" if self.phrases.tokens[self.at].text.lower() == "with" else "and"
+            self.links += ["with"] if link == "when" else []
         if link == "by":
             phrase = self.phrases.noun_phrase(after)
             if phrase is not None:
@@ -283,7 +293,9 @@ class ClauseReader(MeasureReader):
         ):
             return self._passive_subject()
         phrase = self.phrases.noun_phrase(self.at)
-        if phrase is None or self.phrases.tag(phrase.end, "genitive") is not None:
+        if phrase is None:
+            return False
+        if self.phrases.tag(phrase.end, "genitive") is not None and not self.phrases.short_be(phrase.end):
             return False
         if self.phrases.tag(phrase.end, "aspect") and self.phrases.tag(phrase.end + 1, "colon"):  # "Ego state: ..."
             self.links.append("comma")

@@ -68,7 +68,11 @@ class DescriptionReader:
             raise self._refuse("this comes 'then', but nothing happens in it", event.span, "an action of the hero")
         self._tell_route(event)
         for place in event.places:
-            if isinstance(place.target, int) and place.amount is None:
+            if event.verb in ("turn", "pull_out") and place.relation in ("at", "just_before"):
+                if place.target not in ("intersection", "turn_start", "turn"):
+                    raise self._refuse("a turn takes no place of its own", place.span, "where the vehicle turns into")
+                self._note(event, "it turns where the roads meet")
+            elif isinstance(place.target, int) and place.amount is None:
                 self._lead(place, actor, event)
             else:
                 self._start(Condition(actor, event, place=place))
@@ -79,9 +83,15 @@ class DescriptionReader:
                 "a time to collision belongs into the trigger", event.span, fix="say 'when the time to collision ...'"
             )
         if event.verb == "wait":
+            self._stand(event)
+
+    def _stand(self, event: Event) -> None:
+        if event.actor != HERO_ID or event.speed is not None or event.wanted:
             raise self._refuse(
-                "a vehicle that stands at the start is not supported", event.span, "a vehicle that drives"
+                "an ego that stands at the start is not supported", event.span, "an ego that drives towards its goal"
             )
+        self.facts.standing = self.facts.standing or event
+        self._note(event, "the hero stands still until the trigger")
 
     def _start(self, condition: Condition) -> None:
         self._no_second_place(condition, self.facts.initial)
@@ -105,6 +115,7 @@ class DescriptionReader:
         kind = {"ahead": "lead", "behind": "lead"}.get(place.relation)
         if kind is None:
             raise self._refuse("it is not said how far", place.span, "a distance")
+        self.facts.mentioned.add(int(place.target))
         self.facts.relations.append(LaneRelation("lead", HERO_ID, event))
         ahead = actor if place.relation == "ahead" else 1 - actor
         if ahead != HERO_ID:

@@ -77,3 +77,5 @@ class Event:
     relations: list[tuple[str, int, Span]] = field(default_factory=list)  # ("lead", actor, span)
     notes: list[str] = field(default_factory=list)
     mode: str = "main"
+    both: bool = False  # told of the hero too
+    resumed: bool = False  # goes on with a subject that was interrupted

@@ -81,6 +81,7 @@ class Facts:
     phases: list[Phase] = field(default_factory=list)
     order: Order | None = None
     not_yielding: Event | None = None
+    standing: Event | None = None  # the hero waits at the start until the trigger
     mentioned: set[int] = field(default_factory=set)
     assumptions: list[str] = field(default_factory=list)
     understood: dict[int, list[str]] = field(default_factory=dict)  # by id() of the event

@@ -13,6 +13,7 @@ from scenewright.translate.actions import EDGE, GOALS, SLOWING, SPEEDING, Action
 from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place
 from scenewright.translate.facts import Condition, Facts, LaneRelation, Order, Phase
 
+INSTANT = ("brake", "accelerate", "yield")
 TELLING = ("be", "sit", "drive", "approach", "lane_follow", "turn", "pull_out", "leave", "wait", "go")
 
 
@@ -34,13 +35,29 @@ class Interpreter(ActionReader):
         if not self.facts.phases and refused is not None and refused.verb == "yield":
             self.facts.phases.append(Phase("acc", [refused], goal="conflict_point", goal_event=refused))
             self.facts.assumptions.append("a hero that does not yield may speed up to pass the conflict point")
+        self._let_go_first()
         for left in [self.pending_before, *self.pending_release]:
             if left is not None:
                 raise self._refuse("it is not said what the hero does then", left.span, "an action of the hero")
         return self.facts
 
+    def _let_go_first(self) -> None:
+        """Let a hero that "lets the ego pass, then continues" go on only when the ego has passed."""
+        let = [event for phase in self.facts.phases for event in phase.events if "let" in event.notes]
+        if (
+            let
+            and self.facts.order is None
+            and [phase.kind for phase in self.facts.phases]
+            in (
+                ["dec", "acc"],
+                ["dec", "go"],
+            )
+        ):
+            self._set_order(Order(False, "conflict_point", let[0], at_start=True))
+
     def _sentence(self, events: list[Event]) -> None:
         self.sentence = events
+        self._settle(events)
         self._give_subjects(events)
         for event in events:
             if event.actor is None:
@@ -68,6 +85,27 @@ class Interpreter(ActionReader):
                 self._after(event, events)
             else:
                 self._main(event, reacts)
+
+    @staticmethod
+    def _settle(events: list[Event]) -> None:
+        """Let "with both driving west" tell; let "the ego is 30 m from it when the hero brakes" be the condition."""
+        for event in events:
+            tells = event.verb in ("be", "drive", "lane_follow") and not (event.places or event.speed or event.ttc)
+            if "with" in event.links and event.mode == "when" and tells:
+                event.mode = "main"
+        acts = [e for e in events if e.mode == "when" and e.actor == HERO_ID and e.verb in INSTANT and not e.places]
+        acts = acts or [e for e in events if e.mode == "when" and e.actor == HERO_ID and e.verb in ("brake", "stop")]
+        conditions = [event for event in events if event.mode == "when"]
+        states = [e for e in events if e.mode == "main" and (e.places or e.ttc) and e.verb in ("be", "sit", "ttc")]
+        if not acts or conditions[0] is not acts[0] or events.index(acts[0]) == 0:
+            return
+        before = events[: events.index(acts[0])]
+        if any(each not in states or each.initial for each in before) or acts[0].links[:1] != ["when"]:
+            return
+        for event in before:
+            event.mode = "when"
+        for event in conditions:
+            event.mode = "main"
 
     def _join_conditions(self, events: list[Event]) -> None:
         """Let "the hero is 20 m behind the conflict point when the ego is ..." tell of one moment."""
@@ -107,6 +145,15 @@ class Interpreter(ActionReader):
         self._note(event, "after the hero has done so")
 
     def _conditions(self, conditions: list[Event], events: list[Event]) -> None:
+        for event in events:
+            if "within" in event.notes and (
+                event.mode != "when" or len([e for e in events if "within" in e.notes]) > 1
+            ):
+                raise self._refuse(
+                    "this gives a bound, not a value",
+                    event.span,
+                    "an exact distance, or one 'gets within' after 'when'",
+                )
         if not conditions:
             return
         heroes = [e for e in events if e.mode == "main" and e.actor == HERO_ID]
@@ -140,6 +187,8 @@ class Interpreter(ActionReader):
         assert actor is not None
         if event.rate or event.to_speed or event.duration or event.first or event.than_actor is not None:
             raise self._refuse("this cannot be a condition", event.span, "a place, a time or a speed")
+        if event.verb == "wait" and event.places:
+            self._stand(event)
         found = [Condition(actor, event, place=place) for place in event.places]
         if event.ttc:
             found.append(Condition(actor, event, ttc=event.ttc))
@@ -167,7 +216,12 @@ class Interpreter(ActionReader):
             self.pending_release.append(event)
 
     def _before(self, event: Event) -> None:
-        if event.actor == HERO_ID and event.verb in (*SPEEDING, *GOALS) and self.facts.phases and not event.explicit:
+        if (
+            event.actor == HERO_ID
+            and event.verb in (*SPEEDING, *GOALS)
+            and self.facts.phases
+            and not (event.explicit or event.resumed)
+        ):
             self._action(event)  # "stops before accelerating"
             return
         if event.actor != EGO_ID:
@@ -260,7 +314,7 @@ class Interpreter(ActionReader):
             return reacts or not (event.direction or event.headings or event.areas)
         later = bool(self.facts.phases) and bool({"then", "then_label"} & set(event.links))
         if event.verb in ("turn", "pull_out"):
-            return reacts or later
+            return (reacts and not self._told_before(event)) or later
         if event.verb == "leave":
             return event.landmark is not None
         turned = bool(self.facts.phases) and self.facts.phases[-1].kind == "turn"
@@ -269,6 +323,15 @@ class Interpreter(ActionReader):
         if event.verb == "wait":
             return bool(self.facts.phases)
         return False
+
+    def _told_before(self, event: Event) -> bool:
+        """Whether this is told on the way to a "when" clause that has a reaction of its own after it."""
+        rest = self.sentence[self.sentence.index(event) + 1 :]
+        condition = next((e for e in rest if e.mode == "when"), None)
+        if condition is None or not {"comma", "and"} & set(condition.links):
+            return False
+        after = rest[rest.index(condition) :]
+        return any(e.mode == "main" and e.actor == HERO_ID and e.verb in (*SLOWING, *SPEEDING, *GOALS) for e in after)
 
     def _ego(self, event: Event) -> None:
         allowed = event.verb in TELLING and not (event.rate or event.to_speed or event.duration or event.to_stop)

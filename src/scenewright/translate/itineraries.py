@@ -176,7 +176,9 @@ def _keep_to_road(facts: Facts, pairs: list[Pair], *, described: bool) -> tuple[
         told = wishes.keys() & {"turn", "destination_kind", "destination_heading"}
         turns = {pair[actor].turn for pair in pairs}
         straight = [pair for pair in pairs if pair[actor].turn == "straight"]
-        related = any(relation.kind in ("lead", "ego_leads") for relation in facts.relations) or _distances(facts)
+        related = any(relation.kind in ("lead", "ego_leads", "oncoming") for relation in facts.relations) or _distances(
+            facts
+        )
         if not told and len(turns) > 1 and straight and (wishes if described else related):
             pairs = straight
             assumptions.append(f"the {ACTOR_NAMES[actor]} goes straight on: no turn of it was mentioned")

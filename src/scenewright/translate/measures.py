@@ -179,6 +179,13 @@ class MeasureReader(VerbReader):
         if isinstance(measured.target, int) and measured.actor is None:
             measured.actor = 1 - measured.target
         if measured.actor is None:
+            if self.current is None and self.subject_span is None and isinstance(measured.target, str):
+                raise self.phrases.refuse(
+                    "it is not said whose distance this is",
+                    self.phrases.span(measured.start, measured.end),
+                    "the ego's or the hero's",
+                    "name the vehicle",
+                )
             measured.actor = self.subject
         if measured.actor is None:
             return False

@@ -14,13 +14,15 @@ def resolve_modes(events: list[Event]) -> None:
     """Decide for the events of one sentence which are conditions, which are bounds in order, and which are told."""
     previous: Event | None = None
     outer: str | None = None  # the mode of the clause that a relative clause interrupts
+    interrupted: tuple[set[str], Event | None] = (set(), None)  # the clause that "waiting on the driveway" interrupts
     for event in events:
         links = set(event.links)
-        opening = (
-            "when" if "when" in links else "before" if "before" in links else "after" if "after" in links else None
-        )
-        if "until" in links:
-            opening = "until"
+        if event.resumed:
+            event.mode = _mode_of(event, *interrupted)
+            previous, outer = event, None
+            continue
+        interrupted = (links - {"that"}, previous)
+        opening = _opening(links)
         if "that" in links:
             outer = opening or (previous.mode if previous is not None else "main")
             event.mode = "main"
@@ -28,6 +30,7 @@ def resolve_modes(events: list[Event]) -> None:
             event.mode = "main"
         elif outer is not None and not event.explicit and links <= {"comma"} and opening is None:
             event.mode, outer = outer, None
+            event.resumed = True
         elif opening is not None:
             event.mode = opening
         elif previous is not None and _stays_condition(previous, event, links):
@@ -35,6 +38,19 @@ def resolve_modes(events: list[Event]) -> None:
         else:
             event.mode = "main"
         previous = event
+
+
+def _opening(links: set[str]) -> str | None:
+    if "until" in links:
+        return "until"
+    return next((mode for mode in ("when", "before", "after") if mode in links), None)
+
+
+def _mode_of(event: Event, links: set[str], previous: Event | None) -> str:
+    """Decide for a verb whose subject was described in between, as if it stood right after its subject."""
+    if opening := _opening(links):
+        return opening
+    return previous.mode if previous is not None and _stays_condition(previous, event, links) else "main"
 
 
 def _stays_condition(previous: Event, event: Event, links: set[str]) -> bool:
@@ -46,4 +62,6 @@ def _stays_condition(previous: Event, event: Event, links: set[str]) -> bool:
         return False
     if event.verb in STATIVE:
         return bool(event.places or event.ttc or event.speed)
+    if event.verb == "reach" and event.explicit and event.places and "and" in links:
+        return True  # "..., and, at the same time, the hero reaches a point 20 m before it"
     return event.verb in ("reach", "pass", "enter") and links == {"and"}

@@ -5,7 +5,7 @@ What enters: tagged tokens and a position. What leaves: what the phrase says and
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import cast
 
 from scenewright.errors import Place as ErrorPlace
@@ -107,6 +107,10 @@ class Phrases:
         noun = self.tag(at, "noun")
         if noun is None:
             return None
+        if noun in ("driver", "motorist") and self.tag(at + 1, "preposition") in ("of", "in"):
+            inner = self.noun_phrase(at + 2)
+            if inner is not None and inner.kind != "pronoun":  # "the driver of the van"
+                return replace(inner, span=self.span(start, inner.end))
         return NounPhrase(at + 1, "noun", noun, determiner, adjectives, heading, self.span(start, at + 1))
 
     def resolve(self, phrase: NounPhrase) -> int:
@@ -139,8 +143,22 @@ class Phrases:
             return self.subject, at + 1
         phrase = self.noun_phrase(at)
         if phrase and phrase.kind != "pronoun" and self.tag(phrase.end, "genitive") is not None:
+            if self.short_be(phrase.end):
+                return None
             return self.resolve(phrase), phrase.end + 1
         return None
+
+    def short_be(self, at: int) -> bool:
+        """Whether "'s" stands for "is" here: "the truck's 60 feet ahead", "the ego's heading west"."""
+        if self.tag(at, "genitive") is None or at + 2 >= len(self.tokens):
+            return False
+        after = self.tokens[at + 1]
+        if after.quantity is not None:
+            return self.tag(at + 2, "measure") is None and self.tag(at + 2, "adverb") is None
+        if self.tag(at + 1, "event_noun") or self.tag(at + 1, "measure"):
+            return False
+        finite = "ing" in after.forms or after.text.lower() in ("headed", "about")
+        return finite or self.tag(at + 1, "preposition") is not None
 
     # -- places -----------------------------------------------------------------------------------------------------
     def landmark(self, at: int) -> tuple[str, int, int | None, bool] | None:
@@ -149,7 +167,11 @@ class Phrases:
         whose, at = owner if owner else (None, self.skip_determiner(at))
         if name := self.tag(at, "landmark"):
             self.last_landmark = name
-            return name, at + 1, whose, False
+            end = at + 1
+            if name == "stop_line" and self.tag(end, "preposition") == "of":  # "the stop line of the driveway"
+                after = self.skip_determiner(end + 1)
+                end = after + 1 if self.tag(after, "area") == "driveway" else end
+            return name, end, whose, False
         if self.tag(at, "mouth"):
             after = self.skip_determiner(at + 1 + (self.tag(at + 1, "preposition") == "of"))
             after += self.tag(after, "side") is not None
@@ -260,12 +282,19 @@ class Phrases:
         if phrase is None:
             if amount is not None and relation in ("ahead", "behind") and self.subject is not None:
                 return Place(relation, 1 - self.subject, amount, self.span(start, at)), at  # "12 m ahead"
+            alone = self.tokens[at - 1].text.lower() in ("ahead", "in front", "behind")
+            if alone and amount is None and self.subject is not None and self._ends_here(at):  # "is ahead at 8 m/s"
+                return Place(relation, 1 - self.subject, None, self.span(start, at)), at
             return None
         if phrase.kind == "pronoun":
             return self._pronoun_target(start, phrase, relation, amount)
         if amount is None and relation not in ("behind", "ahead"):
             return None
         return Place(relation, self.resolve(phrase), amount, self.span(start, phrase.end)), phrase.end
+
+    def _ends_here(self, at: int) -> bool:
+        tags = self.tokens[at].tags.keys()
+        return bool(tags & {"end", "comma", "preposition", "link"}) and self.tag(at, "preposition") != "of"
 
     def _pronoun_target(
         self, start: int, phrase: NounPhrase, relation: Relation, amount: Quantity | None
@@ -365,6 +394,7 @@ class Phrases:
         came_from = self.tag(at, "preposition") == "out" and self.tokens[at].text.lower() == "from"
         if came_from or self.tag(at, "preposition") in ("to", "in", "on"):
             at = self.skip_determiner(at + 1)
+            at += self.tag(at, "direction_noun") is not None and not came_from  # "in direction west"
         else:
             at = self.skip_determiner(at) if self.tag(at + 2, "direction_noun") else at
         value = self.tag(at, "heading")

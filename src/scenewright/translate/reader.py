@@ -32,6 +32,8 @@ class ReaderState:
     subject_span: Span | None = None
     main_subject: int | None = None
     label: str | None = None
+    pair: bool = False  # the subject is both vehicles
+    reduced: Event | None = None  # "a truck waiting on the driveway", before its finite verb
     pending_heading: tuple[str, Span] | None = None
     events: list[Event] = field(default_factory=list)
 
@@ -80,6 +82,7 @@ class ReaderState:
         self.subject = self.phrases.subject = actor
         self.subject_span = span
         self.passive_object = None
+        self.pair, self.reduced = False, None
 
     def _negate(self, span: Span) -> None:
         if "negated" in self.flags:
@@ -100,6 +103,7 @@ class ReaderState:
 
     def _open(self, verb: str, start: int) -> Event:
         """Begin a new event for the current subject with the links and flags gathered so far."""
+        resumes = self._resumes(verb, start)
         tokens = self.phrases.tokens
         span = tokens[start].span
         for earlier in (self.subject_span, self.opening):
@@ -111,15 +115,39 @@ class ReaderState:
         event.wanted = "wanted" in self.flags
         event.perfect = "perfect" in self.flags
         event.initial = "initial" in self.flags or self.label == "start"
+        event.both = self.pair
         if self.passive_object is not None:
             event.landmark, event.actor, self.passive_object = self.passive_object, None, None
         if self.pending_heading is not None:
             event.headings.append(self.pending_heading)
             self.pending_heading = None
+        event.resumed = resumes
+        if self.subject_span is not None and not self.flags and self._describes(verb, start):
+            self.reduced = event
         self.links, self.flags, self.subject_span, self.opening = [], set(), None, None
         self.events.append(event)
         self.current = event
         return event
+
+    def _describes(self, verb: str, start: int) -> bool:
+        """Whether a subject is only described so far: "the truck waiting on the driveway", "the ego, westbound,"."""
+        token = self.phrases.tokens[start]
+        return "ing" in token.forms or (verb == "be" and not token.tags.keys() & {"be", "genitive", "auxiliary"})
+
+    def _resumes(self, verb: str, start: int) -> bool:
+        """Let a finite verb go on with the subject that was described, as after "which": "..., turns left"."""
+        reduced, token = self.reduced, self.phrases.tokens[start]
+        finite = bool(token.forms & {"s", "ed", "base"} or token.tags.keys() & {"be", "genitive"} or self.flags)
+        if reduced is None or "ing" in token.forms or not finite or set(self.links) - {"comma"}:
+            return False
+        if self.subject_span is not None or self.subject != reduced.actor or verb == "sit":
+            return False
+        if "initial" in self.flags and len(self.flags) == 1:
+            return False
+        if reduced.verb == "wait" or not (reduced.places or reduced.speed or reduced.ttc):
+            reduced.links.append("that")  # what it says holds anyway; it is no part of the condition
+        self.reduced = None
+        return True
 
     def _grow(self) -> None:
         """Extend the current event's span to the last token read."""
@@ -129,8 +157,9 @@ class ReaderState:
     def _host(self) -> Event | None:
         """Return the event that an adjunct belongs to; a subject without a verb gets a verbless statement."""
         if self.current is None or (self.links and self.subject_span is not None):
-            if self.subject is None:
-                return None
+            fresh = not any(event.sentence == self.sentence for event in self.events)
+            if self.subject is None or (fresh and self.subject_span is None and self.label is None):
+                return None  # "At 10 m/s, the car ...": not said of the vehicle of the sentence before
             return self._open("be", self.at)
         # "is on the road and 30 m behind the stop line": without a subject of its own it still belongs to the same verb
         self.links = [link for link in self.links if link not in ("comma", "and")]

@@ -22,7 +22,7 @@ _RAW = re.compile(
     rf"""(?P<braced>\{{\s*{_PARAMETER}\s*\}})
     |(?P<parameter>{_PARAMETER})
     |(?P<number>(?<![\w.])[+\-−]?(?:\d+(?:,\d+)*(?:\.\d+)?|\.\d+)(?:/\d+)?)
-    |(?P<word>[^\W\d_]+?n['’]t\b|['’](?:ll|re|ve)\b|[^\W\d_]+)
+    |(?P<word>[^\W\d_]+?n['’]t\b|['’](?:ll|re|ve|d)\b|[^\W\d_]+)
     |(?P<genitive>['’]s\b|(?<=s)['’](?=\s))
     |(?P<stop>[.;!?](?=\s|$|["')\]])|\n[ \t]*(?:[-*•–—]|\d+[.)]|\(\w\))[ \t]+|\n[ \t]*\n\s*)
     |(?P<label>:)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from scenewright.translate.adjuncts import AdjunctReader
-from scenewright.translate.events import Event
+from scenewright.translate.events import HERO_ID, Event, Place
 from scenewright.translate.reader import MOVES
 from scenewright.translate.tokens import Token
 
@@ -39,7 +39,7 @@ class VerbReader(AdjunctReader):
             return True
         if ("be" in token.tags or self._contracted_be(token)) and "verb" not in token.tags:
             self.flags.add("be")
-            self.at += 1
+            self.at += 1 + (self.pair and self._tag("pair", 1) is not None)  # "are both"
             if not (self.phrases.tokens[self.at].tags.keys() & {"verb", "negation", "adverb", "auxiliary"}):
                 self._open("be", self.at - 1)
             return True
@@ -49,7 +49,9 @@ class VerbReader(AdjunctReader):
         return self._light(verb, token) or self._main_verb(verb, token)
 
     def _contracted_be(self, token: Token) -> bool:
-        return "genitive" in token.tags and self.at > 0 and self.phrases.tag(self.at - 1, "pronoun") is not None
+        if "genitive" not in token.tags or self.at == 0:
+            return False
+        return self.phrases.tag(self.at - 1, "pronoun") is not None or self.phrases.short_be(self.at)
 
     def _has_amount(self) -> bool:
         """Whether "has" is a full verb here: "has 12 m to go to the stop line", "has a speed of 8 m/s"."""
@@ -126,7 +128,8 @@ class VerbReader(AdjunctReader):
         if phrase is None or not self.phrases.verb(phrase.end, "pass", "go", "turn", "cross"):
             return False
         event = self._open("yield", start)
-        event.to_actor = self.phrases.resolve(phrase)
+        pronoun = phrase.kind == "pronoun" and event.actor is not None
+        event.to_actor = 1 - (event.actor or 0) if pronoun else self.phrases.resolve(phrase)
         event.notes.append("let")
         self.at = phrase.end + 1
         if found := self.phrases.landmark(self.at):
@@ -140,13 +143,34 @@ class VerbReader(AdjunctReader):
         start = self.at
         if verb == "let":
             return self._let(start)
+        passive = "be" in self.flags and "ed" in token.forms
+        if verb in ("lead", "not_yield", "beat", "get_within", "pretend", "come_towards") and not (
+            verb == "lead" and passive
+        ):
+            return self._special(verb, start)
+        end = self.at + 1
+        if verb == "make" and (quantity := self.phrases.tokens[end].quantity) and quantity.dimension == "speed":
+            self._open("drive", start)  # "doing 35 mph"
+            self.at = end
+            return True
         if verb in ("begin", "want", "need", "fail", "make", "use"):
             return False
-        end = self.at + 1
+        if verb == "wait" and self.phrases.tag(end, "preposition") == "for" and self.phrases.noun_phrase(end + 1):
+            verb, end = "yield", end + 1  # "waits for the ego"
+        if verb == "go" and token.text.lower().endswith(" on") and (area := self.phrases.area_noun(end, "on")):
+            event = self._open("drive", start)  # "drives on the main road"
+            event.areas.append(area[0])
+            self.at = area[1]
+            self._grow()
+            return True
+        if verb in ("follow", "lead") and "be" in self.flags and "ed" in token.forms and "ing" not in token.forms:
+            return self._led(verb, start)
         if verb == "come":
             stop = self._stop_noun_at(end)
             if stop is None:
-                if self._tag("verb") == "come" and (self.phrases.heading(end) or self.phrases.area(end)):
+                if self._tag("verb") == "come" and (
+                    self.phrases.heading(end) or self.phrases.area(end) or self.phrases.tag(end, "oncoming_way")
+                ):
                     verb = "drive"
                 else:
                     return False
@@ -155,7 +179,8 @@ class VerbReader(AdjunctReader):
         if verb in ("complete", "exist"):
             return False
         unlinked = self.current is not None and not self.links and self.subject_span is None
-        if unlinked and self.current is not None and self.current.verb != "be" and "ing" not in token.forms:
+        goes_on = self.reduced is not None
+        if unlinked and not goes_on and self.current and self.current.verb != "be" and "ing" not in token.forms:
             return False  # two finite verbs without a link: "makes a left go"
         passive = "be" in self.flags and "ed" in token.forms and "ing" not in token.forms
         if passive and verb in MOVES and self.passive_object is None:
@@ -172,7 +197,84 @@ class VerbReader(AdjunctReader):
         self._grow()
         return True
 
+    def _special(self, verb: str, start: int) -> bool:
+        """Read verbs that say how two vehicles relate, or that no one gives way."""
+        phrase = self.phrases.noun_phrase(self.at + 1)
+        if verb == "get_within":  # the moment at which it does is the one at that very distance
+            found = self.phrases.place(self.at + 1)
+            if found is None or found[0].relation != "from" or found[0].amount is None:
+                return False
+            event = self._open("reach", start)
+            event.notes.append("within")
+            event.places.append(found[0])
+            self.at = found[1]
+            self._grow()
+            return True
+        if verb == "pretend":
+            if self._tag("link", 1) != "to" or self.phrases.verb(self.at + 2, "yield", "stop") is None:
+                return False
+            self.links.append("as_if")
+            self.at += 2
+            return True
+        if verb == "not_yield":
+            self._negate(self.phrases.tokens[start].span)
+            event = self._open("yield", start)
+            self.at += 1
+            if phrase is not None and phrase.kind != "pronoun" and self.phrases.tag(phrase.end, "genitive") is None:
+                event.to_actor, self.at = self.phrases.resolve(phrase), phrase.end
+            self._grow()
+            return True
+        if verb == "come_towards" and phrase is None:
+            self._open("approach", start)
+            self.at += 1
+            return True
+        if phrase is None or (phrase.kind == "pronoun" and self.phrases.last_landmark) or self.subject is None:
+            return False
+        other = 1 - self.subject if phrase.kind == "pronoun" else self.phrases.resolve(phrase)
+        if other == self.subject:
+            raise self.phrases.refuse("a vehicle has no relation to itself", phrase.span)
+        if verb == "beat":
+            return self._beat(start, other, phrase.end)
+        event = self._open("drive", start)
+        if verb == "lead":
+            event.places.append(Place("ahead", other, None, phrase.span))
+        else:
+            event.relations.append(("oncoming", HERO_ID, phrase.span))
+        self.at = phrase.end
+        self._grow()
+        return True
+
+    def _led(self, verb: str, start: int) -> bool:
+        """Read "is followed by the ego" and "is led by a truck"."""
+        phrase = self.phrases.noun_phrase(self.at + 2) if self._tag("link", 1) == "by" else None
+        phrase = phrase or (self.phrases.noun_phrase(self.at + 2) if self._tag("preposition", 1) == "by" else None)
+        if phrase is None or phrase.kind == "pronoun" or self.subject is None:
+            return False
+        other = self.phrases.resolve(phrase)
+        if other == self.subject:
+            raise self.phrases.refuse("a vehicle has no relation to itself", phrase.span)
+        event = self._open("drive", start)
+        event.places.append(Place("ahead" if verb == "follow" else "behind", other, None, phrase.span))
+        self.at = phrase.end
+        self._grow()
+        return True
+
+    def _beat(self, start: int, other: int, at: int) -> bool:
+        """Read "beats the ego to the conflict point"."""
+        to = self.phrases.tag(at, "preposition") == "to" or self.phrases.tag(at, "link") == "to"
+        found = self.phrases.landmark(at + 1) if to else None
+        if found is None:
+            return False
+        event = self._open("pass", start)
+        event.landmark, event.than_actor = found[0], other
+        self.at = found[1]
+        self._grow()
+        return True
+
     def _object_place(self, event: Event, at: int) -> int:
+        if self.phrases.tokens[at - 1].text.lower().endswith(" there"):  # "gets there"
+            event.landmark = self.phrases.last_landmark
+            return at
         found = self.phrases.landmark(at)
         if found is not None and event.verb == "leave" and found[3]:
             return at  # "leaves the driveway": an area, read as an adjunct

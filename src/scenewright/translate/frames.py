@@ -1,0 +1,171 @@
+"""Reads what stands around a clause: requests ("create a scenario in which"), fronted places, appositions, "both".
+
+What enters: the reader's state at the beginning of a clause. What leaves: True where such words were read; what they
+say of a vehicle goes into an event of its own. Words that ask for a scenario say nothing about it and give no event.
+"""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from dataclasses import dataclass
+
+from scenewright.errors import Span
+from scenewright.translate.events import EGO_ID, HERO_ID, Area, Event
+from scenewright.translate.measures import MeasureReader
+from scenewright.translate.phrases import NounPhrase
+
+
+@dataclass(slots=True)
+class FrameReader(MeasureReader):
+    """Reads the surroundings of clauses."""
+
+    fronted: list[Area | tuple[str, Span]] | None = None
+
+    def _frame(self) -> bool:
+        """Step over words that ask for what follows."""
+        kind = self._tag("frame")
+        begins = self.subject_span is None and (self.current is None or set(self.links) & {"comma", "and", "then"})
+        if not begins or self.fronted:
+            return False
+        if kind in ("that", "role") and self.current is None:
+            self.at += 1
+            return True
+        if (kind is None or kind == "wish") and (after := self._frame_noun(self.at + (kind is not None))):
+            self.at = after
+            return True
+        if kind == "build" and (after := self._frame_noun(self.at + 1)):
+            self.at = after
+            return True
+        told = kind == "wish" or (kind == "let" and "and" not in self.links)
+        if told and (phrase := self.phrases.noun_phrase(self.at + 1)) and phrase.kind != "pronoun":
+            self.at += 1
+            self._take_subject(phrase)
+            if kind == "wish" and self._tag("link") == "to":
+                self.at += 1
+            return True
+        return False
+
+    def _frame_noun(self, at: int) -> int | None:
+        """Return the position after "a scenario in which", or None."""
+        at = self.phrases.skip_determiner(at)
+        if self.phrases.tag(at, "frame_noun") is None:
+            return None
+        if self.phrases.tag(at + 1, "frame_link") or self.phrases.tag(at + 1, "colon"):
+            return at + 2
+        return None
+
+    def _front(self) -> bool:
+        """Read a place in front of its clause: "On the driveway, the ego ...", "from the east, a bus ..."."""
+        if self.current is not None or self.subject_span is not None or self.links or self.label or self.fronted:
+            return False
+        if any(event.sentence == self.sentence for event in self.events) or self._tag("preposition") is None:
+            return False
+        if (site := self._junction(self.at)) is not None:
+            self.at = site
+            return True
+        if (area := self.phrases.area(self.at)) and area[0].lane_of is None:
+            found: Area | tuple[str, Span] = area[0]
+            end = area[1]
+        elif heading := self.phrases.heading(self.at):
+            found, end = (heading[0], self.phrases.span(self.at, heading[1])), heading[1]
+        else:
+            return False
+        after = end + (self.phrases.tag(end, "comma") is not None)
+        inverted = self.phrases.verb(after, "come", "drive", "pull_out") is not None
+        phrase = self.phrases.noun_phrase(after + inverted)
+        if phrase is None or phrase.kind == "pronoun" or self.phrases.tag(phrase.end, "genitive") is not None:
+            return False
+        self.at = after + inverted
+        self._take_subject(phrase)
+        self._aside(found)
+        if inverted:
+            self.subject_span = None
+        return True
+
+    def _junction(self, at: int) -> int | None:
+        """Return the position after "at the T-junction," in a sentence that only tells of a turn there."""
+        found = self.phrases.landmark(at + 1) if self.phrases.tag(at, "preposition") == "at" else None
+        if found is None or found[0] != "intersection" or found[2] is not None:
+            return None
+        verbs, end = set[str | None](), found[1]
+        while self.phrases.tag(end, "end") is None:
+            verbs.add(self.phrases.verb(end))
+            if self.phrases.tokens[end].quantity or self.phrases.tag(end, "link") in ("when", "before", "after"):
+                return None
+            end += 1
+        told = verbs <= {None, "turn", "pull_out", "drive", "want", "come", "be"} and verbs & {"turn", "pull_out"}
+        return found[1] + (self.phrases.tag(found[1], "comma") is not None) if told else None
+
+    def _aside(self, found: Area | tuple[str, Span]) -> None:
+        """Say it of the subject in an event of its own; the subject's clause goes on."""
+        subject_span = self.subject_span
+        event = self._open("be", self.at - 1)
+        if isinstance(found, Area):
+            event.areas.append(found)
+            event.span = event.span.union(found.span)
+        else:
+            event.headings.append(found)
+            event.span = event.span.union(found[1])
+        self.subject_span = subject_span
+
+    # -- both vehicles ----------------------------------------------------------------------------------------------
+    def _both(self) -> bool:
+        """Read "both vehicles" and "the ego and the hero" as the subject of one clause."""
+        if self.subject_span is not None or (self.current is not None and not self.links):
+            return False
+        at = self.at
+        if self._tag("pair"):
+            end = at + 1
+        else:
+            pair = self._two_names(at)
+            if pair is None:
+                return False
+            end = pair + (self.phrases.tag(pair, "pair") is not None)
+        if self.phrases.tag(end, "genitive") is not None:
+            return False
+        self._set_subject(EGO_ID, self.phrases.span(at, end))
+        self.phrases.subject = None
+        self.pair, self.at, self.current = True, end, None
+        return True
+
+    def _two_names(self, at: int) -> int | None:
+        first = self.phrases.noun_phrase(at)
+        if first is None or self.phrases.tag(first.end, "link") != "and" or first.kind == "pronoun":
+            return None
+        second = self.phrases.noun_phrase(first.end + 1)
+        if second is None or second.kind == "pronoun" or self.phrases.tag(second.end, "genitive") is not None:
+            return None
+        if self.phrases.tokens[first.end].text.lower() != "and":
+            return None
+        if self.phrases.resolve(first) == self.phrases.resolve(second):
+            raise self.phrases.refuse("these are the same vehicle", self.phrases.span(at, second.end))
+        return second.end
+
+    def _spread(self) -> None:
+        """Tell of the hero too what the sentence tells of both."""
+        spread: list[Event] = []
+        for event in self.events:
+            spread.append(event)
+            if event.both:
+                event.both = False
+                other = deepcopy(event)
+                other.actor = HERO_ID
+                spread.append(other)
+        self.events = spread
+
+    # -- appositions ------------------------------------------------------------------------------------------------
+    def _apposition(self) -> bool:
+        """Read "the NPC, a bus, ..."."""
+        if self.subject_span is None or self.subject is None or self.links[-1:] != ["comma"] or self.pair:
+            return False
+        phrase: NounPhrase | None = self.phrases.noun_phrase(self.at)
+        if phrase is None or phrase.kind != "noun" or phrase.determiner != "indefinite" or phrase.heading:
+            return False
+        if self.phrases.tag(phrase.end, "comma") is None or phrase.adjectives - {"plain"}:
+            return False
+        refs = self.phrases.refs
+        _ = refs.ego(phrase.noun) if self.subject == EGO_ID else refs.hero(phrase.noun)
+        self.links.pop()
+        self.subject_span = self.subject_span.union(phrase.span)
+        self.at = phrase.end + 1
+        return True
