@@ -52,15 +52,15 @@ def ego_starts(
         yield EgoFirstState(_position(scene, place, speed, conditions), speed)
         return
     guess = _position(scene, place, limits.natural_turn_speed_mps, conditions)
-    preferred = ego.policy.preferred_speed_mps(ego.start_at(max(0.0, guess), limits.natural_speed_mps))
+    preferred = ego.policy.preferred_speed_mps(ego.start_at(max(0.0, guess), limits.natural_approach_speed_mps))
     envelope = ego.policy.envelope
     if preferred is None and envelope is not None and envelope.holds_speed:
-        fastest = min(limits.turn_speed_max_mps, limits.speed_max_mps)
+        fastest = min(limits.turn_speed_max_mps, limits.approach_speed_max_mps)
         for share in _SPEED_SHARES:
             speed = max(min(share * limits.natural_turn_speed_mps, fastest), MOVING_MPS)
             yield EgoFirstState(_position(scene, place, speed, conditions), speed)
         return
-    yield _steady(scene, ego, place, conditions, preferred or limits.natural_speed_mps)
+    yield _steady(scene, ego, place, conditions, preferred or limits.natural_approach_speed_mps)
 
 
 def _position(

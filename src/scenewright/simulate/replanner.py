@@ -30,7 +30,7 @@ _SETTLE_S = 0.5
 _LATE_SHARE = 0.35
 _FAR_S = 40.0
 # After so many failures in a row only every so many ticks are tried: the time of a hopeless run is better spent.
-_PATIENT_FAILURES = 6
+_PATIENT_FAILURES = 20
 _RETRY_EVERY = 3
 TIGHT_LENGTH_M = 0.5
 TIGHT_TIME_S = 0.1

@@ -141,7 +141,7 @@ class HeroProblem:
         self, hero: Actor, stretch: Stretch, x0: Value, v0: Value, x1: Symbol, v1: Symbol, duration: Value
     ) -> None:
         self.problem.require(compare("==", 2 * (x1 - x0), (v0 + v1) * duration), "the laws of motion")
-        self._bound_speed(hero, v1)
+        self._bound_speed(hero, v1, after=not stretch.approach)
         self._bound_in_turn(hero, stretch, x0, v0, x1, v1)
         kind = hero.sketch.pieces[stretch.piece]
         if stretch.approach:
@@ -205,13 +205,15 @@ class HeroProblem:
         self.problem.require(compare(">=", change, low * duration), origin)
         self.problem.require(compare("<=", change, high * duration), origin)
 
-    def _bound_speed(self, hero: Actor, speed: Symbol) -> None:
-        top = self.manner.top_speeds_mps(self.limits[hero.id])[0]
+    def _bound_speed(self, hero: Actor, speed: Symbol, after: bool = False) -> None:
+        limits = self.limits[hero.id]
+        top = self.manner.top_speed_after_mps(limits) if after else self.manner.top_speeds_mps(limits)[0]
         self.problem.bound(speed, 0, pin(top), f"{hero.name} drives at 0 to {top:.1f} m/s")
 
     def _bound_in_turn(self, hero: Actor, stretch: Stretch, x0: Value, v0: Value, x1: Symbol, v1: Symbol) -> None:
         turn = TurnSpan.of(self.scene.routes[hero.id])
-        top, turn_top = self.manner.top_speeds_mps(self.limits[hero.id])
+        turn_top = self.manner.top_speeds_mps(self.limits[hero.id])[1]
+        top = self.manner.top_speed_after_mps(self.limits[hero.id])
         if turn is None or turn_top >= top or (stretch.approach and stretch.end_knot is None):
             return
         braking = hero.sketch.pieces[stretch.piece] is PieceKind.DEC

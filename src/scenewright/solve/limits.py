@@ -17,6 +17,7 @@ BRAKE_MAX_MPSS = 8.0
 LATERAL_MAX_MPSS = 6.0
 SPEED_OVER_LIMIT = 1.3
 DEFAULT_SPEED_LIMIT_MPS = 50 / 3.6
+_SLOWEST_TOP_MPS = 8.0
 # Slower than this, "begins to brake" cannot be seen and "drives" is not driving.
 MOVING_MPS = 1.0
 STANDSTILL_MIN_S = 0.5
@@ -28,15 +29,17 @@ class Limits:
 
     Attributes
     ----------
-    speed_max_mps, turn_speed_max_mps
-        On the way, and from the trigger to the end of a turn (lateral acceleration at the tightest curve).
-    natural_speed_mps, natural_turn_speed_mps
-        What a driver would choose.
+    speed_max_mps, approach_speed_max_mps, turn_speed_max_mps
+        Anywhere, on the way to the trigger, and in a turn (lateral acceleration at the tightest curve).
+    natural_speed_mps, natural_approach_speed_mps, natural_turn_speed_mps
+        What a driver would choose in the same places.
     """
 
     speed_max_mps: float
+    approach_speed_max_mps: float
     turn_speed_max_mps: float
     natural_speed_mps: float
+    natural_approach_speed_mps: float
     natural_turn_speed_mps: float
     accel_max_mpss: float = ACCEL_MAX_MPSS
     brake_max_mpss: float = BRAKE_MAX_MPSS
@@ -83,10 +86,14 @@ class Manner:
     clear: bool = True
 
     def top_speeds_mps(self, limits: Limits) -> tuple[float, float]:
-        """Return the top speed on the way and in a turn, for an actor within `limits`."""
+        """Return the top speed on the way to the trigger and in a turn, for an actor within `limits`."""
         if self.natural_speed:
-            return limits.natural_speed_mps, limits.natural_turn_speed_mps
-        return limits.speed_max_mps, limits.turn_speed_max_mps
+            return limits.natural_approach_speed_mps, limits.natural_turn_speed_mps
+        return limits.approach_speed_max_mps, limits.turn_speed_max_mps
+
+    def top_speed_after_mps(self, limits: Limits) -> float:
+        """Return the top speed once the trigger has come: the road that is turned into may be the faster one."""
+        return limits.natural_speed_mps if self.natural_speed else limits.speed_max_mps
 
 
 STEADY = Manner("steady", 0.0, 0.0, 1, True, (1.2, 2.4), (1.2, 2.5), (0.6, 1.2), 2.0, True)
@@ -103,15 +110,18 @@ WHOLE_QUICK = replace(WHOLE, dec_mpss=(2.0, 8.0), stop_s=(0.5, 0.6), outcome_mar
 
 
 def limits_on(route: Route, road_map: RoadMap) -> Limits:
-    """Return the limits of a vehicle on `route`: from the approach's speed limit and the tightest curve of the turn."""
-    approach = road_map.lanes[route.lanes[0]].speed_limit_mps or DEFAULT_SPEED_LIMIT_MPS
+    """Return the limits of a vehicle on `route`: from the speed limits along it and the tightest curve of its turn."""
+    signs = [road_map.lanes[lane].speed_limit_mps or DEFAULT_SPEED_LIMIT_MPS for lane in route.lanes]
+    approach, fastest = signs[0], max(signs)
     tightest = tightest_curvature(route)
     turn = (LATERAL_MAX_MPSS / tightest) ** 0.5 if tightest > 1e-3 else float("inf")
     comfortable = (2.5 / tightest) ** 0.5 if tightest > 1e-3 else float("inf")
-    speed_max = max(SPEED_OVER_LIMIT * approach, 8.0)
+    approach_max = max(SPEED_OVER_LIMIT * approach, _SLOWEST_TOP_MPS)
     return Limits(
-        speed_max_mps=speed_max,
-        turn_speed_max_mps=min(turn, speed_max),
-        natural_speed_mps=approach,
+        speed_max_mps=max(SPEED_OVER_LIMIT * fastest, _SLOWEST_TOP_MPS),
+        approach_speed_max_mps=approach_max,
+        turn_speed_max_mps=min(turn, approach_max),
+        natural_speed_mps=fastest,
+        natural_approach_speed_mps=approach,
         natural_turn_speed_mps=min(comfortable, approach),
     )
