@@ -65,6 +65,8 @@ class AdjunctReader(ReaderState):
         shared = (self._place_before() or self._place_after(self.at + 1)) if ends else None
         if shared is None or not isinstance(shared.target, str) or shared.of_whom is not None:
             return False
+        if shared.target == "stop_line":  # each vehicle has its own, or none: nothing that two can share
+            return False
         if shared.amount is None or shared.amount.dimension != amount.dimension:
             return False
         host = self._host()

@@ -94,10 +94,6 @@ class Assembler:
                 "a moment on its own way, such as passing the conflict point",
                 "say 'passes the conflict point'",
             )
-        if name == "stop_line" and "stop_line" not in self.routes.of(actor).landmarks:
-            raise self._refuse(
-                f"the {ACTOR_NAMES[actor]} has no stop line on its way", span, "the conflict point or the intersection"
-            )
         return Landmark(name, span=span)
 
     # -- conditions -------------------------------------------------------------------------------------------------
@@ -116,7 +112,8 @@ class Assembler:
     def _collision_time(self, condition: Condition, knot: str) -> Formula:
         assert condition.ttc is not None
         if self.routes.share_approach():
-            return Compare("==", Derived("ttc", EGO_ID, HERO_ID, Knot(knot)), condition.ttc.term)
+            rear = HERO_ID if any(each.kind == "ego_leads" for each in self.facts.relations) else EGO_ID
+            return Compare("==", Derived("ttc", rear, 1 - rear, Knot(knot)), condition.ttc.term)
         self.assumptions.append(
             "the time to collision of vehicles that meet is the ego's time to arrival at the conflict point"
         )
@@ -204,6 +201,8 @@ class Assembler:
         kinds = [phase.kind for phase in phases]
         if not self.facts.trigger:
             return self._untriggered(phases)
+        if self.facts.standing is not None:
+            self._stands_somewhere(self.facts.standing)
         self._trigger()
         if self.facts.standing is not None:
             return self._from_standstill(self.facts.standing, phases)
@@ -218,6 +217,16 @@ class Assembler:
         if kinds[0] == "turn" and kinds in (["turn"], ["turn", "dec"]):
             return self._turning(phases)
         raise self._refuse("this sequence of actions is not supported", phases[0].events[0].span)
+
+    def _stands_somewhere(self, standing: Event) -> None:
+        """Put a hero that "waits on the driveway" at its stop line."""
+        if any(c.actor == HERO_ID and c.place is not None for c in (*self.facts.initial, *self.facts.trigger)):
+            return
+        if self.routes.of(HERO_ID).origin_kind != "driveway":
+            raise self._refuse("it is not said where the hero stands", standing.span, "12 m before the conflict point")
+        self._assume(f"'{standing.span.excerpt(self.text)}': it stands at its stop line")
+        place = Landmark("stop_line", span=standing.span)
+        self._add(Compare("==", State(HERO_ID, _POSITION, Knot("t0")), place), standing)
 
     def _from_standstill(self, standing: Event, phases: list[Phase]) -> Sketch:
         """Build the script of a hero that waits for its trigger and then goes."""
