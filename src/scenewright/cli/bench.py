@@ -33,7 +33,7 @@ def success(
     egos: Annotated[str, typer.Option(help="Ego policies, with commas between.")] = "constant,idm,dawdler",
     draws: Annotated[int, typer.Option(min=1, help="Parameter draws a description.")] = 5,
     seed: Annotated[int, typer.Option(help="Seed of the draws and of the egos.")] = 0,
-    ranges: Annotated[str, typer.Option(help="Ranges to draw from: everyday or wide.")] = "everyday",
+    ranges: Annotated[str, typer.Option(help="Ranges to draw from: everyday, demanding or wide.")] = "everyday",
     mode: Annotated[str, typer.Option(help="closed or open loop.")] = "closed",
     workers: Annotated[int, typer.Option(min=1, help="Processes; by default one a core.")] = os.cpu_count() or 1,
     out: Annotated[Path | None, typer.Option(help="Write every outcome to this file, as JSON lines.")] = None,
@@ -46,7 +46,7 @@ def success(
         from scenewright.study.evaluation import make_cases, read_descriptions, run_cases, tabulate, write_outcomes
 
         if ranges not in RANGES:
-            raise InputError("there are no such ranges", found=ranges, expected=" or ".join(RANGES))
+            raise InputError("there are no such ranges", found=ranges, expected=", ".join(RANGES))
         if mode not in ("closed", "open"):
             raise InputError("there is no such mode", found=mode, expected="closed or open")
         cases = make_cases(read_descriptions(source), egos.split(","), draws, seed, ranges, mode)

@@ -14,7 +14,24 @@ import numpy as np
 from scenewright.program.types import Parameter
 
 # (low, high) in SI by dimension and words of the name; the first whose words all occur counts.
+# On a 50 km/h road an ego is some 2 to 6 s away when something begins that it is to react to.
 _EVERYDAY: tuple[tuple[str, tuple[str, ...], float, float], ...] = (
+    ("length", ("initial", "ego", "stop_line"), 45.0, 90.0),
+    ("length", ("initial", "ego"), 90.0, 150.0),
+    ("length", ("initial",), 20.0, 35.0),
+    ("length", ("end",), 5.5, 8.0),
+    ("length", ("ego", "hero"), 12.0, 30.0),
+    ("length", ("ego", "stop_line"), 8.0, 30.0),
+    ("length", ("ego",), 30.0, 80.0),
+    ("length", (), 10.0, 35.0),
+    ("time", ("initial",), 9.0, 13.0),
+    ("time", ("ego",), 3.5, 6.5),
+    ("time", (), 1.0, 3.0),
+    ("speed", (), 4.0, 10.0),
+    ("acceleration", (), 1.5, 6.0),
+)
+# Closer: many of these leave an ego that has the right of way no time to give it up.
+_DEMANDING: tuple[tuple[str, tuple[str, ...], float, float], ...] = (
     ("length", ("initial", "ego"), 40.0, 80.0),
     ("length", ("initial",), 20.0, 35.0),
     ("length", ("end",), 4.0, 7.0),
@@ -48,7 +65,7 @@ class Ranges:
     rows: tuple[tuple[str, tuple[str, ...], float, float], ...]
 
 
-RANGES = {"everyday": Ranges("everyday", _EVERYDAY), "wide": Ranges("wide", _WIDE)}
+RANGES = {r.name: r for r in (Ranges("everyday", _EVERYDAY), Ranges("demanding", _DEMANDING), Ranges("wide", _WIDE))}
 
 
 def draw_parameters(parameters: Sequence[Parameter], seed: Sequence[int], ranges: Ranges) -> dict[str, float]:
