@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from scenewright.translate.events import HERO_ID, Event, Place
 from scenewright.translate.frames import FrameReader
 from scenewright.translate.modes import resolve_modes
-from scenewright.translate.phrases import NounPhrase
+from scenewright.translate.references import NounPhrase
 
 _UNSUPPORTED_FIX = "leave it out: the offline translator knows two vehicles that drive along their lanes"
 

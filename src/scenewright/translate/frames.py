@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from scenewright.errors import Span
 from scenewright.translate.events import EGO_ID, HERO_ID, Area, Event
 from scenewright.translate.measures import MeasureReader
-from scenewright.translate.phrases import NounPhrase
+from scenewright.translate.references import NounPhrase
 
 
 @dataclass(slots=True)

@@ -11,7 +11,7 @@ from typing import cast
 from scenewright.errors import Place as ErrorPlace
 from scenewright.errors import Span, TranslationError
 from scenewright.translate.events import SAY_IT_ALONE, Area, Place, Relation
-from scenewright.translate.references import Referents
+from scenewright.translate.references import NounPhrase, Referents
 from scenewright.translate.tokens import Quantity, Token
 
 OPPOSITE = {"N": "S", "S": "N", "E": "W", "W": "E"}
@@ -23,19 +23,6 @@ MEASURE_DIMENSION = {
     "speed": "speed",
     "rate": "acceleration",
 }
-
-
-@dataclass(slots=True)
-class NounPhrase:
-    """An actor as it was written; `Phrases.resolve` says who it is."""
-
-    end: int
-    kind: str  # ego, hero, noun or pronoun
-    noun: str | None
-    determiner: str | None
-    adjectives: set[str]
-    heading: str | None
-    span: Span
 
 
 @dataclass(slots=True)

@@ -10,7 +10,8 @@ from dataclasses import dataclass, field
 
 from scenewright.errors import Span, TranslationError
 from scenewright.translate.events import Event
-from scenewright.translate.phrases import NounPhrase, Phrases
+from scenewright.translate.phrases import Phrases
+from scenewright.translate.references import NounPhrase
 
 MOVES = ("pass", "reach", "enter", "leave", "approach")
 TURNS = ("turn", "pull_out")

@@ -12,6 +12,19 @@ from scenewright.translate.events import EGO_ID, HERO_ID
 
 
 @dataclass(slots=True)
+class NounPhrase:
+    """An actor as it was written; `Phrases.resolve` says who it is."""
+
+    end: int
+    kind: str  # ego, hero, noun or pronoun
+    noun: str | None
+    determiner: str | None
+    adjectives: set[str]
+    heading: str | None
+    span: Span
+
+
+@dataclass(slots=True)
 class Referents:
     """The actors mentioned so far."""
 
