@@ -40,13 +40,13 @@ def test_same_seed_same_values(seed: tuple[int, ...], ranges: str) -> None:
 def test_everyday_values_are_everyday(seed: tuple[int, ...]) -> None:
     values = drawn(NAMES, seed)
     for name, (low, high) in {
-        "ego_distance_behind_stop_line_m": (10, 40),
-        "hero_distance_behind_conflict_point_m": (8, 30),
-        "initial_ego_distance_behind_stop_line_m": (40, 80),
+        "ego_distance_behind_stop_line_m": (8, 30),
+        "hero_distance_behind_conflict_point_m": (10, 35),
+        "initial_ego_distance_behind_stop_line_m": (45, 90),
         "initial_hero_distance_behind_stop_line_m": (20, 35),
-        "end_hero_distance_behind_conflict_point_m": (4, 7),
-        "ego_tta_behind_stop_line_s": (2.5, 5),
-        "initial_ego_tta_behind_intersection_s": (7, 10),
+        "end_hero_distance_behind_conflict_point_m": (5.5, 8),
+        "ego_tta_behind_stop_line_s": (3.5, 6.5),
+        "initial_ego_tta_behind_intersection_s": (9, 13),
         "hero_tta_behind_stop_line_s": (1, 3),
         "target_speed_mps": (4, 10),
         "hero_deceleration_mpss": (1.5, 6),

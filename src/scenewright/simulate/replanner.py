@@ -27,7 +27,8 @@ _DEAD_BAND_SHARE = 0.02
 _DEAD_BAND_M = 0.05
 _DEAD_BAND_MPS = 0.1
 _SETTLE_S = 0.5
-_LATE_SHARE = 0.35
+_LATE_MISS, _EARLY_MISS = 0.5, 0.12
+_LONGEST_SLACK_S = 1.0
 _FAR_S = 40.0
 # After so many failures in a row only every so many ticks are tried: the time of a hopeless run is better spent.
 _PATIENT_FAILURES = 20
@@ -249,18 +250,43 @@ class Replanner:
             planned = {
                 hero: self._planned_trigger_s(self.scene.program.actor(hero)) for hero in triggers if hero in heroes
             }
-            slack_s = min((self._ego_slack_s(prediction, triggers[hero]) for hero in planned), default=0.0)
+            slack_s = min(
+                (self._ego_slack_s(self.scene.program.actor(hero), prediction, triggers[hero]) for hero in planned),
+                default=0.0,
+            )
             situations.append(Situation(time_s, prediction, knots, heroes, triggers, planned, slack_s))
         return situations
 
     def _planned_trigger_s(self, hero: Actor) -> float:
         return self.plan.profiles[hero.id].knot_times_s[self.structure.trigger_knot(hero.id) or ""]
 
-    def _ego_slack_s(self, prediction: Profile, instant_s: float) -> float:
+    def _ego_side(self, hero: Actor) -> LinearCondition | None:
+        """Return the condition on the ego alone that the hero's trigger waits for; None where both decide."""
+        here = [c for c in self.conditions if c.moments <= self.structure.triggers[hero.id]]
+        known = self._hero_place(hero, here)
+        for condition in here:
+            alone = condition.given(hero.id, *known) if hero.id in condition.weights and known else condition
+            if set(alone.weights) == {EGO} and alone.weights[EGO][0]:
+                return alone
+        return None
+
+    def _ego_slack_s(self, hero: Actor, prediction: Profile, instant_s: float) -> float:
         """Return the time in which the ego gets one tight tolerance off its side of the trigger."""
-        _, speed, _ = prediction.state(instant_s)
-        per_time = any(c.weights.get(EGO, (0, 0))[1] for c in self._at_trigger())
-        return TIGHT_TIME_S if per_time else min(TIGHT_LENGTH_M / max(speed, 0.05), 1.0)
+        side = self._ego_side(hero)
+        s_m, speed, accel = prediction.state(instant_s)
+        if side is None:
+            return min(TIGHT_LENGTH_M / max(speed, 0.05), _LONGEST_SLACK_S)
+        per_metre, per_speed = side.weights[EGO]
+        rate = abs(per_metre * speed + per_speed * accel)
+        return min(_tight_of(side, speed) / max(rate, 1e-3), _LONGEST_SLACK_S)
+
+    def _ego_miss(self, hero: Actor, prediction: Profile, instant_s: float) -> float:
+        """Return how far the ego will be off its side of the trigger, in tight tolerances; 0 where both decide."""
+        side = self._ego_side(hero)
+        if side is None:
+            return 0.0
+        state = prediction.state(instant_s)
+        return abs(side.value({EGO: state[:2]})) / _tight_of(side, state[1])
 
     def _at_trigger(self) -> list[LinearCondition]:
         instants = list(self.structure.triggers.values())
@@ -269,15 +295,12 @@ class Replanner:
     def _trigger_instants(
         self, hero: Actor, time_s: float, prediction: Profile, heroes: Mapping[int, HeroState]
     ) -> list[float]:
-        instant = self.structure.triggers[hero.id]
-        here = [c for c in self.conditions if c.moments <= instant]
-        known = self._hero_place(hero, here)
-        for condition in here:
-            alone = condition.given(hero.id, *known) if hero.id in condition.weights and known else condition
-            if set(alone.weights) == {EGO} and alone.weights[EGO][0]:
-                return [self._ego_arrival_s(alone, time_s, prediction)]
+        side = self._ego_side(hero)
+        if side is not None:
+            return [self._ego_arrival_s(side, time_s, prediction)]
         if hero.id not in heroes:
             return list(_FIRST_TRIGGERS_S)
+        here = [c for c in self.conditions if c.moments <= self.structure.triggers[hero.id]]
         return self._joint_instants(hero, here, time_s, prediction)
 
     def _ego_arrival_s(self, condition: LinearCondition, time_s: float, prediction: Profile) -> float:
@@ -360,8 +383,11 @@ class Replanner:
         left_s = max(0.0, planned - time_s)
         if self._joint_miss_m(hero, planned, situation.ego) > _DEAD_BAND_M + _DEAD_BAND_MPS * left_s:
             return False
-        if left_s <= _SETTLE_S and off_s <= _LATE_SHARE * situation.ego_slack_s:
-            return True  # within the last half second the hero stays settled for as long as that is good enough
+        if self._ego_side(hero) is not None:
+            # Within the last half second the hero stays settled for as long as that is good enough.
+            allowed = _LATE_MISS if left_s <= _SETTLE_S else _EARLY_MISS
+            if self._ego_miss(hero, situation.ego, planned) <= allowed:
+                return True
         return self.plan.tolerance == 0.0 and off_s <= _DEAD_BAND_S + _DEAD_BAND_SHARE * left_s
 
     def _joint_miss_m(self, hero: Actor, planned_s: float, prediction: Profile) -> float:
@@ -374,3 +400,9 @@ class Replanner:
         last_ego = max(situation.ego_knots_s.values(), default=0.0)
         last_own = max(times.values(), default=0.0)
         return last_ego <= situation.time_s or last_own + 0.5 < last_ego
+
+
+def _tight_of(condition: LinearCondition, speed_mps: float) -> float:
+    """Return one tight tolerance in the condition's own terms: a time to arrival is multiplied by the speed in them."""
+    per_metre, per_speed = condition.weights[EGO]
+    return TIGHT_TIME_S * max(speed_mps, 0.05) if per_speed else TIGHT_LENGTH_M * abs(per_metre)
