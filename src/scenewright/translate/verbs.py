@@ -82,6 +82,11 @@ class VerbReader(AdjunctReader):
             self.flags.add(flag)
             self.at += 2
             return True
+        going = verb == "want" and token.text.lower().endswith("going")
+        if going and (self.phrases.heading(self.at + 1) or self.phrases.area(self.at + 1)):
+            self._open("drive", self.at)  # "was going west"
+            self.at += 1
+            return True
         if verb == "begin" and "ing" in following.forms:
             self.flags.add("begins")
             self.at += 1
