@@ -37,7 +37,7 @@ TIGHT_LENGTH_M = 0.5
 TIGHT_TIME_S = 0.1
 _SHORTEST_LEAD_S = 0.02
 _FIRST_TRIGGERS_S = (2.5, 3.5, 4.5, 6.0, 8.0, 10.0, 13.0, 16.0, 2.0, 1.5, 1.0, 20.0, 25.0)
-_RETRY_TRIGGERS_S = (0.0, 0.25, -0.25, 0.75, 1.5, 3.0, 6.0, 10.0)
+_RETRY_TRIGGERS_S = (0.0, 0.25, -0.25, 0.75, 1.5, 3.0, 6.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -273,7 +273,7 @@ class Replanner:
     def _ego_slack_s(self, hero: Actor, prediction: Profile, instant_s: float) -> float:
         """Return the time in which the ego gets one tight tolerance off its side of the trigger."""
         side = self._ego_side(hero)
-        s_m, speed, accel = prediction.state(instant_s)
+        _, speed, accel = prediction.state(instant_s)
         if side is None:
             return min(TIGHT_LENGTH_M / max(speed, 0.05), _LONGEST_SLACK_S)
         per_metre, per_speed = side.weights[EGO]

@@ -75,6 +75,8 @@ _OFF = tuple(
 _TRIES_A_TICK = 4
 # How often a re-solve asks whether a gentler way has become possible.
 _EASE_EVERY = 3
+# How many of the instants to try are about the planned one.
+_NEAR = 4
 # Pinning rounds by at most 5e-5 at each of a handful of numbers; a checked plan may be off by that, no more.
 _CHECK_SLACK = 5e-3
 _LIMIT_SLACK = 5e-3
@@ -128,9 +130,9 @@ class Planner:
         self.budget_s = budget_s
         outcome = self._outcome = Role.OUTCOME in structure.roles.values()
         self.trials = (*_QUICK, *_EXACT, *_FOR_OUTCOME, *_WITHOUT_OUTCOME, *_OFF) if outcome else (*_EXACT, *_OFF)
-        self._last_trial = 0
         self._replans = 0
-        self._tried_on = 0
+        self._position = 0
+        self._searching = False
 
     def first_plan(self, situations: Sequence[Situation], budget_s: float = 10.0) -> Attempt:
         """Plan from the start, with the heroes' first states free; `situations` differ in the trigger's instant."""
@@ -141,19 +143,22 @@ class Planner:
     def replan(self, situations: Sequence[Situation]) -> Attempt:
         """Plan the rest; begins with what the last re-solve needed, now and then one gentler, and makes a few tries."""
         self._replans += 1
-        ease = 1 if self._replans % _EASE_EVERY == 0 and not self._tried_on else 0
-        first = max(0, self._last_trial - ease)
-        ways = [(trial, situation) for trial in self.trials[first:] for situation in situations]
-        ways = ways[self._tried_on : self._tried_on + _TRIES_A_TICK]
-        attempt, tried = self._search(ways, self.budget_s)
-        reached = self._tried_on + tried
-        self._last_trial, self._tried_on = first + reached // len(situations), 0
-        if attempt.plan is None:
-            # What was not reached in this tick is where the next one goes on.
-            self._tried_on = reached % len(situations)
-        if self._last_trial >= len(self.trials):
-            self._last_trial, self._tried_on = len(self.trials) // 2, 0
+        ways = self._ways(situations)
+        first = min(self._position, len(ways) - 1)
+        if self._replans % _EASE_EVERY == 0 and not self._searching:
+            first = max(0, first - 1) if len(situations) == 1 else 0
+        attempt, tried = self._search(ways[first : first + _TRIES_A_TICK], self.budget_s)
+        # What was not reached in this tick is where the next one goes on; after the last hope it starts over midway.
+        self._searching = attempt.plan is None
+        self._position = first + tried if first + tried < len(ways) else len(ways) // 2
         return attempt
+
+    def _ways(self, situations: Sequence[Situation]) -> list[tuple[Trial, Situation]]:
+        """Return what to try, in order: every manner about the planned instant before any at a far one."""
+        near, far = situations[:_NEAR], situations[_NEAR:]
+        exact, others = self.trials[: len(_EXACT)], self.trials[len(_EXACT) :]
+        groups = ((exact, near), (exact, far), (others, near))
+        return [(trial, situation) for trials, some in groups for trial in trials for situation in some]
 
     def _search(self, ways: Sequence[tuple[Trial, Situation]], budget_s: float) -> tuple[Attempt, int]:
         """Return the first way that leads to a plan, and its number."""
