@@ -26,9 +26,10 @@ from scenewright.program.types import EGO, Program
 from scenewright.roads.grounding import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.simulate.ego_start import EgoFirstState, ego_starts
-from scenewright.simulate.hindsight import ego_left_no_room
+from scenewright.simulate.hindsight import drive_profile, ego_left_no_room
 from scenewright.simulate.loop import Rates, Run, simulate
 from scenewright.simulate.prediction import ConstantSpeed, Predictor, predictor_called
+from scenewright.simulate.rehearsal import Rehearsed
 from scenewright.simulate.replanner import Replanner
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.arrival import linear_conditions
@@ -76,6 +77,7 @@ class Request:
     replan_hz: float = 10.0
     budget_s: float = 0.25
     predictor: str = "road"
+    takes: int = 3
 
 
 @dataclass(slots=True)
@@ -90,6 +92,8 @@ class Result:
         For a run that missed: the proof that against the ego as it drove no hero could have done it, if there is one.
     run_directory
         Where the files are; None where nothing was driven or nothing was to be written.
+    take
+        Which take this is: later ones knew how the ego had driven in the one before.
     """
 
     status: Status
@@ -101,6 +105,7 @@ class Result:
     hindsight: Feasibility | None = None
     verdict: Verdict | None = None
     run_directory: Path | None = None
+    take: int = 1
     timings_s: dict[str, float] = field(default_factory=dict)
 
 
@@ -137,20 +142,56 @@ def orchestrate(
         result.status = "success" if feasibility.answer == "feasible" else "gave up"
         return result
     with stages("plan"):
-        replanner, start, attempt = first_plan(world, request)
-        result.attempt = attempt
-    if attempt.plan is None or until == "plan":
-        result.status = "success" if attempt.plan is not None else "gave up"
+        planned = first_plan(world, request, predictor_for(world, request))
+        result.attempt = planned[2]
+    if result.attempt.plan is None or until == "plan":
+        result.status = "success" if result.attempt.plan is not None else "gave up"
         return result
-    with stages("simulate"):
-        world.ego.reset(start.s_m, start.speed_mps)
-        result.run = simulate(world.scene, world.ego, replanner, world.rates, progress)
-    _judge(request, result, world, stages)
+    _drive(request, result, world, planned, stages, progress)
+    result = _rehearse(request, result, world, stages, progress)
     if request.out is not None:
         with stages("write"):
             _write(request.out, request, result, world, stages.seconds)
         result.run_directory = request.out
     return result
+
+
+def _drive(
+    request: Request,
+    result: Result,
+    world: _World,
+    planned: tuple[Replanner, EgoFirstState, Attempt],
+    stages: _Stages,
+    progress: Callable[[float], None] | None,
+) -> None:
+    """Carry out one take from its first second, and judge it."""
+    replanner, start, result.attempt = planned
+    with stages("simulate"):
+        world.ego.reset(start.s_m, start.speed_mps)
+        result.run = simulate(world.scene, world.ego, replanner, world.rates, progress)
+    _judge(request, result, world, stages)
+
+
+def _rehearse(
+    request: Request, first: Result, world: _World, stages: _Stages, progress: Callable[[float], None] | None
+) -> Result:
+    """Take a missed run again, knowing how this ego drove, until one succeeds; return that one, or else the first.
+
+    Every take is a whole closed-loop run that is judged as the first is.
+    """
+    last = first
+    for take in range(2, request.takes + 1):
+        if last.status != "failure" or request.mode == "open" or world.ego_bounds.holds_speed or last.run is None:
+            break
+        drive = drive_profile(last.run.trace.actors[world.scene.program.ego.name])
+        planned = first_plan(world, request, Rehearsed(drive, predictor_for(world, request)))
+        if planned[2].plan is None:
+            break
+        last = replace(first, take=take)
+        _drive(request, last, world, planned, stages, progress)
+        if last.status == "success":
+            return last
+    return first
 
 
 def _set_up(request: Request, stages: _Stages) -> tuple[_World, Translation | None]:
@@ -246,10 +287,9 @@ class _World:
         return check_feasibility(self.scene, *world)
 
 
-def first_plan(world: _World, request: Request) -> tuple[Replanner, EgoFirstState, Attempt]:
+def first_plan(world: _World, request: Request, predictor: Predictor) -> tuple[Replanner, EgoFirstState, Attempt]:
     """Choose the ego's first state and plan from it; where several states may be chosen, the first that plans well."""
     conditions = linear_conditions(world.scene, world.structure)
-    predictor = predictor_for(world, request)
     best: tuple[Replanner, EgoFirstState, Attempt] | None = None
     for start in chain(ego_starts(world.scene, world.ego, world.limits[EGO], conditions), _solved_start(world)):
         if best is not None and best[2].plan is not None and start.last_resort:
@@ -336,6 +376,7 @@ def _write(directory: Path, request: Request, result: Result, world: _World, tim
         given,
         timings_s,
         result.translation.assumptions if result.translation else (),
+        result.take,
     )
     write_run(directory, world.scene, result.run, world.limits, circumstances)
     write_verdict(result.verdict, directory / "verdict.json")

@@ -35,6 +35,7 @@ def success(
     seed: Annotated[int, typer.Option(help="Seed of the draws and of the egos.")] = 0,
     ranges: Annotated[str, typer.Option(help="Ranges to draw from: everyday, demanding or wide.")] = "everyday",
     mode: Annotated[str, typer.Option(help="closed or open loop.")] = "closed",
+    takes: Annotated[int, typer.Option(min=1, help="Takes a case may have; 1 for the first take alone.")] = 3,
     workers: Annotated[int, typer.Option(min=1, help="Processes; by default one a core.")] = os.cpu_count() or 1,
     out: Annotated[Path | None, typer.Option(help="Write every outcome to this file, as JSON lines.")] = None,
     as_json: AsJson = False,
@@ -49,7 +50,7 @@ def success(
             raise InputError("there are no such ranges", found=ranges, expected=", ".join(RANGES))
         if mode not in ("closed", "open"):
             raise InputError("there is no such mode", found=mode, expected="closed or open")
-        cases = make_cases(read_descriptions(source), egos.split(","), draws, seed, ranges, mode)
+        cases = make_cases(read_descriptions(source), egos.split(","), draws, seed, ranges, mode, takes)
         outcomes = _with_progress(run_cases(cases, workers), len(cases))
         if out is not None:
             write_outcomes(outcomes, out)

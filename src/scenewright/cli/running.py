@@ -67,6 +67,10 @@ def run(
     replan_hz: Annotated[
         float, typer.Option("--replan-hz", min=0.1, max=50.0, help="Re-solves in a simulated second.")
     ] = 10.0,
+    takes: Annotated[
+        int,
+        typer.Option(min=1, max=20, help="Runs until one succeeds; a later one knows how the ego drove in the last."),
+    ] = 3,
     predictor: Annotated[
         str, typer.Option(help="How the ego is foreseen: road (slows for turns and lines), acceleration or speed.")
     ] = "road",
@@ -96,6 +100,7 @@ def run(
             replan_hz,
             budget_ms / 1000,
             predictor,
+            takes,
         )
         try:
             result = carry_out(request, quiet=quiet or as_json)

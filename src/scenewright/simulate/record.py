@@ -46,6 +46,7 @@ class Circumstances:
     given_parameters: frozenset[str] = frozenset()
     timings_s: Mapping[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    take: int = 1
 
 
 def prepare_directory(directory: Path) -> None:
@@ -130,7 +131,7 @@ def _manifest(scene: Scene, run: Run, limits: Mapping[int, Limits], circumstance
         "status": run.status,
         "fault": str(run.fault) if run.fault else None,
         "seed": circumstances.seed,
-        "take": 1,
+        "take": circumstances.take,
         "mode": circumstances.mode,
         "tolerance": circumstances.tolerance,
         "translator": circumstances.translator,

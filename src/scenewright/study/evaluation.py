@@ -49,6 +49,7 @@ class Case:
     seed: int
     parameters: dict[str, float]
     mode: str = "closed"
+    takes: int = 3
 
     def command(self) -> str:
         """Return the command that runs this case again."""
@@ -57,6 +58,7 @@ class Case:
             words += ["-p", f"{name}={value}"]
         words += ["--ego", self.ego, "--seed", str(self.seed)]
         words += [] if self.mode == "closed" else ["--mode", self.mode]
+        words += [] if self.takes == 3 else ["--takes", str(self.takes)]
         return shlex.join(words)
 
 
@@ -74,6 +76,7 @@ class Outcome:
     command: str
     message: str = ""
     parameters: dict[str, float] = field(default_factory=dict)
+    take: int = 1
 
 
 def read_descriptions(path: Path) -> list[Description]:
@@ -120,6 +123,7 @@ def make_cases(
     seed: int,
     ranges: str = "everyday",
     mode: str = "closed",
+    takes: int = 3,
 ) -> list[Case]:
     """Return every combination; a draw is the same for all egos."""
     cases = []
@@ -127,7 +131,7 @@ def make_cases(
         program, _ = read_scenario(description.text)
         for draw in range(draws):
             parameters = draw_parameters(program.parameters, (seed, number, draw), RANGES[ranges])
-            cases += [Case(description, ego, draw, seed + draw, parameters, mode) for ego in egos]
+            cases += [Case(description, ego, draw, seed + draw, parameters, mode, takes) for ego in egos]
     return cases
 
 
@@ -150,7 +154,8 @@ def _reported(outcomes: Iterator[Outcome], done: Callable[[Outcome], None] | Non
 
 def run_case(case: Case) -> Outcome:
     """Run one case and say what came of it."""
-    request = Request(case.description.text, case.parameters, ego=case.ego, seed=case.seed, mode=case.mode)  # type: ignore[arg-type]
+    text, mode = case.description.text, "open" if case.mode == "open" else "closed"
+    request = Request(text, case.parameters, ego=case.ego, seed=case.seed, mode=mode, takes=case.takes)  # type: ignore[arg-type]
     try:
         result = orchestrate(request)
     except ScenewrightError as error:
@@ -201,6 +206,7 @@ def _outcome(
         case.command(),
         message,
         case.parameters,
+        result.take if result is not None else 1,
     )
 
 
