@@ -1,7 +1,7 @@
 """What happened between the vehicles: collisions, distances, times to collision, post-encroachment time.
 
-What enters: a `Case` and what was measured. What leaves: facts, and one condition: a crash before the trigger means that
-the situation asked for did not come about. A crash after it is what the test was to find out: a fact about the ego.
+What enters: a `Case` and what was measured. What leaves: facts, and one condition: a crash before the trigger means
+that the situation asked for did not come about. A crash after it is what the test is for: a fact about the ego.
 """
 
 from __future__ import annotations
