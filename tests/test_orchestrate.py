@@ -10,10 +10,11 @@ import pytest
 from scenewright.errors import InputError, OutputError, ParameterError, ScenewrightError, TranslationError
 from scenewright.judge.files import judge_run_directory
 from scenewright.judge.tolerance import LOOSE, TIGHT
-from scenewright.orchestrate import EXIT_STATUS, Request, Result, is_program, orchestrate, read_scenario
+from scenewright.orchestrate import EXIT_STATUS, Request, Result, orchestrate
 from scenewright.program.printer import print_program
 from scenewright.program.text import parse_program
 from scenewright.trace.files import read_trace
+from scenewright.translate.sources import is_program, read_scenario
 
 SENTENCE = (
     "The ego drives westbound and is 90 m before the intersection. An oncoming hero turns left into the driveway. "

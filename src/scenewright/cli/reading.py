@@ -40,9 +40,9 @@ def translate(
     """Turn a description into a program, and say how each clause was understood."""
     with told(as_json):
         from scenewright.cli import tables
-        from scenewright.orchestrate import read_scenario
         from scenewright.program.printer import print_program
         from scenewright.translate.offline import explain
+        from scenewright.translate.sources import read_scenario
 
         program, translation = read_scenario(source, translator, map_name)
         text = print_program(program)

@@ -15,8 +15,9 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from scenewright.errors import InputError, Place, ScenewrightError
-from scenewright.orchestrate import Request, Result, orchestrate, read_scenario
+from scenewright.orchestrate import Request, Result, orchestrate
 from scenewright.study.draws import RANGES, draw_parameters
+from scenewright.translate.sources import read_scenario
 
 # In the order in which tables show them: what was asked for, then the text's and the ego's doing, then ours.
 CAUSES = (
