@@ -1,0 +1,71 @@
+"""Takes: a later one foresees the ego from how it drove, and no take is judged otherwise than the first."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from scenewright.judge.tolerance import TIGHT
+from scenewright.motion.profile import Profile, chain
+from scenewright.orchestrate import Request, orchestrate
+from scenewright.simulate.prediction import ConstantSpeed
+from scenewright.simulate.rehearsal import Rehearsed
+
+DRIVE = Profile(chain(0.0, 0.0, 10.0, [(4.0, 0.0, 0), (5.0, -2.0, 0), (3.0, 0.0, 0), (4.0, 1.5, 0)]))
+STALLS = (
+    "The ego is on the driveway, 60 m behind the stop line, and turns right onto the road. A hero drives westbound on "
+    "the road. When the ego is 14 m behind the stop line and the hero is 22 m behind the conflict point, the hero "
+    "brakes to a stop 6 m before the conflict point."
+)
+
+
+@pytest.mark.parametrize("now_s", [0.0, 1.3, 4.0, 6.5, 8.2])
+def test_goes_on_as_it_did_whenever_it_comes_by(now_s: float) -> None:
+    s_m, speed, accel = DRIVE.state(now_s)
+    late_s = 20.0
+    foreseen = Rehearsed(DRIVE, ConstantSpeed()).predict([(now_s + late_s, s_m, speed, accel)])
+    for ahead_s in (0.0, 0.5, 2.0, 5.0):
+        then, was = foreseen.state(now_s + late_s + ahead_s), DRIVE.state(now_s + ahead_s)
+        assert then[:2] == pytest.approx(was[:2], abs=1e-6)
+
+
+def test_standing_ego_is_as_long_at_its_place_as_it_has_been() -> None:
+    came_s = 30.0
+    stood = [(came_s - 0.1, 64.9, 0.5, -2.0), *((came_s + 0.1 * k, 65.0, 0.0, 0.0) for k in range(16))]
+    foreseen = Rehearsed(DRIVE, ConstantSpeed()).predict(stood)
+    sets_off_s = foreseen.time_at(65.2)
+    assert sets_off_s is not None
+    assert DRIVE.state(9.0)[1] == pytest.approx(0.0, abs=1e-9)
+    # It stood for 3 s in the drive, and has stood for 1.5 s now.
+    assert sets_off_s == pytest.approx(came_s + 3.0 + (2 * 0.2 / 1.5) ** 0.5, abs=0.4)
+
+
+@pytest.mark.parametrize(("s_m", "speed"), [(20.0, 13.0), (500.0, 10.0)])
+def test_another_speed_or_place_is_left_to_the_base(s_m: float, speed: float) -> None:
+    history = [(3.0, s_m, speed, 0.0)]
+    foreseen = Rehearsed(DRIVE, ConstantSpeed()).predict(history)
+    assert foreseen.state(8.0) == ConstantSpeed().predict(history).state(8.0)
+
+
+def test_a_later_take_succeeds_where_the_first_missed_and_is_named(tmp_path: Path) -> None:
+    for seed in range(12):
+        first = orchestrate(Request(STALLS, ego="staller", seed=seed, takes=1))
+        if first.status == "failure":
+            again = orchestrate(Request(STALLS, ego="staller", seed=seed, takes=3, out=tmp_path / "run"))
+            if again.status == "success":
+                break
+    else:
+        pytest.fail("no seed misses in the first take and succeeds in a later one")
+    assert first.take == 1
+    assert again.take in (2, 3)
+    assert again.verdict is not None
+    assert again.verdict.holds_at(TIGHT)
+    assert json.loads((tmp_path / "run" / "manifest.json").read_text(encoding="utf-8"))["take"] == again.take
+
+
+def test_a_success_is_not_taken_again() -> None:
+    result = orchestrate(Request(STALLS, ego="constant", takes=3))
+    assert result.status == "success"
+    assert result.take == 1
