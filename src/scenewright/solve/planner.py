@@ -73,6 +73,8 @@ _OFF = tuple(
     )
 )
 _TRIES_A_TICK = 4
+# Steps in which the best for a denied outcome is searched, and what is left to later re-solves (s).
+_HASTENINGS, _HASTE_SLACK_S = 4, 0.05
 # How often a re-solve asks whether a gentler way has become possible.
 _EASE_EVERY = 3
 # How many of the instants to try are about the planned one.
@@ -138,7 +140,31 @@ class Planner:
         """Plan from the start, with the heroes' first states free; `situations` differ in the trigger's instant."""
         steady = replace(STEADY, dec_mpss=(1.8, 3.0), stop_s=(0.5, 0.8)) if self._outcome else STEADY
         trials = (Trial(steady), *self.trials)
-        return self._search([(trial, situation) for trial in trials for situation in situations], budget_s)[0]
+        ways = [(trial, situation) for trial in trials for situation in situations]
+        attempt, number = self._search(ways, budget_s)
+        if attempt.plan is None or ways[number][0].manner.outcome_margin_s > 0:
+            return attempt
+        return self._hastened(attempt, number // len(situations) - 1, ways[number][1])
+
+    def _hastened(self, attempt: Attempt, index: int, situation: Situation) -> Attempt:
+        """Return the best that can be done for an outcome that the prediction denies, between two steps of the search.
+
+        The trial found keeps what was found out, so that later re-solves do not fall behind it.
+        """
+        trial, best = self.trials[index], attempt
+        low, high = self.trials[index - 1].manner.outcome_margin_s, trial.manner.outcome_margin_s
+        for _ in range(_HASTENINGS):
+            middle = 0.5 * (low + high)
+            found = self._solve(
+                situation, replace(trial.manner, outcome_margin_s=middle), Fraction(0), DEFAULT_BUDGET_S
+            )
+            if isinstance(found, Plan):
+                high, best = middle, replace(best, plan=found)
+            else:
+                low = middle
+        hastened = Trial(replace(trial.manner, outcome_margin_s=high - _HASTE_SLACK_S))
+        self.trials = (*self.trials[:index], hastened, *self.trials[index + 1 :])
+        return best
 
     def replan(self, situations: Sequence[Situation]) -> Attempt:
         """Plan the rest; begins with what the last re-solve needed, now and then one gentler, and makes a few tries."""
