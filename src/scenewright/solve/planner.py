@@ -139,12 +139,14 @@ class Planner:
     def first_plan(self, situations: Sequence[Situation], budget_s: float = 10.0) -> Attempt:
         """Plan from the start, with the heroes' first states free; `situations` differ in the trigger's instant."""
         steady = replace(STEADY, dec_mpss=(1.8, 3.0), stop_s=(0.5, 0.8)) if self._outcome else STEADY
-        trials = (Trial(steady), *self.trials)
+        brisk = replace(steady, dec_mpss=FIRM.dec_mpss, acc_mpss=FIRM.acc_mpss, natural_speed=False)
+        firsts = (Trial(steady), Trial(brisk))
+        trials = (*firsts, *self.trials)
         ways = [(trial, situation) for trial in trials for situation in situations]
         attempt, number = self._search(ways, budget_s)
         if attempt.plan is None or ways[number][0].manner.outcome_margin_s > 0:
             return attempt
-        return self._hastened(attempt, number // len(situations) - 1, ways[number][1])
+        return self._hastened(attempt, number // len(situations) - len(firsts), ways[number][1])
 
     def _hastened(self, attempt: Attempt, index: int, situation: Situation) -> Attempt:
         """Return the best that can be done for an outcome that the prediction denies, between two steps of the search.
