@@ -6,7 +6,7 @@ from what the orchestrator failed to do; it changes no verdict.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -15,13 +15,15 @@ from scenewright.motion.profile import Profile, Segment
 from scenewright.program.structure import Structure
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
-from scenewright.solve.arrival import linear_conditions
+from scenewright.solve.arrival import TIGHT_TIME_S, LinearCondition, linear_conditions, tight_of
 from scenewright.solve.feasibility import EgoDrive, Feasibility, check_feasibility
 from scenewright.solve.limits import Limits
 from scenewright.solve.problem import Backend
 from scenewright.trace.model import ActorTrace, Trace
 
 _STRETCH_S = 0.1
+# An ego that is at its side for longer than this many moments leaves room for doubt.
+_MOST_MOMENTS = 150
 
 
 def ego_left_no_room(
@@ -29,26 +31,69 @@ def ego_left_no_room(
 ) -> Feasibility | None:
     """Return the proof that against this drive of the ego no hero within `limits` could meet all conditions.
 
-    None where there is no such proof, or where the ego never came to its side of the trigger, which the judge tells.
+    The ego may be at its side of the trigger more than once, or for a while: every such moment is refuted, or nothing
+    is claimed. None where there is no such proof, or where the ego never came to its side, which the judge tells.
     """
     motion = drive_profile(trace.actors[scene.program.ego.name])
-    knots: dict[str, float] = {scene.program.ego.sketch.knots[0]: 0.0}
     conditions = [c for c in linear_conditions(scene, structure) if set(c.weights) == {EGO} and c.weights[EGO][0]]
-    trigger = structure.trigger_knot(EGO)
-    for knot in scene.program.ego.sketch.knots[1:]:
-        condition = next((c for c in conditions if c.moments == {(EGO, knot)}), None)
-        if condition is None:
+    side = next((c for c in conditions if c.moments == {(EGO, structure.trigger_knot(EGO))}), None)
+    if side is None:
+        return None
+    moments = _moments_at(side, motion, trace.duration_s)
+    if not 0 < len(moments) <= _MOST_MOMENTS:
+        return None
+    proof: Feasibility | None = None
+    for moment_s in moments:
+        knots = _ego_knots(scene, structure, conditions, motion, moment_s, trace.duration_s)
+        drive = EgoDrive(motion, knots)
+        found = check_feasibility(scene, structure, limits, backend, drive=drive, explain=proof is None)
+        if found.answer != "infeasible":
+            return None
+        proof = proof or found
+    return proof
+
+
+def _moments_at(side: LinearCondition, motion: Profile, end_s: float) -> list[float]:
+    """Return moments that stand for all at which the ego is within the tight tolerance of its side.
+
+    A proof allows the trigger to be off by a tight tolerance in time to either side of a moment: twice that apart, they
+    leave nothing out. The crossings themselves are among them.
+    """
+    moments: list[float] = []
+    crossing = side.first_time({EGO: motion}, 0.0)
+    while crossing is not None and crossing <= end_s:
+        moments.append(crossing)
+        crossing = side.first_time({EGO: motion}, crossing + TIGHT_TIME_S)
+    time_s = 0.0
+    while time_s <= end_s:
+        s_m, speed, _ = motion.state(time_s)
+        if abs(side.value({EGO: (s_m, speed)})) <= tight_of(side, speed):
+            moments.append(time_s)
+        time_s += TIGHT_TIME_S
+    return sorted(moments)
+
+
+def _ego_knots(
+    scene: Scene,
+    structure: Structure,
+    conditions: Sequence[LinearCondition],
+    motion: Profile,
+    trigger_s: float,
+    end_s: float,
+) -> dict[str, float]:
+    """Return when the ego passed its knots, had the trigger come then; long after the end where it never did."""
+    names = scene.program.ego.sketch.knots
+    knots = {names[0]: 0.0, structure.trigger_knot(EGO) or names[0]: trigger_s}
+    for name in names[1:]:
+        condition = next((c for c in conditions if c.moments == {(EGO, name)}), None)
+        if name in knots or condition is None:
             continue
         time_s = condition.first_time({EGO: motion}, max(knots.values()))
-        if time_s is not None and time_s <= trace.duration_s:
-            knots[knot] = time_s
-    if trigger is None or trigger not in knots:
-        return None
-    never_s = trace.duration_s + 60.0
-    for knot in scene.program.ego.sketch.knots:
-        knots.setdefault(knot, never_s)
-    found = check_feasibility(scene, structure, limits, backend, drive=EgoDrive(motion, knots))
-    return found if found.answer == "infeasible" else None
+        if time_s is not None and time_s <= end_s:
+            knots[name] = time_s
+    for name in names:
+        knots.setdefault(name, end_s + 60.0)
+    return knots
 
 
 def drive_profile(actor: ActorTrace) -> Profile:

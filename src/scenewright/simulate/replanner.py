@@ -16,7 +16,7 @@ from scenewright.program.structure import Role, Structure, knots_of
 from scenewright.program.types import EGO, Actor
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.prediction import EgoSample, Predictor
-from scenewright.solve.arrival import LinearCondition
+from scenewright.solve.arrival import TIGHT_LENGTH_M, LinearCondition, tight_of
 from scenewright.solve.plan import Plan
 from scenewright.solve.planner import Attempt, Planner
 from scenewright.solve.situation import HeroState, Situation
@@ -33,8 +33,6 @@ _FAR_S = 40.0
 # After so many failures in a row only every so many ticks are tried: the time of a hopeless run is better spent.
 _PATIENT_FAILURES = 20
 _RETRY_EVERY = 3
-TIGHT_LENGTH_M = 0.5
-TIGHT_TIME_S = 0.1
 _SHORTEST_LEAD_S = 0.02
 _FIRST_TRIGGERS_S = (2.5, 3.5, 4.5, 6.0, 8.0, 10.0, 13.0, 16.0, 2.0, 1.5, 1.0, 20.0, 25.0)
 _RETRY_TRIGGERS_S = (0.0, 0.25, -0.25, 0.75, 1.5, 3.0, 6.0)
@@ -278,7 +276,7 @@ class Replanner:
             return min(TIGHT_LENGTH_M / max(speed, 0.05), _LONGEST_SLACK_S)
         per_metre, per_speed = side.weights[EGO]
         rate = abs(per_metre * speed + per_speed * accel)
-        return min(_tight_of(side, speed) / max(rate, 1e-3), _LONGEST_SLACK_S)
+        return min(tight_of(side, speed) / max(rate, 1e-3), _LONGEST_SLACK_S)
 
     def _ego_miss(self, hero: Actor, prediction: Profile, instant_s: float) -> float:
         """Return how far the ego will be off its side of the trigger, in tight tolerances; 0 where both decide."""
@@ -286,7 +284,7 @@ class Replanner:
         if side is None:
             return 0.0
         state = prediction.state(instant_s)
-        return abs(side.value({EGO: state[:2]})) / _tight_of(side, state[1])
+        return abs(side.value({EGO: state[:2]})) / tight_of(side, state[1])
 
     def _at_trigger(self) -> list[LinearCondition]:
         instants = list(self.structure.triggers.values())
@@ -400,9 +398,3 @@ class Replanner:
         last_ego = max(situation.ego_knots_s.values(), default=0.0)
         last_own = max(times.values(), default=0.0)
         return last_ego <= situation.time_s or last_own + 0.5 < last_ego
-
-
-def _tight_of(condition: LinearCondition, speed_mps: float) -> float:
-    """Return one tight tolerance in the condition's own terms: a time to arrival is multiplied by the speed in them."""
-    per_metre, per_speed = condition.weights[EGO]
-    return TIGHT_TIME_S * max(speed_mps, 0.05) if per_speed else TIGHT_LENGTH_M * abs(per_metre)

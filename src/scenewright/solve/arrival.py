@@ -18,11 +18,14 @@ from scenewright.motion.sketched import ONE, Ratio
 from scenewright.program.evaluate import landmark_owner
 from scenewright.program.expressions import Compare, Elapsed
 from scenewright.program.structure import KnotKey, Structure, actors_of, knots_of
+from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
-from scenewright.solve.lowering import Lowering, NotYet
+from scenewright.solve.lowering import TIGHT, Lowering, NotYet
 
 HORIZON_S = 90.0
 _LINEAR_SLACK = 1e-9
+TIGHT_LENGTH_M = float(TIGHT["length"])
+TIGHT_TIME_S = float(TIGHT["time"])
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,3 +187,9 @@ def _with_rest(profile: Profile) -> Iterator[Segment]:
     yield from profile.segments
     last = profile.segments[-1]
     yield Segment(last.end_s, HORIZON_S, last.end_s_m, last.end_speed_mps, 0.0)
+
+
+def tight_of(condition: LinearCondition, speed_mps: float) -> float:
+    """Return one tight tolerance in the condition's own terms: a time to arrival is multiplied by the speed in them."""
+    per_metre, per_speed = condition.weights[EGO]
+    return TIGHT_TIME_S * max(speed_mps, 0.05) if per_speed else TIGHT_LENGTH_M * abs(per_metre)
