@@ -78,6 +78,14 @@ class Request:
     takes: int = 3
 
 
+@dataclass(frozen=True, slots=True)
+class Take:
+    """How one take was judged; `hindsight` as in `Result`."""
+
+    verdict: Verdict
+    hindsight: Feasibility | None
+
+
 @dataclass(slots=True)
 class Result:
     """What came of a request.
@@ -92,6 +100,8 @@ class Result:
         Where the files are; None where nothing was driven or nothing was to be written.
     take
         Which take this is: later ones knew how the ego had driven in the one before.
+    takes
+        Every take that was driven to its end, in order.
     """
 
     status: Status
@@ -104,6 +114,7 @@ class Result:
     verdict: Verdict | None = None
     run_directory: Path | None = None
     take: int = 1
+    takes: tuple[Take, ...] = ()
     timings_s: dict[str, float] = field(default_factory=dict)
 
 
@@ -185,11 +196,11 @@ def _rehearse(
         planned = first_plan(world, request, Rehearsed(drive, predictor_for(world, request)))
         if planned[2].plan is None:
             break
-        last = replace(first, take=take)
+        last = replace(first, take=take, takes=last.takes, hindsight=None)
         _drive(request, last, world, planned, stages, progress)
         if last.status == "success":
             return last
-    return first
+    return replace(first, takes=last.takes)
 
 
 def _set_up(request: Request, stages: _Stages) -> tuple[_World, Translation | None]:
@@ -300,6 +311,8 @@ def _judge(request: Request, result: Result, world: _World, stages: _Stages) -> 
                 "The ego left no room: against the way it drove no vehicle within its limits could have met all "
                 "conditions."
             )
+    if run.status == "finished":
+        result.takes = (*result.takes, Take(result.verdict, result.hindsight))
 
 
 def _write(directory: Path, request: Request, result: Result, world: _World, timings_s: Mapping[str, float]) -> None:

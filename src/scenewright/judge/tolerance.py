@@ -62,6 +62,13 @@ class Tolerance:
 
 TIGHT = Tolerance(0.5, 0.1, 0.25, 0.25)
 LOOSE = Tolerance(2.0, 0.5, 1.0, 1.0)
+# From finest to coarsest, to draw success over tolerance; verdicts name the middle two.
+LEVELS = {
+    "fine": Tolerance(0.1, 0.02, 0.05, 0.05),
+    "tight": TIGHT,
+    "loose": LOOSE,
+    "coarse": Tolerance(5.0, 1.0, 2.5, 2.5),
+}
 
 
 @dataclass(frozen=True, slots=True)
