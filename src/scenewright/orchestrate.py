@@ -123,6 +123,7 @@ def orchestrate(
     report: Report | None = None,
     progress: Callable[[float], None] | None = None,
     until: Stop = "end",
+    backend: Backend | None = None,
 ) -> Result:
     """Carry out `request`.
 
@@ -134,6 +135,8 @@ def orchestrate(
         Called with the simulated time (s) as the run goes on.
     until
         The last stage to carry out. After ``check`` or ``plan`` the status is ``success`` where that stage succeeded.
+    backend
+        The solver; z3 by default. One that wraps it can watch what is asked.
 
     Raises
     ------
@@ -141,7 +144,7 @@ def orchestrate(
         Where the input is wrong; every subclass says what and how to mend it.
     """
     stages = _Stages(report)
-    world, translation = _set_up(request, stages)
+    world, translation = _set_up(request, stages, backend)
     with stages("check"):
         feasibility = world.choose_and_check()
     result = Result("infeasible", world.scene, translation, feasibility, timings_s=stages.seconds)
@@ -203,7 +206,7 @@ def _rehearse(
     return replace(first, takes=last.takes)
 
 
-def _set_up(request: Request, stages: _Stages) -> tuple[_World, Translation | None]:
+def _set_up(request: Request, stages: _Stages, backend: Backend | None = None) -> tuple[_World, Translation | None]:
     """Read the source, put it on its map, and load the policy; nothing that is wrong with them is found out late."""
     if request.out is not None:
         from scenewright.simulate.record import prepare_directory
@@ -213,14 +216,14 @@ def _set_up(request: Request, stages: _Stages) -> tuple[_World, Translation | No
         program, translation = read_scenario(request.source, request.translator, request.map_name)
     with stages("ground"):
         scene = ground(program, load_map(request.map_name or program.map_name), request.parameters)
-    return _World(scene, request), translation
+    return _World(scene, request, backend), translation
 
 
 # -- planning -------------------------------------------------------------------------------------------------------
 class _World:
     """What stays the same all through one request."""
 
-    def __init__(self, scene: Scene, request: Request) -> None:
+    def __init__(self, scene: Scene, request: Request, backend: Backend | None = None) -> None:
         from scenewright.solve.backends.z3_backend import Z3Backend
 
         self.scene = scene
@@ -230,7 +233,7 @@ class _World:
         self.rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
         self.structure: Structure = read_structure(scene.program)
         self.limits: dict[int, Limits] = {i: limits_on(route, scene.road_map) for i, route in scene.routes.items()}
-        self.backend: Backend = Z3Backend()
+        self.backend: Backend = backend or Z3Backend()
         envelope = guarded.envelope
         self.ego_bounds = (
             EgoBounds(envelope.speed_max_mps, envelope.accel_max_mpss, -envelope.accel_min_mpss, envelope.holds_speed)
