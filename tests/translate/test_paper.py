@@ -171,7 +171,8 @@ def test_open_and_closed_loop_description(text: str, expected: Expected) -> None
     check(text, expected)
 
 
-def test_hesitating_hero_follows_the_papers_pseudocode() -> None:
+def test_hesitating_hero_stops_while_the_ego_is_before_its_stop_line() -> None:
+    """The paper's pseudocode, but for the ego's place: at the conflict point itself (`turn`) the two would meet."""
     program = translate_offline(HESITATES).program
     assert (headings(program, 0), headings(program, 1)) == ("SW", "W")
     assert " ".join(map(str, program.actor(1).sketch.pieces)) == "dec stop acc"
@@ -182,7 +183,7 @@ def test_hesitating_hero_follows_the_papers_pseudocode() -> None:
         "A1v(t1) == 0",
         "A1x(t1) == turn - distance_to_driveway_m",
         "A1v(stop) == 0",
-        "A0x(t1) == turn",
+        "A0x(t1) == stop_line - 5",
         "A0(t1) == A1(t1)",
         "A1(t2) > A0(t1)",
         "A1v(t3) == initial_speed_mps",

@@ -10,7 +10,7 @@ from fractions import Fraction
 
 from scenewright.errors import Place as ErrorPlace
 from scenewright.errors import TranslationError
-from scenewright.program.arithmetic import negate
+from scenewright.program.arithmetic import JUST_BEFORE_M, negate
 from scenewright.program.expressions import (
     Arithmetic,
     Compare,
@@ -262,19 +262,26 @@ class Assembler(ConditionAssembler):
                 expected="a clause with 'when'",
                 fix="add for example 'when the ego is 12 m behind the stop line'",
             )
-        self._assume(
-            "no trigger was given: the hero slows down from the start, and the ego is at the turn when it has stopped"
-        )
+        waits_at = self._where_the_ego_waits()
         self._slow(slow, "t1")
         event = slow.events[0]
         self._add(Compare("==", State(HERO_ID, _SPEED, PieceRef("stop")), Number(Fraction(0))), event)
-        self._add(Compare("==", State(EGO_ID, _POSITION, Knot("t1")), Landmark("turn")), event)
+        self._add(Compare("==", State(EGO_ID, _POSITION, Knot("t1")), waits_at), event)
         self._add(Compare("==", Elapsed(EGO_ID, "t1"), Elapsed(HERO_ID, "t1")), event)
         self._add(Compare(">", Elapsed(HERO_ID, "t2"), Elapsed(EGO_ID, "t1")), *phases[1].events)
         if phases[1].goal is not None or phases[1].to_speed is None or self.facts.order is not None:
             raise self._refuse("without a trigger only a speed to go back to is supported", phases[1].events[0].span)
         self._add(Compare("==", State(HERO_ID, _SPEED, Knot("t3")), phases[1].to_speed.term), *phases[1].events)
         return _sketch("dec stop acc")
+
+    def _where_the_ego_waits(self) -> Term:
+        """Return where the ego is when an untriggered hero has stopped: where it decides, before the ways meet."""
+        name = "stop_line" if self.routes.ego.origin_kind == "driveway" else "junction_start"
+        self._assume(
+            "no trigger was given: the hero slows down from the start, and the ego is 5 m before its "
+            f"{'stop line' if name == 'stop_line' else 'junction'} when the hero has stopped"
+        )
+        return Arithmetic("-", Landmark(name), Number(JUST_BEFORE_M))
 
 
 def _sketch(pieces: str) -> Sketch:
