@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 
     from scenewright.judge.case import Case
     from scenewright.judge.verdict import Verdict
+    from scenewright.trace.model import Trace
     from scenewright.translate.offline import Translation
 
 Mode = Literal["closed", "open"]
@@ -80,10 +81,11 @@ class Request:
 
 @dataclass(frozen=True, slots=True)
 class Take:
-    """How one take was judged; `hindsight` as in `Result`."""
+    """How one take was judged, and what was driven; `hindsight` as in `Result`."""
 
     verdict: Verdict
     hindsight: Feasibility | None
+    trace: Trace | None = None
 
 
 @dataclass(slots=True)
@@ -315,7 +317,7 @@ def _judge(request: Request, result: Result, world: _World, stages: _Stages) -> 
                 "conditions."
             )
     if run.status == "finished":
-        result.takes = (*result.takes, Take(result.verdict, result.hindsight))
+        result.takes = (*result.takes, Take(result.verdict, result.hindsight, run.trace))
 
 
 def _write(directory: Path, request: Request, result: Result, world: _World, timings_s: Mapping[str, float]) -> None:
