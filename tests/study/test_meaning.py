@@ -1,0 +1,104 @@
+"""Two programs mean the same where a solver finds their constraints equivalent, and every change of meaning is told."""
+
+from __future__ import annotations
+
+import pytest
+from scenarios import EXAMPLE_TABLE, Example
+
+from scenewright.program.text import parse_program
+from scenewright.solve.backends.z3_backend import Z3Backend
+from scenewright.study.meaning import consistent, differences
+
+TEXT = """
+parameters:
+- ego_distance_m
+- hero_tta_s
+
+Actor 0 (ego):
+- S, W
+- [t0, go, t1, go, t2]
+
+Actor 1 (hero):
+- W
+- [t0, go, t1, dec, t2, stop, t3, acc, t4]
+
+Constraints:
+A0x(t0) == stop_line - 50
+A0(t1) == A1(t1)
+A0x(t1) == stop_line - ego_distance_m
+tta(A1, conflict_point, t1) == hero_tta_s
+A1x(t2) == conflict_point - 6
+A1v(t2) == 0
+A1v(stop) == 0
+A1x(t4) == conflict_point
+A0x(t2) == turn_start
+A1(t4) < A0(t2)
+"""
+BACKEND = Z3Backend()
+
+
+def told(changed: str) -> list[str]:
+    return differences(parse_program(TEXT), parse_program(changed), BACKEND)
+
+
+@pytest.mark.parametrize("example", EXAMPLE_TABLE, ids=lambda example: example.name)
+def test_every_scenario_means_what_it_means(example: Example) -> None:
+    program = example.program()
+    assert differences(program, program, BACKEND) == []
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("A0x(t1) == stop_line - ego_distance_m", "stop_line - A0x(t1) == ego_distance_m"),
+        ("A0(t1) == A1(t1)", "A1(t1) == A0(t1)"),
+        ("A1v(t2) == 0\nA1v(stop) == 0", "A1v(stop) == 0"),
+        ("A1(t4) < A0(t2)", "A0(t2) > A1(t4)"),
+        ("A1x(t2) == conflict_point - 6", "A1x(t2) + 1 == conflict_point - 5"),
+        ("A1x(t2) == conflict_point - 6", "A1x(t3) == conflict_point - 6"),
+        ("A0x(t0) == stop_line - 50\nA0(t1) == A1(t1)", "A0(t1) == A1(t1)\nA0x(t0) == stop_line - 50"),
+        ("A0x(t1)", "A0x(A1(t1))"),
+        ("[t0, go, t1, go, t2]", "[t0, go, t1, go, t2, go, t3]"),
+    ],
+)
+def test_another_wording_is_the_same(old: str, new: str) -> None:
+    assert old in TEXT
+    assert told(TEXT.replace(old, new)) == []
+
+
+def test_names_of_knots_mean_nothing() -> None:
+    other = TEXT
+    for number in (4, 3, 2, 1, 0):
+        other = other.replace(f"t{number}", f"k{number}")
+    assert told(other) == []
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "word"),
+    [
+        ("stop_line - 50", "stop_line - 51", "lost: A0x(t0)"),
+        ("A0(t1) == A1(t1)\n", "", "lost: A0(t1) == A1(t1)"),
+        ("A0x(t1) == stop_line", "A0x(t1) == turn_start", "lost: A0x(t1)"),
+        ("tta(A1, conflict_point, t1) == hero_tta_s\n", "", "lost: tta"),
+        ("A1(t4) < A0(t2)", "A1(t4) > A0(t2)", "lost: A1(t4) < A0(t2)"),
+        ("A0x(t2) == turn_start", "A0x(t2) == conflict_point", "added: A0x(t2)"),
+        ("A1v(stop) == 0", "A1v(stop) == 0\nA1v(t1) == 9", "added: A1v(t1) == 9"),
+        ("- S, W", "- S, E", "route S, E instead of S, W"),
+        ("acc, t4", "go, t4", "hero: go, dec, stop, go instead of go, dec, stop, acc"),
+        ("[t0, go, t1, go, t2]", "[t0, go, t1, go, t2, go, t3]", ""),
+    ],
+)
+def test_a_change_of_meaning_is_told(old: str, new: str, word: str) -> None:
+    assert old in TEXT
+    found = told(TEXT.replace(old, new))
+    assert any(word in line for line in found) if word else found == []
+
+
+def test_a_number_and_a_parameter_of_that_value_are_the_same() -> None:
+    given = TEXT.replace("- hero_tta_s", "- hero_tta_s = 3")
+    assert differences(parse_program(given), parse_program(TEXT.replace("== hero_tta_s", "== 3")), BACKEND) == []
+
+
+def test_what_contradicts_itself_is_told_apart() -> None:
+    assert consistent(parse_program(TEXT), BACKEND)
+    assert not consistent(parse_program(TEXT + "A1v(t2) == 3\n"), BACKEND)
