@@ -145,8 +145,8 @@ def orchestrate(
     ScenewrightError
         Where the input is wrong; every subclass says what and how to mend it.
     """
-    stages = _Stages(report)
-    world, translation = _set_up(request, stages, backend)
+    stages = Stages(report)
+    world, translation = set_up(request, stages, backend)
     with stages("check"):
         feasibility = world.choose_and_check()
     result = Result("infeasible", world.scene, translation, feasibility, timings_s=stages.seconds)
@@ -165,7 +165,7 @@ def orchestrate(
     result = _rehearse(request, result, world, stages, progress)
     if request.out is not None:
         with stages("write"):
-            _write(request.out, request, result, world, stages.seconds)
+            write_result(request.out, request, result, world, stages.seconds)
         result.run_directory = request.out
     return result
 
@@ -173,9 +173,9 @@ def orchestrate(
 def _drive(
     request: Request,
     result: Result,
-    world: _World,
+    world: World,
     planned: tuple[Replanner, EgoFirstState, Attempt],
-    stages: _Stages,
+    stages: Stages,
     progress: Callable[[float], None] | None,
 ) -> None:
     """Carry out one take from its first second, and judge it."""
@@ -183,11 +183,11 @@ def _drive(
     with stages("simulate"):
         world.ego.reset(start.s_m, start.speed_mps)
         result.run = simulate(world.scene, world.ego, replanner, world.rates, progress)
-    _judge(request, result, world, stages)
+    judge_run(request, result, world, stages)
 
 
 def _rehearse(
-    request: Request, first: Result, world: _World, stages: _Stages, progress: Callable[[float], None] | None
+    request: Request, first: Result, world: World, stages: Stages, progress: Callable[[float], None] | None
 ) -> Result:
     """Take a missed run again, knowing how this ego drove, until one succeeds; return that one, or else the first.
 
@@ -208,7 +208,7 @@ def _rehearse(
     return replace(first, takes=last.takes)
 
 
-def _set_up(request: Request, stages: _Stages, backend: Backend | None = None) -> tuple[_World, Translation | None]:
+def set_up(request: Request, stages: Stages, backend: Backend | None = None) -> tuple[World, Translation | None]:
     """Read the source, put it on its map, and load the policy; nothing that is wrong with them is found out late."""
     if request.out is not None:
         from scenewright.simulate.record import prepare_directory
@@ -218,11 +218,11 @@ def _set_up(request: Request, stages: _Stages, backend: Backend | None = None) -
         program, translation = read_scenario(request.source, request.translator, request.map_name)
     with stages("ground"):
         scene = ground(program, load_map(request.map_name or program.map_name), request.parameters)
-    return _World(scene, request, backend), translation
+    return World(scene, request, backend), translation
 
 
 # -- planning -------------------------------------------------------------------------------------------------------
-class _World:
+class World:
     """What stays the same all through one request."""
 
     def __init__(self, scene: Scene, request: Request, backend: Backend | None = None) -> None:
@@ -250,7 +250,7 @@ class _World:
         return check_feasibility(self.scene, *world)
 
 
-def first_plan(world: _World, request: Request, predictor: Predictor) -> tuple[Replanner, EgoFirstState, Attempt]:
+def first_plan(world: World, request: Request, predictor: Predictor) -> tuple[Replanner, EgoFirstState, Attempt]:
     """Choose the ego's first state and plan from it; where several states may be chosen, the first that plans well."""
     conditions = linear_conditions(world.scene, world.structure)
     best: tuple[Replanner, EgoFirstState, Attempt] | None = None
@@ -268,7 +268,7 @@ def first_plan(world: _World, request: Request, predictor: Predictor) -> tuple[R
     return best
 
 
-def _solved_start(world: _World) -> Iterator[EgoFirstState]:
+def _solved_start(world: World) -> Iterator[EgoFirstState]:
     """Yield, once all others have failed, the first state in which an ego that holds its speed makes it possible."""
     bounds = replace(world.ego_bounds, holds_speed=True)
     found = check_feasibility(world.scene, world.structure, world.limits, world.backend, bounds, explain=False)
@@ -276,7 +276,7 @@ def _solved_start(world: _World) -> Iterator[EgoFirstState]:
         yield EgoFirstState(float(found.ego_start[0]), float(found.ego_start[1]), last_resort=True)
 
 
-def predictor_for(world: _World, request: Request) -> Predictor:
+def predictor_for(world: World, request: Request) -> Predictor:
     """Return how the ego is foreseen: as asked for, unless it has promised to hold its speed or nobody looks again."""
     chosen = predictor_called(request.predictor, world.scene.routes[EGO])
     return ConstantSpeed() if request.mode == "open" or world.ego_bounds.holds_speed else chosen
@@ -295,8 +295,8 @@ def _quality(attempt: Attempt) -> int:
 
 
 # -- what is left behind --------------------------------------------------------------------------------------------
-def _judge(request: Request, result: Result, world: _World, stages: _Stages) -> None:
-    """Judge the run; where it missed, ask whether the ego left any room."""
+def judge_run(request: Request, result: Result, world: World, stages: Stages, hindsight: bool = True) -> None:
+    """Judge the run; where it missed, ask whether the ego left any room (if `hindsight` is asked for)."""
     from scenewright.judge.judgement import judge
     from scenewright.judge.tolerance import LOOSE, TIGHT
 
@@ -308,7 +308,7 @@ def _judge(request: Request, result: Result, world: _World, stages: _Stages) -> 
     result.status = "success" if holds else "failure"
     if run.status != "finished":
         result.status = "interrupted" if run.status == "interrupted" else "failed"
-    elif not holds:
+    elif hindsight and not holds:
         with stages("hindsight"):
             result.hindsight = ego_left_no_room(world.scene, world.structure, world.limits, world.backend, run.trace)
         if result.hindsight is not None:
@@ -320,7 +320,9 @@ def _judge(request: Request, result: Result, world: _World, stages: _Stages) -> 
         result.takes = (*result.takes, Take(result.verdict, result.hindsight, run.trace))
 
 
-def _write(directory: Path, request: Request, result: Result, world: _World, timings_s: Mapping[str, float]) -> None:
+def write_result(
+    directory: Path, request: Request, result: Result, world: World, timings_s: Mapping[str, float]
+) -> None:
     """Write the run directory."""
     from scenewright.judge.files import write_verdict
     from scenewright.simulate.record import Circumstances, write_run
@@ -376,7 +378,7 @@ def case_of(scene: Scene, run: Run, limits: Mapping[int, Limits]) -> Case:
     )
 
 
-class _Stages:
+class Stages:
     """Names and times the stages of one request."""
 
     def __init__(self, report: Report | None) -> None:
@@ -385,6 +387,7 @@ class _Stages:
 
     @contextmanager
     def __call__(self, name: str) -> Iterator[None]:
+        """Time what is done inside as the stage `name`."""
         if self._report is not None:
             self._report(name)
         started = time.perf_counter()

@@ -1,7 +1,7 @@
-"""The built-in simulator: steps the ego's policy and the heroes' motions, re-solves every tick, records what happened.
+"""The built-in simulator: steps the ego's policy and the heroes' motions, ticks their driver, records what happened.
 
-What enters: a scene, a policy, rates and a seed. What leaves: a `Run` with the trace, the plans and every re-solve.
-It judges nothing. A run that is cut short, by the user or by a policy that fails, keeps what it had.
+What enters: a scene, a policy, whoever drives the heroes, and rates. What leaves: a `Run` with the trace, the plans and
+every re-solve. It judges nothing. A run that is cut short, by the user or by a policy that fails, keeps what it had.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ from scenewright.errors import PolicyError
 from scenewright.motion.profile import Profile
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, Scene
-from scenewright.simulate.replanner import Replan, Replanner
+from scenewright.simulate.heroes import HeroDriver
+from scenewright.simulate.replanner import Replan
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.plan import Plan
 from scenewright.trace.model import ActorTrace, FloatArray, Trace
@@ -60,35 +61,35 @@ class Run:
 def simulate(
     scene: Scene,
     ego: EgoVehicle,
-    replanner: Replanner,
+    heroes: HeroDriver,
     rates: Rates,
     progress: Callable[[float], None] | None = None,
 ) -> Run:
-    """Drive the scene from the replanner's first plan on, with `ego` already at its first state.
+    """Drive the scene from the first plan of `heroes` on, with `ego` already at its first state.
 
     Parameters
     ----------
     progress
         Called with the simulated time (s) at every re-solve.
     """
-    first_plan, log = replanner.plan, _Log(scene)
+    first_plan, log = heroes.plan, _Log(scene)
     steps_a_tick = max(1, round(rates.replan_s / rates.step_s)) if rates.replan_s else 0
     status, fault, step = "finished", None, 0
     try:
         while True:
             time_s = round(step * rates.step_s, 9)
             if steps_a_tick and step and step % steps_a_tick == 0:
-                replanner.tick(time_s)
+                heroes.tick(time_s)
                 if progress is not None:
                     progress(time_s)
-            states = {hero.id: replanner.plan.profiles[hero.id].state(time_s) for hero in scene.program.heroes}
+            states = {hero.id: heroes.plan.profiles[hero.id].state(time_s) for hero in scene.program.heroes}
             action = ego.decide(time_s, _seen(scene, states), rates.step_s)
             log.add(time_s, ego, states)
-            if _is_over(scene, replanner, ego, time_s):
+            if _is_over(scene, heroes, ego, time_s):
                 break
             ego.advance(action, rates.step_s)
             step += 1
-            replanner.observe((round(step * rates.step_s, 9), ego.s_m, ego.speed_mps, ego.accel_mpss))
+            heroes.observe((round(step * rates.step_s, 9), ego.s_m, ego.speed_mps, ego.accel_mpss))
     except KeyboardInterrupt:
         if not log.steps:
             raise  # nothing was driven, so nothing is kept
@@ -97,8 +98,8 @@ def simulate(
         if not log.steps:
             raise
         status, fault = "failed", error
-    knots, findings = dict(replanner.ego_knots_s), list(ego.policy.findings)
-    return Run(log.trace(), first_plan, replanner.plan, replanner.records, status, fault, knots, findings)
+    knots, findings = dict(heroes.ego_knots_s), list(ego.policy.findings)
+    return Run(log.trace(), first_plan, heroes.plan, heroes.records, status, fault, knots, findings)
 
 
 def _seen(scene: Scene, states: Mapping[int, tuple[float, float, float]]) -> tuple[VehicleState, ...]:
@@ -152,17 +153,17 @@ class _Log:
         return np.ascontiguousarray(np.asarray(self._rows[actor][:count]).T)
 
 
-def _is_over(scene: Scene, replanner: Replanner, ego: EgoVehicle, time_s: float) -> bool:
+def _is_over(scene: Scene, heroes: HeroDriver, ego: EgoVehicle, time_s: float) -> bool:
     """Whether all that the program tells of has happened, or will not happen any more."""
     if time_s >= LONGEST_RUN_S:
         return True
-    profiles = replanner.plan.profiles
+    profiles = heroes.plan.profiles
     last_knot_s = max(max(profiles[hero.id].knot_times_s.values()) for hero in scene.program.heroes)
     end_m = ego.route.landmarks["route_end"]
     if ego.s_m >= end_m - 3.0 or _any_at_end(scene, profiles, time_s):
         return True
     if time_s < last_knot_s + _AFTER_HEROES_S:
-        return _stalled(replanner, time_s)
+        return _stalled(heroes, time_s)
     passed = ego.s_m > ego.route.landmarks.get("junction_end", end_m) + 5.0
     return passed or time_s >= last_knot_s + _WAIT_FOR_EGO_S
 
@@ -174,6 +175,6 @@ def _any_at_end(scene: Scene, profiles: Mapping[int, Profile], time_s: float) ->
     return False
 
 
-def _stalled(replanner: Replanner, time_s: float) -> bool:
+def _stalled(heroes: HeroDriver, time_s: float) -> bool:
     """Whether the ego has stood so long that waiting for it makes no sense."""
-    return replanner.ego_stood_s(time_s) > _STALLED_S
+    return heroes.ego_stood_s(time_s) > _STALLED_S

@@ -1,0 +1,43 @@
+"""What the simulator needs of whoever drives the heroes: the orchestrator's replanner, or a rival of it.
+
+What enters: the ego's states, step by step. What leaves: the heroes' motions. It names the contract; it drives nobody.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from scenewright.simulate.prediction import EgoSample
+from scenewright.simulate.replanner import Replan
+from scenewright.solve.plan import Plan
+
+
+class HeroDriver(Protocol):
+    """Drives every hero of a scene through one run.
+
+    Attributes
+    ----------
+    plan
+        The motions in force: each tells the hero's state from now on, and when it passes its knots as far as that is
+        known. The simulator asks it anew at every step, so a driver may put another in its place at any time.
+    ego_knots_s
+        When the ego passed its knots.
+    records
+        What each tick came to.
+    """
+
+    plan: Plan
+    ego_knots_s: dict[str, float]
+    records: list[Replan]
+
+    def tick(self, time_s: float) -> Replan:
+        """Solve again where that is needed; called at the re-solve rate of the run, but not at its very beginning."""
+        ...
+
+    def observe(self, sample: EgoSample) -> None:
+        """Take note of the ego's state; called after every step, before the heroes' states at its end are asked for."""
+        ...
+
+    def ego_stood_s(self, time_s: float) -> float:
+        """Return for how long the ego has not moved (s)."""
+        ...
