@@ -16,7 +16,7 @@ from scenewright.judge.formulas import miss_of
 from scenewright.judge.instants import minima
 from scenewright.judge.knots import Measured, sides_of
 from scenewright.judge.terms import Moments
-from scenewright.judge.tolerance import LOOSE, FloatArray, dimension_of, normalised, unit_symbol
+from scenewright.judge.tolerance import TIGHT, FloatArray, dimension_of, normalised, unit_symbol
 from scenewright.program.expressions import Compare, Derived, Formula, State, walk
 from scenewright.program.printer import print_expression
 from scenewright.program.structure import KnotKey
@@ -24,7 +24,7 @@ from scenewright.program.types import EGO
 
 
 def encounter_facts(case: Case, measured: Measured) -> dict[str, Any]:
-    """Return who never met its side of a trigger within the loose tolerance, and how near everybody came."""
+    """Return who never met its side of a trigger within the tight tolerance, and how near everybody came."""
     facts: dict[str, Any] = {
         "ego_never_met_condition": False,
         "hero_never_met_condition": False,
@@ -55,7 +55,7 @@ def _closest(case: Case, part: Formula, instant: frozenset[KnotKey], measured: M
 
     def score(time_s: FloatArray) -> FloatArray:
         moments = Moments({**measured.moments.knots, **dict.fromkeys(instant, time_s)})
-        errors = np.asarray(normalised(miss_of(case, part, moments), LOOSE), dtype=np.float64)
+        errors = np.asarray(normalised(miss_of(case, part, moments), TIGHT), dtype=np.float64)
         return np.broadcast_to(errors, time_s.shape)
 
     try:
@@ -69,7 +69,7 @@ def _closest(case: Case, part: Formula, instant: frozenset[KnotKey], measured: M
     good = [minimum for minimum in found if minimum.score <= found[0].score + 1e-3]
     best = min(good, key=lambda minimum: abs(minimum.time_s - trigger_s))
     dimension = dimension_of(part) if isinstance(part, Compare) else None
-    error = best.score * LOOSE.of(dimension) if isinstance(part, Compare) else best.score
+    error = best.score * TIGHT.of(dimension) if isinstance(part, Compare) else best.score
     return {
         "side": print_expression(part),
         "met": bool(best.score <= 1),
