@@ -1,0 +1,46 @@
+"""Other ways to stage a scenario, run on the same cases, against the same egos, before the same judge.
+
+What enters: the name of a method and a `Request`. What leaves: a `Result`, as `orchestrate` returns it. Importing this
+package loads nothing; the methods are loaded when one is run.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scenewright.orchestrate import Request, Result
+
+METHODS: dict[str, str] = {
+    "scenewright": "plans, and re-solves in closed loop; may rehearse",
+    "open-loop": "carries out the first plan whatever the ego does",
+    "trigger-action": "distance and time conditions start a fixed manoeuvre, as OpenSCENARIO engines do it",
+    "synchronise": "sets the hero's speed so that it arrives when the ego does, as SynchronizeAction does",
+    "rejection": "samples the hero's first state until a run succeeds",
+    "follower": "a driver model follows the waypoint that the plan gives 4 s ahead, re-issued once a second",
+}
+
+
+def run_method(method: str, request: Request) -> Result:
+    """Carry out `request` by one of `METHODS`.
+
+    Parameters
+    ----------
+    method
+        A key of `METHODS`; ``follower:module:Class[:k=v,...]`` puts one's own driver model in the follower's place.
+
+    Returns
+    -------
+    Result
+        ``infeasible`` where the same check that `orchestrate` makes has refuted the scenario, whatever the method.
+
+    Raises
+    ------
+    InputError
+        Where there is no such method.
+    ScenewrightError
+        Where the request is wrong, as `orchestrate` does.
+    """
+    from scenewright.study.rivals.methods import run
+
+    return run(method, request)
