@@ -12,8 +12,8 @@ from typer.testing import CliRunner
 
 from scenewright.cli.app import app
 from scenewright.errors import InputError
+from scenewright.study.causes import CAUSES
 from scenewright.study.evaluation import (
-    CAUSES,
     Case,
     Description,
     Outcome,

@@ -116,7 +116,7 @@ def _plain(row: Row) -> dict[str, object]:
 def _table(by: str, rows: Sequence[Row]) -> Table:
     from rich.table import Table
 
-    from scenewright.study.evaluation import CAUSES
+    from scenewright.study.causes import CAUSES
 
     used = [cause for cause in CAUSES if any(row.counts[cause] for row in rows)]
     table = Table(by, "cases", *used, "tight, of not proven infeasible", "tight, where the ego let it")

@@ -10,26 +10,15 @@ import json
 import shlex
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from scenewright.errors import InputError, Place, ScenewrightError
 from scenewright.orchestrate import Request, Result, orchestrate
+from scenewright.study.causes import cause_of
 from scenewright.study.draws import RANGES, draw_parameters
+from scenewright.study.workers import Crash, each_done
 from scenewright.translate.sources import read_scenario
-
-# In the order in which tables show them: what was asked for, then the text's and the ego's doing, then ours.
-CAUSES = (
-    "success",
-    "loose only",
-    "proven infeasible",
-    "ego never met the condition",
-    "ego left no room",
-    "missed",
-    "gave up",
-    "error",
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,20 +126,21 @@ def make_cases(
 
 
 def run_cases(cases: Sequence[Case], workers: int, done: Callable[[Outcome], None] | None = None) -> Iterator[Outcome]:
-    """Run the cases, in order, on `workers` processes (1: in this one)."""
-    if workers <= 1:
-        results: Iterator[Outcome] = map(run_case, cases)
-        yield from _reported(results, done)
-        return
-    with ProcessPoolExecutor(workers) as pool:
-        yield from _reported(pool.map(run_case, cases, chunksize=4), done)
-
-
-def _reported(outcomes: Iterator[Outcome], done: Callable[[Outcome], None] | None) -> Iterator[Outcome]:
-    for outcome in outcomes:
+    """Run the cases and yield their outcomes in order, on `workers` processes (1: in this one)."""
+    ended: dict[int, Outcome] = {}
+    awaited = 0
+    for (number, case), result in each_done(_run_numbered, list(enumerate(cases)), workers if workers > 1 else 0):
+        outcome = _outcome(case, "error", message=result.message) if isinstance(result, Crash) else result
         if done is not None:
             done(outcome)
-        yield outcome
+        ended[number] = outcome
+        while awaited in ended:
+            yield ended.pop(awaited)
+            awaited += 1
+
+
+def _run_numbered(numbered: tuple[int, Case]) -> Outcome:
+    return run_case(numbered[1])
 
 
 def run_case(case: Case) -> Outcome:
@@ -169,23 +159,6 @@ def run_case(case: Case) -> Outcome:
 
         failed = tuple(condition.id for condition in result.verdict.conditions if not condition.holds_at(TIGHT))
     return _outcome(case, cause_of(result), failed, result)
-
-
-def cause_of(result: Result) -> str:
-    """Return which of `CAUSES` a result falls under."""
-    from scenewright.judge.tolerance import LOOSE, TIGHT
-
-    if result.status == "infeasible":
-        return "proven infeasible"
-    if result.verdict is None:
-        return "gave up"
-    if result.verdict.holds_at(TIGHT):
-        return "success"
-    if result.verdict.facts.get("ego_never_met_condition"):
-        return "ego never met the condition"
-    if result.hindsight is not None:
-        return "ego left no room"
-    return "loose only" if result.verdict.holds_at(LOOSE) else "missed"
 
 
 def _outcome(

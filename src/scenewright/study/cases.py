@@ -1,0 +1,380 @@
+"""One case of the experiment: a row of the benchmark, an ego, a draw and a method, run, judged and recorded.
+
+What enters: a `BenchCase`. What leaves: its `CaseRecord` and, where wanted, the files of its run. A success needs the
+judge's word and that of the row's own criteria. Nothing is scheduled here, and no record is stored.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+import shutil
+import time
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from scenewright.errors import InputError, ScenewrightError
+from scenewright.orchestrate import Request, Result, Take
+from scenewright.study.causes import cause_across, cause_of_take
+from scenewright.study.store import PROGRAMS, RUNS, CaseRecord
+
+if TYPE_CHECKING:
+    from scenewright.judge.case import Case
+    from scenewright.judge.verdict import Condition, Verdict
+    from scenewright.program.types import Program
+    from scenewright.study.benchmark import BenchmarkRow, Criterion
+
+OURS = "scenewright"
+
+
+@dataclass(frozen=True, slots=True)
+class BenchCase:
+    """What to run.
+
+    Attributes
+    ----------
+    seed
+        Of the ego's random choices, and of a method's.
+    parameters
+        In each parameter's own unit.
+    folder
+        The result folder, for the command that runs the case again and for the files of its run.
+    keep
+        Whether the files of its run are kept.
+    """
+
+    row: int
+    ego: str
+    draw: int
+    method: str
+    seed: int
+    parameters: tuple[tuple[str, float], ...]
+    takes: int
+    folder: Path
+    keep: bool = False
+
+    @property
+    def key(self) -> str:
+        """The case's name: row, ego, draw, method; also the name of its folder."""
+        return f"{self.row:02d}-{_as_file_name(self.ego)}-{self.draw}-{_as_file_name(self.method)}"
+
+    @property
+    def command(self) -> str:
+        """What to type to run it again: as a user would run our method, else by its key."""
+        if self.method != OURS:
+            return shlex.join(["scenewright", "bench", "replay", str(self.folder), self.key])
+        words = ["scenewright", "run", str(self.folder / program_file(self.row))]
+        for name, value in self.parameters:
+            words += ["-p", f"{name}={value}"]
+        words += ["--ego", self.ego, "--seed", str(self.seed), "--takes", str(self.takes)]
+        return shlex.join(words)
+
+    def request(self, row: BenchmarkRow) -> Request:
+        """Return the same request for every method."""
+        return Request(row.program_text, dict(self.parameters), ego=self.ego, seed=self.seed, takes=self.takes)
+
+
+def program_file(row: int) -> str:
+    """Return where the gold program of a row lies in a result folder."""
+    return f"{PROGRAMS}/row_{row:02d}.scene"
+
+
+def seed_of(row: int, draw: int, seed: int) -> int:
+    """Return the seed of a case: another one for every row and draw, the same for every ego and method."""
+    return seed + 1000 * draw + row
+
+
+def make_bench_cases(
+    rows: Sequence[int],
+    egos: Sequence[str],
+    draws: int,
+    methods: Sequence[str],
+    seed: int,
+    takes: int,
+    folder: Path,
+    keep: Sequence[str] = (),
+) -> list[BenchCase]:
+    """Return every combination, all of one draw before the next; runs of methods in `keep` keep their files."""
+    from scenewright.study.benchmark import benchmark_row, draw_row
+
+    cases = []
+    for draw in range(draws):
+        for number in rows:
+            drawn = tuple(draw_row(benchmark_row(number), draw, seed).items())
+            own = seed_of(number, draw, seed)
+            cases += [
+                BenchCase(number, ego, draw, method, own, drawn, takes, folder, method in keep)
+                for ego in egos
+                for method in methods
+            ]
+    return cases
+
+
+def case_of_record(record: CaseRecord, takes: int, folder: Path) -> BenchCase:
+    """Return the case that a record tells of."""
+    parameters = tuple(json.loads(record.parameters).items())
+    return BenchCase(
+        record.row, record.ego, record.draw, record.method, record.seed, parameters, takes, folder, keep=False
+    )
+
+
+def _as_file_name(name: str) -> str:
+    """Return a name that any file system takes; where it had to be changed, a sum of it keeps it apart from others."""
+    plain = re.sub(r"[^A-Za-z0-9_.=-]+", "_", name)
+    return plain if plain == name else f"{plain[:60]}_{zlib.crc32(name.encode()):08x}"
+
+
+# -- running --------------------------------------------------------------------------------------------------------
+def run_bench_case(case: BenchCase) -> CaseRecord:
+    """Run one case and return what came of it; whatever a user's policy does ends as a record too."""
+    from scenewright.study.benchmark import benchmark_row
+
+    row = benchmark_row(case.row)
+    try:
+        record, _, _ = carry_out_case(case, row)
+    except ScenewrightError as error:
+        return blank_record(case, row, message=error.message + (f" ({error.found})" if error.found else ""))
+    return record
+
+
+def carry_out_case(case: BenchCase, row: BenchmarkRow) -> tuple[CaseRecord, Request, Result]:
+    """Run one case; raises `ScenewrightError` where the request is wrong."""
+    import z3
+
+    from scenewright.study.rivals import run_method
+
+    z3.set_param("ctrl_c", False)  # its own handler would take Ctrl-C for an answer
+    request = case.request(row)
+    started = time.perf_counter()
+    result = run_method(case.method, request)
+    record = replace(record_of(case, row, result), wall_s=time.perf_counter() - started)
+    if case.keep and result.run is not None and result.verdict is not None:
+        directory = f"{RUNS}/{case.key}"
+        keep_run(case.folder / directory, request, result)
+        record = replace(record, directory=directory)
+    return record, request, result
+
+
+def blank_record(case: BenchCase, row: BenchmarkRow, message: str = "") -> CaseRecord:
+    """Return the record of a case of which nothing is known but how it failed."""
+    return CaseRecord(
+        case.key,
+        case.row,
+        case.ego,
+        case.draw,
+        case.seed,
+        case.method,
+        row.interaction,
+        row.trigger,
+        row.ego_state,
+        row.ego_intent,
+        row.hero_state,
+        row.hero_intent,
+        json.dumps(dict(case.parameters)),
+        case.command,
+        message=message,
+    )
+
+
+def record_of(case: BenchCase, row: BenchmarkRow, result: Result) -> CaseRecord:
+    """Return the record of a result."""
+    record = replace(blank_record(case, row), status=result.status, take=result.take, takes=len(result.takes))
+    run = result.run
+    if run is not None:
+        record = replace(
+            record,
+            simulated_s=run.trace.duration_s,
+            solve_ms=[1000.0 * tick.wall_s for tick in run.replans if tick.backend and tick.time_s > 0.0],
+        )
+        if run.fault is not None:
+            return replace(record, message=run.fault.message)
+    if result.status == "infeasible":
+        proof = _clashes(result.feasibility)
+        return replace(record, cause="proven infeasible", first_cause="proven infeasible", proof=proof)
+    if not result.takes or result.verdict is None:
+        tried = result.attempt.reason if result.attempt is not None else ""
+        return replace(record, cause="gave up", first_cause="gave up", message=tried)
+    return _with_takes(record, row, result)
+
+
+def _with_takes(record: CaseRecord, row: BenchmarkRow, result: Result) -> CaseRecord:
+    takes = [judge_take(row, result, take) for take in result.takes]
+    kept, first = takes[min(result.take, len(takes)) - 1], takes[0]
+    verdict = kept.take.verdict
+    ego_error, hero_error = _trigger_errors(result.scene.program, verdict)
+    cause = cause_across([take.cause for take in takes])
+    hindsight = kept.take.hindsight if cause == "ego left no room" else None
+    levels: dict[str, Any] = {f"first_{level}": level in first.levels for level in first.judged}
+    levels |= {f"best_{level}": any(level in take.levels for take in takes) for level in first.judged}
+    return replace(
+        record,
+        cause=cause,
+        first_cause=first.cause,
+        **levels,
+        kept=list(kept.levels),
+        criteria_disagree=any(take.disagrees for take in takes),
+        failed_conditions=list(kept.failed),
+        proof=_clashes(hindsight),
+        trigger_met=_trigger_met(verdict),
+        ego_trigger_error=ego_error,
+        hero_trigger_error=hero_error,
+        first_collision=_collided(first.take.verdict),
+    )
+
+
+def _clashes(proof: Any) -> str | None:
+    return None if proof is None else "\n".join(str(clash) for clash in proof.clashes)
+
+
+# -- judging --------------------------------------------------------------------------------------------------------
+@dataclass(frozen=True, slots=True)
+class JudgedTake:
+    """A take with what judge and criteria say of it, by level of tolerance."""
+
+    take: Take
+    judged: dict[str, bool]
+    measured: dict[str, bool]
+    failed: tuple[str, ...]
+
+    @property
+    def levels(self) -> tuple[str, ...]:
+        """Where both hold, finest first."""
+        return tuple(level for level, holds in self.judged.items() if holds and self.measured[level])
+
+    @property
+    def disagrees(self) -> bool:
+        """Whether judge and criteria differ at the tight tolerance."""
+        return self.judged["tight"] != self.measured["tight"]
+
+    @property
+    def cause(self) -> str:
+        """Under which cause the take is counted."""
+        return cause_of_take(
+            tight="tight" in self.levels,
+            loose="loose" in self.levels,
+            never_met=bool(self.take.verdict.facts.get("ego_never_met_condition")),
+            no_room=self.take.hindsight is not None,
+        )
+
+
+def judge_take(row: BenchmarkRow, result: Result, take: Take) -> JudgedTake:
+    """Hold the row's criteria against a take, beside the verdict that it has."""
+    from scenewright.judge.tolerance import LEVELS, TIGHT
+    from scenewright.study.benchmark import criteria_hold, criteria_of
+
+    trace = take.trace
+    if trace is None:
+        raise InputError("a take cannot be held against the row's criteria: it has no trace")
+    parameters_si = {name: float(value) for name, value in result.scene.parameters.items()}
+    criteria: tuple[Criterion, ...] = criteria_of(row, parameters_si, trace, result.scene.road_map)
+    failed = [condition.id for condition in take.verdict.conditions if not condition.holds_at(TIGHT)]
+    failed += [f"criterion {criterion.id}" for criterion in criteria if not criterion.holds_at(TIGHT)]
+    return JudgedTake(
+        take,
+        {level: take.verdict.holds_at(tolerance) for level, tolerance in LEVELS.items()},
+        {level: criteria_hold(criteria, tolerance) for level, tolerance in LEVELS.items()},
+        tuple(failed),
+    )
+
+
+def judge_again(row: BenchmarkRow, stored: Case, verdict: Verdict) -> tuple[str, ...]:
+    """Return the levels at which judge and criteria hold for a run that was read back from its files."""
+    from scenewright.judge.tolerance import LEVELS
+    from scenewright.roads.load import load_map
+    from scenewright.study.benchmark import criteria_hold, criteria_of
+
+    criteria = criteria_of(row, stored.parameters, stored.trace, load_map(row.program.map_name))
+    return tuple(
+        level
+        for level, tolerance in LEVELS.items()
+        if verdict.holds_at(tolerance) and criteria_hold(criteria, tolerance)
+    )
+
+
+def _trigger_met(verdict: Verdict) -> bool:
+    from scenewright.judge.tolerance import LEVELS
+
+    return all(c.holds_at(LEVELS["coarse"]) for c in verdict.conditions if c.kind == "trigger")
+
+
+def _trigger_errors(program: Program, verdict: Verdict) -> tuple[float | None, float | None]:
+    """Return the errors of the ego's and the hero's side of the trigger; of a joint condition for both."""
+    found: dict[bool, float] = {}
+    for condition in verdict.conditions:
+        if condition.kind == "trigger" and condition.error is not None:
+            for actor in _actors_of(program, condition):
+                found.setdefault(actor == program.ego.id, condition.error)
+    return found.get(True), found.get(False)
+
+
+def _actors_of(program: Program, condition: Condition) -> set[int]:
+    from scenewright.program.expressions import Derived, State, walk
+
+    try:
+        formula = program.constraint(condition.id).formula
+    except KeyError:
+        return set()
+    nodes = [node for node in walk(formula) if isinstance(node, State | Derived)]
+    targets = {node.target for node in nodes if isinstance(node, Derived) and isinstance(node.target, int)}
+    return {node.actor for node in nodes} | targets
+
+
+def _collided(verdict: Verdict) -> bool:
+    return any(pair["collision_time_s"] is not None for pair in verdict.facts["pairs"].values())
+
+
+# -- keeping --------------------------------------------------------------------------------------------------------
+def keep_run(directory: Path, request: Request, result: Result, page: bool = False) -> None:
+    """Write the files of a run, in one step; an earlier folder of this name, finished or not, is replaced.
+
+    The manifest names a shipped map by its name alone, so that results say nothing of the machine they came from.
+    """
+    from scenewright.judge.files import VERDICT_FILE, write_verdict
+    from scenewright.simulate.record import write_run
+    from scenewright.solve.limits import limits_on
+
+    assert result.run is not None
+    assert result.verdict is not None
+    part = directory.with_name(f".{directory.name}.part")
+    shutil.rmtree(part, ignore_errors=True)
+    part.mkdir(parents=True)
+    scene = result.scene
+    limits = {actor: limits_on(route, scene.road_map) for actor, route in scene.routes.items()}
+    write_run(part, scene, result.run, limits, _circumstances(request, result))
+    write_verdict(result.verdict, part / VERDICT_FILE)
+    manifest = json.loads((part / "manifest.json").read_text(encoding="utf-8"))
+    manifest["map"]["file"] = scene.road_map.name
+    (part / "manifest.json").write_text(json.dumps(manifest, ensure_ascii=False) + "\n", encoding="utf-8")
+    if page:
+        from scenewright.studio.page import write_page
+
+        write_page(part)
+    shutil.rmtree(directory, ignore_errors=True)
+    part.rename(directory)
+
+
+def _circumstances(request: Request, result: Result) -> Any:
+    from scenewright.drive.loading import load_policy
+    from scenewright.simulate.loop import Rates
+    from scenewright.simulate.record import Circumstances
+
+    policy = load_policy(request.ego)
+    given = frozenset(request.parameters)
+    return Circumstances(
+        policy.name,
+        policy.options,
+        request.mode,
+        request.tolerance,
+        request.seed,
+        "none",
+        Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz),
+        frozenset(p.name for p in result.scene.program.parameters if p.name not in given and p.value is None),
+        given,
+        result.timings_s,
+        (),
+        result.take,
+    )

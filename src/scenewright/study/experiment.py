@@ -1,0 +1,299 @@
+"""The experiment: which cases there are, which are done, and the rest run, recorded one by one.
+
+What enters: a `Plan` and a result folder. What leaves: records in the folder's store; a stopped or killed experiment
+goes on where it was. Nothing is counted here, and nothing is printed.
+"""
+
+from __future__ import annotations
+
+import os
+import platform
+import subprocess
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+import scenewright
+from scenewright.errors import InputError, OutputError, Place
+from scenewright.study.cases import OURS, BenchCase, blank_record, make_bench_cases, program_file, run_bench_case
+from scenewright.study.store import (
+    PROGRAMS,
+    SCHEMA_VERSION,
+    SETTINGS_FILE,
+    CaseLog,
+    CaseRecord,
+    compact,
+    locked,
+    read_records,
+    read_settings,
+    write_settings,
+)
+from scenewright.study.workers import Crash, each_done
+
+FULL_EGOS = ("constant", "idm", "dawdler", "staller", "stop-and-go", "noisy")
+KEEP = ("all", "ours", "none")
+_PACKAGES = ("z3-solver", "numpy", "scipy", "pyarrow")
+# What makes two experiments the same: with these equal, so are their cases and what comes of them.
+_ASKED = ("seed", "rows", "egos", "draws", "methods", "takes", "keep")
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What to run: every combination of rows, egos, draws and methods.
+
+    Raises
+    ------
+    InputError, PolicyError
+        From `check`, where a row, an ego or a method does not exist.
+    """
+
+    rows: tuple[int, ...]
+    egos: tuple[str, ...]
+    draws: int
+    methods: tuple[str, ...]
+    seed: int = 0
+    takes: int = 3
+    keep: str = "ours"
+
+    def check(self) -> None:
+        """Make sure that all there is to run exists."""
+        from scenewright.drive.loading import load_policy
+        from scenewright.study.benchmark import benchmark_rows
+        from scenewright.study.rivals import METHODS
+
+        known = {row.id for row in benchmark_rows()}
+        for row in self.rows:
+            if row not in known:
+                raise InputError(
+                    f"the benchmark has no row {row}",
+                    found=str(row),
+                    expected=f"{min(known)} to {max(known)}",
+                    fix="--rows 1-4,20, or --rows all",
+                )
+        for ego in self.egos:
+            load_policy(ego)
+        for method in self.methods:
+            if method.partition(":")[0] not in METHODS:
+                raise InputError(
+                    "there is no such method", found=method, expected=", ".join(METHODS), fix=f"--methods {OURS}"
+                )
+        if self.keep not in KEEP:
+            raise InputError("there is no such way to keep runs", found=self.keep, expected=", ".join(KEEP))
+
+    def cases(self, folder: Path) -> list[BenchCase]:
+        """Return all cases, in the order in which they are run."""
+        kept = {"all": self.methods, "ours": (OURS,), "none": ()}[self.keep]
+        return make_bench_cases(
+            self.rows, self.egos, self.draws, self.methods, self.seed, self.takes, folder, keep=kept
+        )
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the plan as plain data."""
+        return {
+            "seed": self.seed,
+            "rows": list(self.rows),
+            "egos": list(self.egos),
+            "draws": self.draws,
+            "methods": list(self.methods),
+            "takes": self.takes,
+            "keep": self.keep,
+        }
+
+
+@dataclass(slots=True)
+class Progress:
+    """How far an experiment has come; given to whoever shows it after every case."""
+
+    total: int
+    done: int
+    successes: int
+    errors: int
+    new: int = 0
+
+
+@dataclass(slots=True)
+class Experiment:
+    """A plan in a result folder.
+
+    Attributes
+    ----------
+    command
+        What was typed, for the settings and to resume.
+    """
+
+    plan: Plan
+    folder: Path
+    command: str
+    progress: Progress = field(init=False)
+
+    def run(
+        self,
+        workers: int,
+        shown: Callable[[Progress], None] = lambda _: None,
+        stop: Callable[[], bool] = lambda: False,
+    ) -> bool:
+        """Run what is not done yet and return whether all is done now.
+
+        Raises
+        ------
+        InputError, OutputError
+            Where the folder holds something else, or is being written to by another experiment.
+        """
+        self.plan.check()
+        _prepare(self.folder)
+        with locked(self.folder):
+            settings = self._settle(workers)
+            cases = self.plan.cases(self.folder)
+            self._write_programs()
+            records = read_records(self.folder)
+            left = [case for case in cases if case.key not in records]
+            wins = sum(record.best_tight for record in records.values())
+            errors = sum(record.cause == "error" for record in records.values())
+            self.progress = Progress(len(cases), len(cases) - len(left), wins, errors)
+            shown(self.progress)
+            if left:
+                self._run_cases(left, workers, shown, stop)
+            finished = self.progress.done == len(cases)
+            if left:
+                compact(self.folder)
+            if finished and "finished" not in settings:
+                write_settings(self.folder, {**settings, "finished": _now()})
+            return finished
+
+    def _run_cases(
+        self, left: Sequence[BenchCase], workers: int, shown: Callable[[Progress], None], stop: Callable[[], bool]
+    ) -> None:
+        log, progress = CaseLog(self.folder), self.progress
+        try:
+            for case, outcome in each_done(run_bench_case, left, workers, stop):
+                record = _crashed(case, outcome) if isinstance(outcome, Crash) else outcome
+                log.append(record)
+                progress.done += 1
+                progress.new += 1
+                progress.successes += record.best_tight
+                progress.errors += record.cause == "error"
+                shown(progress)
+        finally:
+            log.close()
+
+    def _settle(self, workers: int) -> dict[str, Any]:
+        """Write the settings of a new experiment, or make sure that these are the ones to go on with."""
+        if not (self.folder / SETTINGS_FILE).exists():
+            settings = self._settings(workers)
+            write_settings(self.folder, settings)
+            return settings
+        settings, asked = read_settings(self.folder), self.plan.as_dict()
+        for name in _ASKED:
+            if settings.get(name) != asked[name]:
+                raise InputError(
+                    f"the folder holds an experiment with other {name}",
+                    place=Place(str(self.folder)),
+                    found=f"{asked[name]} now",
+                    expected=f"{settings.get(name)}, to go on with it",
+                    fix="give the same options as then, or another folder with --out DIR",
+                )
+        now = revision()
+        if "finished" not in settings and (settings["version"], settings["revision"]) != (scenewright.__version__, now):
+            settings.setdefault("resumed_with", []).append({"version": scenewright.__version__, "revision": now})
+            write_settings(self.folder, settings)
+        return settings
+
+    def _settings(self, workers: int) -> dict[str, Any]:
+        return {
+            "schema_version": SCHEMA_VERSION,
+            "command": self.command,
+            **self.plan.as_dict(),
+            "version": scenewright.__version__,
+            "revision": revision(),
+            "packages": _versions(),
+            "machine": machine(),
+            "workers": workers,
+            "started": _now(),
+        }
+
+    def _write_programs(self) -> None:
+        from scenewright.study.benchmark import benchmark_row
+
+        (self.folder / PROGRAMS).mkdir(exist_ok=True)
+        for row in self.plan.rows:
+            (self.folder / program_file(row)).write_text(benchmark_row(row).program_text, encoding="utf-8")
+
+
+def _crashed(case: BenchCase, crash: Crash) -> CaseRecord:
+    from scenewright.study.benchmark import benchmark_row
+
+    return blank_record(case, benchmark_row(case.row), message=crash.message)
+
+
+def _prepare(folder: Path) -> None:
+    """Make the folder; one that holds something else is left alone."""
+    fix = "choose another folder with --out DIR"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        strange = next((each.name for each in folder.iterdir() if not each.name.startswith(".")), None)
+    except OSError as error:
+        found = error.strerror or str(error)
+        raise OutputError("the result folder cannot be made", place=Place(str(folder)), found=found, fix=fix) from None
+    if strange is not None and not (folder / SETTINGS_FILE).exists():
+        raise OutputError(
+            "the result folder holds something that is no experiment",
+            place=Place(str(folder)),
+            found=strange,
+            expected="a new or empty folder, or that of an experiment to go on with",
+            fix=fix,
+        )
+
+
+# -- circumstances --------------------------------------------------------------------------------------------------
+def machine() -> dict[str, Any]:
+    """Return what times depend on: processor, number of cores, system, interpreter."""
+    return {
+        "cpu": _cpu(),
+        "cores": os.cpu_count(),
+        "system": platform.platform(),
+        "python": platform.python_version(),
+    }
+
+
+def _cpu() -> str:
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        return platform.processor()
+    return next((line.partition(":")[2].strip() for line in lines if line.startswith("model name")), platform.machine())
+
+
+def revision() -> str | None:
+    """Return the revision of the source where it is a git checkout, marked where it was changed; None elsewhere."""
+    package = Path(scenewright.__file__).parent
+    git = ["git", "-C", str(package)]
+    try:
+        tracked = subprocess.run([*git, "ls-files", "--error-unmatch", "__init__.py"], capture_output=True, check=False)
+        if tracked.returncode != 0:
+            return None
+        found = subprocess.run(
+            [*git, "describe", "--always", "--dirty", "--abbrev=12", "--exclude=*"],
+            capture_output=True,
+            check=False,
+            text=True,
+        )
+    except OSError:
+        return None
+    return found.stdout.strip() or None
+
+
+def _versions() -> dict[str, str]:
+    found = {}
+    for name in _PACKAGES:
+        try:
+            found[name] = version(name)
+        except PackageNotFoundError:
+            continue
+    return found
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="seconds")

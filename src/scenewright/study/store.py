@@ -1,0 +1,276 @@
+"""The store of an experiment: one record a case, appended as each is done, kept as Parquet in the end.
+
+What enters: records and settings. What leaves: files in a result folder, and `Results` read back from it. Nothing is
+run here.
+
+While an experiment runs, `cases.jsonl` grows by one line a case; a last line that was torn by a kill is dropped. When
+it ends or is interrupted, all go into `cases.parquet` in one step. Readers take both together, each case once.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, field, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from scenewright.errors import InputError, OutputError, Place
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+SCHEMA_VERSION = 1
+SETTINGS_FILE = "settings.json"
+PARQUET_FILE = "cases.parquet"
+LINES_FILE = "cases.jsonl"
+LOCK_FILE = ".lock"
+RUNS = "runs"
+PROGRAMS = "programs"
+
+
+@dataclass(frozen=True, slots=True)
+class CaseRecord:
+    """What came of one case.
+
+    Attributes
+    ----------
+    case
+        The key: row, ego, draw and method.
+    parameters
+        JSON text; values in each parameter's own unit.
+    cause, first_cause
+        Of `causes.CAUSES`, within all takes and in the first.
+    take, takes
+        Which take was kept, and how many were driven.
+    best_*, first_*
+        Whether judge and criteria both hold at that tolerance: in any take, and in the first.
+    kept
+        The tolerances at which they hold in the take that was kept.
+    criteria_disagree
+        Whether judge and criteria differ at the tight tolerance in any take.
+    failed_conditions
+        Of the kept take at the tight tolerance: ids of the judge's conditions, and of criteria as ``criterion ID``.
+    proof
+        The clashing constraints, where it is proven infeasible or the ego left no room.
+    ego_trigger_error, hero_trigger_error
+        Signed, in m or s as the trigger is stated; for a joint condition both are the same.
+    solve_ms
+        Ticks at which the solver was asked, everything counted.
+    directory
+        Where its run is kept, relative to the result folder.
+    """
+
+    case: str
+    row: int
+    ego: str
+    draw: int
+    seed: int
+    method: str
+    interaction: str
+    trigger: str
+    ego_state: str
+    ego_intent: str
+    hero_state: str
+    hero_intent: str
+    parameters: str
+    command: str
+    status: str = "error"
+    cause: str = "error"
+    first_cause: str = "error"
+    take: int = 1
+    takes: int = 0
+    best_fine: bool = False
+    best_tight: bool = False
+    best_loose: bool = False
+    best_coarse: bool = False
+    first_fine: bool = False
+    first_tight: bool = False
+    first_loose: bool = False
+    first_coarse: bool = False
+    kept: list[str] = field(default_factory=list)
+    criteria_disagree: bool = False
+    failed_conditions: list[str] = field(default_factory=list)
+    proof: str | None = None
+    trigger_met: bool = False
+    ego_trigger_error: float | None = None
+    hero_trigger_error: float | None = None
+    first_collision: bool = False
+    simulated_s: float = 0.0
+    wall_s: float = 0.0
+    solve_ms: list[float] = field(default_factory=list)
+    message: str = ""
+    directory: str | None = None
+
+    @property
+    def family(self) -> str:
+        """What the hero does, and how its trigger is stated."""
+        return f"{self.interaction}, {self.trigger.lower()}"
+
+    def holds(self, which: str, level: str) -> bool:
+        """Whether it is a success at a level: `which` is ``first`` or ``best``."""
+        return bool(getattr(self, f"{which}_{level}"))
+
+
+@dataclass(frozen=True, slots=True)
+class Results:
+    """What a result folder holds."""
+
+    directory: Path
+    settings: dict[str, Any]
+    cases: pa.Table
+
+    @property
+    def table(self) -> pa.Table:
+        """The cases as an Arrow table, which DuckDB, polars and pandas query as it is."""
+        return self.cases
+
+    def records(self) -> list[CaseRecord]:
+        """Return the cases as records."""
+        return [CaseRecord(**row) for row in self.cases.to_pylist()]
+
+
+def read_results(directory: Path | str) -> Results:
+    """Read a result folder, finished or not.
+
+    Raises
+    ------
+    InputError
+        Where it is none, or a file in it cannot be read.
+    """
+    folder = Path(directory)
+    settings = read_settings(folder)
+    return Results(folder, settings, _table(read_records(folder).values()))
+
+
+def read_settings(folder: Path) -> dict[str, Any]:
+    """Return what an experiment was asked to do; raises InputError where the folder holds none."""
+    path = folder / SETTINGS_FILE
+    try:
+        settings = json.loads(path.read_text(encoding="utf-8"))
+        version = settings["schema_version"]
+    except FileNotFoundError:
+        raise InputError(
+            "there are no results of an experiment here",
+            place=Place(str(folder)),
+            expected=f"a folder with {SETTINGS_FILE}, as `scenewright bench` leaves it",
+        ) from None
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise InputError("the settings cannot be read", place=Place(str(path)), found=str(error)) from None
+    if version != SCHEMA_VERSION:
+        raise InputError(
+            "the results have another schema version",
+            place=Place(str(path)),
+            found=str(version),
+            expected=str(SCHEMA_VERSION),
+        )
+    return dict(settings)
+
+
+def read_records(folder: Path) -> dict[str, CaseRecord]:
+    """Return all records by key, each once, whether they have been put into Parquet yet or not."""
+    records = {record.case: record for record in _from_parquet(folder / PARQUET_FILE)}
+    records.update({record.case: record for record in _from_lines(folder / LINES_FILE)})
+    return records
+
+
+def _from_parquet(path: Path) -> Iterator[CaseRecord]:
+    if not path.exists():
+        return
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    try:
+        rows = pq.read_table(path).to_pylist()
+        yield from [CaseRecord(**row) for row in rows]
+    except (pa.ArrowInvalid, OSError, TypeError) as error:
+        raise InputError(
+            "the results cannot be read", place=Place(str(path)), found=str(error).split("\n")[0]
+        ) from None
+
+
+def _from_lines(path: Path) -> Iterator[CaseRecord]:
+    if not path.exists():
+        return
+    lines = path.read_bytes().split(b"\n")[:-1]  # what stands after the last line break was torn off by a kill
+    for number, line in enumerate(lines, start=1):
+        try:
+            yield CaseRecord(**json.loads(line))
+        except (ValueError, TypeError) as error:
+            place = Place(str(path), line=number)
+            raise InputError("this is not the record of a case", place=place, found=str(error)) from None
+
+
+class CaseLog:
+    """Appends records to `cases.jsonl`, each in one write, so that a kill can tear the last line only."""
+
+    def __init__(self, folder: Path) -> None:
+        self._path = folder / LINES_FILE
+        self._file = os.open(self._path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
+        text = self._path.read_bytes()
+        os.truncate(self._file, text.rfind(b"\n") + 1)
+
+    def append(self, record: CaseRecord) -> None:
+        """Write one record; it is with the system when this returns."""
+        line = (json.dumps(asdict(record), ensure_ascii=False, allow_nan=False) + "\n").encode()
+        if os.write(self._file, line) != len(line):
+            raise OutputError("a case could not be recorded whole", place=Place(str(self._path)), fix="make room")
+
+    def close(self) -> None:
+        """Close the file."""
+        os.close(self._file)
+
+
+def compact(folder: Path) -> None:
+    """Put all records into `cases.parquet` in one step, and drop the lines that it then holds."""
+    import pyarrow.parquet as pq
+
+    records = sorted(read_records(folder).values(), key=lambda r: (r.row, r.ego, r.draw, r.method))
+    temporary = folder / f".{PARQUET_FILE}.part"
+    pq.write_table(_table(records), temporary, compression="zstd")
+    os.replace(temporary, folder / PARQUET_FILE)
+    (folder / LINES_FILE).unlink(missing_ok=True)
+
+
+def write_settings(folder: Path, settings: Mapping[str, Any]) -> None:
+    """Write `settings.json` in one step."""
+    temporary = folder / f".{SETTINGS_FILE}.part"
+    temporary.write_text(json.dumps(settings, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+    os.replace(temporary, folder / SETTINGS_FILE)
+
+
+@contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Keep others from writing to a result folder; the lock goes with the process, however that ends."""
+    import fcntl
+
+    with (folder / LOCK_FILE).open("w") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            raise OutputError(
+                "another experiment is writing to this folder",
+                place=Place(str(folder)),
+                fix="wait until it has ended, or choose another folder with --out DIR",
+            ) from None
+        yield
+
+
+def _table(records: Iterable[CaseRecord]) -> pa.Table:
+    """Return records as an Arrow table whose columns have the same types whatever they hold."""
+    import pyarrow as pa
+
+    types: dict[str, pa.DataType] = {
+        "str": pa.string(),
+        "str | None": pa.string(),
+        "int": pa.int64(),
+        "bool": pa.bool_(),
+        "float": pa.float64(),
+        "float | None": pa.float64(),
+        "list[str]": pa.list_(pa.string()),
+        "list[float]": pa.list_(pa.float64()),
+    }
+    schema = pa.schema([pa.field(each.name, types[str(each.type)]) for each in fields(CaseRecord)])
+    return pa.Table.from_pylist([asdict(record) for record in records], schema=schema)
