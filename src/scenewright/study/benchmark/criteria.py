@@ -1,0 +1,274 @@
+"""Whether a run is what a row of the benchmark asks for, criterion by criterion, by hand from the taxonomy's facts.
+
+What enters: a row, parameter values in SI units, a trace with the vehicles "ego" and "hero", the road map. What leaves:
+criteria with required and measured values. It is a second opinion beside the judge: it uses neither the gold program
+nor any formula, neither translator, solver nor plan, and it shares with the judge nothing but the tolerances.
+
+The trigger is read from what the hero did. Its beginning to brake (or to speed up) is found in its speeds, backwards
+from the standstill (or the place to be passed) that it led to. Both sides are then measured at the one instant near it,
+in continuous time, at which they are met best, and the hero's beginning must be at that instant but for the tolerance
+of time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from scenewright.judge.tolerance import Tolerance
+from scenewright.roads.model import RoadMap
+from scenewright.study.benchmark.motion import LASTING_S, PLAIN_MPSS, FloatArray, Motion, Stretch
+from scenewright.study.benchmark.roadway import first_overlap_s, route_errors
+from scenewright.study.benchmark.rows import BenchmarkRow
+from scenewright.study.benchmark.setting import Setting, Side, setting_of
+from scenewright.trace.model import Trace
+from scenewright.units import Dimension
+
+Kind = Literal["initial", "route", "trigger", "interaction", "outcome"]
+NEAR_S = 3.0  # how far from the hero's beginning the instant of the trigger is looked for
+SETTLED_S = 0.5  # how long before its beginning the hero must not do the same already
+_STEP_S = 1e-3
+_NEARER = 1e-4  # of equally good instants the one nearest to the hero's beginning counts
+
+
+@dataclass(frozen=True, slots=True)
+class Criterion:
+    """One thing that must be so.
+
+    Attributes
+    ----------
+    required, measured
+        In SI units; None where there is no single number, or where it never came about.
+    error
+        Never negative; infinite where it never came about.
+    dimension
+        What tolerance applies; None where none does, and the error must be zero.
+    """
+
+    id: str
+    kind: Kind
+    text: str
+    required: float | None
+    measured: float | None
+    error: float
+    dimension: Dimension | None
+
+    def holds_at(self, tolerance: Tolerance) -> bool:
+        """Whether the error is within a tolerance."""
+        return self.error <= tolerance.of(self.dimension)
+
+
+def criteria_hold(criteria: Sequence[Criterion], tolerance: Tolerance) -> bool:
+    """Whether every criterion holds at a tolerance."""
+    return all(criterion.holds_at(tolerance) for criterion in criteria)
+
+
+def criteria_of(
+    row: BenchmarkRow, parameters_si: Mapping[str, float], trace: Trace, road_map: RoadMap
+) -> tuple[Criterion, ...]:
+    """Judge a run by what its row asks for.
+
+    Parameters
+    ----------
+    parameters_si
+        Value of every parameter of the row's program, in SI units.
+    trace
+        Of vehicles called ``"ego"`` and ``"hero"``.
+
+    Raises
+    ------
+    KeyError
+        If a parameter or a vehicle is missing.
+    """
+    setting = setting_of(row, parameters_si, road_map)
+    motions = {name: Motion(trace.actors[name]) for name in ("ego", "hero")}
+    goal_s = motions["hero"].passes_s(setting.goal_m) if setting.goal_m is not None else float("inf")
+    rest = motions["hero"].last_rest(goal_s) if setting.brakes else None
+    trigger = _trigger(setting, motions, rest, goal_s)
+    return (
+        *_routes(setting, trace),
+        *(_initial(actor, side, motions[actor]) for actor, side in setting.initial.items()),
+        *_trigger_criteria(setting, motions, trigger),
+        *_interaction(setting, motions["hero"], trigger, rest, goal_s),
+        *_outcome(setting, motions["ego"], goal_s),
+        _no_collision(trace, trigger),
+    )
+
+
+# -- route and start ---------------------------------------------------------------------------------------------------
+def _routes(setting: Setting, trace: Trace) -> list[Criterion]:
+    criteria = []
+    for actor, route in setting.routes.items():
+        for found in route_errors(route, trace.actors[actor]):
+            criteria.append(
+                Criterion(
+                    f"route_{actor}_{found.id}", "route", f"{actor} {found.text}",
+                    found.limit, found.measured, max(0.0, found.measured - found.limit), None,
+                )
+            )  # fmt: skip
+    return criteria
+
+
+def _initial(actor: str, side: Side, motion: Motion) -> Criterion:
+    value = float(_short_of(side, motion, motion.time_s[:1])[0])
+    return _equal(f"initial_{actor}", "initial", f"{side.text} at first", side.value, value, _dimension(side.timed))
+
+
+# -- trigger -----------------------------------------------------------------------------------------------------------
+@dataclass(frozen=True, slots=True)
+class _Trigger:
+    """When the hero began, when both sides were met best, and what was measured then; infinite where it never began."""
+
+    onset_s: float
+    moment_s: float
+    measured: Mapping[str, float]
+    score: float
+
+
+def _trigger(setting: Setting, motions: Mapping[str, Motion], rest: Stretch | None, goal_s: float) -> _Trigger:
+    """Choose among the hero's beginnings the one that the trigger explains best."""
+    sign, end_s = (-1, rest.start_s if rest else None) if setting.brakes else (1, goal_s)
+    onsets = motions["hero"].beginnings(sign, end_s) if end_s is not None else []
+    if not onsets:
+        whole = float(motions["ego"].time_s[-1])
+        unmet = _best_instant(setting, motions, 0.5 * whole, 0.5 * whole)
+        return _Trigger(float("inf"), unmet.moment_s, unmet.measured, unmet.score)
+    found = [_best_instant(setting, motions, onset, NEAR_S) for onset in onsets]
+    return min(found, key=lambda trigger: trigger.score + abs(trigger.onset_s - trigger.moment_s) / 0.1)
+
+
+def _best_instant(setting: Setting, motions: Mapping[str, Motion], onset_s: float, near_s: float) -> _Trigger:
+    first, last = motions["ego"].time_s[[0, -1]]
+    times = np.arange(max(onset_s - near_s, first), min(onset_s + near_s, last) + 0.5 * _STEP_S, _STEP_S)
+    times = np.clip(np.append(times, np.clip(onset_s, first, last)), first, last)
+    errors, values = [], {}
+    for actor, required, timed, measured in _sides(setting, motions, times):
+        values[actor] = measured
+        # A tenth of a second counts as much as half a metre, so that neither side is given up for the other.
+        errors.append(np.abs(measured - required) / (0.1 if timed else 0.5))
+    worst = np.max(errors, axis=0)
+    at = int(np.argmin(worst + _NEARER * np.abs(times - onset_s)))
+    return _Trigger(
+        onset_s, float(times[at]), {actor: float(value[at]) for actor, value in values.items()}, float(worst[at])
+    )
+
+
+def _sides(
+    setting: Setting, motions: Mapping[str, Motion], times: FloatArray
+) -> list[tuple[str, float, bool, FloatArray]]:
+    """Return vehicle, required value, whether it is a time, and measured values, for every side of the trigger."""
+    if setting.lead is None:
+        return [
+            (actor, side.value, side.timed, _short_of(side, motions[actor], times))
+            for actor, side in setting.trigger.items()
+        ]
+    ego, lead = motions["ego"], setting.lead
+    gap = motions["hero"].position_m(times) + lead.offset_m - ego.position_m(times)
+    value = _over(gap, ego.speed_mps(times)) if lead.timed else gap
+    return [("ego", lead.value, lead.timed, value)]
+
+
+def _trigger_criteria(setting: Setting, motions: Mapping[str, Motion], trigger: _Trigger) -> list[Criterion]:
+    criteria = []
+    for actor, required, timed, _ in _sides(setting, motions, motions["ego"].time_s[:1]):
+        text = "ego behind the hero" if setting.lead else setting.trigger[actor].text
+        criteria.append(
+            _equal(
+                f"trigger_{actor}", "trigger", f"{text} at the trigger",
+                required, trigger.measured[actor], _dimension(timed),
+            )
+        )  # fmt: skip
+    begins = "brake" if setting.brakes else "speed up"
+    measured = trigger.onset_s if np.isfinite(trigger.onset_s) else None
+    text = f"hero begins to {begins} at the trigger"
+    return [*criteria, _equal("trigger_onset", "trigger", text, trigger.moment_s, measured, "time")]
+
+
+# -- interaction and outcome -------------------------------------------------------------------------------------------
+def _interaction(
+    setting: Setting, hero: Motion, trigger: _Trigger, rest: Stretch | None, goal_s: float
+) -> list[Criterion]:
+    onset = trigger.onset_s
+    if not np.isfinite(onset):
+        what = "hero brakes to a standstill" if setting.brakes else "hero speeds up and passes its goal"
+        return [Criterion("hero_acts", "interaction", what, None, None, float("inf"), None)]
+    sign, before_s = -1 if setting.brakes else 1, min(onset, trigger.moment_s)
+    criteria = [
+        _at_most(
+            "hero_settled", "interaction", "hero does not do the same already in the half second before",
+            PLAIN_MPSS, hero.strongest(sign, before_s - SETTLED_S, before_s), "acceleration",
+        )
+    ]  # fmt: skip
+    if setting.brakes and rest is not None:
+        criteria += _stop(setting, hero, onset, rest)
+    if setting.goes and np.isfinite(goal_s):
+        since = rest.end_s if setting.brakes and rest else onset
+        text = "hero does not slow down again until it has passed"
+        criteria.append(_at_most("hero_keeps_going", "interaction", text, 0.0, hero.against(1, since, goal_s), "speed"))
+    return criteria
+
+
+def _stop(setting: Setting, hero: Motion, onset_s: float, rest: Stretch) -> list[Criterion]:
+    criteria = [
+        _at_most(
+            "hero_keeps_braking", "interaction", "hero does not speed up while it brakes",
+            0.0, hero.against(-1, onset_s, rest.start_s), "speed",
+        )
+    ]  # fmt: skip
+    if setting.rate_mpss is not None:
+        rate = hero.mean_slowing(onset_s, rest.start_s)
+        criteria.append(_equal("hero_rate", "interaction", "hero brakes at", setting.rate_mpss, rate, "acceleration"))
+    if setting.stop_m is not None:
+        place = float(hero.position_m(np.array([rest.end_s]))[0])
+        error = abs(place - setting.stop_m)
+        criteria.append(Criterion("hero_stop", "interaction", "hero stops at", setting.stop_m, place, error, "length"))
+    to_the_end = rest.end_s >= float(hero.time_s[-1])
+    lasted = rest.end_s - rest.start_s
+    error = 0.0 if to_the_end else max(0.0, LASTING_S - lasted)
+    criteria.append(Criterion("hero_stands", "interaction", "hero stands still for", LASTING_S, lasted, error, "time"))
+    return criteria
+
+
+def _outcome(setting: Setting, ego: Motion, goal_s: float) -> list[Criterion]:
+    if setting.deadline_m is None:
+        return []
+    ego_s = ego.passes_s(setting.deadline_m)
+    text = "hero is past its goal before the ego gets where it must not be first"
+    if not np.isfinite(goal_s):
+        return [Criterion("order", "outcome", text, ego_s if np.isfinite(ego_s) else None, None, float("inf"), None)]
+    error = 0.0 if goal_s < ego_s else max(goal_s - ego_s, 1e-3)
+    return [Criterion("order", "outcome", text, ego_s if np.isfinite(ego_s) else None, goal_s, error, None)]
+
+
+def _no_collision(trace: Trace, trigger: _Trigger) -> Criterion:
+    until = min(max(trigger.onset_s, trigger.moment_s), trace.duration_s)
+    first = first_overlap_s(trace, until)
+    error = 0.0 if first is None else max(until - first, 1e-3)
+    return Criterion("no_collision", "interaction", "nobody collides before the trigger", until, first, error, None)
+
+
+# -- measures ----------------------------------------------------------------------------------------------------------
+def _short_of(side: Side, motion: Motion, times: FloatArray) -> FloatArray:
+    distance = side.place_m - motion.position_m(times)
+    return _over(distance, motion.speed_mps(times)) if side.timed else distance
+
+
+def _over(distance_m: FloatArray, speed_mps: FloatArray) -> FloatArray:
+    moving = speed_mps > 1e-3
+    return np.where(moving, distance_m / np.where(moving, speed_mps, 1.0), np.inf)
+
+
+def _dimension(timed: bool) -> Dimension:
+    return "time" if timed else "length"
+
+
+def _equal(id: str, kind: Kind, text: str, required: float, measured: float | None, dimension: Dimension) -> Criterion:
+    error = float("inf") if measured is None or not np.isfinite(measured) else abs(measured - required)
+    return Criterion(id, kind, text, required, measured, error, dimension)
+
+
+def _at_most(id: str, kind: Kind, text: str, limit: float, measured: float, dimension: Dimension) -> Criterion:
+    return Criterion(id, kind, text, limit, measured, max(0.0, measured - limit), dimension)
