@@ -1,6 +1,7 @@
-"""`bench`: how often it works, why it does not, and how long it takes.
+"""`bench`: how often it works, why it does not, and how long it takes; the commands below `scenewright bench` by name.
 
-What enters: descriptions and egos. What leaves: tables for people, JSON for programs, the outcomes as a file.
+What enters: options. What leaves: tables for people, JSON for programs, results in a folder. The experiment itself is
+in `bench_run`, what reads its results in `bench_results`; here are the two smaller measurements too.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from scenewright.cli import bench_results, bench_run
 from scenewright.cli.console import print_json, stderr, stdout
 from scenewright.cli.faults import told
 from scenewright.cli.options import AsJson
@@ -21,7 +23,27 @@ if TYPE_CHECKING:
 
     from scenewright.study.evaluation import Outcome, Row
 
-app = typer.Typer(no_args_is_help=True, rich_markup_mode="rich", help="Measure success rates and re-solve times.")
+app = typer.Typer(rich_markup_mode="rich")
+_SMALL = "scenewright bench --rows 17,20 --egos idm"
+
+app.callback(
+    invoke_without_command=True,
+    epilog=f"[bold]Examples[/bold]\n\n{_SMALL} --out results/small\n\n{_SMALL} --methods open-loop",
+)(bench_run.experiment)
+app.command(
+    epilog=f"[bold]Examples[/bold]\n\n{_SMALL} --out then\n\n{_SMALL} --takes 1 --out now\n\n"
+    "scenewright bench diff then now"
+)(bench_results.diff)
+app.command(
+    epilog=f"[bold]Examples[/bold]\n\n{_SMALL} --out results/small\n\n"
+    "scenewright bench replay results/small 20-idm-0-scenewright --out runs/again"
+)(bench_results.replay)
+app.command(epilog=f"[bold]Examples[/bold]\n\n{_SMALL} --out results/small\n\nscenewright bench rejudge results/small")(
+    bench_results.rejudge
+)
+app.command(epilog=f"[bold]Examples[/bold]\n\n{_SMALL} --out results/small\n\nscenewright bench show results/small")(
+    bench_results.show
+)
 
 
 @app.command(

@@ -1,7 +1,7 @@
 """Compares two sets of results case by case: what got better, what got worse, and whether that can be chance.
 
-What enters: two sets of results, the earlier first. What leaves: a `Comparison`. Only cases that both hold and that were
-drawn alike are compared; the others are named by number.
+What enters: two sets of results, the earlier first. What leaves: a `Comparison`. Only cases that both hold and that
+were drawn alike are compared; the others are named.
 """
 
 from __future__ import annotations

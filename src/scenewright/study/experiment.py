@@ -103,6 +103,22 @@ class Plan:
         }
 
 
+# One row in five: every interaction, both kinds of trigger, and heroes from every side.
+_QUICK_ROWS = (1, 4, 7, 12, 17, 20, 26, 32, 37, 42, 49, 55, 60, 63, 74, 80)
+_QUICK_EGOS = ("constant", "idm", "stop-and-go")
+
+
+def preset(name: str) -> Plan:
+    """Return what ``quick``, ``full`` or a choice of one's own (any other name) starts from."""
+    from scenewright.study.benchmark import benchmark_rows
+    from scenewright.study.rivals import METHODS
+
+    if name == "quick":
+        return Plan(_QUICK_ROWS, _QUICK_EGOS, 1, tuple(METHODS))
+    every = tuple(row.id for row in benchmark_rows())
+    return Plan(every, FULL_EGOS, 3, tuple(METHODS)) if name == "full" else Plan(every, FULL_EGOS, 1, (OURS,))
+
+
 @dataclass(slots=True)
 class Progress:
     """How far an experiment has come; given to whoever shows it after every case."""
