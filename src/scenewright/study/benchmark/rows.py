@@ -6,7 +6,9 @@ What enters: the files beside this one. What leaves: `BenchmarkRow` objects. It 
 from __future__ import annotations
 
 import csv
+import re
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -29,6 +31,9 @@ class BenchmarkRow:
         The gold program, as the text of a `.scene` file.
     descriptions
         At least three, whose meaning is the gold program.
+    standing_for
+        For each description what it says in the place of a parameter of the gold program: a quantity (``"40 ft"``), or
+        the name of the same parameter in another unit. What is not in it goes by the gold program's name.
     note
         Where the taxonomy and a known text of the row disagree, or where the program needed a decision.
     """
@@ -42,12 +47,22 @@ class BenchmarkRow:
     trigger: str
     program_text: str
     descriptions: tuple[str, ...]
+    standing_for: tuple[Mapping[str, str], ...] = ()
     note: str = ""
 
     @property
     def program(self) -> Program:
         """The gold program."""
         return _program(self.id, self.program_text)
+
+    def program_text_of(self, description: int) -> str:
+        """Return the gold program of one description: with its quantities, and under its own names of parameters."""
+        text = self.program_text
+        for name, stands in self.standing_for[description].items():
+            if stands[0].isdigit():
+                text = text.replace(f"- {name}\n", "", 1)
+            text = re.sub(rf"\b{name}\b", stands, text)
+        return text.replace("parameters:\n\n", "")
 
 
 @cache
@@ -62,7 +77,8 @@ def benchmark_rows() -> tuple[BenchmarkRow, ...]:
                 id=(number := int(facts.pop("id"))),
                 **facts,
                 program_text=(data / "programs" / f"{number:02d}.scene").read_text(encoding="utf-8"),
-                descriptions=texts.get(number, ()),
+                descriptions=tuple(text for text, _ in texts[number]),
+                standing_for=tuple(stands for _, stands in texts[number]),
                 note=notes.get(str(number), ""),
             )
             for facts in csv.DictReader(table)
@@ -81,12 +97,13 @@ def _data() -> Traversable:
     return files("scenewright.study.benchmark") / "data"
 
 
-def _descriptions(data: Traversable) -> dict[int, tuple[str, ...]]:
-    found: dict[int, tuple[str, ...]] = {}
-    tables = [each for each in (data / "descriptions").iterdir() if each.name.endswith(".toml")]
-    for file in sorted(tables, key=lambda each: each.name):
-        for entry in tomllib.loads(file.read_text(encoding="utf-8"))["row"]:
-            found[entry["id"]] = tuple(" ".join(text.split()) for text in entry["texts"])
+def _descriptions(data: Traversable) -> dict[int, list[tuple[str, Mapping[str, str]]]]:
+    found: dict[int, list[tuple[str, Mapping[str, str]]]] = {}
+    for file in sorted((data / "descriptions").iterdir(), key=lambda each: each.name):
+        if file.name.endswith(".toml"):
+            for entry in tomllib.loads(file.read_text(encoding="utf-8"))["description"]:
+                told = (" ".join(entry["text"].split()), entry.get("with", {}))
+                found.setdefault(entry["row"], []).append(told)
     return found
 
 
