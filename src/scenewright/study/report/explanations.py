@@ -1,6 +1,6 @@
 """What the causes of outcomes mean, in words and in colours.
 
-What enters: a cause, a record. What leaves: its explanation, its colour, its evidence as text.
+What enters: a cause, a record. What leaves: its explanation and its colour.
 """
 
 from __future__ import annotations
@@ -57,20 +57,3 @@ def shown_cause(record: CaseRecord) -> str:
     if record.cause == "success" and not record.first_tight:
         return LATER
     return record.cause
-
-
-def evidence(record: CaseRecord) -> str:
-    """Return in one line what is known about a case that did not succeed."""
-    unit = "m" if record.trigger == "Distance" else "s"
-    parts = []
-    if record.failed_conditions:
-        parts.append("failed: " + ", ".join(record.failed_conditions))
-    sides = [("ego", record.ego_trigger_error), ("hero", record.hero_trigger_error)]
-    known = [f"{who} {error:+.2f} {unit}" for who, error in sides if error is not None]
-    if known and not all(abs(error or 0.0) < 0.005 for _, error in sides):
-        parts.append("off at the trigger: " + ", ".join(known))
-    if record.criteria_disagree:
-        parts.append("judge and criteria disagree")
-    if record.message:
-        parts.append(record.message)
-    return "; ".join(parts)

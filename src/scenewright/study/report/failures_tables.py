@@ -6,9 +6,11 @@ What enters: records. What leaves: tables, each line of which can be run again b
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 
 from scenewright.study.report.counting import INFEASIBLE, causes
-from scenewright.study.report.explanations import evidence, meaning_of, ordered_causes
+from scenewright.study.report.evidence import evidence
+from scenewright.study.report.explanations import meaning_of, ordered_causes
 from scenewright.study.report.records import OURS, grouped, methods_of, parameter_values
 from scenewright.study.report.tables import Column, Table
 from scenewright.study.store import CaseRecord
@@ -42,8 +44,11 @@ def causes_table(records: Sequence[CaseRecord]) -> Table:
     return Table("causes", "Outcomes by cause", columns, tuple(rows))
 
 
-def failures_table(records: Sequence[CaseRecord]) -> Table:
-    """Return every case of our method that is neither a success nor proven infeasible, with what was measured."""
+def failures_table(records: Sequence[CaseRecord], folder: Path) -> Table:
+    """Return every case of our method that is neither a success nor proven infeasible, with what was measured.
+
+    `folder` is that of the results: where runs were kept in it, required and measured values are read from them.
+    """
     failed = [r for r in records if r.method == OURS and r.cause not in ("success", INFEASIBLE)]
     order = ordered_causes({record.cause for record in failed})
     failed.sort(key=lambda record: (order.index(record.cause), record.row, record.ego, record.draw))
@@ -54,7 +59,7 @@ def failures_table(records: Sequence[CaseRecord]) -> Table:
             record.takes,
             record.ego_trigger_error,
             record.hero_trigger_error,
-            evidence(record),
+            evidence(record, folder),
             _values(record),
             record.command,
         )

@@ -13,7 +13,6 @@ import numpy as np
 from scenewright.study.report.counting import counted, rate
 from scenewright.study.report.explanations import LATER_COLOUR, colour_of
 from scenewright.study.report.records import (
-    LEVEL_NAMES,
     LEVEL_TEXT,
     OURS,
     egos_of,
@@ -31,6 +30,7 @@ from scenewright.study.report.style import (
     say_empty,
 )
 from scenewright.study.store import CaseRecord
+from scenewright.study.summary import LEVEL_NAMES
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

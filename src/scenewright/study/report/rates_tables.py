@@ -18,9 +18,10 @@ from scenewright.study.report.counting import (
     counted,
     rate,
 )
-from scenewright.study.report.records import LEVEL_NAMES, OURS, egos_of, first_success, grouped, methods_of
+from scenewright.study.report.records import OURS, egos_of, first_success, grouped, methods_of
 from scenewright.study.report.tables import Column, Table, Value
 from scenewright.study.store import CaseRecord
+from scenewright.study.summary import LEVEL_NAMES
 
 _CASES = (
     Column("cases", "cases", "count"),

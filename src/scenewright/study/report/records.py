@@ -13,7 +13,6 @@ from scenewright.study.rivals import METHODS
 from scenewright.study.store import CaseRecord
 
 OURS = "scenewright"
-LEVEL_NAMES = ("fine", "tight", "loose", "coarse")
 LEVEL_TEXT = ("0.1 m\n0.02 s", "0.5 m\n0.1 s", "2 m\n0.5 s", "5 m\n1 s")
 _EGOS = ("constant", "idm", "dawdler", "speeder", "delayed", "noisy", "stop-and-go", "staller")
 Key = TypeVar("Key", bound=Hashable)
