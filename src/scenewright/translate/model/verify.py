@@ -1,0 +1,169 @@
+"""Holds a reply against grammar, checker, map and description; what does not hold goes back in house form.
+
+What enters: a `Reply`, the description, the map. What leaves: the program and how the description was read, or the
+first kind of fault found. Nothing that a model wrote is carried out; whether it can happen at all is asked elsewhere.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from scenewright.errors import Place, ProgramError, Span, TranslationError
+from scenewright.program.check import check_program
+from scenewright.program.structure import actors_of, synchronised
+from scenewright.program.text import parse_program
+from scenewright.program.types import Constraint, Program
+from scenewright.roads.grounding import ground
+from scenewright.roads.model import RoadMap
+from scenewright.translate.model.amounts import amount_faults
+from scenewright.translate.model.reply import LONGEST_PROGRAM, Reply
+from scenewright.translate.offline import Reading
+
+MOST_LINES = 300
+DEEPEST = 30
+_MONSTER = re.compile(r"\d{16}|\d[eE][-+]?\d{3}")
+_SENTENCE_END = re.compile(r"(?<=[.!?;])\s+|\n+")
+_SHOWN_FAULTS = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Verified:
+    """What a reply says, once it holds."""
+
+    program: Program
+    readings: tuple[Reading, ...]
+
+
+def verify(reply: Reply, description: str, name: str, road_map: RoadMap) -> Verified:
+    """Return what `reply` says.
+
+    Raises
+    ------
+    ProgramError, MapError, ParameterError
+        Where its program does not parse, make sense or fit the map.
+    TranslationError
+        Where it leaves out part of the description, or says something that is not in it.
+    """
+    text = reply.program or ""
+    program = _parsed(text)
+    # Name, map and description are ours to say: a reply could name any file as its map.
+    program = replace(program, name=name, map_name=road_map.name, description=description)
+    check_program(program, text)
+    ground(program, road_map)
+    readings = tuple(_located(reply, description))
+    faults = [*_account_faults(reply, program, description, readings)]
+    if faults:
+        raise TranslationError(
+            "the program and the description do not match",
+            found="; ".join(faults[:_SHOWN_FAULTS]) + ("; ..." if len(faults) > _SHOWN_FAULTS else ""),
+            expected="the whole description in the program and its readings, and nothing else",
+        )
+    return Verified(_with_sources(program, readings), readings)
+
+
+def _parsed(text: str) -> Program:
+    """Parse what a model wrote, within bounds: a text of a few lines can be made to take for ever."""
+    deepest = depth = 0
+    for character in text:
+        depth += (character in "([") - (character in ")]")
+        deepest = max(deepest, depth)
+    monster = _MONSTER.search(text)
+    fault = (
+        f"{len(text)} characters" if len(text) > LONGEST_PROGRAM
+        else f"{text.count(chr(10))} lines" if text.count("\n") > MOST_LINES
+        else f"parentheses {deepest} deep" if deepest > DEEPEST
+        else f"the number {monster[0]}..." if monster
+        else None
+    )  # fmt: skip
+    if fault:
+        expected = f"at most {LONGEST_PROGRAM} characters, {MOST_LINES} lines, parentheses {DEEPEST} deep, sane numbers"
+        raise ProgramError("the program is beyond all bounds", found=fault, expected=expected)
+    try:
+        return parse_program(text)
+    except RecursionError:  # operators nest without parentheses too
+        raise ProgramError("the program is nested too deeply", expected="one simple constraint a line") from None
+
+
+# -- readings -------------------------------------------------------------------------------------------------------
+def _located(reply: Reply, description: str) -> Iterator[Reading]:
+    for reading in reply.readings:
+        span = locate(reading.words, description)
+        if span is not None:
+            yield Reading(span, span.excerpt(description), reading.understood, tuple(reading.constraints))
+
+
+def locate(words: str, text: str) -> Span | None:
+    """Return where `words` stand in `text`, whatever the case, spaces and signs between them; None where they do not.
+
+    Examples
+    --------
+    >>> locate("the  ego, stops", "When the ego stops")
+    Span(start=5, end=18)
+    """
+    found: Span | None = None
+    for part in re.split(r"\.\.\.|…", words):
+        tokens = re.findall(r"\w+", part)
+        if not tokens:
+            continue
+        pattern = r"(?<!\w)" + r"[^\w]{1,8}".join(re.escape(token) for token in tokens) + r"(?!\w)"
+        match = re.search(pattern, text, re.IGNORECASE)
+        if match is None:
+            return None
+        span = Span(match.start(), match.end())
+        found = span if found is None else found.union(span)
+    return found
+
+
+def _account_faults(reply: Reply, program: Program, description: str, readings: tuple[Reading, ...]) -> Iterator[str]:
+    questions = [f"{q.question} {q.default} {q.words}" for q in reply.questions]
+    accounts = [*reply.assumptions, *questions]
+    for said in reply.readings:
+        if locate(said.words, description) is None:
+            yield f"the words of a reading are not in the description: '{said.words[:80]}'"
+    for span in _sentences(description):
+        if not any(each.span.start < span.end and span.start < each.span.end for each in readings):
+            yield f"no reading tells of '{span.excerpt(description).strip()[:80]}'"
+    known = {constraint.id for constraint in program.constraints}
+    named = {identifier for reading in readings for identifier in reading.constraint_ids}
+    for identifier in sorted(named - known):
+        yield f"a reading names {identifier}, but the constraints are c1 to c{len(known)}"
+    for constraint in program.constraints:
+        said_so = constraint.id in named or any(re.search(rf"\b{constraint.id}\b", each) for each in accounts)
+        if not said_so and next(synchronised(constraint.formula), None) is None:
+            yield f"no reading and no assumption says where {constraint.id} comes from"
+    spoken_of = set().union(*(actors_of(constraint.formula) for constraint in program.constraints), {0})
+    for hero in program.heroes:
+        if hero.id not in spoken_of:
+            yield f"nothing is said of {hero.name} (A{hero.id}): no constraint speaks of it"
+    yield from amount_faults(description, program, accounts)
+
+
+def _sentences(description: str) -> Iterator[Span]:
+    """Yield the sentences that have at least two words."""
+    start = 0
+    ends = [(match.start(), match.end()) for match in _SENTENCE_END.finditer(description)]
+    for stop, following in [*ends, (len(description), len(description))]:
+        if len(re.findall(r"\w+", description[start:stop])) > 1:
+            yield Span(start, stop)
+        start = following
+
+
+def _with_sources(program: Program, readings: tuple[Reading, ...]) -> Program:
+    """Let every constraint point at the words that it came from."""
+    return replace(program, constraints=tuple(_with_source(each, readings) for each in program.constraints))
+
+
+def _with_source(constraint: Constraint, readings: tuple[Reading, ...]) -> Constraint:
+    source: Span | None = None
+    for reading in readings:
+        if constraint.id in reading.constraint_ids:
+            source = reading.span if source is None else source.union(reading.span)
+    return replace(constraint, source=source)
+
+
+def place_of(words: str, description: str, name: str) -> Place:
+    """Return the place of `words` in the description; the description as a whole where they are not in it."""
+    span = locate(words, description) if words else None
+    return Place(name, description, span or Span(0, len(description)))
