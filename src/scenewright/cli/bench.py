@@ -26,24 +26,29 @@ if TYPE_CHECKING:
 app = typer.Typer(rich_markup_mode="rich")
 _SMALL = "scenewright bench --rows 17,20 --egos idm"
 
+
+def _examples(*commands: str) -> str:
+    """Return the text below a command's help; each example stands on lines of its own."""
+    return "\n\n".join(["[bold]Examples[/bold]", *commands])
+
+
 app.callback(
     invoke_without_command=True,
-    epilog=f"[bold]Examples[/bold]\n\n{_SMALL} --out results/small\n\n{_SMALL} --methods open-loop",
+    epilog=_examples(f"{_SMALL} --out results/small", f"{_SMALL} --methods open-loop")
+    + "\n\n[bold]Exit status[/bold]\n\n0 all cases are done, whatever came of them; 2 the input is wrong; "
+    "130 interrupted: type the same again to go on",
 )(bench_run.experiment)
-app.command(
-    epilog=f"[bold]Examples[/bold]\n\n{_SMALL} --out then\n\n{_SMALL} --takes 1 --out now\n\n"
-    "scenewright bench diff then now"
-)(bench_results.diff)
-app.command(
-    epilog=f"[bold]Examples[/bold]\n\n{_SMALL} --out results/small\n\n"
-    "scenewright bench replay results/small 20-idm-0-scenewright --out runs/again"
-)(bench_results.replay)
-app.command(epilog=f"[bold]Examples[/bold]\n\n{_SMALL} --out results/small\n\nscenewright bench rejudge results/small")(
-    bench_results.rejudge
-)
-app.command(epilog=f"[bold]Examples[/bold]\n\n{_SMALL} --out results/small\n\nscenewright bench show results/small")(
-    bench_results.show
-)
+for _command, _lines in {
+    bench_results.show: ("scenewright bench show results/small",),
+    bench_results.diff: (
+        f"{_SMALL} --takes 1 --out results/other",
+        "scenewright bench diff results/small results/other",
+    ),
+    bench_results.replay: ("scenewright bench replay results/small 17-idm-0-scenewright",),
+    bench_results.rejudge: ("scenewright bench rejudge results/small",),
+    bench_results.report: ("scenewright bench report results/small --quick",),
+}.items():
+    app.command(epilog=_examples(f"{_SMALL} --out results/small", *_lines))(_command)
 
 
 @app.command(

@@ -5,12 +5,14 @@ What enters: result folders. What leaves: tables, a run directory, a report, and
 
 from __future__ import annotations
 
+import shlex
 from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from scenewright.cli import INTERRUPTED
 from scenewright.cli.bench_run import CORES, Workers
 from scenewright.cli.console import print_json, stderr, stdout
 from scenewright.cli.faults import told
@@ -163,13 +165,33 @@ def rejudge(directory: ResultFolder, workers: Workers = CORES, as_json: AsJson =
         raise typer.Exit(1 if odd else 0)
 
 
-def report(directory: ResultFolder, as_json: AsJson = False) -> None:
-    """Write figures, tables and a page of an experiment into its result folder."""
+def report(
+    directory: ResultFolder,
+    out: Annotated[
+        Path | None, typer.Option(metavar="FOLDER", help="Where to write. Default: report in DIR.", show_default=False)
+    ] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="Measure little beside the results that are there.")] = False,
+    workers: Workers = CORES,
+    as_json: AsJson = False,
+) -> None:
+    """Write figures, tables and a page of an experiment; what it lacks is measured, once, and kept."""
     with told(as_json):
-        from scenewright.study.report import write_report
-
-        page = write_report(directory)
+        page = make_report(directory, out if out is not None else directory / "report", workers, quick)
         if as_json:
             print_json({"page": str(page)})
         else:
             stdout().print(str(page), soft_wrap=True)
+
+
+def make_report(directory: Path, out: Path, workers: int, quick: bool) -> Path:
+    """Write a report, with signs of life; interrupted, it says how to go on."""
+    from scenewright.cli.bench_progress import stages_shown
+    from scenewright.study.report import write_report
+
+    try:
+        with stages_shown(stderr()) as progress:
+            return write_report(directory, out, quick=quick, progress=progress, workers=workers)
+    except KeyboardInterrupt:
+        words = shlex.join(["scenewright", "bench", "report", str(directory), *(["--quick"] if quick else [])])
+        stderr().print(f"interrupted; results and what was measured are kept; to go on: {words}", soft_wrap=True)
+        raise typer.Exit(INTERRUPTED) from None

@@ -9,10 +9,7 @@ from __future__ import annotations
 import os
 import re
 import shlex
-import signal
-import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -22,18 +19,13 @@ from scenewright.cli import INTERRUPTED
 from scenewright.cli.console import print_json, stderr, stdout
 from scenewright.cli.faults import told
 from scenewright.cli.options import AsJson
-from scenewright.errors import InputError
+from scenewright.errors import InputError, MissingExtraError
 
 if TYPE_CHECKING:
-    from types import FrameType
-
-    from rich.console import Console
-
-    from scenewright.study.experiment import Experiment, Plan, Progress
+    from scenewright.study.experiment import Experiment, Plan
 
 RESULTS = Path("results")
 CORES = os.cpu_count() or 1
-_SAY_EVERY_S = 30.0
 Keep = Literal["all", "ours", "none"]
 
 Workers = Annotated[
@@ -109,26 +101,37 @@ def _plan(name: str, chosen: dict[str, str | int | None], seed: int, takes: int,
 
 def _carry_out(made: Experiment, workers: int, as_json: bool, report: bool) -> None:
     """Run the experiment, show how far it is, and say what came of it."""
+    from scenewright.cli.bench_progress import shown, stoppable
     from scenewright.cli.bench_tables import print_summary
     from scenewright.study.store import read_results
     from scenewright.study.summary import summary
 
-    console = stderr()
-    with _stoppable() as stop, _shown(console) as shown:
-        finished = made.run(workers, shown, stop)
+    with stoppable() as stop, shown(stderr()) as show:
+        finished = made.run(workers, show, stop)
     if not finished:
         _tell_interrupted(made, as_json)
         raise typer.Exit(INTERRUPTED)
-    if report:
-        from scenewright.cli.bench_results import make_report
-
-        make_report(made.folder, workers)
+    page = _report(made.folder, workers) if report else None
     results = read_results(made.folder)
     if as_json:
-        data = {"status": "finished", "results": str(made.folder), "settings": results.settings}
-        print_json({**data, **summary(results.records())})
+        data = {"status": "finished", "results": str(made.folder), "report": str(page) if page else None}
+        print_json({**data, "settings": results.settings, **summary(results.records())})
         return
     print_summary(stdout(), results)
+    if page is not None:
+        stdout().print(f"page     {page}", soft_wrap=True)
+
+
+def _report(folder: Path, workers: int) -> Path | None:
+    """Write the report; where that cannot be, say so: the cases are there all the same."""
+    from scenewright.cli.bench_results import make_report
+    from scenewright.cli.faults import tell
+
+    try:
+        return make_report(folder, folder / "report", workers, quick=False)
+    except MissingExtraError as error:
+        tell(error)
+        return None
 
 
 def _tell_interrupted(made: Experiment, as_json: bool) -> None:
@@ -226,68 +229,3 @@ def _new_folder(name: str) -> Path:
             folder.mkdir()
             return folder
         number += 1
-
-
-# -- signs of life --------------------------------------------------------------------------------------------------
-@contextmanager
-def _stoppable() -> Iterator[Callable[[], bool]]:
-    """Let the first Ctrl-C ask for an end; the second one ends at once."""
-    asked = False
-
-    def ask(_number: int, _frame: FrameType | None) -> None:
-        nonlocal asked
-        asked = True
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-
-    before = None
-    with suppress(ValueError):  # not the main thread: no signal arrives
-        before = signal.signal(signal.SIGINT, ask)
-    try:
-        yield lambda: asked
-    finally:
-        if before is not None:
-            signal.signal(signal.SIGINT, before)
-
-
-@contextmanager
-def _shown(console: Console) -> Iterator[Callable[[Progress], None]]:
-    """Show how far the experiment is: a bar on a terminal, a line now and then elsewhere."""
-    if not console.is_terminal:
-        yield _lines(console)
-        return
-    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
-    from rich.progress import Progress as Bar
-
-    said = TextColumn("{task.fields[said]}")
-    columns = (BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TextColumn("left"), TimeRemainingColumn(), said)
-    with Bar(*columns, console=console) as bar:
-        task, rate = bar.add_task("cases", said=""), _rate()
-
-        def show(progress: Progress) -> None:
-            said = f"{rate(progress)}, {_successes(progress)}"
-            bar.update(task, total=progress.total, completed=progress.done, said=said)
-
-        yield show
-
-
-def _lines(console: Console) -> Callable[[Progress], None]:
-    said_at, rate = time.monotonic(), _rate()
-
-    def show(progress: Progress) -> None:
-        nonlocal said_at
-        pace = rate(progress)
-        if time.monotonic() - said_at >= _SAY_EVERY_S:
-            said_at = time.monotonic()
-            console.print(f"{progress.done} of {progress.total} cases, {pace}, {_successes(progress)}")
-
-    return show
-
-
-def _rate() -> Callable[[Progress], str]:
-    began = time.monotonic()
-    return lambda progress: f"{progress.new / max(time.monotonic() - began, 1e-6):.1f} a second"
-
-
-def _successes(progress: Progress) -> str:
-    errors = f", {progress.errors} errors" if progress.errors else ""
-    return f"{progress.successes} successes{errors}"

@@ -171,7 +171,7 @@ def _left_out(comparison: Comparison) -> str:
     parts = [
         (len(comparison.only_then), "only in the first"),
         (len(comparison.only_now), "only in the second"),
-        (len(comparison.drawn_otherwise), "drawn or run otherwise, so not compared"),
+        (len(comparison.drawn_otherwise), "drawn otherwise, so not compared"),
     ]
     told = ", ".join(f"{count} {what}" for count, what in parts if count)
     return f"; {told}" if told else ""

@@ -7,6 +7,7 @@ judge's word and that of the row's own criteria. Nothing is scheduled here, and 
 from __future__ import annotations
 
 import json
+import math
 import re
 import shlex
 import shutil
@@ -305,7 +306,7 @@ def _trigger_errors(program: Program, verdict: Verdict) -> tuple[float | None, f
     """Return the errors of the ego's and the hero's side of the trigger; of a joint condition for both."""
     found: dict[bool, float] = {}
     for condition in verdict.conditions:
-        if condition.kind == "trigger" and condition.error is not None:
+        if condition.kind == "trigger" and condition.error is not None and math.isfinite(condition.error):
             for actor in _actors_of(program, condition):
                 found.setdefault(actor == program.ego.id, condition.error)
     return found.get(True), found.get(False)

@@ -29,7 +29,7 @@ class Comparison:
     only_then, only_now
         Keys of cases that one of the two lacks.
     drawn_otherwise
-        Keys that both hold, with other parameters, another seed or another number of takes: not compared.
+        Keys that both hold, with other parameters or another seed: not compared.
     """
 
     pairs: tuple[Pair, ...]
@@ -103,8 +103,7 @@ def compare(then: Results, now: Results) -> Comparison:
     before = {record.case: record for record in then.records()}
     after = {record.case: record for record in now.records()}
     both = [key for key in before if key in after]
-    takes_alike = then.settings.get("takes") == now.settings.get("takes")
-    alike = [key for key in both if takes_alike and _drawn_alike(before[key], after[key])]
+    alike = [key for key in both if _drawn_alike(before[key], after[key])]
     return Comparison(
         tuple((before[key], after[key]) for key in alike),
         tuple(key for key in before if key not in after),

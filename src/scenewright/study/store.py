@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
@@ -142,7 +142,20 @@ def read_results(directory: Path | str) -> Results:
     """
     folder = Path(directory)
     settings = read_settings(folder)
-    return Results(folder, settings, _table(read_records(folder).values()))
+    return Results(folder, settings, as_table(sorted(read_records(folder).values(), key=_order_of(settings))))
+
+
+def _order_of(settings: Mapping[str, Any]) -> Callable[[CaseRecord], tuple[int, ...]]:
+    """Return the order in which methods, rows, egos were asked for; what was not asked for comes last."""
+    places = {
+        name: {each: place for place, each in enumerate(settings.get(name, ()))} for name in ("methods", "rows", "egos")
+    }
+
+    def order(record: CaseRecord) -> tuple[int, ...]:
+        asked = (("methods", record.method), ("rows", record.row), ("egos", record.ego))
+        return (*(places[name].get(value, len(places[name])) for name, value in asked), record.draw)
+
+    return order
 
 
 def read_settings(folder: Path) -> dict[str, Any]:
@@ -227,9 +240,9 @@ def compact(folder: Path) -> None:
     """Put all records into `cases.parquet` in one step, and drop the lines that it then holds."""
     import pyarrow.parquet as pq
 
-    records = sorted(read_records(folder).values(), key=lambda r: (r.row, r.ego, r.draw, r.method))
+    records = read_results(folder).records()
     temporary = folder / f".{PARQUET_FILE}.part"
-    pq.write_table(_table(records), temporary, compression="zstd")
+    pq.write_table(as_table(records), temporary, compression="zstd")
     os.replace(temporary, folder / PARQUET_FILE)
     (folder / LINES_FILE).unlink(missing_ok=True)
 
@@ -258,7 +271,7 @@ def locked(folder: Path) -> Iterator[None]:
         yield
 
 
-def _table(records: Iterable[CaseRecord]) -> pa.Table:
+def as_table(records: Iterable[CaseRecord]) -> pa.Table:
     """Return records as an Arrow table whose columns have the same types whatever they hold."""
     import pyarrow as pa
 
