@@ -8,6 +8,7 @@ What enters: a `Request`. What leaves: a `Result` and, where something was drive
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Mapping
 from contextlib import contextmanager
@@ -157,6 +158,7 @@ def orchestrate(
         return result
     with stages("plan"):
         planned = first_plan(world, request, predictor_for(world, request))
+        assert planned is not None
         result.attempt = planned[2]
     if result.attempt.plan is None or until == "plan":
         result.status = "success" if result.attempt.plan is not None else "gave up"
@@ -198,14 +200,25 @@ def _rehearse(
         if last.status != "failure" or request.mode == "open" or world.ego_bounds.holds_speed or last.run is None:
             break
         drive = drive_profile(last.run.trace.actors[world.scene.program.ego.name])
-        planned = first_plan(world, request, Rehearsed(drive, predictor_for(world, request)))
-        if planned[2].plan is None:
+        predictor = Rehearsed(drive, predictor_for(world, request))
+        planned = first_plan(world, request, predictor, drive.state(0.0)[1] if _came_too_late(last) else math.inf)
+        planned = planned or first_plan(world, request, predictor)
+        if planned is None or planned[2].plan is None:
             break
         last = replace(first, take=take, takes=last.takes, hindsight=None)
         _drive(request, last, world, planned, stages, progress)
         if last.status == "success":
             return last
     return replace(first, takes=last.takes)
+
+
+def _came_too_late(result: Result) -> bool:
+    """Whether all went well but the outcome: an ego that starts slower leaves more time for it."""
+    from scenewright.judge.tolerance import LOOSE
+
+    assert result.verdict is not None
+    missed = {condition.kind for condition in result.verdict.conditions if not condition.holds_at(LOOSE)}
+    return missed == {"outcome"}
 
 
 def set_up(request: Request, stages: Stages, backend: Backend | None = None) -> tuple[World, Translation | None]:
@@ -250,13 +263,22 @@ class World:
         return check_feasibility(self.scene, *world)
 
 
-def first_plan(world: World, request: Request, predictor: Predictor) -> tuple[Replanner, EgoFirstState, Attempt]:
-    """Choose the ego's first state and plan from it; where several states may be chosen, the first that plans well."""
+def first_plan(
+    world: World, request: Request, predictor: Predictor, slower_than_mps: float = math.inf
+) -> tuple[Replanner, EgoFirstState, Attempt] | None:
+    """Choose the ego's first state and plan from it; where several states may be chosen, the first that plans well.
+
+    None where the ego cannot start slower than it must.
+    """
     conditions = linear_conditions(world.scene, world.structure)
     best: tuple[Replanner, EgoFirstState, Attempt] | None = None
     for start in chain(ego_starts(world.scene, world.ego, world.limits[EGO], conditions), _solved_start(world)):
         if best is not None and best[2].plan is not None and start.last_resort:
             break
+        if start.by_choice and best is not None and _quality(best[2]) > _PROMISED:
+            break
+        if start.speed_mps >= slower_than_mps:
+            continue
         planner = Planner(world.scene, world.structure, world.limits, world.backend, conditions, request.budget_s)
         replanner = Replanner(world.scene, world.structure, planner, predictor, conditions)
         attempt = replanner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
@@ -264,7 +286,6 @@ def first_plan(world: World, request: Request, predictor: Predictor) -> tuple[Re
             best = (replanner, start, attempt)
         if _quality(attempt) >= _GOOD:
             break
-    assert best is not None
     return best
 
 
@@ -283,14 +304,14 @@ def predictor_for(world: World, request: Request) -> Predictor:
 
 
 _GENTLENESS = {"steady": 5, "gentle": 4, "firm": 3, "whole": 2, "urgent": 1}
-_GOOD = 13
+_PROMISED, _GOOD = 10, 13
 
 
 def _quality(attempt: Attempt) -> int:
     """Rank a first plan: one that promises the outcome before one that does not, then the gentler one."""
     if attempt.plan is None:
         return 0
-    promised = 10 if attempt.status == "sat" and attempt.promises_outcome else 0
+    promised = _PROMISED if attempt.status == "sat" and attempt.promises_outcome else 0
     return promised + _GENTLENESS[attempt.plan.manner]
 
 

@@ -76,7 +76,7 @@ def test_free_start_lies_well_before_the_trigger(ego: str) -> None:
 @pytest.mark.parametrize("initial", ["", "A0x(t0) == intersection - 90", "tta(A0, intersection, t0) == 8"])
 def test_ego_goes_on_as_it_starts(ego: str, initial: str) -> None:
     on = stage(initial, ego)
-    (start,) = starts(on)
+    start = starts(on)[0]
     on.ego.reset(start.s_m, start.speed_mps)
     for step in range(25):
         on.ego.advance(on.ego.decide(0.02 * step, (), 0.02), 0.02)
@@ -113,7 +113,7 @@ def test_speed_that_a_policy_prefers_is_taken() -> None:
 
     on = stage("A0x(t0) == intersection - 90", Tractor())
     assert isinstance(on.ego.policy, GuardedPolicy)
-    (start,) = starts(on)
+    start = starts(on)[0]
     assert start.speed_mps == pytest.approx(5.5)
     assert start.s_m == pytest.approx(on.scene.landmarks_m[0]["intersection"] - 90.0)
 
@@ -127,6 +127,23 @@ def test_policy_that_never_gets_to_its_place_still_starts_there() -> None:
             return -9.0
 
     on = stage("A0x(t0) == intersection - 90", Parked())
-    (start,) = starts(on)
+    start = starts(on)[0]
     assert start.s_m == pytest.approx(on.scene.landmarks_m[0]["intersection"] - 90.0)
     assert start.speed_mps > 0.0
+
+
+@pytest.mark.parametrize("initial", ["A0x(t0) == intersection - 90", "tta(A0, intersection, t0) == 8", ""])
+def test_slower_states_come_by_choice_after_what_the_policy_holds(initial: str) -> None:
+    on = stage(initial, "idm")
+    held, *slower = starts(on)
+    assert not held.by_choice
+    assert len(slower) > 1
+    speeds = [start.speed_mps for start in (held, *slower)]
+    assert speeds == sorted(speeds, reverse=True)
+    for start in slower:
+        assert start.by_choice
+        assert start.accel_mpss > 0.5, "from there it speeds up, and the planner is told"
+        if initial.startswith("tta"):
+            assert (on.scene.landmarks_m[0]["intersection"] - start.s_m) / start.speed_mps == pytest.approx(
+                8.0, abs=1e-4
+            )

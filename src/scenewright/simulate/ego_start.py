@@ -20,6 +20,7 @@ _LEAD_S = 8.0
 _STEP_S = 0.05
 _SLOWEST_MPS = 0.5
 # Of the natural speed, for an ego whose speed the orchestrator may choose: natural first.
+_SLOWER_SHARES = (0.6, 0.35, 0.15)
 _SPEED_SHARES = (1.0, 0.85, 0.7, 0.55, 0.42, 0.32, 0.24, 0.18, 0.13, 0.1, 0.08, 1.2, 1.35, 1.5)
 
 
@@ -27,13 +28,15 @@ _SPEED_SHARES = (1.0, 0.85, 0.7, 0.55, 0.42, 0.32, 0.24, 0.18, 0.13, 0.1, 0.08, 
 class EgoFirstState:
     """A first state of the ego, with the acceleration that it has there when it drives by itself.
 
-    A last resort is only for when no other state leads to a plan.
+    A last resort is only for when no other state leads to a plan; one by choice, which the policy would leave at once,
+    for when none that it would hold promises the outcome.
     """
 
     s_m: float
     speed_mps: float
     accel_mpss: float = 0.0
     last_resort: bool = False
+    by_choice: bool = False
 
 
 def ego_starts(
@@ -41,7 +44,8 @@ def ego_starts(
 ) -> Iterator[EgoFirstState]:
     """Yield first states that meet the program's conditions at the ego's first knot.
 
-    Several only where the policy leaves its speed to the orchestrator (``constant``): natural speeds first.
+    Where the policy leaves its speed to the orchestrator (``constant``), natural speeds first. Else what the policy
+    holds by itself, then slower states by choice, from which it will speed up.
     """
     first_knot = scene.program.ego.sketch.knots[0]
     initial = [c for c in conditions if c.moments == {(EGO, first_knot)} and set(c.weights) == {EGO}]
@@ -60,7 +64,14 @@ def ego_starts(
             speed = max(min(share * limits.natural_turn_speed_mps, fastest), MOVING_MPS)
             yield EgoFirstState(_position(scene, place, speed, conditions), speed)
         return
-    yield _steady(scene, ego, place, conditions, preferred or limits.natural_approach_speed_mps)
+    steady = _steady(scene, ego, place, conditions, preferred or limits.natural_approach_speed_mps)
+    yield steady
+    if envelope is not None and envelope.holds_speed:
+        return  # it has a speed of its own
+    for share in _SLOWER_SHARES:
+        speed = max(share * steady.speed_mps, MOVING_MPS)
+        position = _position(scene, place, speed, conditions)
+        yield EgoFirstState(position, speed, _first_acceleration(ego, position, speed), by_choice=True)
 
 
 def _position(
@@ -111,6 +122,13 @@ def _steady(
             return EgoFirstState(_position(scene, place, speed, conditions) if place else target, speed, ego.accel_mpss)
         before = after
     return EgoFirstState(target, speed_mps)
+
+
+def _first_acceleration(ego: EgoVehicle, s_m: float, speed_mps: float) -> float:
+    """Return what the policy does first from a state (m/s^2), alone on the road."""
+    ego.reset(s_m, speed_mps)
+    ego.decide(0.0, (), _STEP_S)
+    return ego.accel_mpss
 
 
 def _miss(ego: EgoVehicle, place: LinearCondition | None, target_m: float) -> float:
