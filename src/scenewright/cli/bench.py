@@ -7,7 +7,7 @@ in `bench_run`, what reads its results in `bench_results`; here are the two smal
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -38,7 +38,7 @@ app.callback(
     + "\n\n[bold]Exit status[/bold]\n\n0 all cases are done, whatever came of them; 2 the input is wrong; "
     "130 interrupted: type the same again to go on",
 )(bench_run.experiment)
-for _command, _lines in {
+_EXAMPLES: dict[Callable[..., None], tuple[str, ...]] = {
     bench_results.show: ("scenewright bench show results/small",),
     bench_results.diff: (
         f"{_SMALL} --takes 1 --out results/other",
@@ -47,7 +47,8 @@ for _command, _lines in {
     bench_results.replay: ("scenewright bench replay results/small 17-idm-0-scenewright",),
     bench_results.rejudge: ("scenewright bench rejudge results/small",),
     bench_results.report: ("scenewright bench report results/small --quick",),
-}.items():
+}
+for _command, _lines in _EXAMPLES.items():
     app.command(epilog=_examples(f"{_SMALL} --out results/small", *_lines))(_command)
 
 
