@@ -36,6 +36,7 @@ from scenewright.solve.limits import Limits, limits_on
 from scenewright.solve.parameters import choose_open_parameters
 from scenewright.solve.planner import Attempt, Planner
 from scenewright.solve.problem import Backend
+from scenewright.translate.model.settings import TranslatorSettings
 from scenewright.translate.sources import read_scenario
 
 if TYPE_CHECKING:
@@ -78,6 +79,7 @@ class Request:
     budget_s: float = 0.25
     predictor: str = "road"
     takes: int = 3
+    translation: TranslatorSettings = field(default_factory=TranslatorSettings)
 
 
 @dataclass(frozen=True, slots=True)
@@ -228,7 +230,7 @@ def set_up(request: Request, stages: Stages, backend: Backend | None = None) -> 
 
         prepare_directory(request.out)
     with stages("translate"):
-        program, translation = read_scenario(request.source, request.translator, request.map_name)
+        program, translation = read_scenario(request.source, request.translator, request.map_name, request.translation)
     with stages("ground"):
         scene = ground(program, load_map(request.map_name or program.map_name), request.parameters)
     return World(scene, request, backend), translation
@@ -348,6 +350,7 @@ def write_result(
     from scenewright.judge.files import write_verdict
     from scenewright.simulate.record import Circumstances, write_run
     from scenewright.studio.page import write_page
+    from scenewright.translate.model.translation import notes_of
 
     assert result.run is not None
     assert result.verdict is not None
@@ -363,7 +366,7 @@ def write_result(
         frozenset(p.name for p in world.scene.program.parameters if p.name not in given and p.value is None),
         given,
         timings_s,
-        result.translation.assumptions if result.translation else (),
+        notes_of(result.translation),
         result.take,
     )
     write_run(directory, world.scene, result.run, world.limits, circumstances)

@@ -64,6 +64,12 @@ def complete_ego(incomplete: str) -> list[tuple[str, str]]:
     return [(name, line) for name, line in policy_descriptions().items() if name.startswith(incomplete)]
 
 
+def complete_translator(incomplete: str) -> list[str]:
+    """Offer the translators; the name of a model is the user's to know."""
+    names = ("offline", "openai:", "anthropic:", "google:", "openai-compatible:", "files:")
+    return [name for name in names if name.startswith(incomplete)]
+
+
 def complete_run_directory(incomplete: str) -> list[str]:
     """Offer run directories here and under `runs`."""
     found = [path.parent for folder in (Path(), Path("runs")) for path in sorted(folder.glob("*/manifest.json"))]
@@ -133,7 +139,14 @@ Ego = Annotated[
     ),
 ]
 Translator = Annotated[
-    str, typer.Option("--translator", metavar="NAME", help="What turns a description into a program.")
+    str,
+    typer.Option(
+        "--translator",
+        metavar="NAME",
+        help="What turns a description into a program: offline, openai:NAME, anthropic:NAME, google:NAME, "
+        "openai-compatible:NAME (with --base-url), or files:DIR.",
+        autocompletion=complete_translator,
+    ),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout and nothing else there.")]
 ModeOption = Annotated[

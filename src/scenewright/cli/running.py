@@ -28,7 +28,9 @@ from scenewright.cli.options import (
     Translator,
     parameters_of,
 )
+from scenewright.cli.translators import with_translator
 from scenewright.errors import PolicyError
+from scenewright.translate.model.settings import TranslatorSettings
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -49,6 +51,7 @@ _SAYS = {
 _UNBROKEN = ("judge", "write")
 
 
+@with_translator
 def run(
     source: Source,
     parameter: Parameters = None,
@@ -80,6 +83,8 @@ def run(
     as_json: AsJson = False,
     quiet: Annotated[bool, typer.Option("--quiet", help="Print nothing but where the run is.")] = False,
     open_page: Annotated[bool, typer.Option("--open", help="Open the run's page in the browser afterwards.")] = False,
+    *,
+    settings: TranslatorSettings,
 ) -> None:
     """Make what a description says happen around a driving policy, and judge whether it did."""
     with told(as_json):
@@ -101,6 +106,7 @@ def run(
             budget_ms / 1000,
             predictor,
             takes,
+            settings,
         )
         try:
             result = carry_out(request, quiet=quiet or as_json)

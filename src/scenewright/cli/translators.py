@@ -1,0 +1,171 @@
+"""The options of every command that may translate a description, and what a model translator gets from above.
+
+What enters: words from a command line. What leaves: `TranslatorSettings` with the means to ask the user, to ask the
+solver and to compare meanings, none of which the translator imports itself.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from scenewright.translate.model.settings import DEFAULT_REPAIRS, DEFAULT_TIMEOUT_S, Question, TranslatorSettings
+
+if TYPE_CHECKING:
+    from scenewright.program.types import Program
+
+_PANEL = "Translation"
+
+
+def with_translator(command: Callable[..., None]) -> Callable[..., None]:
+    """Give `command` the options below; it gets what they say as `settings`."""
+    own = inspect.signature(command, eval_str=True).parameters
+    options = inspect.signature(_settings, eval_str=True).parameters
+
+    @functools.wraps(command)
+    def wrapped(**values: Any) -> None:
+        chosen = {name: values.pop(name) for name in options}
+        command(**values, settings=_settings(**chosen))
+
+    parameters = [each for each in (*own.values(), *options.values()) if each.name != "settings"]
+    keyword = [each.replace(kind=inspect.Parameter.KEYWORD_ONLY) for each in parameters]
+    wrapped.__signature__ = inspect.Signature(keyword)  # type: ignore[attr-defined]
+    wrapped.__annotations__ = {each.name: each.annotation for each in parameters}
+    return wrapped
+
+
+def _settings(
+    strict: Annotated[
+        bool,
+        typer.Option("--strict", help="Refuse a description that leaves something open.", rich_help_panel=_PANEL),
+    ] = False,
+    ask: Annotated[
+        bool, typer.Option("--ask", help="Ask on the terminal about what is left open.", rich_help_panel=_PANEL)
+    ] = False,
+    base_url: Annotated[
+        str | None,
+        typer.Option(
+            "--base-url",
+            metavar="URL",
+            help="Address of an OpenAI-compatible server. Default: SCENEWRIGHT_BASE_URL.",
+            show_default=False,
+            rich_help_panel=_PANEL,
+        ),
+    ] = None,
+    repairs: Annotated[
+        int,
+        typer.Option(
+            min=0, max=20, help="How often a reply that does not hold goes back to the model.", rich_help_panel=_PANEL
+        ),
+    ] = DEFAULT_REPAIRS,
+    timeout_s: Annotated[
+        float,
+        typer.Option(
+            "--timeout",
+            metavar="SECONDS",
+            min=0.1,
+            max=3600.0,
+            help="How long one reply of a model may take.",
+            rich_help_panel=_PANEL,
+        ),
+    ] = DEFAULT_TIMEOUT_S,
+    reply_wait_s: Annotated[
+        float,
+        typer.Option(
+            "--reply-wait",
+            metavar="SECONDS",
+            min=0.0,
+            max=1e6,
+            help="How long to wait for a reply file of files:DIR.",
+            rich_help_panel=_PANEL,
+        ),
+    ] = 0.0,
+    record: Annotated[
+        Path | None,
+        typer.Option(
+            "--record",
+            metavar="DIR",
+            help="Keep every exchange with the model.",
+            show_default=False,
+            rich_help_panel=_PANEL,
+        ),
+    ] = None,
+    replay: Annotated[
+        Path | None,
+        typer.Option(
+            "--replay",
+            metavar="DIR",
+            help="Take replies from kept exchanges; ask nobody.",
+            show_default=False,
+            rich_help_panel=_PANEL,
+        ),
+    ] = None,
+) -> TranslatorSettings:
+    """Return the settings that these options say."""
+    can_ask = ask and sys.stdin.isatty() and sys.stderr.isatty()
+    if ask and not can_ask:
+        _say("there is no terminal to ask on: defaults are taken, and listed")
+    return TranslatorSettings(
+        base_url=base_url,
+        repairs=repairs,
+        strict=strict,
+        record=record,
+        replay=replay,
+        timeout_s=timeout_s,
+        reply_wait_s=reply_wait_s,
+        ask=_ask if can_ask else None,
+        compare=differences_in_meaning,
+        say=_say if sys.stderr.isatty() else None,
+    )
+
+
+def impossibility(program: Program, map_name: str | None, ego: str = "idm") -> str | None:
+    """Return the proof that `program` cannot happen; None where nothing speaks against it."""
+    from scenewright.orchestrate import Request, orchestrate
+    from scenewright.program.printer import print_program
+
+    result = orchestrate(Request(print_program(program), map_name=map_name, ego=ego), until="check")
+    if result.status != "infeasible" or result.feasibility is None:
+        return None
+    return result.feasibility.explain()
+
+
+def differences_in_meaning(offline: Program, other: Program) -> list[str]:
+    """Return how the program of a model differs in meaning from that of the offline translator."""
+    from scenewright.study.meaning import differences
+
+    words = {"lost: ": "it has ", "added: ": "it has not "}
+    found = []
+    for each in differences(offline, other):
+        start = next((start for start in words if each.startswith(start)), "")
+        found.append(words.get(start, "") + each.removeprefix(start))
+    return found
+
+
+def _ask(question: Question) -> str:
+    """Put a question on stderr, and return the alternative that the user chooses; its default for an empty line."""
+    lines = [f"\n{question.question}" + (f" ('{question.words}')" if question.words else "")]
+    lines += [f"  {number}  {each}" for number, each in enumerate(question.alternatives, start=1)]
+    default = question.alternatives.index(question.default) + 1
+    sys.stderr.write("\n".join(lines) + "\n")
+    while True:
+        sys.stderr.write(f"number [{default}]: ")
+        sys.stderr.flush()
+        line = sys.stdin.readline()
+        answer = line.strip()
+        if not answer:  # an empty line, or the end of the input
+            return question.default
+        if answer.isdecimal() and 1 <= int(answer) <= len(question.alternatives):
+            return question.alternatives[int(answer) - 1]
+        sys.stderr.write(f"a number from 1 to {len(question.alternatives)}\n")
+
+
+def _say(text: str) -> None:
+    sys.stderr.write(f"{text}\n")
+    sys.stderr.flush()
