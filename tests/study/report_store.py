@@ -59,7 +59,7 @@ def record(row: int, ego: str, draw: int, method: str, cause: str, random: np.ra
     best = {"success": 3, "loose only": 2}.get(cause, int(random.random() < 0.2)) if driven else 0
     finest = cause == "success" and random.random() < 0.6
     first = 1 if later else best
-    held = {level: rank >= 3 - best + (0 if level != "fine" else 0) for rank, level in enumerate(LEVELS)}
+    held = {level: rank >= 3 - best for rank, level in enumerate(LEVELS)}
     held["fine"] = finest
     began = {level: held[level] and first == best for level in LEVELS} | ({"coarse": True} if first else {})
     off = float(random.exponential(0.05 if cause == "success" else 1.5)) if driven else None

@@ -26,7 +26,7 @@ def write_report(
     Parameters
     ----------
     quick
-        Measure little: a grid of 5 by 5 cells, few egos and draws.
+        Measure little: a grid of 4 by 4 cells, few egos and draws.
     progress
         Called with the name of a stage, how much of it is done, and how much there is.
     workers

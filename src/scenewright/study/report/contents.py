@@ -23,7 +23,7 @@ from scenewright.study.report.failures_tables import (
 from scenewright.study.report.loops import loops_table
 from scenewright.study.report.measuring import Measured
 from scenewright.study.report.outcome_figures import draw_causes, draw_rows
-from scenewright.study.report.precision import INITIAL_EGO_M, MET_M, STOP_M, Cell
+from scenewright.study.report.precision import EGO, INITIAL_EGO_M, MET_M, STOP_M, Cell
 from scenewright.study.report.precision_tables import grid_table, precision_table
 from scenewright.study.report.provenance import Provenance
 from scenewright.study.report.rates_figures import (
@@ -83,6 +83,7 @@ class Section:
     id: str
     title: str
     text: str = ""
+    notes: tuple[str, ...] = ()
     plots: tuple[Plot, ...] = ()
     tables: tuple[Shown, ...] = ()
 
@@ -143,12 +144,12 @@ def _aims(material: Material) -> Section:
 
 def _methods(material: Material) -> Section:
     records, source = material.records, material.experiment
-    lines = [f"{name}: {METHODS[name]}" for name in METHODS if any(r.method == name for r in records)]
+    notes = tuple(f"{name}: {METHODS[name]}" for name in METHODS if any(r.method == name for r in records))
     caption = "Outcome of every case by cause; best of N takes. Grey and orange are left out of rates."
     plot = Plot("causes", caption, lambda theme: draw_causes(records, theme), _n(records), source)
     tables = (Shown(methods_table(records), source), Shown(causes_table(records), source, folded=True))
-    text = "The same cases, egos, seeds and judge for all. " + "; ".join(lines) + "."
-    return Section("methods", "Methods over the same cases", text, (plot,), tables)
+    text = "The same cases, egos, seeds and judge for all."
+    return Section("methods", "Methods over the same cases", text, notes, (plot,), tables)
 
 
 def _families(material: Material) -> Section:
@@ -159,14 +160,14 @@ def _families(material: Material) -> Section:
     )
     plot = Plot("families", caption, lambda theme: draw_families(records, theme), _n(records), source)
     table = Shown(families_table(records), source, folded=True)
-    return Section("families", "By family and kind of trigger", "", (plot,), (table,))
+    return Section("families", "By family and kind of trigger", plots=(plot,), tables=(table,))
 
 
 def _egos(material: Material) -> Section:
     records, source = material.records, material.experiment
     caption = "Success at tight tolerance by ego and method, over the cases counted; a dash where none is."
     plot = Plot("egos", caption, lambda theme: draw_egos(records, theme), _n(records), source)
-    return Section("egos", "By ego", "", (plot,), (Shown(egos_table(records), source, folded=True),))
+    return Section("egos", "By ego", plots=(plot,), tables=(Shown(egos_table(records), source, folded=True),))
 
 
 def _rows(material: Material) -> Section:
@@ -176,7 +177,7 @@ def _rows(material: Material) -> Section:
     )
     plot = Plot("rows", caption, lambda theme: draw_rows(own, theme), _n(own), source)
     tables = (Shown(rows_table(own), source, folded=True), Shown(outcomes_table(own), source, folded=True))
-    return Section("rows", "By row of the benchmark", "", (plot,), tables)
+    return Section("rows", "By row of the benchmark", plots=(plot,), tables=tables)
 
 
 def _tolerance(material: Material) -> Section:
@@ -199,26 +200,26 @@ def _tolerance(material: Material) -> Section:
         ),
     )
     table = Shown(tolerance_table(records), source, folded=True)
-    return Section("tolerance", "Over tolerance", "", plots, (table,))
+    return Section("tolerance", "Over tolerance", plots=plots, tables=(table,))
 
 
 def _takes(material: Material) -> Section:
     own, source = material.own, material.experiment
     caption = "With which take our method first succeeded at tight tolerance, by ego."
     plot = Plot("takes", caption, lambda theme: draw_takes(own, theme), _n(own), source)
-    return Section("takes", "By take", "", (plot,), (Shown(takes_table(own), source),))
+    return Section("takes", "By take", plots=(plot,), tables=(Shown(takes_table(own), source),))
 
 
 def _failures(material: Material) -> Section:
     own, source = material.own, material.experiment
     failed = failures_table(own, material.folder)
     causes = ordered_causes({str(cause) for cause in failed.column("cause")})
-    text = " ".join(f"{cause[0].upper()}{cause[1:]}: {meaning_of(cause)}" for cause in causes)
+    notes = tuple(f"{cause}: {meaning_of(cause)}" for cause in causes)
     tables = (
         Shown(failed, source, empty="Every case of our method succeeded or is proven infeasible."),
         Shown(disagreements_table(material.records), source, folded=True, empty="Judge and criteria agree in all."),
     )
-    return Section("failures", "Every remaining failure of ours", text, (), tables)
+    return Section("failures", "Every remaining failure of ours", "", notes, (), tables)
 
 
 def _precision(material: Material) -> Section:
@@ -227,6 +228,7 @@ def _precision(material: Material) -> Section:
         f"An oncoming hero that wants to turn into the driveway brakes to a stop {STOP_M:g} m before the conflict "
         f"point while the ego, {INITIAL_EGO_M:g} m before it at first, goes straight on. Both distances at the trigger"
         " are varied; one take each."
+        f" The ego is {EGO}."
     )
     caption = (
         f"Error of the worse side at the trigger (m). Cross: not met within {MET_M:g} m. Ring: the ego never came "
@@ -236,7 +238,7 @@ def _precision(material: Material) -> Section:
     cases = f"{len(cells)} runs" + (f", {len(ours)} cells a method" if ours else "")
     plot = Plot("precision", caption, lambda theme: draw_grid(cells, theme), cases, source)
     tables = (Shown(precision_table(cells), source), Shown(grid_table(cells), source, folded=True))
-    return Section("precision", "Precision grid", text, (plot,), tables)
+    return Section("precision", "Precision grid", text, plots=(plot,), tables=tables)
 
 
 def _loops(material: Material) -> Section:
@@ -251,7 +253,7 @@ def _loops(material: Material) -> Section:
     caption = "Success at tight tolerance, first take, in open and in closed loop."
     cases = f"{len(loops)} runs left, {len(both)} right"
     plot = Plot("loops", caption, lambda theme: draw_loops(table, both, theme), cases, material.report)
-    return Section("loops", "Open against closed loop", text, (plot,), (Shown(table, material.report),))
+    return Section("loops", "Open against closed loop", text, plots=(plot,), tables=(Shown(table, material.report),))
 
 
 def _times(material: Material) -> Section:
@@ -281,11 +283,11 @@ def _times(material: Material) -> Section:
         Shown(ticks_table(ticks, late), material.experiment),
     )
     text = "Times compare within one machine. Re-plans in the experiment ran beside other processes."
-    return Section("times", "Times", text, plots, tables)
+    return Section("times", "Times", text, plots=plots, tables=tables)
 
 
 def _proofs(material: Material) -> Section:
     table = proofs_table(material.records)
     text = "Draws for which the solver proved that nobody can drive them; the same for every method, never counted."
     shown = Shown(table, material.experiment, folded=True, empty="No draw is proven infeasible.")
-    return Section("infeasible", "Proven infeasible", text, (), (shown,))
+    return Section("infeasible", "Proven infeasible", text, tables=(shown,))

@@ -57,7 +57,7 @@ def draw_grid(cells: Sequence[Cell], theme: Theme) -> Figure:
     bar.set_label("error of the worse side at the trigger (m)")
     bar.set_ticks([0.01, 0.1, 0.5, 2.0, 20.0], labels=["0.01", "0.1", "0.5", "2", "20"])
     bar.outline.set_visible(False)
-    _grid_legend(figure, theme)
+    _grid_legend(figure, any(cell.fault for cell in cells), theme)
     return figure
 
 
@@ -68,6 +68,8 @@ def _panel(axes: Axes, cells: Sequence[Cell], norm: Normalize, theme: Theme) -> 
         i, j = heroes.index(cell.hero_m), egos.index(cell.ego_m)
         if cell.infeasible:
             _mark_infeasible(axes, i, j, theme)
+        elif cell.fault:
+            axes.text(j, i, "?", ha="center", va="center", color=theme.soft)
         elif cell.ego_never_met:
             axes.plot(j, i, marker="o", color=theme.ink, markersize=6, fillstyle="none")
         elif not cell.met:
@@ -96,7 +98,7 @@ def _cross_colour(cell: Cell, theme: Theme) -> str:
     return theme.ink if cell.error_m is None else "#15191e"
 
 
-def _grid_legend(figure: Figure, theme: Theme) -> None:
+def _grid_legend(figure: Figure, faults: bool, theme: Theme) -> None:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
@@ -105,7 +107,9 @@ def _grid_legend(figure: Figure, theme: Theme) -> None:
         Line2D([], [], color=theme.ink, marker="o", fillstyle="none", linestyle="none", label="ego never came there"),
         Patch(facecolor=theme.line, edgecolor=theme.soft, hatch="////", linewidth=0, label="proven infeasible"),
     ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=3)
+    if faults:
+        handles.append(Line2D([], [], color=theme.soft, marker="$?$", linestyle="none", label="no run"))
+    figure.legend(handles=handles, loc="outside lower center", ncols=4)
 
 
 # -- open against closed loop ---------------------------------------------------------------------------------------
@@ -149,10 +153,11 @@ def _pairs(axes: Axes, pairs: dict[str, dict[str, Rate]], theme: Theme) -> None:
             colour = method_colour(_MODE_METHOD[mode], theme)
             axes.barh(place + offset, share, 0.36, color=colour, label=label, linewidth=0)
             text = "not run" if found.value is None else f"{share:.0f}"
-            axes.text(share + 1.5, place + offset, text, va="center", fontsize=8)
+            end = share
             if found.interval is not None:
-                low, high = (100 * bound for bound in found.interval)
-                axes.plot([low, high], [place + offset] * 2, color=theme.ink, linewidth=0.9, alpha=0.55)
+                low, end = (100 * bound for bound in found.interval)
+                axes.plot([low, end], [place + offset] * 2, color=theme.ink, linewidth=0.9, alpha=0.55)
+            axes.text(end + 1.5, place + offset, text, va="center", fontsize=8)
     axes.set_yticks(range(len(pairs)), list(pairs))
     axes.set_ylim(len(pairs) - 0.45, -0.55)
     percent_axis(axes)

@@ -22,7 +22,8 @@ _WHERE = (
     Column("ego", "ego"),
     Column("draw", "draw", "count"),
 )
-_PARAMETERS = Column("parameters", "parameters")
+# The command holds them too.
+_PARAMETERS = Column("parameters", "parameters", shown=False)
 _COMMAND = Column("command", "run it again", "command")
 
 

@@ -34,8 +34,8 @@ class LoopsSize:
     draws: int
 
 
-QUICK = LoopsSize(("idm", "dawdler", "noisy"), 3)
-FULL = LoopsSize(REACTIVE_EGOS, 8)
+QUICK = LoopsSize(("idm", "dawdler", "noisy"), 2)
+FULL = LoopsSize(REACTIVE_EGOS, 6)
 
 
 def measure_loops(bench: Bench, size: LoopsSize, seed: int) -> list[Measured]:

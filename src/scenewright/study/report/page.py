@@ -111,6 +111,8 @@ def _section(section: Section, drawn: Mapping[str, Drawn]) -> str:
     parts = [f'<section id="{section.id}"><h2>{_text(section.title)}</h2>']
     if section.text:
         parts.append(f"<p>{_text(section.text)}</p>")
+    if section.notes:
+        parts.append(f'<ul class="notes">{"".join(f"<li>{_text(note)}</li>" for note in section.notes)}</ul>')
     parts += [_figure(plot, drawn[plot.name]) for plot in section.plots]
     parts += [_shown(shown) for shown in section.tables]
     return "\n".join([*parts, "</section>"])
@@ -155,9 +157,10 @@ def _table(table: Table) -> str:
     head = "".join(
         f'<th scope="col" class="{column.kind}"><button type="button">{_text(column.heading)}</button></th>'
         for column in table.columns
+        if column.shown
     )
     body = "\n".join(
-        f"<tr>{''.join(_cell(column, value) for column, value in zip(table.columns, row, strict=True))}</tr>"
+        f"<tr>{''.join(_cell(*pair) for pair in zip(table.columns, row, strict=True) if pair[0].shown)}</tr>"
         for row in table.rows
     )
     field = ""
@@ -185,7 +188,8 @@ def _cell(column: Column, value: Value) -> str:
         return f'<td class="{column.kind}" data-sort="{value!r}">{value:.{column.digits}f}</td>'
     if isinstance(value, int):
         return f'<td class="{column.kind}" data-sort="{value}">{value}</td>'
-    return f'<td class="{column.kind}">{_cause_mark(column, str(value))}{_text(str(value))}</td>'
+    own = f"{column.kind} {column.name}" if column.name == "evidence" else column.kind
+    return f'<td class="{own}">{_cause_mark(column, str(value))}{_text(str(value))}</td>'
 
 
 def _cause_mark(column: Column, value: str) -> str:

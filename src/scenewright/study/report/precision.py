@@ -18,7 +18,8 @@ from scenewright.study.report.measuring import Bench, Job, Measured
 MET_M = 2.0
 INITIAL_EGO_M = 80.0
 STOP_M = 6.0
-EGO = "noisy"
+# Changes between crawling and going: the ego of ours whose arrival is hardest to foresee by its speed alone.
+EGO = "stop-and-go"
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,8 +30,8 @@ class GridSize:
     hero_m: tuple[float, ...]
 
 
-QUICK = GridSize((5.0, 15.0, 30.0, 45.0, 60.0), (4.0, 12.0, 25.0, 40.0, 60.0))
-_FULL = (2.0, 5.0, 8.0, 12.0, 16.0, 20.0, 25.0, 30.0, 36.0, 42.0, 50.0, 60.0)
+QUICK = GridSize((5.0, 15.0, 30.0, 60.0), (4.0, 12.0, 25.0, 60.0))
+_FULL = (3.0, 7.0, 11.0, 16.0, 22.0, 29.0, 37.0, 47.0, 60.0)
 FULL = GridSize(_FULL, _FULL)
 
 

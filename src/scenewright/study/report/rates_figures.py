@@ -43,14 +43,14 @@ _TRIGGERS = ("Distance", "Time")
 def draw_families(records: Sequence[CaseRecord], theme: Theme) -> Figure:
     """Draw success by interaction (columns) and trigger (rows); a bar a method."""
     methods = methods_of(records)
-    figure = new_figure(10.5, 1.1 + 0.62 * (len(methods) + 1), theme)
+    figure = new_figure(10.5, 1.3 + 0.56 * (len(methods) + 1), theme)
     panels = figure.subplots(len(_TRIGGERS), len(_INTERACTIONS), sharex=True, sharey=True, squeeze=False)
     for line, trigger in enumerate(_TRIGGERS):
         for place, interaction in enumerate(_INTERACTIONS):
             axes: Axes = panels[line, place]
             own = [r for r in records if r.interaction == interaction and r.trigger == trigger]
             _bars(axes, own, methods, theme)
-            axes.set_title(f"{interaction}, {trigger.lower()}")
+            axes.set_title(f"{interaction.removeprefix('Hero ')}, {trigger.lower()}")
             if line == len(_TRIGGERS) - 1:
                 axes.set_xlabel("success at tight tolerance (%)")
     _family_legend(figure, theme)
@@ -126,7 +126,7 @@ def _heat(axes: Axes, shares: np.ndarray, theme: Theme) -> None:
 
 def draw_tolerance(records: Sequence[CaseRecord], theme: Theme) -> Figure:
     """Draw success over the four levels of tolerance, a line a method: solid the first take, dashed the best of N."""
-    figure = new_figure(7.6, 3.9, theme)
+    figure = new_figure(10.5, 4.0, theme)
     axes: Axes = figure.subplots()
     by = grouped(records, lambda record: record.method)
     places = np.arange(len(LEVEL_NAMES))
@@ -154,7 +154,7 @@ def draw_takes(records: Sequence[CaseRecord], theme: Theme) -> Figure:
     """Draw for our method, by ego, with which take it first succeeded."""
     own = counted(record for record in records if record.method == OURS)
     egos = egos_of(own)
-    figure = new_figure(7.6, 1.3 + 0.32 * max(1, len(egos)), theme)
+    figure = new_figure(10.5, 1.3 + 0.3 * max(1, len(egos)), theme)
     axes: Axes = figure.subplots()
     if not own:
         say_empty(axes, "no case of ours is counted", theme)

@@ -84,6 +84,7 @@ def render_png(draw: Callable[[Theme], Figure], theme: Theme, about: Mapping[str
     with mpl.rc_context(cast("Any", _settings(theme))), warnings.catch_warnings():
         # Constrained layout gives up on tiny figures with a warning; what it then draws is still readable.
         warnings.filterwarnings("ignore", message="constrained_layout not applied")
+        warnings.filterwarnings("ignore", message="Glyph .* missing from font")  # it draws a box in its place
         figure = draw(theme)
         figure.savefig(buffer, format="png", dpi=DPI, metadata={**about, "Software": "scenewright"})
     return buffer.getvalue()

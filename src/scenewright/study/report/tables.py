@@ -22,12 +22,16 @@ Value = str | int | float | bool | Rate | None
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """A column: the name that programs use, the heading that people read (with its unit), and what it holds."""
+    """A column: the name that programs use, the heading that people read (with its unit), and what it holds.
+
+    One that is not `shown` is in the files but not on the page.
+    """
 
     name: str
     heading: str
     kind: Kind = "text"
     digits: int = 2
+    shown: bool = True
 
 
 @dataclass(frozen=True, slots=True)

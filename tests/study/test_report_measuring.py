@@ -1,0 +1,223 @@
+"""What the report measures itself: done once, gone on with after a kill; grid, loops and times measure what is said."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from scenewright.judge.tolerance import TIGHT
+from scenewright.orchestrate import Request, orchestrate
+from scenewright.program.check import check_program
+from scenewright.program.text import parse_program
+from scenewright.solve.backends.z3_backend import Z3Backend
+from scenewright.solve.problem import Problem, Satisfiable, Unknown, Unsatisfiable
+from scenewright.study.report import loops, measuring, precision, times
+from scenewright.study.report.extra_figures import draw_grid
+from scenewright.study.report.measuring import Bench, Job, Measured
+from scenewright.study.report.precision import Cell, GridSize, measure_grid, scene_text
+from scenewright.study.report.precision_tables import grid_table, precision_table
+from scenewright.study.report.style import LIGHT
+
+
+class Counting:
+    """Doubles a number; refuses odd ones above 10; counts its calls."""
+
+    def __init__(self) -> None:
+        self.calls: list[int] = []
+
+    def __call__(self, job: Job) -> Measured:
+        self.calls.append(job["x"])
+        if job["x"] == 13:
+            raise ValueError("not this one")
+        return {"twice": 2 * job["x"]}
+
+
+def test_a_measurement_is_made_once(tmp_path: Path) -> None:
+    work, bench = Counting(), Bench(tmp_path)
+    jobs = [{"x": x} for x in (1, 2, 3)]
+    first = bench.measure("some", work, jobs)
+    assert first == [{"x": x, "twice": 2 * x} for x in (1, 2, 3)]
+    assert Bench(tmp_path).measure("some", work, [*jobs, {"x": 4}])[:3] == first
+    assert work.calls == [1, 2, 3, 4]
+
+
+def test_what_a_kill_tore_is_measured_again(tmp_path: Path) -> None:
+    work = Counting()
+    Bench(tmp_path).measure("some", work, [{"x": 1}, {"x": 2}])
+    file = tmp_path / "extras" / "some.jsonl"
+    file.write_bytes(file.read_bytes()[:-7])
+    again = Bench(tmp_path).measure("some", work, [{"x": 1}, {"x": 2}])
+    assert [record["twice"] for record in again] == [2, 4]
+    assert work.calls == [1, 2, 2]
+    assert len(file.read_text(encoding="utf-8").splitlines()) == 2
+
+
+def test_what_other_code_measured_is_forgotten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    work = Counting()
+    Bench(tmp_path).measure("some", work, [{"x": 1}])
+    monkeypatch.setattr(measuring, "code_digest", lambda: "other")
+    Bench(tmp_path).measure("some", work, [{"x": 1}])
+    assert work.calls == [1, 1]
+
+
+def test_what_raises_is_told_and_tried_again(tmp_path: Path) -> None:
+    work, told = Counting(), []
+    bench = Bench(tmp_path, progress=lambda name, done, total: told.append((name, done, total)))
+    assert "not this one" in bench.measure("some", work, [{"x": 13}, {"x": 2}])[0]["error"]
+    bench.measure("some", work, [{"x": 13}, {"x": 2}])
+    assert work.calls == [13, 2, 13]
+    assert told[:3] == [("some", 0, 2), ("some", 1, 2), ("some", 2, 2)]
+
+
+# -- precision grid -------------------------------------------------------------------------------------------------
+@pytest.fixture(scope="module")
+def grid(tmp_path_factory: pytest.TempPathFactory) -> tuple[Cell, ...]:
+    bench = Bench(tmp_path_factory.mktemp("grid"))
+    return measure_grid(bench, ("scenewright", "open-loop"), GridSize((12.0, 30.0), (4.0, 20.0)), seed=0)
+
+
+def test_the_grid_marks_infeasible_cells_by_their_proofs(grid: tuple[Cell, ...]) -> None:
+    # The hero is to stop 6 m before the conflict point: begun at 4 m before it, that is past.
+    assert {cell.hero_m for cell in grid if cell.infeasible} == {4.0}
+    assert sum(cell.infeasible for cell in grid) == 4
+    for cell in grid:
+        assert cell.infeasible == ("stop_place" in cell.proof and "hero_place" in cell.proof)
+        assert not (cell.infeasible and (cell.met or cell.tight or cell.error_m is not None))
+    figure = draw_grid(grid, LIGHT)
+    hatched = [patch for axes in figure.axes for patch in axes.patches if patch.get_hatch()]
+    assert len(hatched) == 4
+
+
+def test_the_grid_measures_the_worse_side(grid: tuple[Cell, ...]) -> None:
+    cell = next(c for c in grid if c.method == "scenewright" and (c.ego_m, c.hero_m) == (30.0, 20.0))
+    parameters = {
+        "initial_ego_distance_behind_intersection_m": precision.INITIAL_EGO_M,
+        "ego_distance_behind_conflict_point_m": 30.0,
+        "hero_distance_behind_conflict_point_m": 20.0,
+        "end_hero_distance_behind_conflict_point_m": precision.STOP_M,
+    }
+    result = orchestrate(Request(scene_text("precision"), parameters, ego=precision.EGO, takes=1))
+    assert result.verdict is not None
+    sides = [abs(result.verdict.condition(name).error or 0.0) for name in ("ego_place", "hero_place")]
+    assert cell.error_m == pytest.approx(max(sides), abs=0.02)  # wall time may decide between two plans
+    assert cell.tight == result.verdict.holds_at(TIGHT)
+
+
+def test_the_grids_tables_tell_every_cell(grid: tuple[Cell, ...]) -> None:
+    lines = precision_table(grid).records()
+    assert [line["cells"] for line in lines] == [4, 4]
+    assert [line["proven_infeasible"] for line in lines] == [2, 2]
+    assert [line["met_two_m_cases"] + line["ego_never_met"] for line in lines] == [2, 2]
+    told = grid_table([*grid, Cell("x", 1.0, 1.0, error_m=3.0), Cell("x", 2.0, 1.0, fault="died")])
+    assert told.column("outcome").count("proven infeasible") == 4
+    assert told.column("outcome")[-2:] == ["trigger not met", "no run"]
+
+
+def test_a_method_that_cannot_run_leaves_cells_that_say_so(tmp_path: Path) -> None:
+    cells = measure_grid(Bench(tmp_path), ("no-such-method",), GridSize((30.0,), (20.0,)), seed=0)
+    assert "no such method" in cells[0].fault
+    assert not cells[0].met
+    assert precision_table(cells).records()[0]["no_run"] == 1
+
+
+# -- open against closed loop ---------------------------------------------------------------------------------------
+@pytest.mark.parametrize("name", ["precision", *loops.SCENES])
+def test_the_reports_scenarios_are_sound(name: str) -> None:
+    text = scene_text(name)
+    check_program(parse_program(text, name), text, name)
+
+
+def test_loops_run_the_same_cases_in_both_modes(tmp_path: Path) -> None:
+    records = loops.measure_loops(Bench(tmp_path), loops.LoopsSize(("noisy",), 1), seed=3)
+    assert len(records) == 8
+    pairs = {mode: [(r["scene"], r["parameters"]) for r in records if r["mode"] == mode] for mode in loops.MODES}
+    assert pairs["open"] == pairs["closed"]
+    lines = loops.loops_table(records).records()
+    assert [line["cases"] for line in lines] == [1] * 8 + [4, 4]
+
+
+def loop_record(scene: str, mode: str, draw: int, outcome: str) -> dict[str, Any]:
+    won = outcome == "success"
+    return {
+        "scene": scene, "mode": mode, "ego": "idm", "draw": draw, "outcome": outcome, "tight": won, "loose": won,
+    }  # fmt: skip
+
+
+def test_a_case_is_left_out_of_both_loops_or_of_none() -> None:
+    scene = next(iter(loops.SCENES))
+    records = [
+        loop_record(scene, "open", 0, "ego never met"), loop_record(scene, "closed", 0, "success"),
+        loop_record(scene, "open", 1, "infeasible"), loop_record(scene, "closed", 1, "infeasible"),
+        loop_record(scene, "open", 2, "success"), loop_record(scene, "closed", 2, "ego never met"),
+    ]  # fmt: skip
+    lines = {(line["scene"], line["mode"]): line for line in loops.loops_table(records).records()}
+    for mode in loops.MODES:
+        assert lines[scene, mode]["counted"] == 2
+        assert lines[scene, mode]["tight_successes"] == 1
+
+
+# -- times ----------------------------------------------------------------------------------------------------------
+class Scripted:
+    """A solver that gives the answers that it was told to give."""
+
+    name = "scripted"
+
+    def __init__(self, *answers: Satisfiable | Unsatisfiable | Unknown) -> None:
+        self.answers = list(answers)
+
+    def solve(
+        self, problem: Problem, timeout_s: float, want_core: bool = False
+    ) -> Satisfiable | Unsatisfiable | Unknown:
+        return self.answers.pop(0)
+
+
+def test_the_recording_solver_passes_answers_on_and_notes_them() -> None:
+    answers = (Satisfiable({}), Unsatisfiable(("c1",)), Unknown("timeout"))
+    backend = times.RecordingBackend(Scripted(*answers))
+    problem = Problem()
+    unknown = problem.unknown("x")
+    problem.bound(unknown, 0, 1, "limit")
+    backend.enter("simulate")
+    assert (backend.solve(problem, 1.0), backend.solve(problem, 1.0, want_core=True)) == answers[:2]
+    backend.enter("hindsight")
+    assert backend.solve(problem, 1.0) is answers[2]
+    noted = [(c["stage"], c["answer"], c["constraints"], c["unknowns"]) for c in backend.calls]
+    assert noted == [("re-solve", "sat", 1, 1), ("re-solve", "unsat with core", 1, 1), ("hindsight", "unknown", 1, 1)]
+    assert backend.name == "scripted"
+
+
+def test_a_watched_run_is_the_run_itself() -> None:
+    text = scene_text("pulls_out_across")
+    request = Request(text, {"ego_initial_speed_mps": 10.0, "tta_s": 3.0}, ego="noisy", takes=1)
+    backend = times.RecordingBackend(Z3Backend())
+    watched = orchestrate(request, report=backend.enter, backend=backend)
+    assert watched.status == "success"
+    assert {"feasibility", "first plan", "re-solve"} <= {call["stage"] for call in backend.calls}
+    assert all(call["constraints"] > 0 and call["ms"] > 0 for call in backend.calls)
+    table = times.solver_table(backend.calls)
+    whole = [line["calls"] for line in table.records() if line["constraints"] == "all"]
+    assert sum(whole) == len(backend.calls)
+
+
+def test_translations_are_timed_by_length() -> None:
+    record = times.time_translation(
+        {
+            "row": 1,
+            "repeats": 2,
+            "description": "The ego drives westbound and is 80 m before the intersection. An oncoming hero turns left "
+            "into the driveway. When the ego is 30 m before the conflict point and the hero is 18 m before the "
+            "conflict point, the hero brakes to a stop 6 m before the conflict point.",
+        }
+    )
+    assert len(record["ms"]) == 2
+    lines = times.translations_table([record, {"row": 2, "error": "no"}]).records()
+    assert [line["descriptions"] for line in lines] == [1, 1]
+    assert lines[-1]["p50_ms"] <= lines[-1]["p99_ms"] <= lines[-1]["max_ms"]
+
+
+def test_percentiles_of_nothing_are_nothing() -> None:
+    line = times.ticks_table([], 0).records()[0]
+    assert (line["ticks"], line["p50_ms"], line["late"]) == (0, None, 0)
+    assert times.solver_table([]).rows == ()
