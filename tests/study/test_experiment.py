@@ -172,6 +172,25 @@ def test_infeasible_case_carries_its_proof(tmp_path: Path) -> None:
     assert "A1x" in record.proof
 
 
+def test_proof_found_once_is_that_of_every_ego_with_the_same_promises(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    cases = [
+        replace(case, parameters=tuple((n, 60.0 if n.startswith("end") else v) for n, v in case.parameters))
+        for case in make_bench_cases(
+            [16], ["idm", "noisy", "constant"], 1, ["scenewright", "open-loop"], 0, 1, tmp_path
+        )
+    ]
+    alone = []
+    for case in cases:
+        monkeypatch.setattr("scenewright.study.cases._REFUTED", {})
+        alone.append(told(run_bench_case(case)))
+    proofs: dict[object, object] = {}
+    monkeypatch.setattr("scenewright.study.cases._REFUTED", proofs)
+    assert [told(run_bench_case(case)) for case in cases] == alone
+    assert 1 <= len(proofs) < len(cases)
+
+
 def test_names_of_cases_are_names_of_files(tmp_path: Path) -> None:
     def key(ego: str) -> str:
         return BenchCase(4, ego, 2, "scenewright", 0, (), 1, tmp_path).key

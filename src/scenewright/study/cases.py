@@ -13,7 +13,7 @@ import shlex
 import shutil
 import time
 import zlib
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -136,10 +136,29 @@ def run_bench_case(case: BenchCase) -> CaseRecord:
 
     row = benchmark_row(case.row)
     try:
+        question = _question(case)
+        if question in _REFUTED:
+            return _infeasible(blank_record(case, row), _REFUTED[question])
         record, _, _ = carry_out_case(case, row)
     except ScenewrightError as error:
         return blank_record(case, row, message=error.message + (f" ({error.found})" if error.found else ""))
+    if record.cause == "proven infeasible":
+        _REFUTED[question] = record.proof
     return record
+
+
+# Proofs by the question they answer. Every method asks it first, of every ego with the same promises: a proof takes
+# longer than most runs, so a process finds each once.
+_REFUTED: dict[Hashable, str | None] = {}
+
+
+def _question(case: BenchCase) -> Hashable:
+    """Return all that decides whether a case is possible at all."""
+    from scenewright.drive.guarded import GuardedPolicy
+    from scenewright.drive.loading import load_policy
+
+    policy = load_policy(case.ego)
+    return case.row, case.parameters, GuardedPolicy(policy.policy, policy.name).envelope
 
 
 def carry_out_case(case: BenchCase, row: BenchmarkRow) -> tuple[CaseRecord, Request, Result]:
@@ -194,12 +213,16 @@ def record_of(case: BenchCase, row: BenchmarkRow, result: Result) -> CaseRecord:
         if run.fault is not None:
             return replace(record, message=run.fault.message)
     if result.status == "infeasible":
-        proof = _clashes(result.feasibility)
-        return replace(record, cause="proven infeasible", first_cause="proven infeasible", proof=proof)
+        return _infeasible(record, _clashes(result.feasibility))
     if not result.takes or result.verdict is None:
         tried = result.attempt.reason if result.attempt is not None else ""
         return replace(record, cause="gave up", first_cause="gave up", message=tried)
     return _with_takes(record, row, result)
+
+
+def _infeasible(record: CaseRecord, proof: str | None) -> CaseRecord:
+    cause = "proven infeasible"
+    return replace(record, status="infeasible", cause=cause, first_cause=cause, proof=proof)
 
 
 def _with_takes(record: CaseRecord, row: BenchmarkRow, result: Result) -> CaseRecord:
