@@ -31,7 +31,7 @@ Kind = Literal["initial", "route", "trigger", "interaction", "outcome"]
 NEAR_S = 3.0  # how far from the hero's beginning the instant of the trigger is looked for
 SETTLED_S = 0.5  # how long before its beginning the hero must not do the same already
 _STEP_S = 1e-3
-_NEARER = 1e-4  # of equally good instants the one nearest to the hero's beginning counts
+_NEARER = 0.05  # what a second away from the hero's beginning counts: of equally good instants the nearest is meant
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,13 +86,12 @@ def criteria_of(
     setting = setting_of(row, parameters_si, road_map)
     motions = {name: Motion(trace.actors[name]) for name in ("ego", "hero")}
     goal_s = motions["hero"].passes_s(setting.goal_m) if setting.goal_m is not None else float("inf")
-    rest = motions["hero"].last_rest(goal_s) if setting.brakes else None
-    trigger = _trigger(setting, motions, rest, goal_s)
+    trigger = _trigger(setting, motions, goal_s)
     return (
         *_routes(setting, trace),
         *(_initial(actor, side, motions[actor]) for actor, side in setting.initial.items()),
         *_trigger_criteria(setting, motions, trigger),
-        *_interaction(setting, motions["hero"], trigger, rest, goal_s),
+        *_interaction(setting, motions["hero"], trigger, goal_s),
         *_outcome(setting, motions["ego"], goal_s),
         _no_collision(trace, trigger),
     )
@@ -120,40 +119,50 @@ def _initial(actor: str, side: Side, motion: Motion) -> Criterion:
 # -- trigger -----------------------------------------------------------------------------------------------------------
 @dataclass(frozen=True, slots=True)
 class _Trigger:
-    """When the hero began, when both sides were met best, and what was measured then; infinite where it never began."""
+    """When the hero began (infinite: never) and the standstill that it led to, when both sides were met best, and how.
+
+    `missed` is the worst of both sides and of the hero's beginning, in tight tolerances.
+    """
 
     onset_s: float
+    rest: Stretch | None
     moment_s: float
     measured: Mapping[str, float]
-    score: float
+    missed: float
 
 
-def _trigger(setting: Setting, motions: Mapping[str, Motion], rest: Stretch | None, goal_s: float) -> _Trigger:
+def _trigger(setting: Setting, motions: Mapping[str, Motion], goal_s: float) -> _Trigger:
     """Choose among the hero's beginnings the one that the trigger explains best."""
-    sign, end_s = (-1, rest.start_s if rest else None) if setting.brakes else (1, goal_s)
-    onsets = motions["hero"].beginnings(sign, end_s) if end_s is not None else []
-    if not onsets:
-        whole = float(motions["ego"].time_s[-1])
-        unmet = _best_instant(setting, motions, 0.5 * whole, 0.5 * whole)
-        return _Trigger(float("inf"), unmet.moment_s, unmet.measured, unmet.score)
-    found = [_best_instant(setting, motions, onset, NEAR_S) for onset in onsets]
-    return min(found, key=lambda trigger: trigger.score + abs(trigger.onset_s - trigger.moment_s) / 0.1)
+    hero = motions["hero"]
+    found: list[_Trigger] = []
+    if setting.brakes:
+        for rest in hero.rests(goal_s):
+            found += [_best_instant(setting, motions, onset, rest) for onset in hero.beginnings(-1, rest.start_s)]
+    elif np.isfinite(goal_s):
+        found += [_best_instant(setting, motions, onset, None) for onset in hero.beginnings(1, goal_s)]
+    if not found:
+        return _best_instant(setting, motions, float("inf"), None)
+    return min(found, key=lambda trigger: trigger.missed)
 
 
-def _best_instant(setting: Setting, motions: Mapping[str, Motion], onset_s: float, near_s: float) -> _Trigger:
+def _best_instant(setting: Setting, motions: Mapping[str, Motion], onset_s: float, rest: Stretch | None) -> _Trigger:
+    """Return the instant near a beginning at which both sides are met best: of several, the one that explains it."""
     first, last = motions["ego"].time_s[[0, -1]]
-    times = np.arange(max(onset_s - near_s, first), min(onset_s + near_s, last) + 0.5 * _STEP_S, _STEP_S)
-    times = np.clip(np.append(times, np.clip(onset_s, first, last)), first, last)
+    low, high = (onset_s - NEAR_S, onset_s + NEAR_S) if np.isfinite(onset_s) else (first, last)
+    times = np.arange(max(low, first), min(high, last) + 0.5 * _STEP_S, _STEP_S)
     errors, values = [], {}
     for actor, required, timed, measured in _sides(setting, motions, times):
         values[actor] = measured
         # A tenth of a second counts as much as half a metre, so that neither side is given up for the other.
         errors.append(np.abs(measured - required) / (0.1 if timed else 0.5))
-    worst = np.max(errors, axis=0)
-    at = int(np.argmin(worst + _NEARER * np.abs(times - onset_s)))
-    return _Trigger(
-        onset_s, float(times[at]), {actor: float(value[at]) for actor, value in values.items()}, float(worst[at])
-    )
+    late = np.abs(times - onset_s) if np.isfinite(onset_s) else np.zeros_like(times)
+    worst = np.asarray(np.max(errors, axis=0) + _NEARER * late)
+    padded = np.concatenate(([np.inf], worst, [np.inf]))
+    lowest = np.flatnonzero((worst <= padded[:-2]) & (worst <= padded[2:]))
+    missed = np.maximum(worst[lowest], late[lowest] / 0.1)
+    at = int(lowest[np.argmin(missed)])
+    measured_there = {actor: float(value[at]) for actor, value in values.items()}
+    return _Trigger(onset_s, rest, float(times[at]), measured_there, float(missed.min()))
 
 
 def _sides(
@@ -188,10 +197,8 @@ def _trigger_criteria(setting: Setting, motions: Mapping[str, Motion], trigger: 
 
 
 # -- interaction and outcome -------------------------------------------------------------------------------------------
-def _interaction(
-    setting: Setting, hero: Motion, trigger: _Trigger, rest: Stretch | None, goal_s: float
-) -> list[Criterion]:
-    onset = trigger.onset_s
+def _interaction(setting: Setting, hero: Motion, trigger: _Trigger, goal_s: float) -> list[Criterion]:
+    onset, rest = trigger.onset_s, trigger.rest
     if not np.isfinite(onset):
         what = "hero brakes to a standstill" if setting.brakes else "hero speeds up and passes its goal"
         return [Criterion("hero_acts", "interaction", what, None, None, float("inf"), None)]
