@@ -383,8 +383,8 @@ class Replanner:
             return False
         if self._ego_side(hero) is not None:
             # Within the last half second the hero stays settled for as long as that is good enough.
-            allowed = _LATE_MISS if left_s <= _SETTLE_S else _EARLY_MISS
-            if self._ego_miss(hero, situation.ego, planned) <= allowed:
+            miss, tolerance = (_LATE_MISS, _LATE_MISS) if left_s <= _SETTLE_S else (_EARLY_MISS, 0.0)
+            if self.plan.tolerance <= tolerance and self._ego_miss(hero, situation.ego, planned) <= miss:
                 return True
         return self.plan.tolerance == 0.0 and off_s <= _DEAD_BAND_S + _DEAD_BAND_SHARE * left_s
 

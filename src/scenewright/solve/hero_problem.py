@@ -22,7 +22,14 @@ from scenewright.solve.limits import BRAKE_MAX_MPSS, MOVING_MPS, Limits, Manner
 from scenewright.solve.lowering import Lowering, NotYet
 from scenewright.solve.problem import Problem
 from scenewright.solve.situation import HeroState, Situation
-from scenewright.solve.stretches import Division, Stretch, rate_is_given
+from scenewright.solve.stretches import (
+    Division,
+    Stretch,
+    approach_rates,
+    following_piece,
+    rate_is_given,
+    trigger_speed_mps,
+)
 from scenewright.solve.turns import TurnSpan, keeps_to_turn_speed
 from scenewright.solve.views import KnownView, MotionView, SketchedView
 
@@ -30,7 +37,7 @@ from scenewright.solve.views import KnownView, MotionView, SketchedView
 _OUT_OF_SIGHT_S = 60.0
 _START_MARGIN_M = 3.0
 _LONGEST_CLEARANCE_S = 8.0
-_SETTLED_MPSS = Fraction(1, 4)
+_RESERVE = 0.8
 _SHORTEST_S = Fraction(1, 20)
 _SEEN_S = Fraction(3, 5)  # braking or speeding up for less is hardly seen to have begun
 _LONGEST_S = Fraction(90)
@@ -160,12 +167,7 @@ class HeroProblem:
 
     def _bound_approach(self, hero: Actor, stretch: Stretch, v1: Symbol, change: Value, duration: Value) -> None:
         """Bound a stretch on the way to the trigger."""
-        manner = self.manner
-        up, down = Fraction(str(manner.approach_accel_mpss)), Fraction(str(manner.approach_brake_mpss))
-        if stretch.settled:
-            # The gentlest shapes hold their speed at the end; the others only settle.
-            limit = Fraction(0) if manner.steps <= 2 else _SETTLED_MPSS
-            up, down = min(up, limit), min(down, limit)
+        up, down = approach_rates(self.manner, stretch, following_piece(hero, stretch.piece))
         self._require_rate(change, duration, -down, up, f"{hero.name}'s acceleration limits")
         if stretch.end_knot is not None:
             self._bound_trigger_speed(hero, stretch.piece, v1)
@@ -208,6 +210,9 @@ class HeroProblem:
     def _bound_speed(self, hero: Actor, speed: Symbol, after: bool = False) -> None:
         limits = self.limits[hero.id]
         top = self.manner.top_speed_after_mps(limits) if after else self.manner.top_speeds_mps(limits)[0]
+        if hero.id not in self.situation.heroes and self.manner.steps <= 3 and not after:
+            # Who starts as fast as it may drive can never catch up with an ego that is early.
+            top = min(top, _RESERVE * limits.approach_speed_max_mps)
         self.problem.bound(speed, 0, pin(top), f"{hero.name} drives at 0 to {top:.1f} m/s")
 
     def _bound_in_turn(self, hero: Actor, stretch: Stretch, x0: Value, v0: Value, x1: Symbol, v1: Symbol) -> None:
@@ -221,10 +226,7 @@ class HeroProblem:
         self.problem.require(condition, f"{hero.name} turns at up to {turn_top:.1f} m/s")
 
     def _bound_trigger_speed(self, hero: Actor, piece: int, speed: Symbol) -> None:
-        following = hero.sketch.pieces[piece + 1] if piece + 1 < len(hero.sketch.pieces) else PieceKind.GO
-        least = self.manner.trigger_speed_mps
-        if following is PieceKind.ACC and not self.manner.natural_speed and not self._is_timed(hero, piece + 1):
-            least = 0.0  # it may wait at its place and set off when the moment comes
+        least = trigger_speed_mps(self.manner, hero, piece, self._is_timed(hero, piece + 1))
         self.problem.bound(speed, pin(least), None, f"{hero.name} moves at {least:g} m/s or more at its trigger")
 
     # -- the program's constraints ----------------------------------------------------------------------------------

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import chain
 
 from scenewright.motion.polynomial import bernstein_coefficients
 from scenewright.motion.profile import Profile
@@ -22,59 +23,23 @@ from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
 from scenewright.solve.hero_problem import HeroProblem
-from scenewright.solve.limits import (
-    FIRM,
-    FIRM_QUICK,
-    GENTLE,
-    GENTLE_QUICK,
-    HASTE,
-    STEADY,
-    URGENT,
-    WHOLE,
-    WHOLE_QUICK,
-    Limits,
-    Manner,
-)
+from scenewright.solve.limits import Limits, Manner
 from scenewright.solve.lowering import TIGHT, compared_dimension
 from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.solve.problem import Backend, Satisfiable, Unknown
+from scenewright.solve.reach import Prospects
 from scenewright.solve.situation import Situation
+from scenewright.solve.trials import EXACT, Trial, first_trials, off, relaxed, trials
 
-
-@dataclass(frozen=True, slots=True)
-class Trial:
-    """One way to try: how to move, and how far off the trigger may be (in tight tolerances)."""
-
-    manner: Manner
-    tolerance: Fraction = Fraction(0)
-
-
-def _with_margin(manner: Manner, margin_s: float) -> Manner:
-    return replace(manner, outcome_margin_s=margin_s, clear=False)
-
-
-_EXACT = tuple(Trial(manner) for manner in (GENTLE, FIRM, WHOLE))
-# Where the prediction denies the outcome, the hero does the most it can for it: the ego may still give way.
-_QUICK = tuple(Trial(manner) for manner in (GENTLE_QUICK, FIRM_QUICK, WHOLE_QUICK))
-_FOR_OUTCOME = tuple(
-    Trial(_with_margin(HASTE, -late_s)) for late_s in (-0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0)
-)
-_WITHOUT_OUTCOME = tuple(Trial(replace(manner, outcome=False)) for manner in (FIRM_QUICK, WHOLE_QUICK, FIRM, WHOLE))
-_OFF = tuple(
-    Trial(replace(manner, outcome=False), Fraction(tolerance))
-    for manner, tolerance in (
-        (WHOLE, "0.4"),
-        (WHOLE, "0.8"),
-        (URGENT, "0"),
-        (URGENT, "0.8"),
-        (URGENT, "2"),
-        (URGENT, "4"),
-        (URGENT, "16"),
-    )
-)
 _TRIES_A_TICK = 4
 # Steps in which the best for a denied outcome is searched, and what is left to later re-solves (s).
 _HASTENINGS, _HASTE_SLACK_S = 4, 0.05
+# What arithmetic calls just out of reach may be rounding.
+_HOPE_SLACK = 0.02
+# By how much of what the ego may be off its side the trigger is moved: no more than it takes.
+_SHIFTS = (Fraction(0), Fraction(1, 2), Fraction(1))
+# The largest miss that is searched for, in tight tolerances, and how often the search is halved.
+_FARTHEST, _HALVINGS = 16.0, 7
 # How often a re-solve asks whether a gentler way has become possible.
 _EASE_EVERY = 3
 # How many of the instants to try are about the planned one.
@@ -130,23 +95,23 @@ class Planner:
         self.limits = limits
         self.backend = backend
         self.budget_s = budget_s
-        outcome = self._outcome = Role.OUTCOME in structure.roles.values()
-        self.trials = (*_QUICK, *_EXACT, *_FOR_OUTCOME, *_WITHOUT_OUTCOME, *_OFF) if outcome else (*_EXACT, *_OFF)
+        self._outcome = Role.OUTCOME in structure.roles.values()
+        self._prospects = Prospects(scene.program, structure, limits, conditions)
+        self.trials = trials(self._outcome)
+        self._held = self.trials[0].manner
         self._replans = 0
         self._position = 0
         self._searching = False
 
     def first_plan(self, situations: Sequence[Situation], budget_s: float = 10.0) -> Attempt:
         """Plan from the start, with the heroes' first states free; `situations` differ in the trigger's instant."""
-        steady = replace(STEADY, dec_mpss=(1.8, 3.0), stop_s=(0.5, 0.8)) if self._outcome else STEADY
-        brisk = replace(steady, dec_mpss=FIRM.dec_mpss, acc_mpss=FIRM.acc_mpss, natural_speed=False)
-        firsts = (Trial(steady), Trial(brisk))
-        trials = (*firsts, *self.trials)
-        ways = [(trial, situation) for trial in trials for situation in situations]
-        attempt, number = self._search(ways, budget_s)
-        if attempt.plan is None or ways[number][0].manner.outcome_margin_s > 0:
+        firsts = first_trials(self._outcome)
+        everything = (*firsts, *self.trials, *off())
+        ways = [(trial, situation) for trial in everything for situation in situations]
+        attempt, found = self._search(ways, budget_s, 2 * len(ways))
+        if attempt.plan is None or found is None or found[1].manner.outcome_margin_s > 0:
             return attempt
-        return self._hastened(attempt, number // len(situations) - len(firsts), ways[number][1])
+        return self._hastened(attempt, found[0] // len(situations) - len(firsts), found[2])
 
     def _hastened(self, attempt: Attempt, index: int, situation: Situation) -> Attempt:
         """Return the best that can be done for an outcome that the prediction denies, between two steps of the search.
@@ -171,39 +136,90 @@ class Planner:
     def replan(self, situations: Sequence[Situation]) -> Attempt:
         """Plan the rest; begins with what the last re-solve needed, now and then one gentler, and makes a few tries."""
         self._replans += 1
-        ways = self._ways(situations)
-        first = min(self._position, len(ways) - 1)
+        exact, others = self._ways(situations)
+        first = self._position
+        if not self._searching and len(situations) == 1:
+            first = min(first, len(exact))  # how far off the trigger must be is asked anew at every tick
         if self._replans % _EASE_EVERY == 0 and not self._searching:
-            first = max(0, first - 1) if len(situations) == 1 else 0
-        attempt, tried = self._search(ways[first : first + _TRIES_A_TICK], self.budget_s)
+            gentler = (number for number in range(min(first, len(exact)) - 1, -1, -1) if self._timed(*exact[number]))
+            first = next(gentler, first) if len(situations) == 1 else 0
+        attempt, tried = self._search(chain(exact[first:], others(max(0, first - len(exact)))), self.budget_s)
         # What was not reached in this tick is where the next one goes on; after the last hope it starts over midway.
         self._searching = attempt.plan is None
-        self._position = first + tried if first + tried < len(ways) else len(ways) // 2
+        self._position = len(exact) // 2 if tried is None else first + tried[0]
+        if attempt.plan is not None and tried is not None:
+            self._held = tried[1].manner
         return attempt
 
-    def _ways(self, situations: Sequence[Situation]) -> list[tuple[Trial, Situation]]:
-        """Return what to try, in order: every manner about the planned instant before any at a far one."""
-        near, far = situations[:_NEAR], situations[_NEAR:]
-        exact, others = self.trials[: len(_EXACT)], self.trials[len(_EXACT) :]
-        groups = ((exact, near), (exact, far), (others, near))
-        return [(trial, situation) for trials, some in groups for trial in trials for situation in some]
+    def _ways(
+        self, situations: Sequence[Situation]
+    ) -> tuple[list[tuple[Trial, Situation]], Callable[[int], Iterator[tuple[Trial, Situation]]]]:
+        """Return what to try, in order: what is exact, and, from some number on, what is not.
 
-    def _search(self, ways: Sequence[tuple[Trial, Situation]], budget_s: float) -> tuple[Attempt, int]:
-        """Return the first way that leads to a plan, and its number."""
+        Every manner about the planned instant comes before any at a far one.
+        """
+        near, far = situations[:_NEAR], situations[_NEAR:]
+        gentle, others = self.trials[: len(EXACT)], self.trials[len(EXACT) :]
+        groups = ((gentle, near), (gentle, far), (others, near))
+        exact = [(trial, situation) for trials, some in groups for trial in trials for situation in some]
+
+        def last(first: int) -> Iterator[tuple[Trial, Situation]]:
+            trials = off()
+            if len(situations) == 1:
+                trials = relaxed(self._held, lambda manner: self._least_tolerance(manner, situations[0]))
+            yield from [(trial, situation) for trial in trials for situation in near][first:]
+
+        return exact, last
+
+    def _least_tolerance(self, manner: Manner, situation: Situation) -> float:
+        """Return the smallest tolerance with which there is hope, by arithmetic: a lower bound of what is needed."""
+        low, high = 0.0, _FARTHEST
+        if self._timed(Trial(manner), situation) is not None:
+            return low
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high) if low else 0.15 * high
+            if self._timed(Trial(manner, Fraction(middle)), situation) is None:
+                low = middle
+            else:
+                high = middle
+        return high
+
+    def _timed(self, trial: Trial, situation: Situation) -> Situation | None:
+        """Return `situation` with the trigger moved no further than is needed; None where arithmetic sees no hope."""
+        allowed = float(trial.tolerance) + _HOPE_SLACK
+        for share in _SHIFTS if trial.tolerance else (0,):
+            timed = _retimed(situation, trial.tolerance * share)
+            if self._prospects.least_miss(timed, trial.manner) <= allowed:
+                return timed
+        return None
+
+    def _search(
+        self, ways: Iterable[tuple[Trial, Situation]], budget_s: float, most_tries: int = _TRIES_A_TICK
+    ) -> tuple[Attempt, tuple[int, Trial, Situation] | None]:
+        """Return the first way that leads to a plan, and where the search ended; None for that after the last."""
         started = time.perf_counter()
         reason = "no motion within the limits meets the trigger"
+        tries = 0
         for number, (trial, situation) in enumerate(ways):
-            left_s = budget_s - (time.perf_counter() - started)
-            if left_s <= 0:
-                return Attempt(None, "timeout", "time budget", time.perf_counter() - started, number), number
-            found = self._solve(_retimed(situation, trial.tolerance), trial.manner, trial.tolerance, left_s)
-            if isinstance(found, Plan):
-                status = "sat" if trial.tolerance == 0 else "relaxed"
-                promises = trial.manner.outcome and trial.manner.outcome_margin_s > 0
+            timed = self._timed(trial, situation)
+            if timed is None:
+                continue
+            gentled = self._prospects.gentled(timed, trial.manner, float(trial.tolerance))
+            for manner in (trial.manner,) if gentled == trial.manner else (gentled, trial.manner):
                 wall_s = time.perf_counter() - started
-                return Attempt(found, status, "", wall_s, number + 1, promises), number
-            reason = found
-        return Attempt(None, "unsat", reason, time.perf_counter() - started, len(ways)), len(ways)
+                if wall_s >= budget_s:
+                    return Attempt(None, "timeout", "time budget", wall_s, tries), (number, trial, situation)
+                if tries == most_tries:
+                    return Attempt(None, "unsat", reason, wall_s, tries), (number, trial, situation)
+                tries += 1
+                found = self._solve(timed, manner, trial.tolerance, budget_s - wall_s)
+                if isinstance(found, Plan):
+                    status = "sat" if trial.tolerance == 0 else "relaxed"
+                    promises = trial.manner.outcome and trial.manner.outcome_margin_s > 0
+                    wall_s = time.perf_counter() - started
+                    return Attempt(found, status, "", wall_s, tries, promises), (number, trial, situation)
+                reason = found
+        return Attempt(None, "unsat", reason, time.perf_counter() - started, tries), None
 
     def _broken_limit(self, profiles: Mapping[int, Profile], after_s: float) -> str | None:
         for hero in self.scene.program.heroes:

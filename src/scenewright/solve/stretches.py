@@ -14,11 +14,12 @@ from scenewright.program.expressions import Compare, Formula, PieceRef, State, w
 from scenewright.program.structure import Structure
 from scenewright.program.types import Actor, PieceKind, Program
 from scenewright.solve.arrival import LinearCondition
-from scenewright.solve.limits import Limits, Manner
+from scenewright.solve.limits import BEGINNING_MPSS, Limits, Manner
 from scenewright.solve.situation import Situation
 
 _WALKING_MPS = 2.0
-_SETTLE_S = Fraction(1, 2)
+# A little longer than the half second that is asked for: the trigger may come a little sooner than planned.
+_SETTLE_S = Fraction(3, 5)
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +67,7 @@ class Division:
             approach = piece < trigger_index and sketch.pieces[piece] is PieceKind.GO
             planned = self.situation.trigger_s.get(hero.id)
             if approach and piece + 1 == trigger_index and piece == first and planned is not None:
-                found += self._approach(piece, pin(planned) - pin(self.situation.time_s), knot)
+                found += timed_approach(self.manner, piece, pin(planned) - pin(self.situation.time_s), knot)
             elif approach:
                 found += [Stretch(piece, None, None, True), Stretch(piece, None, knot, True, True)]
             elif sketch.pieces[piece] is PieceKind.ACC and self._cruises(hero, piece):
@@ -74,20 +75,6 @@ class Division:
             else:
                 found.append(Stretch(piece, None, knot))
         return found
-
-    def _approach(self, piece: int, rest_s: Fraction, knot: str) -> list[Stretch]:
-        """Divide the time that is left before the trigger into steps, the last one settled where that is asked for."""
-        steps, settle = self.manner.steps, self.manner.settle
-        if rest_s <= 0:
-            return []
-        if steps == 1 or rest_s < Fraction(1, 5):
-            return [Stretch(piece, rest_s, knot, True, settle and steps == 1)]
-        if not settle:
-            return _even(piece, rest_s, steps, knot)
-        if rest_s <= _SETTLE_S * Fraction(11, 10):
-            return [Stretch(piece, rest_s, knot, True, True)]
-        hold_s = max(_SETTLE_S, rest_s * Fraction(2, 5)) if steps == 2 else _SETTLE_S
-        return [*_even(piece, rest_s - hold_s, steps - 1, None), Stretch(piece, hold_s, knot, True, True)]
 
     def _cruises(self, hero: Actor, piece: int) -> bool:
         """Whether an accelerating piece is long enough to get to the top speed and drive on at it.
@@ -114,6 +101,56 @@ class Division:
                 per_metre, per_speed = condition.weights[hero.id]
                 return -(condition.constant + per_speed * _WALKING_MPS) / per_metre
         return None
+
+
+def timed_approach(manner: Manner, piece: int, rest_s: Fraction, knot: str) -> list[Stretch]:
+    """Divide the time that is left before the trigger into steps, the last one settled where that is asked for."""
+    steps, settle = manner.steps, manner.settle
+    if rest_s <= 0:
+        return []
+    if steps == 1 or rest_s < Fraction(1, 5):
+        return [Stretch(piece, rest_s, knot, True, settle)]
+    if not settle:
+        return _even(piece, rest_s, steps, knot)
+    if rest_s <= _SETTLE_S * Fraction(11, 10):
+        return [Stretch(piece, rest_s, knot, True, True)]
+    hold_s = max(_SETTLE_S, rest_s * Fraction(2, 5)) if steps == 2 else _SETTLE_S
+    return [*_even(piece, rest_s - hold_s, steps - 1, None), Stretch(piece, hold_s, knot, True, True)]
+
+
+def following_piece(hero: Actor, piece: int) -> PieceKind:
+    """Return what the hero does after a piece of its sketch; it drives on after the last."""
+    pieces = hero.sketch.pieces
+    return pieces[piece + 1] if piece + 1 < len(pieces) else PieceKind.GO
+
+
+def approach_rates(manner: Manner, stretch: Stretch, following: PieceKind) -> tuple[Fraction, Fraction]:
+    """Return how hard (m/s^2) the hero may speed up and brake in a stretch on the way to its trigger.
+
+    Before its trigger it settles. The gentlest shapes hold their speed; the others do not begin early what `following`
+    is to begin, and do the opposite no harder than the manner says: who is about to brake may still speed up.
+    """
+    up, down = Fraction(str(manner.approach_accel_mpss)), Fraction(str(manner.approach_brake_mpss))
+    if not stretch.settled:
+        return up, down
+    if manner.steps <= 2:
+        return Fraction(0), Fraction(0)
+    early, counter = Fraction(str(BEGINNING_MPSS)), Fraction(str(manner.counter_mpss))
+    if following is PieceKind.DEC:
+        return min(up, counter), min(down, early)
+    if following is PieceKind.ACC:
+        return min(up, early), min(down, counter)
+    return min(up, early), min(down, early)
+
+
+def trigger_speed_mps(manner: Manner, hero: Actor, piece: int, timed: bool) -> float:
+    """Return the smallest speed (m/s) at the trigger that ends `piece`.
+
+    One that is to speed up may wait at its place and set off when the moment comes, unless the program times it there
+    (`timed`), as a time to arrival does: then it cannot stand.
+    """
+    waits = following_piece(hero, piece) is PieceKind.ACC and not manner.natural_speed and not timed
+    return 0.0 if waits else manner.trigger_speed_mps
 
 
 def _even(piece: int, rest_s: Fraction, steps: int, knot: str | None) -> list[Stretch]:

@@ -1,0 +1,197 @@
+"""How near to its side of the trigger a hero can come, by arithmetic alone: what a solver need not be asked.
+
+What enters: a hero's state, the stretches before its trigger, what it may do in them. What leaves: the least miss of
+its side, in tight tolerances, never more than any solution has. It knows nothing of what comes after the trigger.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from scenewright.motion.algebra import pin
+from scenewright.program.structure import Structure
+from scenewright.program.types import Actor, PieceKind, Program
+from scenewright.solve.arrival import TIGHT_LENGTH_M, TIGHT_TIME_S, LinearCondition
+from scenewright.solve.limits import SETTLED_MPSS, Limits, Manner
+from scenewright.solve.situation import Situation
+from scenewright.solve.stretches import (
+    approach_rates,
+    following_piece,
+    rate_is_given,
+    timed_approach,
+    trigger_speed_mps,
+)
+
+_SLOWEST_MPS = 0.05
+# How finely the authority needed is found, and how much more is given: the solver needs some room.
+_HALVINGS, _AMPLE, _AT_LEAST = 6, 1.15, 0.04
+
+
+@dataclass(frozen=True, slots=True)
+class Approach:
+    """The way to a trigger, as the solver is given it.
+
+    Attributes
+    ----------
+    stretches
+        ``(duration_s, up_mpss, down_mpss)``, in order: how long, and how hard the hero may speed up and brake.
+    top_mps, least_mps
+        Its top speed, and the smallest speed that it may have at the trigger.
+    """
+
+    stretches: tuple[tuple[float, float, float], ...]
+    top_mps: float
+    least_mps: float
+
+    def fastest(self, s_m: float, speed_mps: float) -> tuple[float, float]:
+        """Return place (m) and speed (m/s) at the trigger of a hero that hurries all the way."""
+        for duration_s, up, down in self.stretches:
+            following = max(min(self.top_mps, speed_mps + up * duration_s), speed_mps - down * duration_s)
+            s_m += 0.5 * (speed_mps + following) * duration_s
+            speed_mps = following
+        return s_m, speed_mps
+
+    def slowest(self, s_m: float, speed_mps: float) -> tuple[float, float]:
+        """Return place (m) and speed (m/s) at the trigger of a hero that holds back for as long as it can."""
+        gain = sum(up * duration_s for duration_s, up, _ in self.stretches)
+        for duration_s, up, down in self.stretches:
+            gain -= up * duration_s
+            following = max(speed_mps - down * duration_s, 0.0, self.least_mps - gain)
+            following = min(following, speed_mps + up * duration_s)
+            s_m += 0.5 * (speed_mps + following) * duration_s
+            speed_mps = following
+        return s_m, speed_mps
+
+    def within(self, up_mpss: float, down_mpss: float) -> Approach:
+        """Return the same way, driven no harder than this."""
+        gentler = tuple((duration_s, min(up, up_mpss), min(down, down_mpss)) for duration_s, up, down in self.stretches)
+        return Approach(gentler, self.top_mps, self.least_mps)
+
+
+def least_miss(side: LinearCondition, hero: int, approach: Approach, s_m: float, speed_mps: float) -> float:
+    """Return how far off its side the hero must be at the least, in tight tolerances; 0 where it can meet it."""
+    per_metre, per_speed = side.weights[hero]
+    if per_metre * per_speed < 0.0:
+        return 0.0  # a place further on and a higher speed do not go together here: the solver knows
+    ends = (approach.slowest(s_m, speed_mps), approach.fastest(s_m, speed_mps))
+    misses = [(side.constant + per_metre * place + per_speed * speed, speed) for place, speed in ends]
+    if misses[0][0] * misses[1][0] <= 0.0:
+        return 0.0
+    return min(
+        abs(miss) / (TIGHT_TIME_S * max(speed, _SLOWEST_MPS) if per_speed else TIGHT_LENGTH_M * abs(per_metre))
+        for miss, speed in misses
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Task:
+    """What a hero has to do at its trigger: its side of it, and how far behind it a stop has to end (m), if any."""
+
+    side: LinearCondition
+    piece: int
+    knot: str
+    following: PieceKind
+    stop_after_m: float | None
+
+
+class Prospects:
+    """Tells of a way to try whether there is any hope in it, for the heroes of one scene.
+
+    Parameters
+    ----------
+    program, structure, limits, conditions
+        As for a `Planner`.
+    """
+
+    def __init__(
+        self,
+        program: Program,
+        structure: Structure,
+        limits: Mapping[int, Limits],
+        conditions: tuple[LinearCondition, ...],
+    ) -> None:
+        self._heroes = {hero.id: hero for hero in program.heroes}
+        self._limits = limits
+        self._tasks: dict[int, _Task] = {}
+        for hero in program.heroes:
+            task = _task_of(program, hero, structure, conditions)
+            if task is not None:
+                self._tasks[hero.id] = task
+
+    def least_miss(self, situation: Situation, manner: Manner) -> float:
+        """Return how far off its side some hero must be at the least, in tight tolerances, when it moves so."""
+        return max((least_miss(*way) for way in self._ways(situation, manner)), default=0.0)
+
+    def gentled(self, situation: Situation, manner: Manner, tolerance: float) -> Manner:
+        """Return `manner` with no more authority on the way to the trigger than it takes to come as near as that.
+
+        What is left is a reserve for when the ego drives otherwise than foreseen.
+        """
+        settled = replace(manner, counter_mpss=min(manner.counter_mpss, SETTLED_MPSS))
+        if settled != manner and self.least_miss(situation, settled) <= tolerance:
+            manner = settled
+        ways = self._ways(situation, manner)
+        up, down = manner.approach_accel_mpss, manner.approach_brake_mpss
+        low, high = 0.0, 1.0
+        for _ in range(_HALVINGS):
+            share = 0.5 * (low + high)
+            enough = all(
+                least_miss(side, hero, approach.within(share * up, share * down), s_m, speed) <= tolerance
+                for side, hero, approach, s_m, speed in ways
+            )
+            low, high = (low, share) if enough else (share, high)
+        share = min(1.0, _AMPLE * high + _AT_LEAST)
+        if not ways or share >= 1.0:
+            return manner
+        return replace(manner, approach_accel_mpss=share * up, approach_brake_mpss=share * down)
+
+    def _ways(self, situation: Situation, manner: Manner) -> list[tuple[LinearCondition, int, Approach, float, float]]:
+        """Return, for every hero with a side of its own and a timed way to it, what `least_miss` takes."""
+        found = []
+        for hero_id, state in situation.heroes.items():
+            task = self._tasks.get(hero_id)
+            if task is not None and hero_id in situation.trigger_s and state.piece == task.piece:
+                approach = self._approach(hero_id, task, situation, manner)
+                if approach is not None:
+                    found.append((task.side, hero_id, approach, state.s_m, state.speed_mps))
+        return found
+
+    def _approach(self, hero_id: int, task: _Task, situation: Situation, manner: Manner) -> Approach | None:
+        """Return the way to the trigger; None where no time is left."""
+        rest_s = pin(situation.trigger_s[hero_id]) - pin(situation.time_s)
+        stretches = []
+        for stretch in timed_approach(manner, task.piece, rest_s, task.knot):
+            up, down = approach_rates(manner, stretch, task.following)
+            stretches.append((float(stretch.duration_s or 0), float(up), float(down)))
+        if not stretches:
+            return None
+        timed = bool(task.side.weights[hero_id][1])
+        least = trigger_speed_mps(manner, self._heroes[hero_id], task.piece, timed)
+        if task.stop_after_m is not None:
+            least = max(least, math.sqrt(2.0 * manner.dec_mpss[0] * task.stop_after_m))
+        return Approach(tuple(stretches), manner.top_speeds_mps(self._limits[hero_id])[0], least)
+
+
+def _task_of(
+    program: Program, hero: Actor, structure: Structure, conditions: tuple[LinearCondition, ...]
+) -> _Task | None:
+    """Return the task of a hero that drives straight on to a side of its own; None for any other."""
+    knots = hero.sketch.knots
+    knot = structure.trigger_knot(hero.id)
+    alone = [c for c in conditions if set(c.weights) == {hero.id}]
+    side = next((c for c in alone if c.moments <= structure.triggers.get(hero.id, frozenset())), None)
+    if side is None or knot is None or knots.index(knot) == 0:
+        return None
+    piece = knots.index(knot) - 1
+    if hero.sketch.pieces[piece] is not PieceKind.GO:
+        return None
+    following = following_piece(hero, piece)
+    stop_after_m = None
+    if following is PieceKind.DEC and not rate_is_given(program, hero, piece + 1) and not side.weights[hero.id][1]:
+        stop = next((c for c in alone if c.moments == {(hero.id, knots[piece + 2])} and c.weights[hero.id][0]), None)
+        if stop is not None and not stop.weights[hero.id][1]:
+            places = [-c.constant / c.weights[hero.id][0] for c in (side, stop)]
+            stop_after_m = max(0.0, places[1] - places[0])
+    return _Task(side, piece, knot, following, stop_after_m)

@@ -1,0 +1,93 @@
+"""What a planner tries, in order: from natural motion that meets the trigger exactly to anything that comes near it.
+
+What enters: nothing. What leaves: `Trial`s. It tries none of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from scenewright.solve.limits import (
+    COUNTER,
+    COUNTER_QUICK,
+    FIRM,
+    FIRM_QUICK,
+    GENTLE,
+    GENTLE_QUICK,
+    HASTE,
+    STEADY,
+    URGENT,
+    WHOLE,
+    WHOLE_QUICK,
+    Manner,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """One way to try: how to move, and how far off the trigger may be (in tight tolerances)."""
+
+    manner: Manner
+    tolerance: Fraction = Fraction(0)
+
+
+EXACT = tuple(Trial(manner) for manner in (GENTLE, FIRM, WHOLE, COUNTER))
+# Where the prediction denies the outcome, the hero does the most it can for it: the ego may still give way.
+_QUICK = tuple(Trial(manner) for manner in (GENTLE_QUICK, FIRM_QUICK, WHOLE_QUICK, COUNTER_QUICK))
+_FOR_OUTCOME = tuple(
+    Trial(replace(HASTE, outcome_margin_s=-late_s, clear=False))
+    for late_s in (-0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0)
+)
+_WITHOUT_OUTCOME = tuple(Trial(replace(manner, outcome=False)) for manner in (FIRM_QUICK, COUNTER_QUICK, FIRM, COUNTER))
+# How far beyond the least miss that arithmetic gives the solver is asked: as ``factor * miss + rest``.
+_BEYOND = ((1.05, 0.03), (1.3, 0.15), (2.0, 0.6))
+_FREE = replace(COUNTER, outcome=False)
+_UNSETTLED = replace(URGENT, outcome=False)
+_WORST = 16.0
+_OFF = (
+    *(Trial(_FREE, Fraction(tolerance)) for tolerance in ("0.9", "2", "4")),
+    *(Trial(_UNSETTLED, Fraction(tolerance)) for tolerance in ("0", "0.9", "2", "4", "16")),
+)
+
+
+def trials(outcome: bool) -> tuple[Trial, ...]:
+    """Return what to try at the start and for what meets the trigger exactly; with an outcome that first."""
+    return (*_QUICK, *EXACT, *_FOR_OUTCOME, *_WITHOUT_OUTCOME) if outcome else EXACT
+
+
+def relaxed(held: Manner, least: Callable[[Manner], float]) -> tuple[Trial, ...]:
+    """Return what to try where nothing meets the trigger exactly, the nearest first.
+
+    A hero that is settled but a little off is worth more than one that is exact and begins early.
+
+    Parameters
+    ----------
+    held
+        The manner of the plan that is held: what follows the trigger stays as it is there, where that is possible.
+    least
+        Returns the least miss (tight tolerances) that a manner can have.
+    """
+    quick = replace(COUNTER_QUICK, outcome=held.outcome, outcome_margin_s=held.outcome_margin_s, clear=held.clear)
+    ways = (quick, _FREE) if held.outcome else (_FREE,)
+    miss = least(_FREE)
+    nearest = [_trial(way, factor * miss + rest) for factor, rest in _BEYOND for way in ways]
+    unsettled = [_trial(_UNSETTLED, factor * least(_UNSETTLED) + rest) for factor, rest in _BEYOND[:2]]
+    return (*nearest, *unsettled, _trial(_UNSETTLED, _WORST))
+
+
+def off() -> tuple[Trial, ...]:
+    """Return what to try where nothing meets the trigger exactly and nobody can tell how near it gets."""
+    return _OFF
+
+
+def _trial(manner: Manner, tolerance: float) -> Trial:
+    return Trial(manner, Fraction(round(min(tolerance, _WORST), 2)).limit_denominator(100))
+
+
+def first_trials(outcome: bool) -> tuple[Trial, ...]:
+    """Return what only a first plan may try: one steady speed all the way to the trigger."""
+    steady = replace(STEADY, dec_mpss=(1.8, 3.0), stop_s=(0.5, 0.8)) if outcome else STEADY
+    brisk = replace(steady, dec_mpss=FIRM.dec_mpss, acc_mpss=FIRM.acc_mpss, natural_speed=False)
+    return Trial(steady), Trial(brisk)
