@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,17 @@ from scenewright.study.report.contents import Extras, sections_of
 from scenewright.study.report.report import compose
 
 HOSTILE = '</script><img src=x onerror="alert(1)"> & "quoted" 车'
+
+
+# The figures themselves have tests of their own.
+PNG = b"\x89PNG of no interest here"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _no_drawing() -> Iterator[None]:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(whole, "render_png", lambda *_: PNG)
+        yield
 
 
 @pytest.fixture(scope="module")

@@ -10,6 +10,7 @@ import pytest
 from report_store import made_up
 from test_report_figures import material
 
+from scenewright.study.report import style
 from scenewright.study.report.report import compose
 
 playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
@@ -30,7 +31,9 @@ def browser(chromium: str) -> Iterator[Any]:
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return compose(material(made_up(rows=range(1, 81, 4), draws=2)), tmp_path_factory.mktemp("report"))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(style, "DPI", 72)
+        return compose(material(made_up(rows=range(1, 81, 7), draws=2)), tmp_path_factory.mktemp("report"))
 
 
 class Opened:
