@@ -137,14 +137,15 @@ def impossibility(program: Program, map_name: str | None, ego: str = "idm") -> s
 
 
 def differences_in_meaning(offline: Program, other: Program) -> list[str]:
-    """Return how the program of a model differs in meaning from that of the offline translator."""
+    """Return how the program of a model differs in meaning from that of the offline translator, in sentences."""
     from scenewright.study.meaning import differences
 
-    words = {"lost: ": "it has ", "added: ": "it has not "}
+    words = {"lost: ": "only the offline translator understood ", "added: ": "only the model understood "}
     found = []
     for each in differences(offline, other):
         start = next((start for start in words if each.startswith(start)), "")
-        found.append(words.get(start, "") + each.removeprefix(start))
+        told = words.get(start, "the model differs from the offline translator: ")
+        found.append(told + each.removeprefix(start))
     return found
 
 

@@ -151,8 +151,7 @@ class _Conversation:
         except ScenewrightError:
             return ()
         same_map = str(self.road_map.source)
-        found = self.settings.compare(replace(offline, map_name=same_map), replace(program, map_name=same_map))
-        return tuple(f"the offline translator understood it otherwise: {each}" for each in found)
+        return tuple(self.settings.compare(replace(offline, map_name=same_map), replace(program, map_name=same_map)))
 
     def _impossible(self, program: Program) -> str | None:
         """Return why the scenario cannot happen. That is told to the user, not to the model, which might bend it."""

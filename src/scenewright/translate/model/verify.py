@@ -23,6 +23,9 @@ from scenewright.translate.offline import Reading
 
 MOST_LINES = 300
 DEEPEST = 30
+MOST_OPERATORS = 40
+_OPERATOR = re.compile(r"[-+*/]|\b(?:and|or|not|implies)\b")
+_QUOTED = re.compile(r'"(?:\\.|[^"\\])*"', re.DOTALL)
 _MONSTER = re.compile(r"\d{16}|\d[eE][-+]?\d{3}")
 _SENTENCE_END = re.compile(r"(?<=[.!?;])\s+|\n+")
 _SHOWN_FAULTS = 8
@@ -70,20 +73,22 @@ def _parsed(text: str) -> Program:
         depth += (character in "([") - (character in ")]")
         deepest = max(deepest, depth)
     monster = _MONSTER.search(text)
+    longest = max((len(_OPERATOR.findall(line)) for line in _QUOTED.sub("", text).splitlines()), default=0)
     fault = (
         f"{len(text)} characters" if len(text) > LONGEST_PROGRAM
         else f"{text.count(chr(10))} lines" if text.count("\n") > MOST_LINES
         else f"parentheses {deepest} deep" if deepest > DEEPEST
+        else f"a line with {longest} operators" if longest > MOST_OPERATORS
         else f"the number {monster[0]}..." if monster
         else None
     )  # fmt: skip
     if fault:
-        expected = f"at most {LONGEST_PROGRAM} characters, {MOST_LINES} lines, parentheses {DEEPEST} deep, sane numbers"
+        expected = (
+            f"at most {LONGEST_PROGRAM} characters, {MOST_LINES} lines, {MOST_OPERATORS} operators a line, parentheses "
+            f"{DEEPEST} deep, sane numbers"
+        )
         raise ProgramError("the program is beyond all bounds", found=fault, expected=expected)
-    try:
-        return parse_program(text)
-    except RecursionError:  # operators nest without parentheses too
-        raise ProgramError("the program is nested too deeply", expected="one simple constraint a line") from None
+    return parse_program(text)
 
 
 # -- readings -------------------------------------------------------------------------------------------------------
