@@ -41,11 +41,49 @@ def test_there_are_many_refusals() -> None:
     assert len(CASES) >= 30
 
 
-def test_a_misspelt_word_is_suggested() -> None:
-    text = FILLED["DL"] + FILLED["W"] + "the hero brekes to a stop 5 m before the conflict point."
+def test_a_word_that_could_be_two_is_suggested() -> None:
+    text = FILLED["DL"] + FILLED["W"] + "the hero stups to a stop 5 m before the conflict point."
     with pytest.raises(TranslationError) as caught:
         translate_offline(text)
-    assert "brakes" in str(caught.value.fix)
+    assert "stop" in str(caught.value.fix)
     assert caught.value.place is not None
     assert caught.value.place.span is not None
-    assert caught.value.place.span.excerpt(text) == "brekes"
+    assert caught.value.place.span.excerpt(text) == "stups"
+
+
+@pytest.mark.parametrize(
+    ("slip", "word"),
+    [("braeks", "brakes"), ("brekes", "brakes"), ("intersecton", "intersection"), ("decelarates", "decelerates"),
+     ("rigth", "right"), ("conflcit", "conflict")],
+)  # fmt: skip
+def test_a_slip_of_the_pen_is_corrected_and_said(slip: str, word: str) -> None:
+    text = (
+        "The ego is on the driveway at the intersection and wants to turn right. The hero travels west. When the ego "
+        "is 12 m from the stop line, the hero brakes to a stop 5 m before the conflict point. Then it decelerates."
+    ).replace(" Then it decelerates", "" if word != "decelerates" else " It decelerates at 3 m/s^2")
+    program = translate_offline(text).program
+    translation = translate_offline(text.replace(word, slip))
+    assert f"'{slip}' is read as '{word}'" in translation.assumptions
+    formulas = [constraint.formula for constraint in program.constraints]
+    assert [constraint.formula for constraint in translation.program.constraints] == formulas
+
+
+def test_a_short_word_is_not_guessed() -> None:
+    text = FILLED["DL"] + FILLED["W"] + "the hero sings."
+    with pytest.raises(TranslationError, match="sings"):
+        translate_offline(text)
+
+
+def test_every_clause_says_how_sure_it_is() -> None:
+    text = (
+        "The ego is on the driveway and wants to turn right. A rusty car drives west. When the ego is 12 m from the "
+        "stop line, the car braeks to a stop just before the conflict point."
+    )
+    readings = {reading.text: reading.confidence for reading in translate_offline(text).readings}
+    assert readings == {
+        "The ego is on the driveway": 0.9,
+        "wants to turn right": 0.9,
+        "A rusty car drives west": 0.5,
+        "the ego is 12 m from the stop line": 1.0,
+        "the car braeks to a stop just before the conflict point": 0.6,
+    }

@@ -31,6 +31,9 @@ class ActionReader(DescriptionReader):
         elif event.verb in ("turn", "pull_out"):
             phase = self._turning(event)
         elif event.verb == "wait":
+            if not self.facts.phases:  # "when ..., the car waits just before the stop line": it comes to a stop there
+                self.facts.phases.append(Phase("dec", []))
+                self.facts.assumptions.append(f"'{event.span.excerpt(self.text)}': the hero stops there")
             phase = self._waiting(event)
         else:
             phase = self.facts.phases[-1]
@@ -51,6 +54,12 @@ class ActionReader(DescriptionReader):
         if phase.kind == "acc" or phase.kind == "go":
             self._apply_release(phase)
         self._beats(event, phase)
+        if event.in_front and self.facts.order is None and phase.kind in ("acc", "go", "turn"):
+            assumed = f"'{event.span.excerpt(self.text)}': the hero passes the conflict point before the ego does"
+            self.facts.assumptions.append(assumed)
+            if phase.goal is None:
+                phase.goal, phase.goal_event, phase.goal_assumed = "conflict_point", event, assumed
+            self.facts.order, self.order_assumed = Order(True, "conflict_point", event), True
 
     def _slowing(self, event: Event) -> Phase:
         if self.facts.phases and self.facts.phases[-1].kind != "dec" and self.facts.phases[-1].kind != "turn":
@@ -133,10 +142,18 @@ class ActionReader(DescriptionReader):
             goal = EDGE.get((event.verb, event.landmark), event.landmark)
             if event.places:
                 raise self._refuse("two places are given", event.places[0].span)
+        if phase.goal_assumed is not None and phase.goal != goal:
+            self._set_order_goal(phase, goal)
         if phase.goal is not None and phase.goal != goal:
             raise self._refuse("two different places to pass are given", event.span)
         phase.goal, phase.goal_event = goal, event
         return phase
+
+    def _set_order_goal(self, phase: Phase, goal: str) -> None:
+        """Forget where the hero comes first by default: it is said now ("goes first and completes its turn")."""
+        self.facts.assumptions = [each for each in self.facts.assumptions if each != phase.goal_assumed]
+        phase.goal, phase.goal_event, phase.goal_assumed = goal, None, None
+        self.order_assumed = self.facts.order is not None
 
     def _until_it_turns(self, event: Event) -> None:
         """Let a hero that "drives straight" at first turn later: that was its motion, not its intent."""
@@ -169,6 +186,11 @@ class ActionReader(DescriptionReader):
             last.goal, last.goal_event = "turn_end", event
             last.events.append(event)
             return last
+        if last is not None and last.kind == "dec" and last.to_stop:  # "stops, then pulls out and turns right"
+            assumed = f"'{event.span.excerpt(self.text)}' is done when the turn is complete"
+            self.facts.assumptions.append(assumed)
+            self.facts.phases.append(Phase("acc", [event], goal="turn_end", goal_event=event, goal_assumed=assumed))
+            return self.facts.phases[-1]
         if last is not None:
             raise self._refuse("a turn cannot follow this", event.span)
         phase = Phase("turn", [event])
@@ -182,6 +204,7 @@ class ActionReader(DescriptionReader):
         for place in event.places:
             if phase.place is not None and _differ(phase.place, place):
                 raise self._refuse("two different places to stop are given", place.span)
+            phase.place, phase.place_event = place, event
         phase.to_stop = True
         if event.duration is not None:
             phase.wait = event.duration
@@ -207,6 +230,8 @@ class ActionReader(DescriptionReader):
         )
 
     def _set_order(self, order: Order) -> None:
+        if self.order_assumed and self.facts.order is not None and self.facts.order.hero_first == order.hero_first:
+            self.facts.order, self.order_assumed = None, False
         if self.facts.order is not None and (self.facts.order.ego_landmark, self.facts.order.hero_first) != (
             order.ego_landmark,
             order.hero_first,
@@ -239,9 +264,9 @@ class ActionReader(DescriptionReader):
                 "before the ego passes the conflict point",
             )
         goal = phase.goal or "conflict_point"
-        self.facts.assumptions.append(
-            f"'{event.span.excerpt(self.text)}': the hero passes the {goal.replace('_', ' ')} before the ego does"
-        )
+        assumed = f"'{event.span.excerpt(self.text)}': the hero passes the {goal.replace('_', ' ')} before the ego does"
+        self.facts.assumptions.append(assumed)
+        phase.goal_assumed = assumed if phase.goal is None else phase.goal_assumed
         phase.goal, phase.goal_event = goal, phase.goal_event or event
         self._set_order(Order(True, goal, event))
 

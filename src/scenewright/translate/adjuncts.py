@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from scenewright.translate.events import Area, Event, Place
+from scenewright.translate.events import EGO_ID, Area, Event, Place
 from scenewright.translate.reader import TURNS, ReaderState
 from scenewright.translate.tokens import Quantity
 
@@ -18,19 +18,34 @@ class AdjunctReader(ReaderState):
 
     def _adjunct(self) -> bool:
         return (
-            self._shared_place()
+            self._particle()
+            or self._shared_place()
             or self._amount_adjunct()
             or self._stop_adjunct()
             or self._place_adjunct()
             or self._through()
+            or self._side()
             or self._oncoming()
             or self._way_adjunct()
         )
 
+    def _particle(self) -> bool:
+        """Step over "along" in "comes along westbound", "forward" in "creeps forward"."""
+        if self.current is None or self.current.verb not in ("drive", "approach", "pull_out") or self.links:
+            return False
+        word, after = self.phrases.tokens[self.at].text.lower(), self.phrases.tokens[self.at + 1].tags
+        if word not in ("along", "forward", "forwards", "on", "down", "up") or after.keys() & {"determiner", "area"}:
+            return False
+        if self.phrases.area(self.at) or self.phrases.heading(self.at) or self.phrases.place(self.at):
+            return False
+        self.at += 1
+        self._grow()
+        return True
+
     def _amount_adjunct(self) -> bool:
         at = self.at
         preposition = self.phrases.tag(at, "preposition")
-        if preposition in ("at", "with", "to", "for", "by") or self.phrases.tag(at, "link") == "to":
+        if preposition in ("at", "with", "to", "for", "by", "of") or self.phrases.tag(at, "link") == "to":
             at += 1
         quantity: Quantity | None
         measured = self.phrases.measured(at)
@@ -41,6 +56,10 @@ class AdjunctReader(ReaderState):
             quantity, end = self.phrases.tokens[at].quantity, at + 1
         if quantity is None or (quantity.dimension in ("length", "time") and preposition != "for"):
             return False
+        if quantity.dimension == "acceleration" and self.phrases.tag(end, "measure") == "rate":
+            end += 1  # "with 4 m/s^2 deceleration"
+        if quantity.dimension == "speed" and self.phrases.tag(end, "measure") == "speed":
+            end += 1
         host = self._host()
         if host is None:
             return False
@@ -123,7 +142,21 @@ class AdjunctReader(ReaderState):
         return True
 
     def _way_adjunct(self) -> bool:
-        """Read areas, headings and directions."""
+        """Read areas, headings, directions and what a vehicle drives towards."""
+        towards = self._tag("preposition") == "to" and self.current is not None and self.current.verb == "drive"
+        if towards and self.current is not None and not self.links and self.current.landmark is None:
+            found = self.phrases.landmark(self.at + 1)
+            if found is not None and found[2] in (None, self.current.actor):
+                self.current.verb = "approach"
+                if found[3]:
+                    self.phrases.assume(
+                        f"'{self.phrases.span(self.at, found[1]).excerpt(self.phrases.text)}' is no turn"
+                    )
+                else:
+                    self.current.landmark = "turn_start" if found[0] == "mouth" else found[0]
+                self.at = found[1]
+                self._grow()
+                return True
         if area := self.phrases.area(self.at):
             host = self._host()
             if host is None:
@@ -161,11 +194,8 @@ class AdjunctReader(ReaderState):
 
     def _through(self) -> bool:
         """Read "accelerates through the conflict point" as two verbs."""
-        if (
-            self._tag("through") is None
-            or self.current is None
-            or self.current.verb not in ("accelerate", "go", "keep")
-        ):
+        past = self._tag("through") is not None or self._tag("relation") == "past"
+        if not past or self.current is None or self.current.verb not in ("accelerate", "go", "keep", "drive"):
             return False
         found = self.phrases.landmark(self.at + 1)
         if found is None:
@@ -174,6 +204,45 @@ class AdjunctReader(ReaderState):
         event = self._open("pass", self.at)
         event.landmark = "turn_start" if found[0] == "mouth" else found[0]
         self.at = found[1]
+        self._grow()
+        return True
+
+    def _from_whose_side(self, at: int) -> tuple[str, int] | None:
+        """Read "from the AV's left [side]"; return the side and the position after it."""
+        if self.phrases.tag(at, "preposition") not in ("out", "on", "to"):
+            return None
+        phrase = self.phrases.noun_phrase(at + 1)
+        if phrase is None or phrase.kind == "pronoun" or self.phrases.tag(phrase.end, "genitive") is None:
+            return None
+        direction = self.phrases.tag(phrase.end + 1, "direction")
+        if direction not in ("left", "right"):
+            return None
+        end = phrase.end + 2 + (self.phrases.tag(phrase.end + 2, "side_noun") is not None)
+        return f"from_{direction}" if self.phrases.tag(at, "preposition") == "out" else f"on_{direction}", end
+
+    def _side(self) -> bool:
+        """Read "from the ego's left" and "on its right": where a vehicle comes from, as the other one sees it."""
+        side, end = self._tag("from_side"), self.at + 1
+        if side is None and (found := self._from_whose_side(self.at)):
+            side, end = found
+        host = self.current or (self._host() if side is not None and self.subject_span is not None else None)
+        if side is None or host is None or host.actor is None or (self.links and self.subject_span is None):
+            return False
+        if self.links and host is self.current:
+            host = self._host()
+        if host is None or host.actor is None:
+            return False
+        if self.phrases.tag(end, "preposition") == "of":
+            phrase = self.phrases.noun_phrase(end + 1)
+            if phrase is None or (phrase.kind != "pronoun" and self.phrases.resolve(phrase) == host.actor):
+                return False
+            end = phrase.end
+        on_driveway = any(area.kind == "driveway" for area in host.areas)
+        seen_by_itself = side.startswith("on_") and on_driveway and host.actor == EGO_ID
+        if seen_by_itself or (side.startswith("on_") and not on_driveway and host.verb != "pull_out"):
+            return False
+        host.relations.append((f"from_{side.rpartition('_')[2]}", host.actor, self.phrases.span(self.at, end)))
+        self.at = end
         self._grow()
         return True
 
@@ -225,7 +294,11 @@ class AdjunctReader(ReaderState):
         host = self.current
         if host is not None and host.verb == "be" and direction == "straight" and self.links == ["comma"]:
             self.links = []  # "Ego: westbound, straight"
-        allowed = TURNS if direction != "straight" else ("drive", "lane_follow", "go", "be")
+        allowed: tuple[str, ...] = TURNS if direction != "straight" else ("drive", "lane_follow", "go", "be")
+        if direction != "straight" and at > self.at:  # "leaves the driveway to the left"
+            allowed = (*TURNS, "leave", "drive", "go")
+        elif direction != "straight" and host is not None and host.verb == "go":
+            allowed = (*TURNS, "go")
         if host is None or host.verb not in allowed or host.direction is not None or self.links:
             return False
         host.direction = direction
@@ -235,6 +308,9 @@ class AdjunctReader(ReaderState):
 
     def _bare(self) -> bool:
         """Read telegraphic notes: "Ego: driveway, left turn, eastbound"."""
+        if self.label in ("none", "start") and self.subject is None and self._tag("landmark") == "intersection":
+            self.at += 1  # "Scenario: T-junction, ..."
+            return True
         if "comma" not in self.links or self.subject is None:
             return False
         area = self.phrases.area_noun(self.at, "on")

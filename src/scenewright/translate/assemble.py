@@ -241,7 +241,7 @@ class Assembler(ConditionAssembler):
         )
         self._order("t2")
         if turn.to_speed is None:
-            return _sketch("go go")
+            return _sketch("go acc" if turn.goal is not None else "go go")
         # The speed is that of the drive after the turn: it is reached on the road, not in the curve.
         self._add(Compare("==", State(HERO_ID, _SPEED, Knot("t3")), turn.to_speed.term), turn.events[-1])
         return _sketch("go go acc go")

@@ -8,16 +8,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scenewright.translate.events import HERO_ID, Event, Place
-from scenewright.translate.frames import FrameReader
+from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place
 from scenewright.translate.modes import resolve_modes
+from scenewright.translate.openings import OpeningReader
 from scenewright.translate.references import NounPhrase
 
 _UNSUPPORTED_FIX = "leave it out: the offline translator knows two vehicles that drive along their lanes"
 
 
 @dataclass(slots=True)
-class ClauseReader(FrameReader):
+class ClauseReader(OpeningReader):
     """Reads a whole description."""
 
     def read(self) -> list[Event]:
@@ -83,7 +83,7 @@ class ClauseReader(FrameReader):
             self.main_subject = main[-1].actor
         self.main_subject = None if both else self.main_subject
         self.subject = self.phrases.subject = self.main_subject
-        self.pair, self.reduced = False, None
+        self.pair, self.reduced, self.pronouns = False, None, 0
         self.subject_span = self.current = None
         self.links, self.flags, self.label, self.opening = [], set(), None, None
         self.pending_heading = None
@@ -143,59 +143,6 @@ class ClauseReader(FrameReader):
         else:
             self.flags.add("initial")
 
-    def _existence(self) -> bool:
-        """Read "there is a hero vehicle ..." and "there is a driveway 100 m in front of the ego"."""
-        if self._tag("link") != "there":
-            return False
-        at = self.at + 1
-        if not (self.phrases.tag(at, "be") or self.phrases.tag(at, "genitive") or self.phrases.verb(at, "exist")):
-            return False
-        at += 1
-        found = self.phrases.landmark(at)
-        if found is not None:
-            return self._landmark_ahead(found[0], at, found[1])
-        phrase = self.phrases.noun_phrase(at)
-        if phrase is None:
-            return False
-        self.at = at
-        self._take_subject(phrase)
-        self._open("be", self.at - 1)
-        return True
-
-    def _landmark_ahead(self, name: str, at: int, end: int) -> bool:
-        start = self.at
-        place = self.phrases.place(end)
-        if place is None or place[0].relation not in ("ahead", "from") or not isinstance(place[0].target, int):
-            return False
-        ahead, end = place
-        event = Event("be", int(ahead.target), self.phrases.span(start, end), self.sentence, self.links, initial=True)
-        landmark = "turn_start" if name == "mouth" else name
-        event.places.append(Place("before", landmark, ahead.amount, ahead.span, vague=name == "turn"))
-        self.events.append(event)
-        self.links, self.at, self.current, self.subject = [], end, event, None
-        if self._tag("link") == "that" and self.phrases.verb(end + 1, "pull_out"):  # "that merges into the ego's lane"
-            area = self.phrases.area(end + 2)
-            if area and area[0].lane_of is not None:
-                event.relations.append(("driveway_joins", area[0].lane_of, self.phrases.span(end, area[1])))
-                self.at = area[1]
-                self._grow()
-        return True
-
-    def _intention(self) -> bool:
-        """Read "the ego's intent is to ..."."""
-        owner = self.phrases.possessor(self.at)
-        if owner and self.phrases.tag(owner[1], "intent_noun") and self.phrases.tag(owner[1] + 1, "be"):
-            return self._intent(owner[0], owner[1] + 2)
-        return False
-
-    def _intent(self, actor: int, at: int) -> bool:
-        self._set_subject(actor, self.phrases.span(self.at, at))
-        self.flags.add("wanted")
-        if self.phrases.tag(at, "link") == "to":
-            at += 1
-        self.at = at
-        return True
-
     def _link(self) -> bool:
         link = self._tag("link")
         if link is None:
@@ -211,7 +158,9 @@ class ClauseReader(FrameReader):
         if link == "only" and self.phrases.tag(after, "link") not in ("when", "after", "then"):
             return False
         if link == "there":
-            return False
+            still = self.current is not None and self.current.verb in ("wait", "stop", "brake", "yield", "keep")
+            self.at += still and not self.links
+            return still and not self.links
         if self.phrases.tokens[self.at].text.lower() in ("with", "as well as", "plus"):
             if self.phrases.noun_phrase(after) is None and self.phrases.tag(after, "pair") is None:
                 return False
@@ -225,9 +174,22 @@ class ClauseReader(FrameReader):
                 return False
         if link == "that" and self.current is None and self.subject_span is None:
             return False
+        if link == "that":
+            self._turn_to_object()
         self.links.append(link)
         self.at = after
+        if link == "then" and self.phrases.noun_phrase(after) is None:
+            self._back_to_main_clause()
         return True
+
+    def _back_to_main_clause(self) -> None:
+        """Let "it waits until the ego has passed, then continues" go on with who waits."""
+        here = [event for event in self.events if event.sentence == self.sentence]
+        main = [event for event in here if not set(event.links) & {"when", "until", "before", "after", "that"}]
+        if not main or self.subject_span is not None or here[-1] is main[-1] or main[-1].actor is None:
+            return
+        if self.subject != main[-1].actor and main[-1].actor == HERO_ID:
+            self._set_subject(main[-1].actor, None)
 
     def _agent(self, phrase: NounPhrase) -> bool:
         """Read "by the hero" after a passive."""
@@ -297,6 +259,13 @@ class ClauseReader(FrameReader):
             return False
         if self.phrases.tag(phrase.end, "genitive") is not None and not self.phrases.short_be(phrase.end):
             return False
+        self.pronouns += phrase.kind == "pronoun"
+        if self.phrases.tag(phrase.end, "label") and self.phrases.tag(phrase.end + 1, "colon"):  # "Hero action: ..."
+            self.label = self.phrases.tag(phrase.end, "label")
+            self.links.append({"when": "when", "main": "then_label"}.get(self.label or "main", "comma"))
+            self._take_subject(phrase)
+            self.at += 2
+            return True
         if self.phrases.tag(phrase.end, "aspect") and self.phrases.tag(phrase.end + 1, "colon"):  # "Ego state: ..."
             self.links.append("comma")
             self._take_subject(phrase)
@@ -304,8 +273,26 @@ class ClauseReader(FrameReader):
             return True
         if self.current is not None and not self.links and not self._clause_follows(phrase):
             return self._object(phrase)
+        if phrase.kind == "pronoun" and self._means_the_hero(phrase):
+            self.phrases.assume(
+                f"'{phrase.span.excerpt(self.phrases.text)}' is the hero: the ego is driven by its own policy"
+            )
+            self.phrases.subject = HERO_ID
         self._take_subject(phrase)
         return True
+
+    def _means_the_hero(self, phrase: NounPhrase) -> bool:
+        """Whether "it" after a clause about the ego is the hero: "When the ego is near, it brakes"."""
+        here = [event for event in self.events if event.sentence == self.sentence]
+        if self.subject != EGO_ID or self.main_subject != HERO_ID or not here or "comma" not in self.links:
+            return False
+        subordinate = all(set(event.links) & {"when", "after", "and", "comma"} and event.explicit for event in here)
+        named = all(event.actor == EGO_ID for event in here)
+        at = phrase.end
+        while self.phrases.tokens[at].tags.keys() & {"auxiliary", "adverb"} or self.phrases.verb(at, "begin"):
+            at += 1 + (self.phrases.tag(at + 1, "link") == "to")
+        acts = self.phrases.verb(at, "brake", "stop", "accelerate", "go", "keep", "yield", "come") is not None
+        return bool(subordinate and named and acts and self.pronouns == 1)
 
     def _passive_subject(self) -> bool:
         if not self._passive_follows(self.at) or (self.current is not None and not self.links):
@@ -350,9 +337,20 @@ class ClauseReader(FrameReader):
             self.at = phrase.end
             self._grow()
             return True
+        if event is not None and event.verb == "approach" and phrase.adjectives & {"lead", "oncoming"}:
+            other = self.phrases.resolve(phrase)
+            if other == event.actor or event.places or event.landmark:
+                return False
+            if "lead" in phrase.adjectives:
+                event.verb = "drive"
+                event.places.append(Place("behind", other, None, phrase.span))
+            self.at = phrase.end
+            self._grow()
+            return True
         if event is None or event.verb != "yield" or event.to_actor is not None:
             return False
-        event.to_actor = self.phrases.resolve(phrase)
+        pronoun = phrase.kind == "pronoun" and event.actor is not None
+        event.to_actor = 1 - (event.actor or 0) if pronoun else self.phrases.resolve(phrase)
         self.at = phrase.end
         self._grow()
         return True

@@ -25,6 +25,7 @@ class DescriptionReader:
     sentence: list[Event] = field(default_factory=list)
     pending_before: Event | None = None
     pending_release: list[Event] = field(default_factory=list)
+    order_assumed: bool = False  # the order's moment is a default that later words may replace
 
     def _refuse(
         self, message: str, span: Span, expected: str | None = None, fix: str | None = None
@@ -67,6 +68,12 @@ class DescriptionReader:
         if "then" in event.links:
             raise self._refuse("this comes 'then', but nothing happens in it", event.span, "an action of the hero")
         self._tell_route(event)
+        if event.in_front and event.actor == HERO_ID:
+            self.facts.relations.append(LaneRelation("across_or_into", HERO_ID, event))
+        if event.verb == "approach" and event.landmark == "stop_line":
+            self._wish(actor, "origin_kind", "driveway", event)
+        elif event.verb == "approach" and event.landmark is not None:
+            self._note(event, f"it drives towards the {event.landmark.replace('_', ' ')}")
         for place in event.places:
             if event.verb in ("turn", "pull_out") and place.relation in ("at", "just_before"):
                 if place.target not in ("intersection", "turn_start", "turn"):
@@ -128,10 +135,12 @@ class DescriptionReader:
         turning = event.verb in ("turn", "pull_out", "complete")
         if event.verb == "lane_follow" or (event.verb == "go" and event.direction == "straight"):
             self._wish(actor, "turn", "straight", event)
-        elif event.verb in ("turn", "complete") and event.direction is not None:
+        elif event.verb in ("turn", "complete", "pull_out", "leave") and event.direction is not None:
             self._wish(actor, "turn", event.direction, event)
         elif event.verb == "drive" and event.direction == "straight" and actor == EGO_ID:
             self._wish(actor, "turn", "straight", event)
+        elif event.verb in ("drive", "go") and event.direction in ("left", "right"):
+            self._wish(actor, "turn", event.direction, event)
         for area in event.areas:
             self._tell_area(actor, area, event, turning)
         for heading, span in event.headings:
@@ -149,7 +158,10 @@ class DescriptionReader:
             self.facts.relations.append(LaneRelation("across", actor, event))
             return
         end = "destination" if role == "into" or (turning and role == "on") else "origin"
-        if event.verb in ("drive", "approach") and role == "into":
+        if event.verb == "approach" and role == "into":
+            self._note(event, f"it drives towards the {area.kind}")
+            return
+        if event.verb == "drive" and role == "into":
             raise self._refuse("it is not clear whether this is a turn", area.span, "turns left or turns right")
         if area.kind != "lane":
             self._wish(actor, "destination_kind" if end == "destination" else "origin_kind", area.kind, event)

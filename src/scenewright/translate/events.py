@@ -78,4 +78,5 @@ class Event:
     notes: list[str] = field(default_factory=list)
     mode: str = "main"
     both: bool = False  # told of the hero too
+    in_front: bool = False  # "pulls out in front of the ego"
     resumed: bool = False  # goes on with a subject that was interrupted

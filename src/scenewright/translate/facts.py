@@ -49,6 +49,7 @@ class Phase:
     goal_event: Event | None = None
     wait: Quantity | None = None
     yields: bool = False
+    goal_assumed: str | None = None  # the assumption that gave the goal, where no words did
 
 
 @dataclass(frozen=True, slots=True)

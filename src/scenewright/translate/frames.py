@@ -10,7 +10,7 @@ from copy import deepcopy
 from dataclasses import dataclass
 
 from scenewright.errors import Span
-from scenewright.translate.events import EGO_ID, HERO_ID, Area, Event
+from scenewright.translate.events import EGO_ID, HERO_ID, Area, Event, Place
 from scenewright.translate.measures import MeasureReader
 from scenewright.translate.references import NounPhrase
 
@@ -30,6 +30,10 @@ class FrameReader(MeasureReader):
         if kind in ("that", "role") and self.current is None:
             self.at += 1
             return True
+        if kind == "as" and self.current is None and not self.links:
+            self.links.append("when" if self._amount_before_comma() else "and")
+            self.at += 1
+            return True
         if (kind is None or kind == "wish") and (after := self._frame_noun(self.at + (kind is not None))):
             self.at = after
             return True
@@ -45,6 +49,14 @@ class FrameReader(MeasureReader):
             return True
         return False
 
+    def _amount_before_comma(self) -> bool:
+        at = self.at
+        while not self.phrases.tokens[at].tags.keys() & {"comma", "end"}:
+            if self.phrases.tokens[at].quantity is not None:
+                return True
+            at += 1
+        return False
+
     def _frame_noun(self, at: int) -> int | None:
         """Return the position after "a scenario in which", or None."""
         at = self.phrases.skip_determiner(at)
@@ -58,10 +70,18 @@ class FrameReader(MeasureReader):
         """Read a place in front of its clause: "On the driveway, the ego ...", "from the east, a bus ..."."""
         if self.current is not None or self.subject_span is not None or self.links or self.label or self.fronted:
             return False
-        if any(event.sentence == self.sentence for event in self.events) or self._tag("preposition") is None:
+        if any(event.sentence == self.sentence for event in self.events):
+            return False
+        if not {"preposition", "from_side"} & self.phrases.tokens[self.at].tags.keys() and (
+            self._tag("relation") not in ("ahead", "behind")
+        ):
             return False
         if (site := self._junction(self.at)) is not None:
             self.at = site
+            return True
+        if self._tag("relation") in ("ahead", "behind") and self._fronted_relation():
+            return True
+        if self._tag("from_side") and self._fronted_side():
             return True
         if (area := self.phrases.area(self.at)) and area[0].lane_of is None:
             found: Area | tuple[str, Span] = area[0]
@@ -80,6 +100,53 @@ class FrameReader(MeasureReader):
         self._aside(found)
         if inverted:
             self.subject_span = None
+        return True
+
+    def _fronted_side(self) -> bool:
+        """Read "From the right, a car ..." and "From the left comes a truck"."""
+        start = self.at
+        after = start + 1 + (self.phrases.tag(start + 1, "comma") is not None)
+        area = self.phrases.area(after)
+        if area is not None:
+            after = area[1] + (self.phrases.tag(area[1], "comma") is not None)
+        inverted = self.phrases.verb(after, "come", "drive", "approach") is not None
+        phrase = self.phrases.noun_phrase(after + inverted)
+        if phrase is None or phrase.kind == "pronoun" or self.phrases.tag(phrase.end, "genitive") is not None:
+            return False
+        self.at = after + inverted
+        self._take_subject(phrase)
+        subject_span, end = self.subject_span, self.at
+        event = self._open("drive", start)
+        self.at = start
+        if not self._side():
+            return False
+        if area is not None:
+            event.areas.append(area[0])
+        self.at = end
+        self.subject_span = None if inverted else subject_span
+        return True
+
+    def _fronted_relation(self) -> bool:
+        """Read "Ahead of it, a car ..." and "In front of the ego drives a truck"."""
+        relation = self._tag("relation")
+        other = self.phrases.noun_phrase(self.at + 1)
+        if other is None or (other.kind == "pronoun" and self.phrases.subject is None):
+            return False
+        after = other.end + (self.phrases.tag(other.end, "comma") is not None)
+        inverted = self.phrases.verb(after, "come", "drive") is not None or self.phrases.tag(after, "be") is not None
+        phrase = self.phrases.noun_phrase(after + inverted)
+        if phrase is None or phrase.kind == "pronoun" or self.phrases.tag(phrase.end, "genitive") is not None:
+            return False
+        start, whose = self.at, self.phrases.resolve(other)
+        self.at = after + inverted
+        self._take_subject(phrase)
+        if self.subject == whose:
+            raise self.phrases.refuse("a vehicle has no relation to itself", other.span)
+        subject_span = self.subject_span
+        event = self._open("be", start)
+        place = Place("ahead" if relation == "ahead" else "behind", whose, None, self.phrases.span(start, other.end))
+        event.places.append(place)
+        self.subject_span = None if inverted else subject_span
         return True
 
     def _junction(self, at: int) -> int | None:

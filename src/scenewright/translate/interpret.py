@@ -27,6 +27,9 @@ class Interpreter(ActionReader):
             mention = Event("be", actor, span, -1)
             if word in ("lead", "oncoming"):
                 self.facts.relations.append(LaneRelation(word, actor, mention))
+            elif word == "rear":
+                kind, who = ("ego_leads", EGO_ID) if actor == HERO_ID else ("lead", HERO_ID)
+                self.facts.relations.append(LaneRelation(kind, who, mention))
             else:
                 self._wish(actor, "origin_heading", word, mention)
         for _, group in groupby(events, key=lambda event: event.sentence):
@@ -99,10 +102,13 @@ class Interpreter(ActionReader):
         states = [e for e in events if e.mode == "main" and (e.places or e.ttc) and e.verb in ("be", "sit", "ttc")]
         if not acts or conditions[0] is not acts[0] or events.index(acts[0]) == 0:
             return
-        before = events[: events.index(acts[0])]
-        if any(each not in states or each.initial for each in before) or acts[0].links[:1] != ["when"]:
+        before = [e for e in events[: events.index(acts[0])] if not e.wanted or e.places]
+        relative = [e for e in events if "that" in e.links and e in states and e.actor == acts[0].actor]
+        if any(each not in states or each.initial for each in before) or not (
+            acts[0].links[:1] == ["when"] or any("when" in e.links for e in relative)
+        ):
             return
-        for event in before:
+        for event in (*before, *relative):
             event.mode = "when"
         for event in conditions:
             event.mode = "main"
@@ -321,7 +327,7 @@ class Interpreter(ActionReader):
         if event.verb in ("lane_follow", "drive"):
             return turned and (event.speed is not None) and (later or event.begins or reacts)
         if event.verb == "wait":
-            return bool(self.facts.phases)
+            return bool(self.facts.phases) or (reacts and bool(event.places) and not event.gerund)
         return False
 
     def _told_before(self, event: Event) -> bool:

@@ -94,7 +94,11 @@ def _options(facts: Facts, actor: int, road_map: RoadMap, text: str, name: str) 
                 fix="check the turn and the directions of travel",
             )
         options = kept
-    return options
+    at_line = any(
+        each.actor == actor and each.place is not None and each.place.target == "stop_line"
+        for each in (*facts.initial, *facts.trigger)
+    )
+    return [route for route in options if "stop_line" in route.landmarks] or options if at_line else options
 
 
 def route_fact(route: Route, key: str) -> str:
@@ -138,6 +142,11 @@ def _fits(relation: LaneRelation, pair: Pair, road_map: RoadMap) -> bool:
         case "across":
             conflict = find_conflict(*pair)
             return conflict is not None and conflict.kind == "crossing"
+        case "across_or_into":
+            return find_conflict(*pair) is not None and mine.lanes[0] != theirs.lanes[0]
+        case "from_right" | "from_left":
+            turned = "ENWS" if relation.kind == "from_right" else "ESWN"
+            return mine.headings[0] == turned[(turned.index(theirs.headings[0]) + 1) % 4]
         case _:
             raise ValueError(relation.kind)
 
@@ -176,9 +185,8 @@ def _keep_to_road(facts: Facts, pairs: list[Pair], *, described: bool) -> tuple[
         told = wishes.keys() & {"turn", "destination_kind", "destination_heading"}
         turns = {pair[actor].turn for pair in pairs}
         straight = [pair for pair in pairs if pair[actor].turn == "straight"]
-        related = any(relation.kind in ("lead", "ego_leads", "oncoming") for relation in facts.relations) or _distances(
-            facts
-        )
+        beside = ("lead", "ego_leads", "oncoming", "from_left", "from_right")
+        related = any(relation.kind in beside for relation in facts.relations) or _distances(facts)
         if not told and len(turns) > 1 and straight and (wishes if described else related):
             pairs = straight
             assumptions.append(f"the {ACTOR_NAMES[actor]} goes straight on: no turn of it was mentioned")

@@ -28,6 +28,10 @@ class Lexicon:
         Tags by phrase (tuple of lower-case words); a tag is a class with a value, verbs carry their forms too.
     units
         Unit symbol by spelling.
+    numbers
+        Value by number word.
+    words
+        Every single word that occurs in some phrase or unit.
     longest
         Words in the longest phrase.
     """
@@ -35,6 +39,8 @@ class Lexicon:
     entries: Mapping[tuple[str, ...], Mapping[str, str]]
     forms: Mapping[tuple[str, ...], frozenset[str]]
     units: Mapping[str, str]
+    numbers: Mapping[str, int]
+    words: frozenset[str]
     longest: int
 
     def lookup(self, words: Sequence[str], start: int) -> tuple[int, Mapping[str, str], frozenset[str]]:
@@ -45,10 +51,6 @@ class Lexicon:
                 return length, self.entries[key], self.forms.get(key, frozenset())
         return 0, {}, frozenset()
 
-    def vocabulary(self) -> set[str]:
-        """Return every single word that occurs in some phrase, for suggestions."""
-        return {word for phrase in self.entries for word in phrase} | set(self.units)
-
 
 @lru_cache(maxsize=1)
 def load_lexicon() -> Lexicon:
@@ -58,6 +60,7 @@ def load_lexicon() -> Lexicon:
     forms: dict[tuple[str, ...], set[str]] = {}
     units = {spelling: symbol for symbol, spellings in table.pop("unit").items() for spelling in spellings}
     irregular = table.pop("irregular")
+    numbers = {word: int(value) for value, words in table.pop("number").items() for word in words}
     for tag, values in table.items():
         for value, phrases in values.items():
             for phrase in phrases:
@@ -68,7 +71,10 @@ def load_lexicon() -> Lexicon:
                     entries.setdefault(words, {})["verb"] = value
                     forms.setdefault(words, set()).add(form)
     longest = max(len(words) for words in entries)
-    return Lexicon(entries, {words: frozenset(names) for words, names in forms.items()}, units, longest)
+    single = {word for phrase in entries for word in phrase}
+    single |= {word for spelling in units for word in spelling.split()} | set(numbers)
+    frozen = {words: frozenset(names) for words, names in forms.items()}
+    return Lexicon(entries, frozen, units, numbers, frozenset(single), longest)
 
 
 def inflect(phrase: str, irregular: Mapping[str, Sequence[str]]) -> list[tuple[str, tuple[str, ...]]]:

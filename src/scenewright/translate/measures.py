@@ -76,7 +76,7 @@ class MeasureReader(VerbReader):
         if kind is None:
             return None
         measured = Measured(start, at + 1, kind, actor)
-        measured.of_pair = actor is None and "gap" in self.phrases.tokens[at].text.lower()
+        measured.of_pair = actor is None and self._tells_of_both(at)
         if not self._qualify(measured, 1):
             return None
         at = measured.end
@@ -91,14 +91,19 @@ class MeasureReader(VerbReader):
         quantity, kind = self.phrases.tokens[at].quantity, self.phrases.tag(at + 1, "measure")
         if quantity is not None and kind is not None:
             found = Measured(start, at + 2, kind, quantity=quantity)
-            words = self.phrases.tokens[at + 1].text
+            found.of_pair = self._tells_of_both(at + 1)
         elif measured := self.phrases.measured(start):
             kind, quantity, end = measured
-            found, words = Measured(start, end, kind, quantity=quantity), self.phrases.tokens[at].text
+            found = Measured(start, end, kind, quantity=quantity)
+            found.of_pair = self._tells_of_both(self.phrases.skip_determiner(start))
         else:
             return None
-        found.of_pair = "gap" in words.lower()
         return self._with_amount(found, found.end - 1)
+
+    def _tells_of_both(self, at: int) -> bool:
+        """Whether a measure is one of two vehicles, even where none is named: "the gap", "the headway"."""
+        words = self.phrases.tokens[at].text.lower()
+        return any(word in words for word in ("gap", "headway", "thw", "spacing", "following", "separation"))
 
     def _with_amount(self, measured: Measured, at: int) -> Measured | None:
         if measured.quantity is None:

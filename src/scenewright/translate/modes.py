@@ -24,7 +24,9 @@ def resolve_modes(events: list[Event]) -> None:
         interrupted = (links - {"that"}, previous)
         opening = _opening(links)
         if "that" in links:
-            outer = opening or (previous.mode if previous is not None else "main")
+            outer = opening or (previous.mode if previous is not None and "and" in links else "main")
+            if outer == "when" and opening is None and event.explicit and "then" in links:
+                outer = "main"
             event.mode = "main"
         elif outer is not None and not event.explicit and links == {"and"}:
             event.mode = "main"
@@ -35,9 +37,15 @@ def resolve_modes(events: list[Event]) -> None:
             event.mode = opening
         elif previous is not None and _stays_condition(previous, event, links):
             event.mode = previous.mode
+            if event.verb == "wait" and event.explicit and "and" not in links and _is_placed(event.actor, events):
+                event.mode = "main"  # where it is was said already: "..., the car waits just before the stop line"
         else:
             event.mode = "main"
         previous = event
+
+
+def _is_placed(actor: int | None, events: list[Event]) -> bool:
+    return any(event.actor == actor and event.mode == "when" and event.places for event in events)
 
 
 def _opening(links: set[str]) -> str | None:

@@ -7,7 +7,8 @@ clause and uses no network and no model.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import re
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from scenewright.errors import Place, Span, TranslationError
@@ -17,13 +18,16 @@ from scenewright.program.structure import Role, read_structure
 from scenewright.program.types import Program
 from scenewright.translate.assemble import Assembler
 from scenewright.translate.clauses import ClauseReader
+from scenewright.translate.commentary import without_commentary
+from scenewright.translate.confidence import basis_of
 from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, Event
 from scenewright.translate.facts import Facts
 from scenewright.translate.interpret import Interpreter
 from scenewright.translate.itineraries import Itineraries, choose_routes, default_map
+from scenewright.translate.layout import lay_out
 from scenewright.translate.phrases import Phrases
 from scenewright.translate.references import Referents
-from scenewright.translate.tokens import Token, tokenise
+from scenewright.translate.tokens import Token, refuse_unknown, tokenise
 
 _ROLES = {
     Role.INITIAL: "at the start",
@@ -48,12 +52,16 @@ class Reading:
         Its meaning in plain words.
     constraint_ids
         The constraints that it gave; empty for clauses that decide a route.
+    confidence, basis
+        How sure the reading is, from 0 to 1, and what that means; see `confidence.Basis`.
     """
 
     span: Span
     text: str
     understood: str
     constraint_ids: tuple[str, ...]
+    confidence: float = 1.0
+    basis: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,9 +102,18 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     >>> [actor.route.headings for actor in translate_offline(text).program.actors]
     [('S', 'W'), ('W',)]
     """
-    tokens = tokenise(text, name)
+    tokens, comments = without_commentary(tokenise(text, name))
+    tokens, titles = lay_out(tokens)
+    refuse_unknown(tokens, text, name)
     referents = Referents(text, name)
     phrases = Phrases(text, name, tokens, referents)
+    for said in sorted((*comments, *titles), key=lambda span: span.start):
+        phrases.assume(f"'{' '.join(said.excerpt(text).split())}' comments on the test; nothing in it is orchestrated")
+    for token in tokens:
+        if "guess" in token.tags:
+            phrases.assume(f"'{token.text}' is taken for a description that changes nothing")
+        for written, read in token.slips:
+            phrases.assume(f"'{written}' is read as '{read}'")
     events = ClauseReader(phrases).read()
     facts = Interpreter(text, name).run(events, phrases.described)
     _complete(facts, text, name)
@@ -106,8 +123,9 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     program = assembler.program(chosen_map.name)
     _all_amounts_used(program, tokens, text, name)
     assumptions = (*phrases.assumptions, *facts.assumptions, *routes.assumptions, *assembler.assumptions)
+    assumptions = tuple(dict.fromkeys(assumptions))
     readings = tuple(_reading(event, facts, routes, assembler, program, text) for event in events)
-    return Translation(program, readings, tuple(dict.fromkeys(assumptions)))
+    return Translation(program, tuple(_rated(each, assumptions) for each in readings), assumptions)
 
 
 def explain(translation: Translation) -> list[tuple[str, str, str]]:
@@ -118,8 +136,18 @@ def explain(translation: Translation) -> list[tuple[str, str, str]]:
             print_expression(translation.program.constraint(identifier).formula)
             for identifier in reading.constraint_ids
         ]
-        rows.append((reading.text, reading.understood, "; ".join(formulas)))
+        understood = reading.understood
+        if reading.confidence < 1:
+            understood += f" [confidence {reading.confidence:g}: {reading.basis}]"
+        rows.append((reading.text, understood, "; ".join(formulas)))
     return rows
+
+
+def _rated(reading: Reading, assumptions: tuple[str, ...]) -> Reading:
+    """Return the reading with how sure it is."""
+    route = re.search(r"the (ego|hero)'s route", reading.understood)
+    found = basis_of(reading.text, route.group(1) if route else None, route is not None, assumptions).value
+    return replace(reading, confidence=found.value, basis=found.meaning)
 
 
 def _complete(facts: Facts, text: str, name: str) -> None:

@@ -5,14 +5,13 @@ What enters: tagged tokens and a position. What leaves: what the phrase says and
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from typing import cast
 
-from scenewright.errors import Place as ErrorPlace
-from scenewright.errors import Span, TranslationError
-from scenewright.translate.events import SAY_IT_ALONE, Area, Place, Relation
-from scenewright.translate.references import NounPhrase, Referents
-from scenewright.translate.tokens import Quantity, Token
+from scenewright.translate.events import Area, Place, Relation
+from scenewright.translate.noun_phrases import NounPhrases
+from scenewright.translate.references import NounPhrase
+from scenewright.translate.tokens import Quantity
 
 OPPOSITE = {"N": "S", "S": "N", "E": "W", "W": "E"}
 MEASURE_DIMENSION = {
@@ -26,138 +25,29 @@ MEASURE_DIMENSION = {
 
 
 @dataclass(slots=True)
-class Phrases:
+class Phrases(NounPhrases):
     """Phrase readers over one token list."""
-
-    text: str
-    name: str
-    tokens: list[Token]
-    refs: Referents
-    last_landmark: str | None = None
-    subject: int | None = None
-    assumptions: list[str] = field(default_factory=list)
-    described: list[tuple[str, int, Span]] = field(
-        default_factory=list
-    )  # ("oncoming", actor, span), ("W", actor, span)
-
-    # -- helpers ----------------------------------------------------------------------------------------------------
-    def tag(self, at: int, tag: str) -> str | None:
-        """Return the value of `tag` for the token at `at`, or None."""
-        return self.tokens[at].tags.get(tag) if at < len(self.tokens) else None
-
-    def verb(self, at: int, *values: str) -> str | None:
-        """Return the verb at `at` if it is one of `values` (any, where none are given)."""
-        verb = self.tag(at, "verb")
-        return verb if verb and (not values or verb in values) else None
-
-    def span(self, start: int, end: int) -> Span:
-        """Return the stretch of text of tokens ``[start, end)``."""
-        return self.tokens[start].span.union(self.tokens[max(start, end - 1)].span)
-
-    def refuse(self, message: str, span: Span, expected: str | None = None, fix: str | None = None) -> TranslationError:
-        """Build the error for a stretch of the description."""
-        return TranslationError(
-            message,
-            place=ErrorPlace(self.name, self.text, span),
-            found=span.excerpt(self.text),
-            expected=expected,
-            fix=fix or (None if expected else SAY_IT_ALONE),
-        )
-
-    def skip_determiner(self, at: int) -> int:
-        """Step over an article; "another" in front of a place is no article."""
-        return at + 1 if self.tag(at, "determiner") not in (None, "another") else at
-
-    # -- actors -----------------------------------------------------------------------------------------------------
-    def noun_phrase(self, at: int) -> NounPhrase | None:
-        """Read an actor's noun phrase without deciding who it is."""
-        start, adjectives, heading = at, set[str](), None
-        determiner = self.tag(at, "determiner")
-        at += determiner is not None
-        while True:
-            if value := self.tag(at, "actor_adjective"):
-                adjectives.add(value)
-            elif (value := self.tag(at, "heading")) and heading is None:
-                heading = value
-            else:
-                break
-            at += 1
-        if self.tag(at, "pronoun") and at == start:
-            return NounPhrase(at + 1, "pronoun", None, None, adjectives, None, self.span(start, at + 1))
-        for kind in ("ego", "hero"):
-            if self.tag(at, kind):
-                noun = self.tag(at + 1, "noun")
-                words = self.tokens[at].text.lower().split()
-                end = at + 1 + (noun is not None)
-                last = words[-1] if words[-1] in ("car", "vehicle", "actor", "agent") else None
-                return NounPhrase(end, kind, noun or last, determiner, adjectives, heading, self.span(start, end))
-        noun = self.tag(at, "noun")
-        if noun is None:
-            return None
-        if noun in ("driver", "motorist") and self.tag(at + 1, "preposition") in ("of", "in"):
-            inner = self.noun_phrase(at + 2)
-            if inner is not None and inner.kind != "pronoun":  # "the driver of the van"
-                return replace(inner, span=self.span(start, inner.end))
-        return NounPhrase(at + 1, "noun", noun, determiner, adjectives, heading, self.span(start, at + 1))
-
-    def resolve(self, phrase: NounPhrase) -> int:
-        """Say who `phrase` is, and keep what its adjectives say."""
-        actor = self._who(phrase)
-        self.described += [(each, actor, phrase.span) for each in sorted(phrase.adjectives & {"lead", "oncoming"})]
-        if phrase.heading is not None:
-            self.described.append((phrase.heading, actor, phrase.span))
-        return actor
-
-    def _who(self, phrase: NounPhrase) -> int:
-        mentioned = {"ego": 0, "hero": 1}.get(phrase.kind) in self.refs.nouns
-        if (phrase.kind == "ego" and phrase.determiner == "another") or (phrase.determiner == "another" and mentioned):
-            raise self.refuse("there is more than one such vehicle here", phrase.span, "the ego and one other vehicle")
-        if phrase.kind == "ego":
-            return self.refs.ego(phrase.noun)
-        if phrase.kind == "hero":
-            return self.refs.hero(phrase.noun)
-        if phrase.kind == "pronoun":
-            if self.subject is None:
-                raise self.refuse("it is not clear who this is", phrase.span, "the ego or the hero", "name the vehicle")
-            return self.subject
-        return self.refs.by_noun(phrase.noun or "", phrase.determiner, phrase.adjectives, phrase.span)
-
-    def possessor(self, at: int) -> tuple[int, int] | None:
-        """Read "its" or "the ego's"; return the actor and the position after it."""
-        if self.tag(at, "possessive"):
-            if self.subject is None:
-                raise self.refuse("it is not clear whose this is", self.tokens[at].span, fix="name the vehicle")
-            return self.subject, at + 1
-        phrase = self.noun_phrase(at)
-        if phrase and phrase.kind != "pronoun" and self.tag(phrase.end, "genitive") is not None:
-            if self.short_be(phrase.end):
-                return None
-            return self.resolve(phrase), phrase.end + 1
-        return None
-
-    def short_be(self, at: int) -> bool:
-        """Whether "'s" stands for "is" here: "the truck's 60 feet ahead", "the ego's heading west"."""
-        if self.tag(at, "genitive") is None or at + 2 >= len(self.tokens):
-            return False
-        after = self.tokens[at + 1]
-        if after.quantity is not None:
-            return self.tag(at + 2, "measure") is None and self.tag(at + 2, "adverb") is None
-        if self.tag(at + 1, "event_noun") or self.tag(at + 1, "measure"):
-            return False
-        finite = "ing" in after.forms or after.text.lower() in ("headed", "about")
-        return finite or self.tag(at + 1, "preposition") is not None
 
     # -- places -----------------------------------------------------------------------------------------------------
     def landmark(self, at: int) -> tuple[str, int, int | None, bool] | None:
         """Read a landmark: name, position after it, whose it is, and whether a driveway stands for it."""
         owner = self.possessor(at)
         whose, at = owner if owner else (None, self.skip_determiner(at))
-        if name := self.tag(at, "landmark"):
-            self.last_landmark = name
+        if self.tag(at, "same") and self.tag(at + 1, "landmark"):
+            at += 1
+        name = self.tag(at, "landmark")
+        if name is None and self.tag(at, "back_reference") and self.last_landmark is not None:
+            self.assume(f"'{self.tokens[at].text}' is the {self.last_landmark.replace('_', ' ')}")
+            name = self.last_landmark
+        if name is not None:
             end = at + 1
-            if name == "stop_line" and self.tag(end, "preposition") == "of":  # "the stop line of the driveway"
+            if self.tag(end, "genitive") is not None and not self.short_be(end):  # "the T-junction's main road"
+                return None
+            self.last_landmark = name
+            if self.tag(end, "preposition") in ("of", "on", "at", "in"):  # "the stop line of the driveway"
                 after = self.skip_determiner(end + 1)
-                end = after + 1 if self.tag(after, "area") == "driveway" else end
+                wanted = "driveway" if name == "stop_line" else "road"
+                end = after + 1 if self.tag(after, "area") == wanted and whose is None else end
             return name, end, whose, False
         if self.tag(at, "mouth"):
             after = self.skip_determiner(at + 1 + (self.tag(at + 1, "preposition") == "of"))
@@ -165,7 +55,7 @@ class Phrases:
             if self.tag(after, "area") == "driveway" and after > at + 1:
                 return "mouth", after + 1, whose, False
             return None
-        at += self.tag(at, "side") is not None
+        at += self.tag(at, "side") is not None or self.tag(at, "same") is not None
         if self.tag(at, "area") == "driveway":
             end = at + 1
             if self.tag(end, "mouth"):
@@ -289,25 +179,12 @@ class Phrases:
         """Read "5 m before it" (the last place named) and "ahead of it" (the other vehicle)."""
         span = self.span(start, phrase.end)
         words = span.excerpt(self.text)
-        if relation == "before" and self.last_landmark and amount is not None:
+        if relation in ("before", "from") and self.last_landmark and amount is not None:
             self.assume(f"'{words}' is measured from the {self.last_landmark.replace('_', ' ')}")
             return Place(relation, self.last_landmark, amount, span), phrase.end
         if relation in ("behind", "ahead") and self.subject is not None and (amount is None or not self.last_landmark):
             return Place(relation, 1 - self.subject, amount, span), phrase.end
         raise self.refuse("it is not clear what this refers to", phrase.span, fix="name the vehicle or the place")
-
-    def assume(self, sentence: str) -> None:
-        """Note something that was inferred."""
-        if sentence not in self.assumptions:
-            self.assumptions.append(sentence)
-
-    def skip_hedges(self, at: int) -> int:
-        """Step over "exactly" and "about"; the latter is noted."""
-        while (hedge := self.tag(at, "adverb")) in ("about", "exact", "just"):
-            if hedge == "about":
-                self.assume(f"'{self.tokens[at].text} {self.tokens[at + 1].text}' is read as that very amount")
-            at += 1
-        return at
 
     # -- areas and headings -----------------------------------------------------------------------------------------
     def area(self, at: int) -> tuple[Area, int] | None:
@@ -320,7 +197,7 @@ class Phrases:
         if found is None:
             return None
         area, end = found
-        if preposition == "at" and area.kind != "driveway":
+        if preposition == "at" and area.kind == "lane":
             return None
         return area, end
 
@@ -331,6 +208,8 @@ class Phrases:
         whose, at = owner if owner else (None, self.skip_determiner(at))
         heading = side = None
         oncoming = False
+        if self.tag(at, "landmark") == "intersection" and self.tag(at + 1, "genitive") is not None:
+            at += 2  # "the T-junction's main road"
         while True:
             if self.tag(at, "heading"):
                 heading = self.tag(at, "heading")
@@ -338,6 +217,8 @@ class Phrases:
                 side = self.tag(at, "side")
             elif self.tag(at, "actor_adjective") == "oncoming":
                 oncoming = True
+            elif self.tag(at, "area_adjective") or self.tag(at, "actor_adjective") == "plain":
+                pass
             elif self.tag(at, "same") and whose is None and self.subject is not None:
                 whose = 1 - self.subject
             else:
@@ -347,12 +228,17 @@ class Phrases:
         if kind is None:
             return None
         end = at + 1
-        if self.tag(at - 1, "same"):
-            if kind != "lane":
-                return None
-            if self.tag(end, "preposition") == "as" and (phrase := self.noun_phrase(end + 1)):
-                end = phrase.end
-                whose = self.resolve(phrase)
+        if self.tag(at - 1, "same") and kind != "lane":
+            whose = None
+        elif (
+            self.tag(at - 1, "same") and self.tag(end, "preposition") == "as" and (phrase := self.noun_phrase(end + 1))
+        ):
+            end = phrase.end
+            whose = self.resolve(phrase)
+        if kind == "lane" and whose is None and self.tag(end, "preposition") == "of":
+            phrase = self.noun_phrase(end + 1)
+            if phrase is not None and phrase.kind != "pronoun":  # "across the path of the ego"
+                whose, end = self.resolve(phrase), phrase.end
         wanted_by = None
         if kind == "lane" and (wanted := self._wanted_lane(end)):
             wanted_by, end = wanted

@@ -34,6 +34,7 @@ class ReaderState:
     main_subject: int | None = None
     label: str | None = None
     pair: bool = False  # the subject is both vehicles
+    pronouns: int = 0  # as subjects in this sentence
     reduced: Event | None = None  # "a truck waiting on the driveway", before its finite verb
     pending_heading: tuple[str, Span] | None = None
     events: list[Event] = field(default_factory=list)
@@ -134,6 +135,19 @@ class ReaderState:
         """Whether a subject is only described so far: "the truck waiting on the driveway", "the ego, westbound,"."""
         token = self.phrases.tokens[start]
         return "ing" in token.forms or (verb == "be" and not token.tags.keys() & {"be", "genitive", "auxiliary"})
+
+    def _turn_to_object(self) -> bool:
+        """Let "behind a van doing 12 m/s" and "a van which ..." go on with the van: it was named just before."""
+        event = self.current
+        if event is None or self.links or self.subject_span is not None or event.actor is None or not event.places:
+            return False
+        place, before = event.places[-1], self.phrases.tokens[self.at - 1]
+        if not isinstance(place.target, int) or place.span.end != before.span.end or place.target == self.subject:
+            return False
+        if "pronoun" in before.tags or place.amount is not None:
+            return False
+        self._set_subject(place.target, None)
+        return True
 
     def _resumes(self, verb: str, start: int) -> bool:
         """Let a finite verb go on with the subject that was described, as after "which": "..., turns left"."""

@@ -1,12 +1,12 @@
 """Cuts a description into tagged tokens with spans: words and phrases, quantities with units, stops.
 
-What enters: the description. What leaves: a list of `Token`. Words that the lexicon does not know, numbers without a
-unit and quantities whose units contradict each other are refused here, with their place. No grammar is applied.
+What enters: the description. What leaves: a list of `Token`. Words that the lexicon does not know are corrected where
+they are a slip of exactly one known word, else tagged ``unknown`` (`refuse_unknown` names them). Numbers without a unit
+and quantities whose units contradict each other are refused here, with their place. No grammar is applied.
 """
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -15,6 +15,8 @@ from fractions import Fraction
 from scenewright.errors import Place, Span, TranslationError
 from scenewright.program.expressions import Number, ParameterRef
 from scenewright.translate.lexicon import Lexicon, load_lexicon
+from scenewright.translate.numerals import number_in_words, tail
+from scenewright.translate.spelling import correction, suggestions
 from scenewright.units import UNITS, Dimension, Unit, unit_of_name
 
 _PARAMETER = r"[A-Za-z][A-Za-z0-9]*(?:\\?_[A-Za-z0-9]+)+"
@@ -24,7 +26,7 @@ _RAW = re.compile(
     |(?P<number>(?<![\w.])[+\-−]?(?:\d+(?:,\d+)*(?:\.\d+)?|\.\d+)(?:/\d+)?)
     |(?P<word>[^\W\d_]+?n['’]t\b|['’](?:ll|re|ve|d)\b|[^\W\d_]+)
     |(?P<genitive>['’]s\b|(?<=s)['’](?=\s))
-    |(?P<stop>[.;!?](?=\s|$|["')\]])|\n[ \t]*(?:[-*•–—]|\d+[.)]|\(\w\))[ \t]+|\n[ \t]*\n\s*)
+    |(?P<stop>(?:[.;!?]+|…)(?=\s|$|["')\]])|\n[ \t]*(?:[-*•–—]|\d+[.)]|\(\w\))[ \t]+|\n[ \t]*\n\s*)
     |(?P<label>:)
     |(?P<comma>[,()\[\]"“”/]|(?<=\s)[-–—](?=\s)|[–—])
     |(?P<compare>[<>≤≥]=?|±|={{1,2}}|~|≈)
@@ -52,7 +54,7 @@ class Token:
     """One word, known phrase, quantity or stop.
 
     `tags` maps the word classes it can belong to onto values; `forms` are verb forms. Punctuation has the tags
-    ``end``, ``comma``, ``colon`` or ``genitive``.
+    ``end``, ``comma``, ``colon`` or ``genitive``. `slips` are the words that were corrected, as (written, read).
     """
 
     text: str
@@ -60,6 +62,7 @@ class Token:
     tags: Mapping[str, str]
     forms: frozenset[str] = frozenset()
     quantity: Quantity | None = None
+    slips: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(slots=True)
@@ -67,6 +70,7 @@ class _Raw:
     kind: str
     text: str
     span: Span
+    written: str | None = None  # where `text` is a correction
 
 
 @dataclass(slots=True)
@@ -75,7 +79,6 @@ class _Tagger:
     name: str
     lexicon: Lexicon
     raw: list[_Raw] = field(default_factory=list)
-    unknown: list[_Raw] = field(default_factory=list)
 
     def place(self, span: Span) -> Place:
         return Place(self.name, self.text, span)
@@ -87,7 +90,7 @@ def tokenise(text: str, name: str) -> list[Token]:
     Raises
     ------
     TranslationError
-        Where the text is empty, holds words that are not known, or a quantity whose unit is missing or contradictory.
+        Where the text is empty or holds a quantity whose unit is missing or contradictory.
     """
     if not text.strip():
         raise TranslationError(
@@ -97,13 +100,11 @@ def tokenise(text: str, name: str) -> list[Token]:
             fix='for example: "Ego is on the driveway exit and wants to turn right. ..."',
         )
     tagger = _Tagger(text, name, load_lexicon())
-    tagger.raw = _cut(text)
+    tagger.raw = [_corrected(raw, tagger.lexicon) for raw in _cut(text)]
     tokens: list[Token] = []
     index = 0
     while index < len(tagger.raw):
         index = _next(tagger, index, tokens)
-    if tagger.unknown:
-        raise _unknown_words(tagger)
     end = Span(len(text), len(text))
     return [*tokens, Token("", end, {"end": "text"})]
 
@@ -120,6 +121,15 @@ def _cut(text: str) -> list[_Raw]:
             continue
         raw.append(_Raw(kind, match.group(), Span(*match.span())))
     return raw
+
+
+def _corrected(raw: _Raw, lexicon: Lexicon) -> _Raw:
+    """Return `raw` with a slip of the pen corrected."""
+    word = raw.text.lower().replace("’", "'")
+    if raw.kind != "word" or word in lexicon.words or word in lexicon.units:
+        return raw
+    better = correction(word, lexicon.words)
+    return _Raw(raw.kind, better, raw.span, raw.text) if better else raw
 
 
 def _next(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
@@ -154,39 +164,46 @@ def _words(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
     words, ends = _word_run(tagger, index)
     first = tagger.raw[index]
     if not words:
-        tagger.unknown.append(first)
+        tokens.append(Token(first.text, first.span, {"unknown": first.text}))
         return index + 1
     length, tags, forms = tagger.lexicon.lookup(words, 0)
-    if "number" in tags:
-        return _number_in_words(tagger, index, words, ends, tokens)
+    if length < 2 and (after := _number_in_words(tagger, index, words, ends, tokens)):
+        return after
     if not length:
-        tagger.unknown.append(first)
+        tokens.append(Token(first.text, first.span, {"unknown": first.text}))
         return index + 1
-    last = tagger.raw[ends[length - 1] - 1]
-    span = first.span.union(last.span)
+    used = tagger.raw[index : ends[length - 1]]
+    span = first.span.union(used[-1].span)
     if "determiner" in tags and tokens and tokens[-1].text.lower() == words[0] and length == 1:
         return ends[0]  # a slip of the pen: "behind the the conflict point"
-    tokens.append(Token(span.excerpt(tagger.text), span, tags, forms))
+    slips = tuple((raw.written, raw.text) for raw in used if raw.written is not None)
+    text = " ".join(raw.text for raw in used if raw.kind != "joiner")
+    tokens.append(Token(text, span, tags, forms, slips=slips))
     return ends[length - 1]
 
 
-def _number_in_words(tagger: _Tagger, index: int, words: list[str], ends: list[int], tokens: list[Token]) -> int:
-    value, used = 0, 0
-    while used < len(words):
-        length, tags, _ = tagger.lexicon.lookup(words, used)
-        if "number" not in tags:
-            break
-        part = int(tags["number"])
-        if used and not (value >= 20 and value % 10 == 0 and value < 100 and 0 < part < 10):
-            break
-        value += part
-        used += length
+def _number_in_words(tagger: _Tagger, index: int, words: list[str], ends: list[int], tokens: list[Token]) -> int | None:
+    """Read "twelve metres", "half a second", "a second and a half"; None where it is no amount."""
+    found = number_in_words(words, 0, tagger.lexicon.numbers)
+    if found is None:
+        if words[0] == "a" and len(words) > 3 and words[1] in ("second", "metre", "meter") and tail(words, 2):
+            found = Fraction(1), 1  # "a second and a half"
+        else:
+            return None
+    value, used = found
     span = tagger.raw[index].span.union(tagger.raw[ends[used - 1] - 1].span)
-    unit, after = _unit(tagger, ends[used - 1])
+    unit, after = _unit(tagger, ends[used - 1], strict=False)
     if unit is None:
-        raise _no_unit(tagger, span)
+        if value == 1 and used == 1 and len(words) > 1:  # "one car"
+            tokens.append(Token(words[0], span, {"determiner": "indefinite"}))
+            return ends[0]
+        tokens.append(Token(" ".join(words[:used]), span, {"bare_number": " ".join(words[:used])}))
+        return ends[used - 1]
+    rest = [raw.text.lower() for raw in tagger.raw[after : after + 4] if raw.kind == "word"]
+    if value.denominator == 1 and (more := tail(rest, 0)):
+        value, after = value + more[0], after + more[1]
     whole = span.union(tagger.raw[after - 1].span)
-    tokens.append(_literal(tagger, Fraction(value), unit, whole))
+    tokens.append(_literal(tagger, value, unit, whole))
     return after
 
 
@@ -204,7 +221,8 @@ def _quantity(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
                 fix="write a decimal point and no thousands separator",
             )
         if unit is None:
-            raise _no_unit(tagger, raw.span)
+            tokens.append(Token(raw.text, raw.span, {"bare_number": raw.text}))
+            return after
         value = Fraction(raw.text.replace("−", "-").lstrip("+"))
         tokens.append(_literal(tagger, value, unit, span))
     else:
@@ -248,7 +266,7 @@ def _literal(tagger: _Tagger, value: Fraction, unit: Unit, span: Span) -> Token:
     return Token(span.excerpt(tagger.text), span, {"quantity": unit.dimension}, frozenset(), quantity)
 
 
-def _unit(tagger: _Tagger, index: int) -> tuple[Unit | None, int]:
+def _unit(tagger: _Tagger, index: int, *, strict: bool = True) -> tuple[Unit | None, int]:
     """Read a unit at raw token `index`; return it and the index after it (unchanged where there is none)."""
     if index >= len(tagger.raw):
         return None, index
@@ -260,7 +278,7 @@ def _unit(tagger: _Tagger, index: int) -> tuple[Unit | None, int]:
     previous = tagger.raw[index - 1].span.end
     if match is None or start - previous > 3:
         strange = re.compile(r"[A-Za-zµ°%]+(?:[/^*²³0-9]+[A-Za-z0-9²³^]*)+|[°%]|k?g\b").match(tagger.text, start)
-        if strange:
+        if strange and strict:
             raise TranslationError(
                 f"'{strange.group()}' is not a unit that fits here",
                 place=tagger.place(Span(*strange.span())),
@@ -286,31 +304,35 @@ def _unit_pattern() -> re.Pattern[str]:
     return _PATTERNS[0]
 
 
-def _no_unit(tagger: _Tagger, span: Span) -> TranslationError:
-    number = span.excerpt(tagger.text)
-    return TranslationError(
-        f"'{number}' has no unit",
-        place=tagger.place(span),
-        found=number,
-        expected="a number with a unit, such as 12 m, 5 s, 40 km/h or 3 m/s^2",
-        fix=f"write '{number} m' or '{number} s'",
-    )
+def refuse_unknown(tokens: list[Token], text: str, name: str) -> None:
+    """Refuse a text with words that are not known, all of them at once, with what they look like.
 
-
-def _unknown_words(tagger: _Tagger) -> TranslationError:
-    words = list(dict.fromkeys(raw.text for raw in tagger.unknown))
-    words = [word for word in words if word.lower() not in tagger.lexicon.units] or words
-    vocabulary = sorted(tagger.lexicon.vocabulary())
-    hints = []
-    for word in words:
-        near = difflib.get_close_matches(word.lower(), vocabulary, n=2, cutoff=0.75)
-        near = [item for item in near if item != word.lower()]
-        if near:
-            hints.append(f"did you mean '{near[0]}' for '{word}'?")
+    Raises
+    ------
+    TranslationError
+        Where a token is ``unknown`` or a number without a unit.
+    """
+    unknown = [token for token in tokens if "unknown" in token.tags]
+    if not unknown:
+        for token in tokens:
+            if "bare_number" in token.tags:
+                raise TranslationError(
+                    f"'{token.text}' has no unit",
+                    place=Place(name, text, token.span),
+                    found=token.text,
+                    expected="a number with a unit, such as 12 m, 5 s, 40 km/h or 3 m/s^2",
+                    fix=f"write '{token.text} m' or '{token.text} s'",
+                )
+        return
+    lexicon = load_lexicon()
+    words = list(dict.fromkeys(token.text for token in unknown))
+    words = [word for word in words if word.lower() not in lexicon.units] or words
+    near = {word: suggestions(word, lexicon.words) for word in words}
+    hints = [f"did you mean '{found[0]}' for '{word}'?" for word, found in near.items() if found]
     listed = ", ".join(f"'{word}'" for word in words[:12])
-    return TranslationError(
+    raise TranslationError(
         f"these words were not understood: {listed}" if len(words) > 1 else f"this word was not understood: {listed}",
-        place=tagger.place(tagger.unknown[0].span),
+        place=Place(name, text, unknown[0].span),
         found=listed,
         expected="words about two vehicles on a road: where they are, what they want, when one reacts, and how",
         fix=" ".join(hints)

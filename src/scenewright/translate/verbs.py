@@ -1,4 +1,4 @@
-"""Reads verbs: those that open an event, and those that only colour the next one (begins to, wants to, fails to).
+"""Reads verbs that open an event.
 
 What enters: the reader's state at some token. What leaves: True where a verb was read.
 """
@@ -7,14 +7,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scenewright.translate.adjuncts import AdjunctReader
 from scenewright.translate.events import HERO_ID, Event, Place
 from scenewright.translate.reader import MOVES
+from scenewright.translate.references import NounPhrase
 from scenewright.translate.tokens import Token
+from scenewright.translate.verb_groups import VerbGroupReader
 
 
 @dataclass(slots=True)
-class VerbReader(AdjunctReader):
+class VerbReader(VerbGroupReader):
     """Opens events."""
 
     def _verb(self) -> bool:
@@ -33,6 +34,11 @@ class VerbReader(AdjunctReader):
             return True
         if self._has_amount():
             return True
+        if "wanting" in token.tags:  # "with the intention of turning left"
+            self.flags.add("wanted")
+            self.links += ["and"] if self.current is not None and not self.links else []
+            self.at += 1 + (self._tag("link", 1) == "to")
+            return True
         if "auxiliary" in token.tags:
             self.flags.add({"have": "perfect"}.get(token.tags["auxiliary"], "modal"))
             self.at += 1
@@ -40,10 +46,18 @@ class VerbReader(AdjunctReader):
         if ("be" in token.tags or self._contracted_be(token)) and "verb" not in token.tags:
             self.flags.add("be")
             self.at += 1 + (self.pair and self._tag("pair", 1) is not None)  # "are both"
+            if self._tag("ready") and self._tag("link", 1) == "to" and self.phrases.verb(self.at + 2):
+                self.flags.add("wanted")  # "is ready to turn left"
+                self.at += 2
+                return True
             if not (self.phrases.tokens[self.at].tags.keys() & {"verb", "negation", "adverb", "auxiliary"}):
                 self._open("be", self.at - 1)
             return True
         verb = token.tags.get("verb")
+        if "falls" in token.tags and self.subject_span is not None and self.phrases.tokens[self.at + 1].quantity:
+            self._open("reach", self.at)  # "the ego has closed to 25 m behind the van"
+            self.at += 1
+            return True
         if verb is None:
             return False
         return self._light(verb, token) or self._main_verb(verb, token)
@@ -64,96 +78,22 @@ class VerbReader(AdjunctReader):
             return True
         return False
 
-    def _light(self, verb: str, token: Token) -> bool:
-        """Read verbs that only colour the next one: begins to, wants to, fails to."""
-        if self.passive_object == "its turn" and "ed" in token.forms and verb in ("begin", "complete", "make"):
-            self.passive_object = None
-            event = self._open("complete" if verb == "complete" else "turn", self.at)
-            event.begins, event.actor = verb == "begin", None
-            self.at += 1
-            self._grow()
-            return True
-        following = self.phrases.tokens[self.at + 1]
-        to_verb = self._tag("link", 1) == "to" and self.phrases.tag(self.at + 2, "verb") is not None
-        flag = {"begin": "begins", "want": "wanted", "need": "modal", "fail": "negated"}.get(verb)
-        if flag and to_verb:
-            if flag == "negated":
-                self._negate(token.span)
-            self.flags.add(flag)
-            self.at += 2
-            return True
-        going = verb == "want" and token.text.lower().endswith("going")
-        if going and (self.phrases.heading(self.at + 1) or self.phrases.area(self.at + 1)):
-            self._open("drive", self.at)  # "was going west"
-            self.at += 1
-            return True
-        if verb == "begin" and "ing" in following.forms:
-            self.flags.add("begins")
-            self.at += 1
-            return True
-        if verb in ("begin", "want", "make", "complete", "use") and self._turn_noun(verb):
-            return True
-        if verb == "begin" and self.current is None and not self.flags - {"initial", "be", "modal"}:
-            self.flags.add("initial")
-            self._open("be", self.at)
-            self.at += 1
-            return True
-        return False
-
-    def _turn_noun(self, verb: str) -> bool:
-        """Read "makes a left turn", "begins its turn", "completes the left turn"."""
-        start, at = self.at, self.at + 1
-        owner = self.phrases.possessor(at)
-        if owner is not None:
-            if owner[0] != self.subject:
-                return False
-            at = owner[1]
-        else:
-            at = self.phrases.skip_determiner(at)
-        direction = self.phrases.tag(at, "direction")
-        at += direction is not None
-        noun = self.phrases.tag(at, "event_noun")
-        if noun != "turn" and not (verb == "make" and direction in ("left", "right")):
-            return False
-        if noun is not None:
-            at += 1
-        if verb == "begin":
-            self.flags.add("begins")
-        if verb == "want":
-            self.flags.add("wanted")
-        event = self._open("complete" if verb == "complete" else "turn", start)
-        event.direction = direction
-        self.at = at
-        self._grow()
-        return True
-
-    def _let(self, start: int) -> bool:
-        """Read "lets the ego go first" as yielding."""
-        phrase = self.phrases.noun_phrase(self.at + 1)
-        if phrase is None or not self.phrases.verb(phrase.end, "pass", "go", "turn", "cross"):
-            return False
-        event = self._open("yield", start)
-        pronoun = phrase.kind == "pronoun" and event.actor is not None
-        event.to_actor = 1 - (event.actor or 0) if pronoun else self.phrases.resolve(phrase)
-        event.notes.append("let")
-        self.at = phrase.end + 1
-        if found := self.phrases.landmark(self.at):
-            self.at = found[1]
-        if self._tag("adverb") == "first":
-            self.at += 1
-        self._grow()
-        return True
-
     def _main_verb(self, verb: str, token: Token) -> bool:
         start = self.at
+        if "ing" in token.forms and self._turn_to_object():
+            self.links.append("that")  # "behind a van doing 12 m/s"
         if verb == "let":
             return self._let(start)
         passive = "be" in self.flags and "ed" in token.forms
-        if verb in ("lead", "not_yield", "beat", "get_within", "pretend", "come_towards") and not (
+        if verb in ("lead", "not_yield", "beat", "get_within", "pretend", "come_towards", "cut_in_front") and not (
             verb == "lead" and passive
         ):
             return self._special(verb, start)
         end = self.at + 1
+        if verb in ("make", "begin") and (after := self._brake_noun(start, end)):
+            self.at = after
+            self._grow()
+            return True
         if verb == "make" and (quantity := self.phrases.tokens[end].quantity) and quantity.dimension == "speed":
             self._open("drive", start)  # "doing 35 mph"
             self.at = end
@@ -174,7 +114,12 @@ class VerbReader(AdjunctReader):
             stop = self._stop_noun_at(end)
             if stop is None:
                 if self._tag("verb") == "come" and (
-                    self.phrases.heading(end) or self.phrases.area(end) or self.phrases.tag(end, "oncoming_way")
+                    self.phrases.heading(end)
+                    or self.phrases.area(end)
+                    or self.phrases.tag(end, "oncoming_way")
+                    or self.phrases.tag(end, "from_side")
+                    or self.phrases.tokens[end].text.lower() == "along"
+                    or self._from_whose_side(end)
                 ):
                     verb = "drive"
                 else:
@@ -183,6 +128,11 @@ class VerbReader(AdjunctReader):
                 verb, end = "stop", stop
         if verb in ("complete", "exist"):
             return False
+        if verb == "follow" and self.subject is not None and self._ends_clause(end):
+            event = self._open("drive", start)
+            event.places.append(Place("behind", 1 - self.subject, None, self.phrases.tokens[start].span))
+            self.at = end
+            return True
         unlinked = self.current is not None and not self.links and self.subject_span is None
         goes_on = self.reduced is not None
         if unlinked and not goes_on and self.current and self.current.verb != "be" and "ing" not in token.forms:
@@ -233,6 +183,13 @@ class VerbReader(AdjunctReader):
             self._open("approach", start)
             self.at += 1
             return True
+        if phrase is None and verb == "lead" and self.subject is not None and self._ends_clause(self.at + 1):
+            event = self._open("drive", start)  # "the hero leads, the ego follows"
+            event.places.append(Place("ahead", 1 - self.subject, None, self.phrases.tokens[start].span))
+            self.at += 1
+            return True
+        if verb == "cut_in_front" and phrase is not None and self.subject is not None:
+            return self._cuts(start, phrase)
         if phrase is None or (phrase.kind == "pronoun" and self.phrases.last_landmark) or self.subject is None:
             return False
         other = 1 - self.subject if phrase.kind == "pronoun" else self.phrases.resolve(phrase)
@@ -245,6 +202,26 @@ class VerbReader(AdjunctReader):
             event.places.append(Place("ahead", other, None, phrase.span))
         else:
             event.relations.append(("oncoming", HERO_ID, phrase.span))
+        self.at = phrase.end
+        self._grow()
+        return True
+
+    def _ends_clause(self, at: int) -> bool:
+        tags = self.phrases.tokens[at].tags
+        return bool(tags.keys() & {"end", "comma"}) or tags.get("link") in ("and", "then")
+
+    def _cuts(self, start: int, phrase: NounPhrase) -> bool:
+        """Read "pulls out in front of the ego": it comes first where their ways meet."""
+        subject = self.subject or 0
+        other = 1 - subject if phrase.kind == "pronoun" else self.phrases.resolve(phrase)
+        if other == subject:
+            raise self.phrases.refuse("a vehicle has no relation to itself", phrase.span)
+        words = self.phrases.tokens[start].text.lower().split()
+        verb = "pull_out" if "out" in words or words[0].startswith("emerg") else "turn"
+        event = self._open("pass" if words[0].startswith(("cross", "pass")) else verb, start)
+        if event.verb == "pass":
+            event.landmark = "conflict_point"
+        event.in_front = True
         self.at = phrase.end
         self._grow()
         return True
@@ -293,6 +270,9 @@ class VerbReader(AdjunctReader):
         ):
             event.landmark = self.phrases.last_landmark
             return at + 1
+        if found is None and event.verb == "approach" and (area := self.phrases.area_noun(at, "on")):
+            event.notes.append("towards")
+            return area[1]
         if found is None:
             return at
         event.landmark = "turn_start" if found[0] == "mouth" else found[0]

@@ -1,0 +1,67 @@
+"""Steps over what a text says about the test and not about what happens: its purpose, what the ego should cope with.
+
+What enters: tokens. What leaves: tokens without commentary, and the stretches that were stepped over, which the
+translation reports. A stretch with an amount, or with words that tell what the hero does, is never commentary.
+"""
+
+from __future__ import annotations
+
+from scenewright.errors import Span
+from scenewright.translate.tokens import Token
+
+_CONTENT = frozenset(("quantity", "bare_number"))
+
+
+def without_commentary(tokens: list[Token]) -> tuple[list[Token], list[Span]]:
+    """Return the tokens that describe the scenario, and the spans of those that comment on it."""
+    kept: list[Token] = []
+    skipped: list[Span] = []
+    at = 0
+    while at < len(tokens):
+        end = _comment_end(tokens, at, kept)
+        if end is None:
+            kept.append(tokens[at])
+            at += 1
+            continue
+        skipped.append(tokens[at].span.union(tokens[end - 1].span))
+        while kept and (kept[-1].tags.keys() & {"comma"} or _is_and(kept[-1])):
+            kept.pop()
+        at = end
+        if not kept or "end" in kept[-1].tags:  # nothing is left of the sentence so far: what follows begins it
+            while at < len(tokens) and (tokens[at].tags.keys() & {"comma", "colon"}):
+                at += 1
+            if at < len(tokens) - 1 and "end" in tokens[at].tags:
+                at += 1
+    return kept, skipped
+
+
+def _is_and(token: Token) -> bool:
+    return token.text.lower() in ("and", "but", "thus", "so", "thereby")
+
+
+def _comment_end(tokens: list[Token], at: int, kept: list[Token]) -> int | None:
+    """Return where a comment that begins at `at` ends, or None where none does."""
+    kind = tokens[at].tags.get("comment")
+    fresh = not kept or bool(kept[-1].tags.keys() & {"end", "colon"})
+    if kind is None and fresh:
+        kind = _expectation(tokens, at)
+    if kind is None or (kind == "sentence" and not fresh):
+        return None
+    end = at + 1
+    while "end" not in tokens[end].tags:
+        if kind == "clause" and "comma" in tokens[end].tags:
+            break  # "To see how the AV copes, the car brakes", "..., forcing the AV to react, and ..."
+        end += 1
+    body = tokens[at:end]
+    if any(token.tags.keys() & _CONTENT or token.quantity is not None for token in body):
+        return None
+    return end
+
+
+def _expectation(tokens: list[Token], at: int) -> str | None:
+    """Read "The AV is expected to ..." as a comment: what the ego should do is for its own driving policy to decide."""
+    at += tokens[at].tags.get("determiner") is not None
+    if "ego" not in tokens[at].tags:
+        return None
+    at += 1 + ("noun" in tokens[at + 1].tags)
+    return "sentence" if at < len(tokens) and "expected" in tokens[at].tags else None

@@ -1,0 +1,151 @@
+"""Turns headings, lists and numbered steps into running text: "Ego:", bullets under it, "Test case 7:", "Step 2".
+
+What enters: tokens. What leaves: tokens without the marks of layout, in the order in which they were, and the titles
+that were stepped over. It reads no clauses; what a heading means (whose lines follow, or that they are the trigger) is
+told by its words.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from scenewright.errors import Span
+from scenewright.translate.tokens import Token
+
+_WHOSE = frozenset(("ego", "hero", "noun", "actor_adjective", "determiner", "aspect", "genitive", "pair"))
+_SAYS = frozenset(("ego", "hero", "pronoun", "be", "auxiliary", "negation", "quantity", "measure", "bound"))
+_LONGEST_TITLE = 13
+
+
+def lay_out(tokens: list[Token]) -> tuple[list[Token], list[Span]]:
+    """Return the tokens as running text, and the titles that say nothing of their own."""
+    titles: list[Span] = []
+    return _lists(_without_titles(_without_numbers(_plain_adjectives(tokens)), titles)), titles
+
+
+def _plain_adjectives(tokens: list[Token]) -> list[Token]:
+    """Let an unknown word between an article and a vehicle or a road be an adjective that changes nothing."""
+    read = list(tokens)
+    for at in range(1, len(tokens) - 1):
+        before, after = read[at - 1].tags.keys(), tokens[at + 1].tags.keys()
+        described = before & {"determiner", "possessive", "actor_adjective", "area_adjective"}
+        if (
+            "unknown" in tokens[at].tags
+            and tokens[at].text.isalpha()
+            and described
+            and after & {"noun", "hero", "area"}
+        ):
+            read[at] = replace(tokens[at], tags={"actor_adjective": "plain", "guess": "adjective"})
+    return read
+
+
+def _without_numbers(tokens: list[Token]) -> list[Token]:
+    """Drop the numbers of steps, cases and phases: "Step 2:", "case 7", "Phase 1 -"."""
+    kept: list[Token] = []
+    for token in tokens:
+        numbered = "bare_number" in token.tags and kept and kept[-1].tags.keys() & {"numbered", "frame_noun"}
+        if numbered and (kept[-1].tags.get("numbered") or len(kept) < 4):
+            continue
+        kept.append(token)
+    return kept
+
+
+def _without_titles(tokens: list[Token], titles: list[Span]) -> list[Token]:
+    """Drop "Unprotected left turn:" and "Step:" in front of a sentence."""
+    kept: list[Token] = []
+    at, begins = 0, True
+    while at < len(tokens):
+        end = _title_end(tokens, at) if begins else None
+        if end is not None:
+            titles.append(tokens[at].span.union(tokens[end - 1].span))
+            at = end + 1
+            continue
+        begins = "end" in tokens[at].tags
+        kept.append(tokens[at])
+        at += 1
+    return kept
+
+
+def _title_end(tokens: list[Token], at: int) -> int | None:
+    """Return the position of the colon (or dash) that ends a title, or None where no title begins here."""
+    line: list[Token] = []
+    for token in tokens[at : at + _LONGEST_TITLE]:
+        if "colon" in token.tags or (at == 0 and "end" in token.tags and token.tags["end"] != "text"):
+            break
+        if "end" in token.tags or token.quantity is not None:
+            return None
+        line.append(token)
+    else:
+        return None
+    fragment = "colon" not in tokens[at + len(line)].tags  # "A left turn out of a side street."
+    tags = {tag for token in line for tag in token.tags}
+    if fragment and ("noun" in tags or any(token.forms & {"s", "ed"} for token in line)):
+        return None
+    if "unknown" in tags and not fragment:
+        tags.discard("measure")  # "A driver misjudges the gap:"
+    if (
+        not line
+        or tags & _SAYS
+        or ("label" in tags and not fragment)
+        or any("link" in token.tags for token in line[:1])
+    ):
+        return None
+    told = any("verb" in token.tags and "s" in token.forms and "event_noun" not in token.tags for token in line)
+    if told and "unknown" not in tags:
+        return None  # "An oncoming car turns left:" says something
+    if "numbered" in line[0].tags or not all(token.tags.keys() & _WHOSE for token in line):
+        return at + len(line)
+    return None
+
+
+def _lists(tokens: list[Token]) -> list[Token]:
+    """Let the lines under "Ego:" or "Trigger:" be one sentence, each line after a comma."""
+    laid: list[Token] = []
+    joining = False
+    for at, token in enumerate(tokens):
+        if "end" not in token.tags or token.tags["end"] == "text":
+            laid.append(token)
+            continue
+        heading = _heading_before(laid)
+        if heading is not None:
+            joining = heading != "main"
+            continue  # the colon goes straight on to the first line
+        if not joining or _heading_at(tokens, at + 1):
+            joining = False
+            laid.append(token)
+        elif _is_line_break(token):
+            laid.append(replace(token, tags={"comma": ","}))
+        elif not (at + 1 < len(tokens) and _is_line_break(tokens[at + 1])):
+            joining = False
+            laid.append(token)
+    return laid
+
+
+def _is_line_break(token: Token) -> bool:
+    return "end" in token.tags and token.text.startswith("\n")
+
+
+def _heading_before(laid: list[Token]) -> str | None:
+    """Say which heading the line that was just laid is: an actor's, "when", "main", another; None where it is none."""
+    if not laid or "colon" not in laid[-1].tags:
+        return None
+    line: list[Token] = []
+    for token in reversed(laid[:-1]):
+        if "end" in token.tags:
+            break
+        line.append(token)
+    labels = [token.tags["label"] for token in line if "label" in token.tags]
+    if labels:
+        return labels[0]
+    whose = line and all(token.tags.keys() & _WHOSE for token in line)
+    return "actor" if whose else None
+
+
+def _heading_at(tokens: list[Token], at: int) -> bool:
+    """Whether a line that begins here has a colon after its first words."""
+    for token in tokens[at : at + 5]:
+        if "colon" in token.tags:
+            return True
+        if "end" in token.tags or token.quantity is not None:
+            return False
+    return False

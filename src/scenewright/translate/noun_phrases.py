@@ -1,0 +1,197 @@
+"""Reads noun phrases that name an actor, at a position of the token list, and says who is meant.
+
+What enters: tagged tokens and a position. What leaves: the noun phrase or its actor and the position after it, or None.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from scenewright.errors import Place as ErrorPlace
+from scenewright.errors import Span, TranslationError
+from scenewright.translate.events import SAY_IT_ALONE
+from scenewright.translate.references import NounPhrase, Referents
+from scenewright.translate.tokens import Token
+
+
+@dataclass(slots=True)
+class NounPhrases:
+    """Readers of actors over one token list."""
+
+    text: str
+    name: str
+    tokens: list[Token]
+    refs: Referents
+    last_landmark: str | None = None
+    subject: int | None = None
+    assumptions: list[str] = field(default_factory=list)
+    described: list[tuple[str, int, Span]] = field(
+        default_factory=list
+    )  # ("oncoming", actor, span), ("W", actor, span)
+
+    # -- helpers ----------------------------------------------------------------------------------------------------
+    def tag(self, at: int, tag: str) -> str | None:
+        """Return the value of `tag` for the token at `at`, or None."""
+        return self.tokens[at].tags.get(tag) if at < len(self.tokens) else None
+
+    def verb(self, at: int, *values: str) -> str | None:
+        """Return the verb at `at` if it is one of `values` (any, where none are given)."""
+        verb = self.tag(at, "verb")
+        return verb if verb and (not values or verb in values) else None
+
+    def span(self, start: int, end: int) -> Span:
+        """Return the stretch of text of tokens ``[start, end)``."""
+        return self.tokens[start].span.union(self.tokens[max(start, end - 1)].span)
+
+    def refuse(self, message: str, span: Span, expected: str | None = None, fix: str | None = None) -> TranslationError:
+        """Build the error for a stretch of the description."""
+        return TranslationError(
+            message,
+            place=ErrorPlace(self.name, self.text, span),
+            found=span.excerpt(self.text),
+            expected=expected,
+            fix=fix or (None if expected else SAY_IT_ALONE),
+        )
+
+    def skip_determiner(self, at: int) -> int:
+        """Step over an article; "another" in front of a place is no article."""
+        return at + 1 if self.tag(at, "determiner") not in (None, "another") else at
+
+    # -- actors -----------------------------------------------------------------------------------------------------
+    def noun_phrase(self, at: int) -> NounPhrase | None:
+        """Read an actor's noun phrase, with what stands right after its noun, without deciding who it is."""
+        phrase = self._plain_noun_phrase(at)
+        if phrase is None or phrase.kind == "pronoun":
+            return phrase
+        phrase = self._named_again(phrase)
+        where = self.tag(phrase.end, "relation")
+        alone = self.tokens[phrase.end].text.lower() in ("ahead", "in front", "behind") if where else False
+        after = self.tokens[phrase.end + 1].tags.keys() if alone else set()
+        finite = bool(after & {"be", "auxiliary", "genitive", "negation"}) or (
+            "verb" in after and not self.tokens[phrase.end + 1].forms & {"ing"}
+        )
+        if alone and where and finite and (phrase.determiner == "definite" or phrase.kind == "hero"):
+            adjectives = phrase.adjectives | {"lead" if where == "ahead" else "rear"}  # "the car in front brakes"
+            phrase = replace(phrase, end=phrase.end + 1, adjectives=adjectives)
+        return replace(phrase, span=self.span(at, phrase.end))
+
+    def _named_again(self, phrase: NounPhrase) -> NounPhrase:
+        """Read "the subject vehicle (SV)" and "a van (the hero)" as one name."""
+        at = phrase.end
+        if self.tokens[at].text != "(":
+            return phrase
+        other = self._plain_noun_phrase(at + 1)
+        if other is None or other.kind == "pronoun" or self.tokens[other.end].text != ")":
+            return phrase
+        if "ego" in (phrase.kind, other.kind) and phrase.kind != other.kind:
+            if "hero" in (phrase.kind, other.kind):
+                return phrase
+            noun = phrase.noun if phrase.kind == "noun" else other.noun
+            return replace(phrase, end=other.end + 1, kind="ego", noun=noun)
+        if "hero" in (phrase.kind, other.kind):
+            noun = phrase.noun if phrase.kind == "noun" else other.noun
+            return replace(phrase, end=other.end + 1, kind="hero", noun=noun, adjectives=phrase.adjectives)
+        return phrase
+
+    def _plain_noun_phrase(self, at: int) -> NounPhrase | None:
+        start, adjectives, heading = at, set[str](), None
+        determiner = self.tag(at, "determiner")
+        at += determiner is not None
+        while True:
+            if (value := self.tag(at, "actor_adjective")) and not self._is_noun_here(at):
+                adjectives.add(value)
+            elif (value := self.tag(at, "heading")) and heading is None:
+                heading = value
+            else:
+                break
+            at += 1
+        if self.tag(at, "pronoun") and at == start:
+            return NounPhrase(at + 1, "pronoun", None, None, adjectives, None, self.span(start, at + 1))
+        for kind in ("ego", "hero"):
+            if self.tag(at, kind):
+                noun = self.tag(at + 1, "noun")
+                words = self.tokens[at].text.lower().split()
+                end = at + 1 + (noun is not None)
+                last = words[-1] if words[-1] in ("car", "vehicle", "actor", "agent") else None
+                return NounPhrase(end, kind, noun or last, determiner, adjectives, heading, self.span(start, end))
+        noun = self.tag(at, "noun")
+        if noun is None:
+            return None
+        if self.tag(at + 1, "noun") in ("driver", "motorist"):  # "the pickup driver"
+            at += 1
+        if determiner == "our":
+            return NounPhrase(at + 1, "ego", noun, determiner, adjectives, heading, self.span(start, at + 1))
+        if noun in ("driver", "motorist") and self.tag(at + 1, "preposition") in ("of", "in"):
+            inner = self._plain_noun_phrase(at + 2)
+            if inner is not None and inner.kind != "pronoun":  # "the driver of the van"
+                return replace(inner, span=self.span(start, inner.end))
+        return NounPhrase(at + 1, "noun", noun, determiner, adjectives, heading, self.span(start, at + 1))
+
+    def _is_noun_here(self, at: int) -> bool:
+        """Whether a word that can be an adjective ("the target", "the target vehicle") names the actor itself."""
+        names = {"ego", "hero", "noun"}
+        if not self.tokens[at].tags.keys() & names:
+            return False
+        return not self.tokens[at + 1].tags.keys() & (names | {"actor_adjective"})
+
+    def resolve(self, phrase: NounPhrase) -> int:
+        """Say who `phrase` is, and keep what its adjectives say."""
+        actor = self._who(phrase)
+        self.described += [
+            (each, actor, phrase.span) for each in sorted(phrase.adjectives & {"lead", "oncoming", "rear"})
+        ]
+        if phrase.heading is not None:
+            self.described.append((phrase.heading, actor, phrase.span))
+        return actor
+
+    def _who(self, phrase: NounPhrase) -> int:
+        mentioned = {"ego": 0, "hero": 1}.get(phrase.kind) in self.refs.nouns
+        if (phrase.kind == "ego" and phrase.determiner == "another") or (phrase.determiner == "another" and mentioned):
+            raise self.refuse("there is more than one such vehicle here", phrase.span, "the ego and one other vehicle")
+        if phrase.kind == "ego":
+            return self.refs.ego(phrase.noun)
+        if phrase.kind == "hero":
+            return self.refs.hero(phrase.noun)
+        if phrase.kind == "pronoun":
+            if self.subject is None:
+                raise self.refuse("it is not clear who this is", phrase.span, "the ego or the hero", "name the vehicle")
+            return self.subject
+        return self.refs.by_noun(phrase.noun or "", phrase.determiner, phrase.adjectives, phrase.span)
+
+    def possessor(self, at: int) -> tuple[int, int] | None:
+        """Read "its" or "the ego's"; return the actor and the position after it."""
+        if self.tag(at, "possessive"):
+            if self.subject is None:
+                raise self.refuse("it is not clear whose this is", self.tokens[at].span, fix="name the vehicle")
+            return self.subject, at + 1
+        phrase = self.noun_phrase(at)
+        if phrase and phrase.kind != "pronoun" and self.tag(phrase.end, "genitive") is not None:
+            if self.short_be(phrase.end):
+                return None
+            return self.resolve(phrase), phrase.end + 1
+        return None
+
+    def short_be(self, at: int) -> bool:
+        """Whether "'s" stands for "is" here: "the truck's 60 feet ahead", "the ego's heading west"."""
+        if self.tag(at, "genitive") is None or at + 2 >= len(self.tokens):
+            return False
+        after = self.tokens[at + 1]
+        if after.quantity is not None:
+            return self.tag(at + 2, "measure") is None and self.tag(at + 2, "adverb") is None
+        if self.tag(at + 1, "event_noun") or self.tag(at + 1, "measure"):
+            return False
+        finite = "ing" in after.forms or after.text.lower() in ("headed", "about")
+        return finite or self.tag(at + 1, "preposition") is not None
+
+    def assume(self, sentence: str) -> None:
+        """Note something that was inferred."""
+        if sentence not in self.assumptions:
+            self.assumptions.append(sentence)
+
+    def skip_hedges(self, at: int) -> int:
+        """Step over "exactly" and "about"; the latter is noted."""
+        while (hedge := self.tag(at, "adverb")) in ("about", "exact", "just"):
+            if hedge == "about":
+                self.assume(f"'{self.tokens[at].text} {self.tokens[at + 1].text}' is read as that very amount")
+            at += 1
+        return at

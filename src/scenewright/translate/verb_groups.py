@@ -1,0 +1,128 @@
+"""Reads verbs that carry another word: begins to, wants to, fails to, makes a left turn, lets the ego pass.
+
+What enters: the reader's state at such a verb. What leaves: True where it was read with what it carries, or it only
+colours the next verb.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from scenewright.translate.adjuncts import AdjunctReader
+from scenewright.translate.tokens import Token
+
+
+@dataclass(slots=True)
+class VerbGroupReader(AdjunctReader):
+    """Reads light verbs."""
+
+    def _light(self, verb: str, token: Token) -> bool:
+        """Read verbs that only colour the next one: begins to, wants to, fails to."""
+        if self.passive_object == "its turn" and "ed" in token.forms and verb in ("begin", "complete", "make"):
+            self.passive_object = None
+            event = self._open("complete" if verb == "complete" else "turn", self.at)
+            event.begins, event.actor = verb == "begin", None
+            self.at += 1
+            self._grow()
+            return True
+        following = self.phrases.tokens[self.at + 1]
+        to_verb = self._tag("link", 1) == "to" and self.phrases.tag(self.at + 2, "verb") is not None
+        flag = {"begin": "begins", "want": "wanted", "need": "modal", "fail": "negated", "wait": "wanted"}.get(verb)
+        if flag and to_verb:
+            if flag == "negated":
+                self._negate(token.span)
+            self.flags.add(flag)
+            self.at += 2
+            return True
+        going = verb == "want" and token.text.lower().endswith("going")
+        if going and (self.phrases.heading(self.at + 1) or self.phrases.area(self.at + 1)):
+            self._open("drive", self.at)  # "was going west"
+            self.at += 1
+            return True
+        if verb == "begin" and "ing" in following.forms:
+            self.flags.add("begins")
+            self.at += 1
+            return True
+        if verb in ("begin", "want", "make", "complete", "use") and self._turn_noun(verb):
+            return True
+        if verb in ("begin", "make") and (after := self._brake_noun(self.at, self.at + 1)):
+            self.at = after
+            self._grow()
+            return True
+        if verb == "begin" and self.current is None and not self.flags - {"initial", "be", "modal"}:
+            self.flags.add("initial")
+            self._open("be", self.at)
+            self.at += 1
+            return True
+        return False
+
+    def _turn_noun(self, verb: str) -> bool:
+        """Read "makes a left turn", "begins its turn", "completes the left turn"."""
+        start, at = self.at, self.at + 1
+        at += verb == "want" and self.phrases.tag(at, "preposition") in ("on", "for")
+        owner = self.phrases.possessor(at)
+        if owner is not None:
+            if owner[0] != self.subject:
+                return False
+            at = owner[1]
+        else:
+            at = self.phrases.skip_determiner(at)
+        direction = self.phrases.tag(at, "direction")
+        at += direction is not None
+        noun = self.phrases.tag(at, "event_noun")
+        if noun is None and self.phrases.verb(at, "pull_out") and self.phrases.tokens[at].text.lower() == "turn out of":
+            area = self.phrases.area_noun(at + 1, "from")  # "makes a left turn out of the driveway"
+            if area is None:
+                return False
+            event = self._open("turn", start)
+            event.direction, event.wanted = direction, event.wanted or verb == "want"
+            event.areas.append(area[0])
+            self.at = area[1]
+            self._grow()
+            return True
+        if noun != "turn" and not (verb == "make" and direction in ("left", "right")):
+            return False
+        if noun is not None:
+            at += 1
+        if verb == "begin":
+            self.flags.add("begins")
+        if verb == "want":
+            self.flags.add("wanted")
+        event = self._open("complete" if verb == "complete" else "turn", start)
+        event.direction = direction
+        self.at = at
+        self._grow()
+        return True
+
+    def _brake_noun(self, start: int, at: int) -> int | None:
+        """Read "performs an emergency braking" and "makes an emergency stop"; return the position after it."""
+        at = self.phrases.skip_determiner(at)
+        while self.phrases.tag(at, "actor_adjective") == "plain" or self.phrases.tag(at, "adverb") in (
+            "hard",
+            "gently",
+        ):
+            at += 1
+        noun = self.phrases.tag(at, "event_noun")
+        stops = self.phrases.tag(at, "stop_noun") is not None
+        if noun != "brake" and not stops:
+            return None
+        event = self._open("stop" if stops else "brake", start)
+        event.to_stop = stops
+        return at + 1
+
+    def _let(self, start: int) -> bool:
+        """Read "lets the ego go first" as yielding."""
+        phrase = self.phrases.noun_phrase(self.at + 1)
+        if phrase is None or not self.phrases.verb(phrase.end, "pass", "go", "turn", "cross"):
+            return False
+        event = self._open("yield", start)
+        pronoun = phrase.kind == "pronoun" and event.actor is not None
+        event.to_actor = 1 - (event.actor or 0) if pronoun else self.phrases.resolve(phrase)
+        event.notes.append("let")
+        self.at = phrase.end + 1
+        if found := self.phrases.landmark(self.at):
+            self.at = found[1]
+        if self._tag("adverb") == "first":
+            self.at += 1
+        self._grow()
+        return True
