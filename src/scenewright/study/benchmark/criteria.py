@@ -5,9 +5,11 @@ criteria with required and measured values. It is a second opinion beside the ju
 nor any formula, neither translator, solver nor plan, and it shares with the judge nothing but the tolerances.
 
 The trigger is read from what the hero did. Its beginning to brake (or to speed up) is found in its speeds, backwards
-from the standstill (or the place to be passed) that it led to. Both sides are then measured at the one instant near it,
-in continuous time, at which they are met best, and the hero's beginning must be at that instant but for the tolerance
-of time.
+from the standstill (or the place to be passed) that it led to, between samples where it lies between them. Both sides
+are measured at that very instant: "when the ego is here and the hero there, the hero begins to". Besides, the nearest
+instant at which both sides are met best must be that instant but for the tolerance of time. Where a hero may be said to
+have begun more than once, the beginning counts that the trigger explains best: a row says that there is such an
+instant, not that it is the first.
 """
 
 from __future__ import annotations
@@ -119,9 +121,16 @@ def _initial(actor: str, side: Side, motion: Motion) -> Criterion:
 # -- trigger -----------------------------------------------------------------------------------------------------------
 @dataclass(frozen=True, slots=True)
 class _Trigger:
-    """When the hero began (infinite: never) and the standstill that it led to, when both sides were met best, and how.
+    """When the hero began and the standstill that this led to; the nearest instant at which both sides are met best.
 
-    `missed` is the worst of both sides and of the hero's beginning, in tight tolerances.
+    Attributes
+    ----------
+    onset_s
+        Infinite where the hero never began.
+    measured
+        Both sides at the hero's beginning; where it never began, at `moment_s`.
+    missed
+        The worst of both sides and of the time between the two instants, in tight tolerances.
     """
 
     onset_s: float
@@ -146,23 +155,28 @@ def _trigger(setting: Setting, motions: Mapping[str, Motion], goal_s: float) -> 
 
 
 def _best_instant(setting: Setting, motions: Mapping[str, Motion], onset_s: float, rest: Stretch | None) -> _Trigger:
-    """Return the instant near a beginning at which both sides are met best: of several, the one that explains it."""
+    """Measure both sides at a beginning, and find the instant near it at which they are met best."""
     first, last = motions["ego"].time_s[[0, -1]]
-    low, high = (onset_s - NEAR_S, onset_s + NEAR_S) if np.isfinite(onset_s) else (first, last)
+    began = bool(np.isfinite(onset_s))
+    low, high = (onset_s - NEAR_S, onset_s + NEAR_S) if began else (first, last)
     times = np.arange(max(low, first), min(high, last) + 0.5 * _STEP_S, _STEP_S)
-    errors, values = [], {}
-    for actor, required, timed, measured in _sides(setting, motions, times):
-        values[actor] = measured
-        # A tenth of a second counts as much as half a metre, so that neither side is given up for the other.
-        errors.append(np.abs(measured - required) / (0.1 if timed else 0.5))
-    late = np.abs(times - onset_s) if np.isfinite(onset_s) else np.zeros_like(times)
-    worst = np.asarray(np.max(errors, axis=0) + _NEARER * late)
+    late = np.abs(times - onset_s) if began else np.zeros_like(times)
+    worst = _worst_side(setting, motions, times) + _NEARER * late
     padded = np.concatenate(([np.inf], worst, [np.inf]))
     lowest = np.flatnonzero((worst <= padded[:-2]) & (worst <= padded[2:]))
-    missed = np.maximum(worst[lowest], late[lowest] / 0.1)
-    at = int(lowest[np.argmin(missed)])
-    measured_there = {actor: float(value[at]) for actor, value in values.items()}
-    return _Trigger(onset_s, rest, float(times[at]), measured_there, float(missed.min()))
+    # The sides may be met more than once near a beginning: the time that explains it best is meant.
+    at = int(lowest[np.argmin(np.maximum(worst[lowest], late[lowest] / 0.1))])
+    instant = np.array([onset_s if began else times[at]])
+    measured = {actor: float(value[0]) for actor, _, _, value in _sides(setting, motions, instant)}
+    missed = max(float(_worst_side(setting, motions, instant)[0]), float(late[at]) / 0.1)
+    return _Trigger(onset_s, rest, float(times[at]), measured, missed)
+
+
+def _worst_side(setting: Setting, motions: Mapping[str, Motion], times: FloatArray) -> FloatArray:
+    """Return how far the worse side is from what is asked: a tenth of a second counts as much as half a metre."""
+    sides = _sides(setting, motions, times)
+    errors = [np.abs(measured - required) / (0.1 if timed else 0.5) for _, required, timed, measured in sides]
+    return np.asarray(np.max(errors, axis=0), dtype=np.float64)
 
 
 def _sides(
