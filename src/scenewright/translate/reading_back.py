@@ -188,11 +188,11 @@ class _Reader:
             if set(knots_of(each.formula)) == {key} and self.wording.is_place(each.formula):
                 self._take([each])
                 return self.wording.clause(each.formula)
-        actor = self.program.actor(elapsed.actor)
-        index = actor.sketch.knot_index(elapsed.knot)
         name = self.wording.name(elapsed.actor)
-        if index < len(actor.sketch.pieces) and not actor.is_ego:
-            return f"{name} begins to {_BEGINS[actor.sketch.pieces[index]]}"
+        for hero in self.program.heroes:
+            begun = dict(zip(hero.sketch.knots, hero.sketch.pieces, strict=False))
+            if hero.id == elapsed.actor and elapsed.knot in begun:
+                return f"{name} begins to {_BEGINS[begun[elapsed.knot]]}"
         return f"{name} reaches its {elapsed.knot}"
 
 

@@ -71,8 +71,9 @@ class Wording:
     program: Program
 
     def name(self, actor: int) -> str:
-        """Return what an actor is called."""
-        return f"the {self.program.actor(actor).name}"
+        """Return what an actor is called; its number for one that the program does not have."""
+        names = {each.id: each.name for each in self.program.actors}
+        return f"the {names[actor]}" if actor in names else f"A{actor}"
 
     def clause(self, formula: Formula) -> str:
         """Return a formula in words, without the moment at which it holds."""
@@ -157,7 +158,7 @@ class Wording:
     def _sentence(self, compare: Compare) -> tuple[str, str]:
         """Return subject and predicate of a comparison."""
         operator, left, right = compare.operator, compare.left, compare.right
-        if not isinstance(left, State | Derived | Elapsed | Arithmetic) and isinstance(right, State | Derived):
+        if isinstance(right, State | Derived) and not isinstance(left, State | Derived):
             operator, left, right = _MIRRORED[operator], right, left
         bound = _BOUND[operator]
         match left:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import Any
 
 import pytest
@@ -11,7 +12,9 @@ from hypothesis import strategies as st
 from talk import GOOD, PROGRAM, READINGS, TEXT, reply_to
 
 from scenewright.errors import MapError, ProgramError, ScenewrightError, TranslationError
+from scenewright.program.printer import print_program
 from scenewright.roads.load import load_map
+from scenewright.study.benchmark import BenchmarkRow, benchmark_rows
 from scenewright.translate.model.reply import read_reply
 from scenewright.translate.model.verify import Verified, locate, verify
 
@@ -209,3 +212,29 @@ def test_what_a_model_says_cannot_steer_a_terminal() -> None:
 def test_words_are_found_whatever_their_layout(words: str, found: str | None) -> None:
     span = locate(words, TEXT)
     assert (span.excerpt(TEXT) if span else None) == found
+
+
+def test_sentence_that_stands_there_twice_is_read_in_order() -> None:
+    text = (
+        "Ego is on the road. It drives west. The car comes out of the driveway. It drives west. " + TEXT.split(". ")[2]
+    )
+    program = PROGRAM.replace("- S, W\n", "- W\n", 1).replace("- W\n- [t0, go, t1, dec", "- S, W\n- [t0, go, t1, dec")
+    sentences = text.split(". ")
+    ids = ["c1", "c2", "c3", "c4", "c5"]
+    each = [*((sentence, []) for sentence in sentences[:4]), (sentences[4], ids)]
+    places = [reading.span.start for reading in verified(text, program=program, readings=each).readings]
+    assert places == sorted(set(places))
+    once = [*each[:3], each[4]]
+    assert verified(text, program=program, readings=once), "one reading tells of both"
+
+
+@pytest.mark.parametrize("row", benchmark_rows(), ids=lambda row: row.id)
+def test_faithful_replies_hold(row: BenchmarkRow) -> None:
+    """No false alarm: the meaning of each description of the benchmark, read sentence by sentence, is let through."""
+    for text, stands in zip(row.descriptions, row.standing_for, strict=True):
+        program = print_program(row.program.with_parameters(()))
+        for name, other in stands.items():
+            program = re.sub(rf"\b{name}\b", other, program)
+        ids = [constraint.id for constraint in row.program.constraints]
+        sentences = [sentence for sentence in re.split(r"(?<=[.])\s+", text.strip()) if sentence]
+        assert verified(text, program=program, readings=[(sentence, ids) for sentence in sentences])

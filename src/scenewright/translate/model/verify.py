@@ -93,13 +93,28 @@ def _parsed(text: str) -> Program:
 
 # -- readings -------------------------------------------------------------------------------------------------------
 def _located(reply: Reply, description: str) -> Iterator[Reading]:
+    """Yield the readings with the places of their words; words that stand there twice are read in order."""
+    said: dict[str, int] = {}
     for reading in reply.readings:
-        span = locate(reading.words, description)
-        if span is not None:
+        places = locate_all(reading.words, description)
+        if places:
+            number = said.get(reading.words, 0)
+            said[reading.words] = number + 1
+            span = places[min(number, len(places) - 1)]
             yield Reading(span, span.excerpt(description), reading.understood, tuple(reading.constraints))
 
 
-def locate(words: str, text: str) -> Span | None:
+def locate_all(words: str, text: str) -> list[Span]:
+    """Return every place where `words` stand in `text`."""
+    places: list[Span] = []
+    start = 0
+    while (span := locate(words, text, start)) is not None:
+        places.append(span)
+        start = span.end
+    return places
+
+
+def locate(words: str, text: str, start: int = 0) -> Span | None:
     """Return where `words` stand in `text`, whatever the case, spaces and signs between them; None where they do not.
 
     Examples
@@ -113,7 +128,7 @@ def locate(words: str, text: str) -> Span | None:
         if not tokens:
             continue
         pattern = r"(?<!\w)" + r"[^\w]{1,8}".join(re.escape(token) for token in tokens) + r"(?!\w)"
-        match = re.search(pattern, text, re.IGNORECASE)
+        match = re.compile(pattern, re.IGNORECASE).search(text, found.end if found else start)
         if match is None:
             return None
         span = Span(match.start(), match.end())
@@ -124,11 +139,14 @@ def locate(words: str, text: str) -> Span | None:
 def _account_faults(reply: Reply, program: Program, description: str, readings: tuple[Reading, ...]) -> Iterator[str]:
     questions = [f"{q.question} {q.default} {q.words}" for q in reply.questions]
     accounts = [*reply.assumptions, *questions]
+    covered: list[Span] = []
     for said in reply.readings:
-        if locate(said.words, description) is None:
+        places = locate_all(said.words, description)
+        covered += places
+        if not places:
             yield f"the words of a reading are not in the description: '{said.words[:80]}'"
     for span in _sentences(description):
-        if not any(each.span.start < span.end and span.start < each.span.end for each in readings):
+        if not any(each.start < span.end and span.start < each.end for each in covered):
             yield f"no reading tells of '{span.excerpt(description).strip()[:80]}'"
     known = {constraint.id for constraint in program.constraints}
     named = {identifier for reading in readings for identifier in reading.constraint_ids}
