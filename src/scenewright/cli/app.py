@@ -62,7 +62,17 @@ app.command(
         f'scenewright run "{SENTENCE}" --out runs/first', f"{_TRANSLATE}", "scenewright run first.scene --ego dawdler"
     )
 )(running.run)
-app.command(epilog=_examples(_TRANSLATE, "scenewright translate first.scene --json"))(reading.translate)
+_BY_A_MODEL = (
+    "\n\n[bold]Exit status[/bold]\n\n0 a program; 2 refused, or no program that holds; 4 no reply of a model\n\n"
+    "[bold]By a language model[/bold]\n\n"
+    "scenewright translate FILE --translator openai:NAME\n\n"
+    "scenewright translate FILE --translator openai-compatible:NAME --base-url http://127.0.0.1:8000/v1\n\n"
+    "scenewright translate FILE --translator files:DIR"
+)
+app.command(
+    epilog=_examples(_TRANSLATE, "scenewright translate first.scene --json", "scenewright translate --show-prompt")
+    + _BY_A_MODEL
+)(reading.translate)
 app.command(epilog=_examples(_TRANSLATE, "scenewright check first.scene --ego constant:speed_mps=12"))(reading.check)
 app.command(epilog=_examples(_TRANSLATE, "scenewright solve first.scene --out plan.json"))(reading.solve)
 app.command(epilog=_examples(_TRANSLATE, _RUN, "scenewright judge runs/first --tolerance loose"))(looking.judge)
