@@ -15,9 +15,11 @@ from scenewright.cli.app import app
 from scenewright.errors import InputError, OutputError, PolicyError
 from scenewright.judge.files import judge_run_directory
 from scenewright.judge.tolerance import TIGHT
+from scenewright.solve.backends.z3_backend import Z3Backend
 from scenewright.study.cases import BenchCase, make_bench_cases, run_bench_case
 from scenewright.study.experiment import FULL_EGOS, Experiment, Plan, Progress, preset
 from scenewright.study.rejudge import kept_runs, rejudge_one
+from scenewright.study.remembering import Remembering
 from scenewright.study.store import CaseRecord, read_results
 
 PACKAGE = Path(scenewright.__file__).parent
@@ -172,23 +174,23 @@ def test_infeasible_case_carries_its_proof(tmp_path: Path) -> None:
     assert "A1x" in record.proof
 
 
-def test_proof_found_once_is_that_of_every_ego_with_the_same_promises(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    cases = [
-        replace(case, parameters=tuple((n, 60.0 if n.startswith("end") else v) for n, v in case.parameters))
-        for case in make_bench_cases(
-            [16], ["idm", "noisy", "constant"], 1, ["scenewright", "open-loop"], 0, 1, tmp_path
-        )
+def test_solver_that_remembers_changes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (case,) = make_bench_cases([16], ["noisy"], 1, ["scenewright"], 0, 1, tmp_path)
+    impossible = tuple((name, 60.0 if name.startswith("end") else value) for name, value in case.parameters)
+    asked = [
+        replace(case, method=method, parameters=parameters)
+        for parameters in (case.parameters, impossible)
+        for method in ("scenewright", "open-loop", "trigger-action")
     ]
     alone = []
-    for case in cases:
-        monkeypatch.setattr("scenewright.study.cases._REFUTED", {})
-        alone.append(told(run_bench_case(case)))
-    proofs: dict[object, object] = {}
-    monkeypatch.setattr("scenewright.study.cases._REFUTED", proofs)
-    assert [told(run_bench_case(case)) for case in cases] == alone
-    assert 1 <= len(proofs) < len(cases)
+    for each in asked:
+        monkeypatch.setattr("scenewright.study.cases._solver", Z3Backend)
+        alone.append(told(run_bench_case(each)))
+    solver = Remembering(Z3Backend(), 0.25)
+    monkeypatch.setattr("scenewright.study.cases._solver", lambda: solver)
+    assert [told(run_bench_case(each)) for each in asked] == alone
+    assert solver.recalled > 10
+    assert {record.cause for record in alone} >= {"success", "proven infeasible"}
 
 
 def test_names_of_cases_are_names_of_files(tmp_path: Path) -> None:

@@ -13,20 +13,23 @@ import shlex
 import shutil
 import time
 import zlib
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from scenewright.errors import InputError, ScenewrightError
 from scenewright.orchestrate import Request, Result, Take
 from scenewright.study.causes import cause_across, cause_of_take
+from scenewright.study.remembering import Remembering
 from scenewright.study.store import PROGRAMS, RUNS, CaseRecord
 
 if TYPE_CHECKING:
     from scenewright.judge.case import Case
     from scenewright.judge.verdict import Condition, Verdict
     from scenewright.program.types import Program
+    from scenewright.solve.problem import Backend
     from scenewright.study.benchmark import BenchmarkRow, Criterion
 
 OURS = "scenewright"
@@ -136,29 +139,18 @@ def run_bench_case(case: BenchCase) -> CaseRecord:
 
     row = benchmark_row(case.row)
     try:
-        question = _question(case)
-        if question in _REFUTED:
-            return _infeasible(blank_record(case, row), _REFUTED[question])
         record, _, _ = carry_out_case(case, row)
     except ScenewrightError as error:
         return blank_record(case, row, message=error.message + (f" ({error.found})" if error.found else ""))
-    if record.cause == "proven infeasible":
-        _REFUTED[question] = record.proof
     return record
 
 
-# Proofs by the question they answer. Every method asks it first, of every ego with the same promises: a proof takes
-# longer than most runs, so a process finds each once.
-_REFUTED: dict[Hashable, str | None] = {}
+@cache
+def _solver() -> Backend:
+    """Return the solver of this process, which remembers what other cases have asked."""
+    from scenewright.solve.backends.z3_backend import Z3Backend
 
-
-def _question(case: BenchCase) -> Hashable:
-    """Return all that decides whether a case is possible at all."""
-    from scenewright.drive.guarded import GuardedPolicy
-    from scenewright.drive.loading import load_policy
-
-    policy = load_policy(case.ego)
-    return case.row, case.parameters, GuardedPolicy(policy.policy, policy.name).envelope
+    return Remembering(Z3Backend(), ticks_s=Request("").budget_s)
 
 
 def carry_out_case(case: BenchCase, row: BenchmarkRow) -> tuple[CaseRecord, Request, Result]:
@@ -170,7 +162,7 @@ def carry_out_case(case: BenchCase, row: BenchmarkRow) -> tuple[CaseRecord, Requ
     z3.set_param("ctrl_c", False)  # its own handler would take Ctrl-C for an answer
     request = case.request(row)
     started = time.perf_counter()
-    result = run_method(case.method, request)
+    result = run_method(case.method, request, _solver())
     record = replace(record_of(case, row, result), wall_s=time.perf_counter() - started)
     if case.keep and result.run is not None and result.verdict is not None:
         directory = f"{RUNS}/{case.key}"
