@@ -97,6 +97,11 @@ def test_vehicles_behind_each_other() -> None:
         assert f"The moment that counts: {words}." in read_back(program)
 
 
+def test_moment_a_while_after_another() -> None:
+    text = told("A0x(t1) == stop_line", "A0(t2) - A0(t1) == 2", "A0(t2) == A1(t1)", "A1v(t2) == 0")
+    assert "The moment that counts: 2 s after the ego is at its stop line." in text
+
+
 def test_sides_of_the_trigger_script_and_order() -> None:
     text = told(
         "A0(t1) == A1(t1)",

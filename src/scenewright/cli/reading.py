@@ -147,6 +147,7 @@ def _translation_data(text: str, sentences: tuple[str, ...], translation: Transl
             "translator": translation.translator,
             "prompt": translation.prompt,
             "usage": asdict(translation.usage),
+            "calls": [asdict(each) for each in translation.calls],
         }
     return data
 
@@ -172,7 +173,7 @@ def _tell_translation(console: Console, sentences: tuple[str, ...], translation:
             console.print(f"doubt: {each}", soft_wrap=True, style="yellow")
         if translation.impossible is not None:
             console.print(f"doubt: this cannot happen. {translation.impossible}", soft_wrap=True, style="yellow")
-        console.print(f"\n{translation.translator}, prompt {translation.prompt}: {translation.usage}", soft_wrap=True)
+        console.print(f"\n{translation.translator}, prompt {translation.prompt}: {translation.tokens()}", soft_wrap=True)
 
 
 @with_translator

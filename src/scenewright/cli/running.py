@@ -125,7 +125,12 @@ def carry_out(request: Request, until: Stop = "end", quiet: bool = False) -> Res
     from scenewright.cli.terminal import SignsOfLife
     from scenewright.orchestrate import orchestrate
 
-    with SignsOfLife(stderr(), not quiet) as signs, _interruptible() as shield, redirect_stdout(sys.stderr):
+    asks = request.translation.ask is not None  # a question on the terminal wants it for itself
+    with (
+        SignsOfLife(stderr(), not quiet and not asks) as signs,
+        _interruptible() as shield,
+        redirect_stdout(sys.stderr),
+    ):
 
         def report(stage: str) -> None:
             if stage in _UNBROKEN:

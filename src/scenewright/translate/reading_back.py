@@ -125,9 +125,22 @@ class _Reader:
                 for each in self._take(mine)
                 if next(synchronised(each.formula), None) is None
             ]
+            said += self._delays(instant)
             whose = "" if len(moments) == 1 else " for " + listed([self.wording.name(hero) for hero in heroes])
             sentences.append(f"The moment that counts{whose}: {listed(said) or 'it is not said when'}.")
         return sentences
+
+    def _delays(self, instant: frozenset[KnotKey]) -> list[str]:
+        """Return "2 s after the ego is at its stop line", for a moment that comes so long after another."""
+        said = []
+        for actor, knot in sorted(instant):
+            for each in [e for e in self.program.constraints if e.id not in self.told]:
+                lasts = self.wording.lasts(each.formula, actor)
+                if lasts is not None and lasts[1] == knot and (actor, lasts[0]) not in instant:
+                    self._take([each])
+                    how_long = self.wording.during(each.formula, PieceKind.GO).removeprefix(" for ")
+                    said.append(f"{how_long} after {self._moment(Elapsed(actor, lasts[0]))}")
+        return said
 
     def _is_at(self, constraint: Constraint, instant: frozenset[KnotKey]) -> bool:
         knots = set(knots_of(constraint.formula))

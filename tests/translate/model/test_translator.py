@@ -32,7 +32,10 @@ def translate(model: Said, text: str = TEXT, **options: Any) -> ModelTranslation
 
 def test_program_is_mended_within_the_repairs() -> None:
     model = Said([WRONG, "nothing", GOOD])
-    assert translate(model).usage.calls == 3
+    translation = translate(model)
+    assert translation.usage.calls == 3
+    assert [each.calls for each in translation.calls] == [1, 1, 1]
+    assert translation.tokens().count(" + ") == 3, "tokens are told call by call"
     roles = [message.role for message in model.calls[2].messages]
     assert roles == ["system", "user", "assistant", "user", "assistant", "user"]
     assert [call.attempt for call in model.calls] == [1, 2, 3]
@@ -45,6 +48,7 @@ def test_after_the_repairs_it_fails_clearly() -> None:
             translate(model, repairs=repairs)
         assert len(model.calls) == repairs + 1
         assert "gave no program that holds" in caught.value.message
+        assert "tokens in and" in caught.value.message, "what failed has cost something too"
         assert "12 m" in str(caught.value.found)
         assert caught.value.exit_status == 2
         assert "--translator offline" in str(caught.value.fix)

@@ -49,6 +49,8 @@ def test_program_may_come_as_lines() -> None:
         (("- W", "- N"), MapError, "no route"),
         (("- W", "- E"), MapError, "conflict point"),
         (("conflict_point - 5 m", "pond - 5 m"), ProgramError, "neither a landmark nor a parameter"),
+        (("conflict_point - 5 m", "turn_start - 5 m"), ProgramError, r"hero \(A1\) does not turn"),
+        (("conflict_point - 20 m", "A1.turn_end - 20 m"), ProgramError, "does not turn"),
     ],
 )
 def test_program_is_parsed_checked_and_put_on_the_map(

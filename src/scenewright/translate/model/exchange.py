@@ -74,8 +74,12 @@ class Usage:
 
     def __str__(self) -> str:
         calls = "1 call" if self.calls == 1 else f"{self.calls} calls"
+        return f"{calls}, {self.tokens()}"
+
+    def tokens(self) -> str:
+        """Return the tokens in words, and whether they were counted or estimated."""
         how = "estimated from the length of the texts" if self.estimated else "as the provider counts"
-        return f"{calls}, {self.input_tokens} tokens in and {self.output_tokens} out, {how}"
+        return f"{self.input_tokens} tokens in and {self.output_tokens} out, {how}"
 
 
 @dataclass(frozen=True, slots=True)

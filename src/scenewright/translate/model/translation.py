@@ -5,7 +5,7 @@ What enters: nothing. What leaves: `ModelTranslation`, which is a `Translation` 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from scenewright.translate.model.exchange import Usage
 from scenewright.translate.model.settings import Question
@@ -27,8 +27,8 @@ class ModelTranslation(Translation):
         The proof that it cannot happen; None where nothing speaks against it, or parameters are open.
     translator, prompt
         Who translated, and the version and short hash of the prompt; never a key or an address.
-    usage
-        Tokens and calls.
+    calls
+        Tokens of each call, repairs included.
     """
 
     questions: tuple[Question, ...] = ()
@@ -36,11 +36,22 @@ class ModelTranslation(Translation):
     impossible: str | None = None
     translator: str = ""
     prompt: str = ""
-    usage: Usage = field(default_factory=Usage)
+    calls: tuple[Usage, ...] = ()
+
+    @property
+    def usage(self) -> Usage:
+        """The tokens of all calls together."""
+        return sum(self.calls, Usage())
+
+    def tokens(self) -> str:
+        """Return the tokens in words, call by call where there were several."""
+        if len(self.calls) < 2:
+            return str(self.usage)
+        return f"{self.usage} (" + ", ".join(f"{each.input_tokens} + {each.output_tokens}" for each in self.calls) + ")"
 
     def notes(self) -> tuple[str, ...]:
         """Return what the record of a run says of this translation."""
-        return (f"translated by {self.translator} with prompt {self.prompt}: {self.usage}", *self.disagreements)
+        return (f"translated by {self.translator} with prompt {self.prompt}: {self.tokens()}", *self.disagreements)
 
 
 def notes_of(translation: Translation | None) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ says what was wrong with the last reply. Nothing that a model wrote is executed,
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from scenewright.errors import Place, ScenewrightError, TranslationError
 from scenewright.program.types import Program
@@ -64,7 +64,7 @@ class _Conversation:
     model: Model
     settings: TranslatorSettings
     messages: tuple[Message, ...] = ()
-    usage: Usage = field(default_factory=Usage)
+    calls: tuple[Usage, ...] = ()
     attempt: int = 0
 
     def translate(self) -> ModelTranslation:
@@ -91,7 +91,7 @@ class _Conversation:
             self._impossible(verified.program),
             self.model.name,
             f"{prompt.PROMPT_VERSION} ({prompt.fingerprint(self.road_map)})",
-            self.usage,
+            self.calls,
         )
 
     def _until_it_holds(self) -> tuple[Reply, Verified]:
@@ -115,7 +115,7 @@ class _Conversation:
         if self.settings.say is not None:
             self.settings.say(f"asking {self.model.name}" + (f", attempt {self.attempt}" if self.attempt > 1 else ""))
         answer = self.model.reply(Call(self.messages, self.text, self.attempt, self.road_map.name))
-        self.usage += answer.usage
+        self.calls = (*self.calls, answer.usage)
         return answer
 
     def _say(self, *messages: Message) -> None:
@@ -135,7 +135,7 @@ class _Conversation:
         place = f"{fault.place}: " if fault.place else ""
         last = f"{place}{fault.message}" + (f" ({fault.found})" if fault.found else "")
         return TranslationError(
-            f"{self.model.name} gave no program that holds in {replies}",
+            f"{self.model.name} gave no program that holds in {replies}: {sum(self.calls, Usage()).tokens()}",
             found=f"in the last reply: {last}",
             expected="a program that parses, makes sense, fits the map and says what the description says",
             fix="say it in plainer sentences, try another model or more of --repairs, or --translator offline",

@@ -12,10 +12,13 @@ from dataclasses import dataclass, replace
 
 from scenewright.errors import Place, ProgramError, Span, TranslationError
 from scenewright.program.check import check_program
+from scenewright.program.evaluate import landmark_owner
+from scenewright.program.expressions import Compare, Derived, Landmark, walk
+from scenewright.program.printer import print_expression
 from scenewright.program.structure import actors_of, synchronised
 from scenewright.program.text import parse_program
 from scenewright.program.types import Constraint, Program
-from scenewright.roads.grounding import ground
+from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.model import RoadMap
 from scenewright.translate.model.amounts import amount_faults
 from scenewright.translate.model.reply import LONGEST_PROGRAM, Reply
@@ -29,6 +32,7 @@ _QUOTED = re.compile(r'"(?:\\.|[^"\\])*"', re.DOTALL)
 _MONSTER = re.compile(r"\d{16}|\d[eE][-+]?\d{3}")
 _SENTENCE_END = re.compile(r"(?<=[.!?;])\s+|\n+")
 _SHOWN_FAULTS = 8
+_OF_TURNS = ("turn_start", "turn_end")
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +58,7 @@ def verify(reply: Reply, description: str, name: str, road_map: RoadMap) -> Veri
     # Name, map and description are ours to say: a reply could name any file as its map.
     program = replace(program, name=name, map_name=road_map.name, description=description)
     check_program(program, text)
-    ground(program, road_map)
+    _no_turn_on_straight_routes(ground(program, road_map))
     readings = tuple(_located(reply, description))
     faults = [*_account_faults(reply, program, description, readings)]
     if faults:
@@ -89,6 +93,22 @@ def _parsed(text: str) -> Program:
         )
         raise ProgramError("the program is beyond all bounds", found=fault, expected=expected)
     return parse_program(text)
+
+
+def _no_turn_on_straight_routes(scene: Scene) -> None:
+    """Refuse a turn of a vehicle that goes straight on: its landmarks have a number there, but no meaning."""
+    for constraint in scene.program.constraints:
+        for compare in (node for node in walk(constraint.formula) if isinstance(node, Compare)):
+            aims = {id(node.target): node.actor for node in walk(compare) if isinstance(node, Derived)}
+            for mark in (node for node in walk(compare) if isinstance(node, Landmark)):
+                owner = mark.actor if mark.actor is not None else aims.get(id(mark), landmark_owner(compare))
+                if mark.name in _OF_TURNS and owner is not None and scene.routes[owner].turn == "straight":
+                    raise ProgramError(
+                        f"{scene.program.actor(owner).name} (A{owner}) does not turn",
+                        place=Place("program"),
+                        found=f"{constraint.id}: {print_expression(constraint.formula)}",
+                        expected="a moment on its own way, such as its conflict_point",
+                    )
 
 
 # -- readings -------------------------------------------------------------------------------------------------------
