@@ -13,22 +13,25 @@ from scenewright.solve.plan import Plan
 
 
 class HeroDriver(Protocol):
-    """Drives every hero of a scene through one run.
+    """Drives every hero of a scene through one run."""
 
-    Attributes
-    ----------
-    plan
-        The motions in force: each tells the hero's state from now on, and when it passes its knots as far as that is
-        known. The simulator asks it anew at every step, so a driver may put another in its place at any time.
-    ego_knots_s
-        When the ego passed its knots.
-    records
-        What each tick came to.
-    """
+    @property
+    def plan(self) -> Plan:
+        """The motions in force: each tells its hero's state from now on, and its knots as far as they are known.
 
-    plan: Plan
-    ego_knots_s: dict[str, float]
-    records: list[Replan]
+        The simulator asks for it anew at every step, so a driver may put another in its place at any time.
+        """
+        ...
+
+    @property
+    def ego_knots_s(self) -> dict[str, float]:
+        """When the ego passed its knots."""
+        ...
+
+    @property
+    def records(self) -> list[Replan]:
+        """What each tick came to."""
+        ...
 
     def tick(self, time_s: float) -> Replan:
         """Solve again where that is needed; called at the re-solve rate of the run, but not at its very beginning."""

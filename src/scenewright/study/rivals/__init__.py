@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from scenewright.orchestrate import Request, Result
+    from scenewright.solve.problem import Backend
 
 METHODS: dict[str, str] = {
     "scenewright": "plans, and re-solves in closed loop; may rehearse",
@@ -21,13 +22,16 @@ METHODS: dict[str, str] = {
 }
 
 
-def run_method(method: str, request: Request) -> Result:
+def run_method(method: str, request: Request, backend: Backend | None = None) -> Result:
     """Carry out `request` by one of `METHODS`.
 
     Parameters
     ----------
     method
-        A key of `METHODS`; ``follower:module:Class[:k=v,...]`` puts one's own driver model in the follower's place.
+        A key of `METHODS`. ``rejection:N`` draws N samples at most; ``follower:module:Class[:k=v,...]`` puts one's own
+        driver model in the follower's place.
+    backend
+        The solver to ask; ours where None.
 
     Returns
     -------
@@ -43,4 +47,4 @@ def run_method(method: str, request: Request) -> Result:
     """
     from scenewright.study.rivals.methods import run
 
-    return run(method, request)
+    return run(method, request, backend)

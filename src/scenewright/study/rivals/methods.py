@@ -6,9 +6,14 @@ modules of this package.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from itertools import islice
 
+import numpy as np
+
+from scenewright.drive.loading import load_policy
 from scenewright.errors import InputError
 from scenewright.orchestrate import (
     Request,
@@ -27,14 +32,21 @@ from scenewright.simulate.heroes import HeroDriver
 from scenewright.simulate.loop import Rates, simulate
 from scenewright.simulate.replanner import Replanner
 from scenewright.solve.plan import Plan
+from scenewright.solve.problem import Backend
 from scenewright.study.rivals import METHODS
+from scenewright.study.rivals.follower import AskedAnew, FollowingHeroes
+from scenewright.study.rivals.rejection import sampled_scripts
 from scenewright.study.rivals.script import Script, write_scripts
 from scenewright.study.rivals.scripted import ScriptedHeroes
+from scenewright.study.rivals.synchronise import SynchronisedHeroes
+from scenewright.study.rivals.waypoints import SteadyFollower, WaypointDriver
+
+DEFAULT_SAMPLES = 20
 
 
 @dataclass(frozen=True, slots=True)
 class Staging:
-    """All that a rival may start from: the world, the first plan, and where the ego starts."""
+    """All that a rival may start from: the world, the first plan, where the ego starts, and what follows its name."""
 
     request: Request
     world: World
@@ -42,49 +54,62 @@ class Staging:
     replanner: Replanner
     start: EgoFirstState
     plan: Plan
+    option: str
+
+    def engine(self, scripts: Mapping[int, Script]) -> ScriptedHeroes:
+        """Return heroes that carry out scripts."""
+        return ScriptedHeroes(self.world.structure, scripts, self.plan, self.world.rates.step_s)
 
     def scripts(self) -> dict[int, Script]:
         """Return what an author writes from the first plan."""
         world = self.world
         return write_scripts(world.scene, world.structure, world.limits, self.replanner.conditions, self.plan)
 
-    def drive(self, result: Result, heroes: HeroDriver, replan_s: float | None = None) -> None:
+    def drive(self, result: Result, heroes: HeroDriver) -> None:
         """Drive once with `heroes`, from the ego's first state on, and judge it; hindsight is left out: it is dear."""
         world = self.world
-        world.rates = Rates(world.rates.step_s, replan_s)
+        world.rates = Rates(world.rates.step_s, replan_s=None)
         with self.stages("simulate"):
             world.ego.reset(self.start.s_m, self.start.speed_mps)
             result.run = simulate(world.scene, world.ego, heroes, world.rates)
         judge_run(self.request, result, world, self.stages, hindsight=False)
 
 
-def run(method: str, request: Request) -> Result:
+def run(method: str, request: Request, backend: Backend | None = None) -> Result:
     """Carry out `request` by `method`; see `scenewright.study.rivals.run_method`."""
-    name = method.partition(":")[0]
+    name, _, option = method.partition(":")
     if name == "scenewright":
-        return orchestrate(request)
+        return orchestrate(request, backend=backend)
     if name == "open-loop":
-        return orchestrate(replace(request, mode="open"))
+        return orchestrate(replace(request, mode="open"), backend=backend)
     if name not in _RIVALS:
         raise InputError("there is no such method", found=method, expected=", ".join(METHODS))
-    return _staged(request, method, _RIVALS[name])
+    return _staged(request, method, option, _RIVALS[name], backend)
 
 
-def _staged(request: Request, method: str, drive: Callable[[Staging, Result], Result]) -> Result:
+def _staged(
+    request: Request,
+    method: str,
+    option: str,
+    drive: Callable[[Staging, Result], Result],
+    backend: Backend | None = None,
+) -> Result:
     stages = Stages(None)
     request = replace(request, mode="closed")
-    world, translation = set_up(request, stages)
+    world, translation = set_up(request, stages, backend)
     with stages("check"):
         feasibility = world.choose_and_check()
     result = Result("infeasible", world.scene, translation, feasibility, timings_s=stages.seconds)
     if feasibility.answer == "infeasible":
         return result
     with stages("plan"):
-        replanner, start, result.attempt = first_plan(world, request, predictor_for(world, request))
+        planned = first_plan(world, request, predictor_for(world, request))
+        assert planned is not None  # only a later take may ask for a start that there is none of
+        replanner, start, result.attempt = planned
     if result.attempt.plan is None:
         result.status = "gave up"
         return result
-    result = drive(Staging(request, world, stages, replanner, start, result.attempt.plan), result)
+    result = drive(Staging(request, world, stages, replanner, start, result.attempt.plan, option), result)
     if result.run is not None:
         result.run.findings.append(f"The hero was driven by the rival method {method}, not by Scenewright.")
         if request.out is not None:
@@ -94,10 +119,76 @@ def _staged(request: Request, method: str, drive: Callable[[Staging, Result], Re
 
 
 def _trigger_action(staging: Staging, result: Result) -> Result:
+    staging.drive(result, staging.engine(staging.scripts()))
+    return result
+
+
+def _synchronise(staging: Staging, result: Result) -> Result:
     world = staging.world
-    heroes = ScriptedHeroes(world.structure, staging.scripts(), staging.plan, world.rates.step_s)
+    staging.drive(result, SynchronisedHeroes(world.structure, staging.scripts(), staging.plan, world.rates.step_s))
+    return result
+
+
+def _rejection(staging: Staging, result: Result) -> Result:
+    """Drive samples until one succeeds; keep that one, else the nearest within the loose tolerance, else the first."""
+    count = _sample_count(staging.option)
+    generator = np.random.default_rng(staging.request.seed)
+    scripts = sampled_scripts(staging.replanner.conditions, staging.scripts(), generator)
+    kept, nearest, takes = result, math.inf, result.takes
+    for number, sample in enumerate(islice(scripts, count), start=1):
+        driven = replace(result, take=number, takes=takes)
+        staging.drive(driven, staging.engine(sample))
+        takes = driven.takes
+        miss = _miss(driven) if driven.status == "failure" else 0.0
+        if number == 1 or miss < nearest:
+            kept, nearest = driven, miss if miss <= 1.0 else 1.0
+        if driven.status != "failure":
+            break
+    return replace(kept, takes=takes)
+
+
+def _miss(result: Result) -> float:
+    """Return the worst error of a run in loose tolerances."""
+    from scenewright.judge.tolerance import LOOSE
+
+    assert result.verdict is not None
+    return max((condition.normalised_error(LOOSE) for condition in result.verdict.conditions), default=0.0)
+
+
+def _sample_count(option: str) -> int:
+    if not option:
+        return DEFAULT_SAMPLES
+    if not option.isdecimal() or int(option) < 1:
+        raise InputError("there is no such number of samples", found=option, expected="rejection:N, N at least 1")
+    return int(option)
+
+
+def _follower(staging: Staging, result: Result) -> Result:
+    """Follow waypoints; each hero has a driver model of its own."""
+    world, first = staging.world, staging.replanner
+    drivers = {hero.id: _driver(staging.option) for hero in world.scene.program.heroes}
+    replanner = AskedAnew(first.scene, first.structure, first.planner, first.predictor, first.conditions)
+    start = staging.start
+    if replanner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss)).plan is None:
+        result.status = "gave up"
+        return result
+    heroes = FollowingHeroes(replanner, world.limits, drivers, world.rates.step_s, staging.request.seed)
     staging.drive(result, heroes)
     return result
 
 
-_RIVALS: dict[str, Callable[[Staging, Result], Result]] = {"trigger-action": _trigger_action}
+def _driver(option: str) -> WaypointDriver:
+    """Return our driver model, or one of the user's: found and built as ego policies of the user's are."""
+    if not option:
+        return SteadyFollower()
+    driver: object = load_policy(option).policy
+    assert isinstance(driver, WaypointDriver)  # both have the same two methods
+    return driver
+
+
+_RIVALS: dict[str, Callable[[Staging, Result], Result]] = {
+    "trigger-action": _trigger_action,
+    "synchronise": _synchronise,
+    "rejection": _rejection,
+    "follower": _follower,
+}

@@ -27,6 +27,8 @@ _ROUNDING = 1e-6
 _NO_CHANGE_MPS = 1e-3
 _NO_TIME_S = 1e-6
 _SLOW_FOR_TURN_MPSS = 2.5
+_FIRMLY_MPSS = 6.0
+_LEAST_ROOM_M = 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,16 +42,22 @@ class ConditionGroup:
         begins above its value, and holds from the moment it is below.
     at_s
         Where nothing is compared: the time (s) at which the group holds, as a simulation-time condition.
+    within_m
+        A hero that is so near its own value counts as being there.
     """
 
     sides: tuple[tuple[LinearCondition, float], ...]
     at_s: float
+    within_m: float = _ROUNDING
 
     def holds(self, time_s: float, states: States) -> bool:
         """Whether all conditions hold, given ``(position, speed)`` of every actor."""
         if not self.sides:
             return time_s >= self.at_s - _ROUNDING
-        return all(sign * condition.value(states) <= _ROUNDING for condition, sign in self.sides)
+        return all(
+            sign * condition.value(states) <= (_ROUNDING if EGO in condition.weights else self.within_m)
+            for condition, sign in self.sides
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +112,8 @@ class Script:
         Where hero and ego are at the planned trigger, on their routes.
     trigger_s, trigger_speed_mps
         When, and how fast the hero is then.
+    trigger_knot, turn
+        What the program calls that moment; where the hero's route turns.
     """
 
     hero: Actor
@@ -116,6 +126,7 @@ class Script:
     trigger_s: float
     trigger_speed_mps: float
     trigger_knot: str
+    turn: TurnSpan | None
 
     def carried_out(self, time_s: float, s_m: float, speed_mps: float) -> Profile:
         """Return the manoeuvre, begun at `time_s` from the hero's real state."""
@@ -133,11 +144,47 @@ class Script:
             knots.setdefault(name, now)
         return Profile(chain(time_s, s_m, speed_mps, moves or [(0.0, 0.0, 0)]), knots)
 
-    def begun_at(self, s_m: float, speed_mps: float, turn: TurnSpan | None) -> Script:
-        """Return the same script with another first state, held at constant speed."""
+    def intended(self) -> Profile:
+        """Return the whole motion as the author means it: the trigger comes when the hero is at its place."""
+        reached_s = self.approach.time_at(self.own_place_m)
+        time_s = self.trigger_s if reached_s is None else reached_s
+        s_m, speed, _ = self.approach.state(time_s)
+        then = self.carried_out(time_s, s_m, speed)
+        before = [segment for segment in self.approach.segments if segment.start_s < time_s - _NO_TIME_S]
+        # A stretch reaches to where the next begins, for speeds hold after a profile's last one.
+        ends = [segment.start_s for segment in before[1:]] + [time_s]
+        cut = [replace(s, duration_s=end - s.start_s) for s, end in zip(before, ends, strict=True)]
+        return Profile((*cut, *then.segments), then.knot_times_s)
+
+    def place_at_m(self, speed_mps: float) -> float:
+        """Return where the hero meets its own condition at a constant speed: a time to arrival depends on that."""
+        for condition, _ in self.group.sides:
+            if set(condition.weights) == {self.hero.id} and condition.weights[self.hero.id][0]:
+                per_metre, per_speed = condition.weights[self.hero.id]
+                return -(condition.constant + per_speed * speed_mps) / per_metre
+        return self.own_place_m
+
+    def begun_at(self, s_m: float, speed_mps: float) -> Script:
+        """Return the script for another first state, held at constant speed: one that stops does so where it did."""
         past = dict.fromkeys(self.approach.knot_times_s, 0.0)
-        approach = _slowed_for_turn([Segment(0.0, 0.0, s_m, speed_mps, 0.0)], self.own_place_m, self.limits, turn)
-        return replace(self, approach=Profile(approach, past), trigger_speed_mps=speed_mps)
+        place_m = self.place_at_m(speed_mps)
+        start = [Segment(0.0, 0.0, s_m, speed_mps, 0.0)]
+        approach = Profile(_slowed_for_turn(start, place_m, self.limits, self.turn), past)
+        actions = list(self.manoeuvre)
+        if actions and actions[0].distance_m is not None:
+            room_m = actions[0].distance_m + self.own_place_m - place_m
+            actions[0] = replace(actions[0], distance_m=max(_LEAST_ROOM_M, room_m))
+        return replace(
+            self, approach=approach, manoeuvre=tuple(actions), own_place_m=place_m, trigger_speed_mps=speed_mps
+        )
+
+
+def top_speed_mps(limits: Limits, turn: TurnSpan | None, s_m: float) -> float:
+    """Return how fast a hero may be at a place: slow enough for its turn, where that lies ahead or it is in it."""
+    if turn is None or s_m >= turn.end_m:
+        return limits.speed_max_mps
+    way_m = max(0.0, turn.start_m - s_m)
+    return min(limits.speed_max_mps, math.sqrt(limits.turn_speed_max_mps**2 + 2.0 * _FIRMLY_MPSS * way_m))
 
 
 def write_scripts(
@@ -181,6 +228,7 @@ def _script(
         trigger_s,
         speed,
         knot,
+        turn,
     )
 
 

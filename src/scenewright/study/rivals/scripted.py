@@ -28,7 +28,7 @@ class ScriptedHeroes:
     scripts
         By hero id.
     first
-        The plan that the scripts were written from.
+        The plan that the scripts were written from; of it the ego's foreseen motion is kept.
     step_s
         The simulator's step: how often conditions are looked at.
     """
@@ -36,12 +36,12 @@ class ScriptedHeroes:
     def __init__(self, structure: Structure, scripts: Mapping[int, Script], first: Plan, step_s: float) -> None:
         self.scripts = scripts
         self.step_s = step_s
-        self.plan = first
+        self._ego = first.profiles[EGO]
+        self.plan = Plan({EGO: self._ego, **{hero: script.intended() for hero, script in scripts.items()}})
         self.ego_knots_s: dict[str, float] = {}
         self.records: list[Replan] = []
         self.fired_s: dict[int, float] = {}
         self._structure = structure
-        self._ego = first.profiles[EGO]
         self._motions = {hero: _waiting(script) for hero, script in scripts.items()}
         self._moved_s = 0.0
 

@@ -1,0 +1,71 @@
+"""First states sampled until a run succeeds: what sampling scenario languages do.
+
+What enters: scripts, ranges that an author would give, a seed. What leaves: scripts with other first states, one after
+another. It drives nothing; each sample is a whole trigger-action run, judged like any other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from scenewright.solve.arrival import LinearCondition
+from scenewright.solve.limits import MOVING_MPS
+from scenewright.study.rivals.script import Script
+
+_START_MARGIN_M = 3.0
+
+
+@dataclass(frozen=True, slots=True)
+class Ranges:
+    """What an author leaves open, and within what: both uniform.
+
+    Attributes
+    ----------
+    speed_shares
+        Speed, in shares of the speed that a driver would choose on the way to the junction.
+    way_shares
+        Way to the hero's place, in shares of what it covers at that speed until the trigger is due.
+    """
+
+    speed_shares: tuple[float, float] = (0.5, 1.1)
+    way_shares: tuple[float, float] = (0.7, 1.3)
+
+
+def sampled_scripts(
+    conditions: tuple[LinearCondition, ...],
+    scripts: Mapping[int, Script],
+    generator: np.random.Generator,
+    ranges: Ranges | None = None,
+) -> Iterator[dict[int, Script]]:
+    """Yield scripts with sampled first states, without end; what the program says of a first state is kept."""
+    ranges = ranges or Ranges()
+    while True:
+        yield {hero: _sampled(conditions, script, generator, ranges) for hero, script in scripts.items()}
+
+
+def _sampled(
+    conditions: tuple[LinearCondition, ...],
+    script: Script,
+    generator: np.random.Generator,
+    ranges: Ranges,
+) -> Script:
+    hero, limits = script.hero, script.limits
+    speed = limits.natural_approach_speed_mps * float(generator.uniform(*ranges.speed_shares))
+    share = float(generator.uniform(*ranges.way_shares))
+    initial = [
+        c.weights[hero.id] + (c.constant,)
+        for c in conditions
+        if c.moments == {(hero.id, hero.sketch.knots[0])} and set(c.weights) == {hero.id}
+    ]
+    for per_metre, per_speed, constant in initial:
+        if not per_metre:
+            speed = -constant / per_speed
+    speed = min(max(speed, MOVING_MPS), limits.approach_speed_max_mps)
+    s_m = max(_START_MARGIN_M, script.place_at_m(speed) - share * speed * script.trigger_s)
+    for per_metre, per_speed, constant in initial:
+        if per_metre:
+            s_m = -(constant + per_speed * speed) / per_metre
+    return script.begun_at(s_m, speed)
