@@ -186,7 +186,7 @@ def test_solver_that_remembers_changes_nothing(tmp_path: Path, monkeypatch: pyte
     for each in asked:
         monkeypatch.setattr("scenewright.study.cases._solver", Z3Backend)
         alone.append(told(run_bench_case(each)))
-    solver = Remembering(Z3Backend(), 0.25)
+    solver = Remembering(Z3Backend())
     monkeypatch.setattr("scenewright.study.cases._solver", lambda: solver)
     assert [told(run_bench_case(each)) for each in asked] == alone
     assert solver.recalled > 10

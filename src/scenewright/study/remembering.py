@@ -1,7 +1,7 @@
 """A solver that remembers: the same question asked by another method, or of another ego, is answered from memory.
 
-What enters: problems. What leaves: what the solver beneath said to the same text before. Answers that depend on the
-time given are not remembered, nor are the small questions of every tick, which never come twice.
+What enters: problems. What leaves: what the solver beneath said to the same text before. That time ran out is no
+answer, and is not remembered.
 """
 
 from __future__ import annotations
@@ -18,27 +18,23 @@ class Remembering:
     """Another backend, with a memory.
 
     Every method begins with the same check and the same first plan, so that an experiment asks most long questions
-    several times. Sound because backends are deterministic: the same problem gives the same answer.
+    several times. Sound because backends are deterministic: the same problem gives the same answer. What is asked while
+    the ego drives hardly ever comes twice.
 
     Parameters
     ----------
     beneath
         Who answers what was not asked before.
-    ticks_s
-        Questions with no more time than this (s) are handed on as they are.
     """
 
-    def __init__(self, beneath: Backend, ticks_s: float) -> None:
+    def __init__(self, beneath: Backend) -> None:
         self.name = beneath.name
         self._beneath = beneath
-        self._ticks_s = ticks_s
         self._answers: OrderedDict[bytes, Result] = OrderedDict()
         self.recalled = 0
 
     def solve(self, problem: Problem, timeout_s: float, want_core: bool = False) -> Result:
         """Answer as `beneath` does."""
-        if timeout_s <= self._ticks_s:
-            return self._beneath.solve(problem, timeout_s, want_core)
         key = _key(problem, want_core)
         if key in self._answers:
             self.recalled += 1
