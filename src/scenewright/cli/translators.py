@@ -15,7 +15,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from scenewright.translate.model.settings import DEFAULT_REPAIRS, DEFAULT_TIMEOUT_S, Question, TranslatorSettings
+from scenewright.translate.model.settings import (
+    DEFAULT_MAX_TOKENS,
+    DEFAULT_REPAIRS,
+    DEFAULT_TIMEOUT_S,
+    Question,
+    TranslatorSettings,
+)
 
 if TYPE_CHECKING:
     from scenewright.program.types import Program
@@ -75,6 +81,16 @@ def _settings(
             rich_help_panel=_PANEL,
         ),
     ] = DEFAULT_TIMEOUT_S,
+    max_tokens: Annotated[
+        int,
+        typer.Option(
+            "--max-tokens",
+            min=100,
+            max=1_000_000,
+            help="What one reply of a model may hold, its thinking included.",
+            rich_help_panel=_PANEL,
+        ),
+    ] = DEFAULT_MAX_TOKENS,
     reply_wait_s: Annotated[
         float,
         typer.Option(
@@ -119,6 +135,7 @@ def _settings(
         replay=replay,
         timeout_s=timeout_s,
         reply_wait_s=reply_wait_s,
+        max_tokens=max_tokens,
         ask=_ask if can_ask else None,
         compare=differences_in_meaning,
         say=_say if sys.stderr.isatty() else None,

@@ -161,6 +161,31 @@ def test_user_answers_by_number(monkeypatch: pytest.MonkeyPatch, typed: str, ans
     assert "Which? ('the car')\n  1  a\n  2  b\nnumber [1]: " in written.getvalue()
 
 
+def test_question_is_asked_on_a_terminal_and_the_answer_counts(server: Server) -> None:
+    pty = pytest.importorskip("pty")
+    answered = PROGRAM.replace("- W\n", "- W, N\n").replace("conflict_point", "A1.junction_start")
+    server.does(says(json.dumps(reply_to(questions=[QUESTION]))), says(json.dumps(reply_to(answered))))
+    ours, theirs = pty.openpty()
+    words = ["translate", TEXT, "--ask", "--json", "--translator", "openai:some", "--base-url", server.address]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "scenewright", *words],
+        stdin=theirs,
+        stderr=theirs,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    os.close(theirs)
+    shown = b""
+    while b"number [1]: " not in shown:
+        shown += os.read(ours, 1000)
+    os.write(ours, b"2\n")
+    data = json.loads(process.communicate(timeout=60)[0])
+    os.close(ours)
+    assert b"Which way?" in shown
+    assert data["assumptions"] == ["Which way? You answered: right."]
+    assert "- W, N" in data["program"]
+
+
 def test_without_a_terminal_nobody_is_asked(server: Server) -> None:
     server.does(says(json.dumps(reply_to(questions=[QUESTION]))))
     result = call("translate", TEXT, "--ask", server=server)

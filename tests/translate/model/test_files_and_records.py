@@ -15,7 +15,7 @@ from scenewright.roads.load import load_map
 from scenewright.translate.model.exchange import Call, GaveUpError, Message, key_of
 from scenewright.translate.model.files import FilesModel, NoReplyYetError, write_whole
 from scenewright.translate.model.records import Recording, Replayed
-from scenewright.translate.model.settings import TranslatorSettings
+from scenewright.translate.model.settings import DEFAULT_MAX_TOKENS, TranslatorSettings
 from scenewright.translate.model.translation import ModelTranslation
 from scenewright.translate.model.translator import translate_with_model
 from scenewright.translate.sources import read_scenario
@@ -179,7 +179,7 @@ def test_broken_record_is_told(tmp_path: Path, content: str) -> None:
 
 def test_replay_needs_neither_key_nor_library_nor_address(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     name = "openai-compatible:tiny"
-    model = Recording(Said([GOOD], name=name, settings={"max_tokens": 16_000}), tmp_path)
+    model = Recording(Said([GOOD], name=name, settings={"max_tokens": DEFAULT_MAX_TOKENS}), tmp_path)
     translate_with_model(TEXT, MAP, "description", model, TranslatorSettings())
     monkeypatch.delenv("SCENEWRIGHT_API_KEY")
     for module in ("pydantic_ai", "openai", "httpx2"):

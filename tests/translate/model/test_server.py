@@ -236,7 +236,10 @@ def test_wrong_program_is_sent_back_with_place_and_expectation(server: Server) -
 
 def test_reply_cut_off_at_the_limit_of_tokens_is_sent_back(server: Server) -> None:
     assert translate(server, says(GOOD[:200], finish="length"), says()).usage.calls == 2
-    assert "cut off after" in server.asked[1]["messages"][2]["content"]
+    assert "the reply is cut off" in server.asked[1]["messages"][-1]["content"]
+    fault = fault_of(server, says(GOOD[:200], finish="length"), repairs=0, max_tokens=123)
+    assert "--max-tokens" in str(fault.found)
+    assert server.asked[-1].get("max_completion_tokens", server.asked[-1].get("max_tokens")) == 123
 
 
 @pytest.mark.parametrize(

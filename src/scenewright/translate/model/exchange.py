@@ -16,6 +16,7 @@ from scenewright.errors import TranslationError
 
 Role = Literal["system", "user", "assistant"]
 CHARACTERS_PER_TOKEN = 4  # what English and code come to with the tokenisers of today, near enough for an estimate
+CUT_OFF = "[cut off by the limit of tokens]"  # what stands at the end of a reply that came to no end
 LONGEST_REPLY = 100_000  # characters; a whole reply of a model is some thousands
 
 

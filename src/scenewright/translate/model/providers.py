@@ -16,8 +16,9 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
 from scenewright.errors import InputError, MissingExtraError, ScenewrightError, TranslationError
-from scenewright.translate.model.exchange import Answer, Call, GaveUpError, Usage, estimated_usage
+from scenewright.translate.model.exchange import CUT_OFF, Answer, Call, GaveUpError, Usage, estimated_usage
 from scenewright.translate.model.keys import KEY_VARIABLES, key_for, scrubbed, without_known_keys
+from scenewright.translate.model.settings import DEFAULT_MAX_TOKENS, DEFAULT_TIMEOUT_S
 
 if TYPE_CHECKING:
     from pydantic_ai.messages import ModelMessage, ModelResponse
@@ -46,8 +47,8 @@ class ServedModel:
     provider: str
     model: str
     base_url: str | None = None
-    timeout_s: float = 120.0
-    max_tokens: int = 16_000
+    timeout_s: float = DEFAULT_TIMEOUT_S
+    max_tokens: int = DEFAULT_MAX_TOKENS
     say: Callable[[str], None] | None = None
 
     @property
@@ -143,7 +144,7 @@ class ServedModel:
             raise self._declined(text or str((response.provider_details or {}).get("refusal") or ""))
         if response.finish_reason == "length" and not text.rstrip().endswith("}"):
             # Said within the text, so that it goes back to the model like any other reply that does not hold.
-            text += f"\n[cut off after {self.max_tokens} tokens]"
+            text += f"\n{CUT_OFF}"
         used = response.usage
         if used.input_tokens or used.output_tokens:
             return Answer(text, Usage(1, used.input_tokens, used.output_tokens))

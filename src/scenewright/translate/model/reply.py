@@ -13,7 +13,7 @@ from typing import Annotated, Any
 from pydantic import BaseModel, BeforeValidator, Field, ValidationError, model_validator
 
 from scenewright.errors import TranslationError
-from scenewright.translate.model.exchange import LONGEST_REPLY
+from scenewright.translate.model.exchange import CUT_OFF, LONGEST_REPLY
 
 LONGEST_PROGRAM = 20_000
 LONGEST_SENTENCE = 2_000
@@ -114,6 +114,12 @@ def read_reply(text: str) -> Reply:
             "the reply is too long",
             found=f"{len(text)} characters",
             expected=f"one JSON object of at most {LONGEST_REPLY} characters",
+        )
+    if text.endswith(CUT_OFF):
+        raise TranslationError(
+            "the reply is cut off",
+            found="more tokens than --max-tokens allows",
+            expected="a shorter reply: the JSON object alone, each reading in a few words",
         )
     data = _object_in(text)
     try:

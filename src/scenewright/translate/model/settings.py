@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 DEFAULT_REPAIRS = 3
 DEFAULT_TIMEOUT_S = 120.0
+DEFAULT_MAX_TOKENS = 8000  # a reply takes some hundreds; models that think before they write count that too
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +82,7 @@ class TranslatorSettings:
     replay: Path | None = None
     timeout_s: float = DEFAULT_TIMEOUT_S
     reply_wait_s: float = 0.0
-    max_tokens: int = 16_000
+    max_tokens: int = DEFAULT_MAX_TOKENS
     ask: Callable[[Question], str] | None = None
     verify: Callable[[Program], str | None] | None = None
     compare: Callable[[Program, Program], list[str]] | None = None
