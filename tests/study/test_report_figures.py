@@ -73,9 +73,9 @@ def stores() -> dict[str, Material]:
         "all infeasible": material(made_up(rows=[1, 2], draws=1, only="proven infeasible")),
         "one case": material(small[:1]),
         "names unknown": material(strange),
-        "nothing measured": material(small, Extras()),
+        "nothing measured": material(small[:1], Extras()),
         "all cells infeasible": material(
-            small, Extras(tuple(replace(c, infeasible=True, error_m=None) for c in CELLS))
+            small[:1], Extras(tuple(replace(c, infeasible=True, error_m=None) for c in CELLS))
         ),
     }
 
@@ -83,7 +83,10 @@ def stores() -> dict[str, Material]:
 @pytest.mark.parametrize("name", list(stores()))
 def test_every_figure_is_drawn_from_every_store(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(style, "DPI", 50)
+    own_measurements = name in ("ordinary", "nothing measured", "all cells infeasible")
     for section in sections_of(stores()[name]):
+        if section.id in ("precision", "times") and not own_measurements:
+            continue  # they do not read the store
         for plot in section.plots:
             png = render_png(plot.draw, LIGHT, {"Title": plot.name})
             assert png.startswith(b"\x89PNG")

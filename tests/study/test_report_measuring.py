@@ -212,8 +212,11 @@ def test_translations_are_timed_by_length() -> None:
         }
     )
     assert len(record["ms"]) == 2
-    lines = times.translations_table([record, {"row": 2, "error": "no"}]).records()
-    assert [line["descriptions"] for line in lines] == [1, 1]
+    refused = times.time_translation({"row": 2, "repeats": 2, "description": "Colourless green ideas."})
+    assert "ms" not in refused
+    assert refused["refused"]
+    lines = times.translations_table([record, refused]).records()
+    assert [(line["descriptions"], line["refused"]) for line in lines] == [(1, None), (1, 1)]
     assert lines[-1]["p50_ms"] <= lines[-1]["p99_ms"] <= lines[-1]["max_ms"]
 
 

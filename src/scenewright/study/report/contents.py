@@ -261,12 +261,13 @@ def _times(material: Material) -> Section:
     ticks = [ms for record in material.own for ms in record.solve_ms]
     late = sum(ms > _TICK_MS for ms in ticks)
     readings = sum(len(record.get("ms", ())) for record in extras.translations)
+    refused = sum("ms" not in record for record in extras.translations)
     plots = (
         Plot(
             "translation_times",
-            "Time of the offline translator for one of the benchmark's descriptions, and over its length.",
+            "Time of the offline translator for one of the benchmark's descriptions that it understands; over length.",
             lambda theme: draw_translations(extras.translations, theme),
-            f"{readings} translations of {len(extras.translations)} descriptions",
+            f"{readings} translations of {len(extras.translations)} descriptions, {refused} refused",
             source,
         ),
         Plot(

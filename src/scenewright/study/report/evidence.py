@@ -1,11 +1,12 @@
 """What was measured in a case that did not succeed, condition by condition.
 
-What enters: a record and the folder of its results. What leaves: one line of text. Where the run was kept, its files
+What enters: a record and the folder of its results. What leaves: text. Where the run was kept, its files
 are judged again and required and measured values stated; else what the record says.
 """
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from scenewright.errors import ScenewrightError
@@ -14,7 +15,7 @@ from scenewright.units import SI_SYMBOL
 
 
 def evidence(record: CaseRecord, folder: Path) -> str:
-    """Return in one line what is known about a case that did not succeed."""
+    """Return what is known about a case that did not succeed, one thing a line."""
     parts = _measured(record, folder) or ["failed: " + ", ".join(record.failed_conditions)] * bool(
         record.failed_conditions
     )
@@ -24,7 +25,7 @@ def evidence(record: CaseRecord, folder: Path) -> str:
         parts.append("proof: " + "; ".join(record.proof.splitlines()))
     if record.message:
         parts.append(record.message)
-    return "; ".join(parts)
+    return "\n".join(parts)
 
 
 def _measured(record: CaseRecord, folder: Path) -> list[str]:
@@ -55,5 +56,8 @@ def _measured(record: CaseRecord, folder: Path) -> list[str]:
 def _stated(text: str, required: float | None, measured: float | None, unit: str) -> str:
     unit = f" {unit}" if unit else ""
     wanted = "" if required is None else f"required {required:.2f}{unit}, "
-    found = "not measurable" if measured is None else f"measured {measured:.2f}{unit}"
+    if measured is None or not math.isfinite(measured):
+        found = "never came about"
+    else:
+        found = f"measured {measured:.2f}{unit}"
     return f"{text} ({wanted}{found})"

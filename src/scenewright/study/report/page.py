@@ -188,8 +188,9 @@ def _cell(column: Column, value: Value) -> str:
         return f'<td class="{column.kind}" data-sort="{value!r}">{value:.{column.digits}f}</td>'
     if isinstance(value, int):
         return f'<td class="{column.kind}" data-sort="{value}">{value}</td>'
-    own = f"{column.kind} {column.name}" if column.name == "evidence" else column.kind
-    return f'<td class="{own}">{_cause_mark(column, str(value))}{_text(str(value))}</td>'
+    if column.name == "evidence":
+        return f'<td class="text evidence"><div>{_text(str(value))}</div></td>'
+    return f'<td class="{column.kind}">{_cause_mark(column, str(value))}{_text(str(value))}</td>'
 
 
 def _cause_mark(column: Column, value: str) -> str:

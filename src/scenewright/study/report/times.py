@@ -51,11 +51,18 @@ def measure_translations(bench: Bench, size: TimesSize) -> list[Measured]:
 
 
 def time_translation(job: Job) -> Measured:
-    """Translate one description and return the times; one warm-up before, so that imports are not counted."""
+    """Translate one description and return the times; one warm-up before, so that imports are not counted.
+
+    A description that the translator refuses has its reason in place of times.
+    """
+    from scenewright.errors import ScenewrightError
     from scenewright.translate.sources import read_scenario
 
     text = job["description"]
-    read_scenario(text)
+    try:
+        read_scenario(text)
+    except ScenewrightError as error:
+        return {"words": len(text.split()), "refused": error.message}
     times = []
     for _ in range(job["repeats"]):
         started = time.perf_counter()
@@ -76,8 +83,14 @@ def translations_table(records: Sequence[Measured]) -> Table:
     rows = []
     for name, own in groups.items():
         if own or name == "all":
-            rows.append((name, len(own), *_percentiles([ms for record in own for ms in record["ms"]])))
-    columns = (Column("length", "descriptions of"), Column("descriptions", "descriptions", "count"), *_columns())
+            readings = [ms for record in own for ms in record["ms"]]
+            rows.append((name, len(own), len(records) - len(done) if name == "all" else None, *_percentiles(readings)))
+    columns = (
+        Column("length", "descriptions of"),
+        Column("descriptions", "descriptions", "count"),
+        Column("refused", "refused", "count"),
+        *_columns(),
+    )
     return Table("translation_times", "Time to translate one description, offline translator", columns, tuple(rows))
 
 
