@@ -113,6 +113,31 @@ A1v(t2) == 0
 
 
 @pytest.mark.parametrize(
+    ("words", "written"),
+    [
+        ("twelve metres", "12 m"),
+        ("a hundred and twenty feet", "120 ft"),
+        ("three point five metres", "3.5 m"),
+        ("one and a half metres", "1.5 m"),
+        ("half a kilometre", "0.5 km"),
+        ("1/3 km", "1/3 km"),
+        ("2½ m", "2.5 m"),
+        ("¾ m", "0.75 m"),
+        ("1,200 ft", "1200 ft"),
+        ("1,5 m", "1.5 m"),
+        ("a couple of metres", "2 m"),
+    ],
+)
+def test_number_in_any_writing_is_no_invention(words: str, written: str) -> None:
+    text = TEXT.replace("12 m", words)
+    readings = [(sentence, ["c1", "c2", "c3", "c4", "c5"]) for sentence in text.split(". ")]
+    program = PROGRAM.replace("12 m", written)
+    assert verified(text, program=program, readings=readings)
+    with pytest.raises(TranslationError, match="the number"):
+        verified(text, program=PROGRAM.replace("12 m", "777 m"), readings=readings, assumptions=[words])
+
+
+@pytest.mark.parametrize(
     ("readings", "words"),
     [
         (READINGS[1:], "no reading tells of 'The AV comes out"),

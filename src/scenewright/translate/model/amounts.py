@@ -7,6 +7,7 @@ It compares sizes only; what a number is used for is for people to check in the 
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
@@ -16,7 +17,7 @@ from scenewright.program.types import Program
 from scenewright.units import UNITS, unit_of_name
 
 _PARAMETER = re.compile(r"(?<![A-Za-z0-9_])[A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)+(?![A-Za-z0-9_])")
-_NUMBER = re.compile(r"(?<![\w.,])(\d{1,9}(?:[.,]\d{1,9})?)")
+_NUMBER = re.compile(r"(?<![\w.,/])(\d{1,9}(?:[.,]\d{1,9})?)")
 _WORDS = {
     "m": "m|met(?:er|re)s?", "km": "km|kilomet(?:er|re)s?", "cm": "cm|centimet(?:er|re)s?", "ft": "ft|feet|foot",
     "yd": "yds?|yards?", "mi": "mi|miles?", "s": "s|secs?|seconds?", "ms": "ms|milliseconds?", "min": "min|minutes?",
@@ -39,6 +40,8 @@ _NUMERALS = {
     **{"hundred": Fraction(100), "half": Fraction(1, 2), "quarter": Fraction(1, 4), "dozen": Fraction(12)},
     **{"a": Fraction(1), "an": Fraction(1), "couple": Fraction(2), "once": Fraction(1), "twice": Fraction(2)},
 }
+_JOINTS = ("and", "point")
+_QUOTIENT = re.compile(r"(?<![\w.,/])(\d{1,4})\s?/\s?(\d{1,4})(?![\w/])")
 _NEAR = Fraction(1, 200)
 
 
@@ -85,18 +88,45 @@ def _accounted(told: str, value: Fraction) -> bool:
 
 
 def _known_sizes(description: str) -> Iterator[Fraction]:
-    """Yield every size that some number of the description could stand for, in any unit, compound words included."""
+    """Yield every size that some number of the description could stand for, in any unit."""
     for match in _NUMBER.finditer(description):
         yield from _sizes(match[1])
-    total = last = Fraction(0)
-    for word in re.findall(r"[a-z]+", description.lower()):
-        value = _NUMERALS.get(word)
-        if value is None:
-            total = last if word == "and" else Fraction(0)
+    values = [Fraction(int(over), int(under)) for over, under in _QUOTIENT.findall(description) if int(under)]
+    for whole, sign in re.findall(r"(\d{0,6})\s?([½¼¾⅓⅔])", description):
+        values.append(Fraction(whole or 0) + Fraction(unicodedata.numeric(sign)).limit_denominator(4))
+    values += _in_words(re.findall(r"[a-z]+", description.lower()))
+    yield from (value * unit.si_factor for value in dict.fromkeys(values) for unit in UNITS.values())
+
+
+def _in_words(words: list[str]) -> Iterator[Fraction]:
+    """Yield what numbers in words come to: "a hundred and twenty", "three point five", "one and a half"."""
+    run: list[str] = []
+    for word in [*words, ""]:
+        if word in _NUMERALS or word in _JOINTS:
+            run.append(word)
             continue
-        total = total * value if word == "hundred" and total else total + value
-        last = total
-        yield from (each * unit.si_factor for each in {total, value} for unit in UNITS.values())
+        for first in range(len(run)):
+            for last in range(first + 1, min(len(run), first + 8) + 1):
+                yield _value_in_words(run[first:last])
+        run = []
+
+
+def _value_in_words(words: list[str]) -> Fraction:
+    total, digits = Fraction(0), None
+    counted = [word for word in words if word not in ("a", "an", "and")]
+    if not counted:
+        return Fraction(1)
+    for word in counted:
+        value = _NUMERALS.get(word, Fraction(0))
+        if word == "point":
+            digits = Fraction(1, 10)
+        elif digits is not None:
+            total, digits = total + value * digits, digits / 10
+        elif word == "hundred":
+            total = (total or Fraction(1)) * 100
+        else:
+            total += value
+    return total
 
 
 def _sizes(digits: str) -> list[Fraction]:
