@@ -136,13 +136,17 @@ class ActionReader(DescriptionReader):
         elif event.landmark is None:
             if len(event.places) == 1 and event.places[0].relation == "at" and isinstance(event.places[0].target, str):
                 goal = event.places[0].target
+            elif event.verb == "pass" and not event.places:
+                phase.goal_assumed = f"'{event.span.excerpt(self.text)}': it passes the conflict point"
+                self.facts.assumptions.append(phase.goal_assumed)
+                goal = phase.goal or "conflict_point"
             else:
                 raise self._refuse("it is not said what the hero passes", event.span, "the conflict point")
         else:
             goal = EDGE.get((event.verb, event.landmark), event.landmark)
             if event.places:
                 raise self._refuse("two places are given", event.places[0].span)
-        if phase.goal_assumed is not None and phase.goal != goal:
+        if phase.goal_assumed is not None and phase.goal not in (None, goal):
             self._set_order_goal(phase, goal)
         if phase.goal is not None and phase.goal != goal:
             raise self._refuse("two different places to pass are given", event.span)
@@ -252,7 +256,10 @@ class ActionReader(DescriptionReader):
         self._set_order(Order(False, self._ego_landmark(event), event, at_start=at_start))
 
     def _beats(self, event: Event, phase: Phase) -> None:
-        """Read "goes first" and "passes the conflict point before the ego"."""
+        """Read "goes first", "passes the conflict point before the ego" and "... after the ego"."""
+        if event.after_actor is not None:
+            self._comes_second(event, phase)
+            return
         if not event.first and event.than_actor is None:
             return
         if event.than_actor == HERO_ID:
@@ -269,6 +276,22 @@ class ActionReader(DescriptionReader):
         phase.goal_assumed = assumed if phase.goal is None else phase.goal_assumed
         phase.goal, phase.goal_event = goal, phase.goal_event or event
         self._set_order(Order(True, goal, event))
+        self.order_assumed = phase.goal_assumed is not None
+
+    def _comes_second(self, event: Event, phase: Phase) -> None:
+        """Read "passes the conflict point after the ego" and "goes after the ego"."""
+        if event.after_actor == HERO_ID:
+            raise self._refuse("the hero cannot come after itself", event.span)
+        if phase.kind in ("dec", "turn"):
+            raise self._refuse("it is not clear which moment of the ego this is after", event.span)
+        starts = (
+            event.verb in SPEEDING and phase.goal is None and [p.kind for p in self.facts.phases] == ["dec", phase.kind]
+        )
+        goal = phase.goal or "conflict_point"
+        self.facts.assumptions.append(f"'{event.span.excerpt(self.text)}': the ego passes the conflict point first")
+        if phase.goal is None and not starts:
+            phase.goal, phase.goal_event = goal, event
+        self._set_order(Order(False, "conflict_point", event, at_start=starts))
 
     def _check_spent(self, event: Event, phase: Phase) -> None:
         """Refuse what an action says but no phase holds."""

@@ -29,6 +29,31 @@ class AdjunctReader(ReaderState):
             or self._way_adjunct()
         )
 
+    def _parenthesis(self) -> bool:
+        """Read "the ego (13 m/s)" and "the hero (westbound)": said of the vehicle that was named just before."""
+        if self.phrases.tokens[self.at].text != "(" or self.phrases.last_named is None:
+            return False
+        actor, end = self.phrases.last_named
+        if end != self.at:
+            return False
+        event = Event("be", actor, self.phrases.tokens[self.at - 1].span, self.sentence, ["that"])
+        at = self.at + 1
+        while self.phrases.tokens[at].text != ")":
+            quantity, heading = self.phrases.tokens[at].quantity, self.phrases.heading(at)
+            if quantity is not None and quantity.dimension == "speed" and event.speed is None:
+                event.speed, at = quantity, at + 1
+            elif heading is not None:
+                event.headings.append((heading[0], self.phrases.span(at, heading[1])))
+                at = heading[1]
+            elif self.phrases.tag(at, "comma") is not None or self.phrases.tag(at, "preposition") == "at":
+                at += 1
+            else:
+                return False
+        event.span = self.phrases.span(self.at - 1, at + 1)
+        self.events.append(event)
+        self.at = at + 1
+        return True
+
     def _particle(self) -> bool:
         """Step over "along" in "comes along westbound", "forward" in "creeps forward"."""
         if self.current is None or self.current.verb not in ("drive", "approach", "pull_out") or self.links:
@@ -54,7 +79,11 @@ class AdjunctReader(ReaderState):
         else:
             at = self.phrases.skip_hedges(at)
             quantity, end = self.phrases.tokens[at].quantity, at + 1
-        if quantity is None or (quantity.dimension in ("length", "time") and preposition != "for"):
+        waits = self.current is not None and self.current.verb == "wait" and not self.links
+        timed = preposition == "for" or (waits and quantity is not None and quantity.dimension == "time")
+        if quantity is None or (quantity.dimension in ("length", "time") and not timed):
+            return False
+        if waits and preposition != "for" and self.phrases.place(self.at):
             return False
         if quantity.dimension == "acceleration" and self.phrases.tag(end, "measure") == "rate":
             end += 1  # "with 4 m/s^2 deceleration"
@@ -84,7 +113,9 @@ class AdjunctReader(ReaderState):
         shared = (self._place_before() or self._place_after(self.at + 1)) if ends else None
         if shared is None or not isinstance(shared.target, str) or shared.of_whom is not None:
             return False
-        if shared.target == "stop_line":  # each vehicle has its own, or none: nothing that two can share
+        if (
+            shared.target == "stop_line" and not self._respectively_follows()
+        ):  # each vehicle has its own, or none: nothing that two can share
             return False
         if shared.amount is None or shared.amount.dimension != amount.dimension:
             return False
@@ -95,6 +126,14 @@ class AdjunctReader(ReaderState):
         self.at += 1
         self._grow()
         return True
+
+    def _respectively_follows(self) -> bool:
+        at = self.at
+        while "end" not in self.phrases.tokens[at].tags:
+            if self.phrases.tokens[at].text.lower() == "respectively":
+                return True
+            at += 1
+        return False
 
     def _place_before(self) -> Place | None:
         """Return the place that the vehicle before is compared with: "the ego is 35 m from it and the hero 20 m"."""
@@ -134,12 +173,28 @@ class AdjunctReader(ReaderState):
         host = self._host()
         if host is None:
             return False
+        if (
+            second := self._respective(end)
+        ) is not None:  # "... from the conflict point and the stop line respectively"
+            place, end = replace(place, target=second[0]), second[1]
         host.places.append(place)
         if place.target == "stop_line" and self.phrases.tag(end - 1, "area") == "driveway":
             host.areas.append(Area("on", "driveway", place.span))  # "at the stop line of the driveway"
         self.at = end
         self._grow()
         return True
+
+    def _respective(self, at: int) -> tuple[str, int] | None:
+        """Read "and the stop line(,) respectively" after the first of two places; the second one and what follows."""
+        if self.phrases.tag(at, "link") != "and":
+            return None
+        found = self.phrases.landmark(at + 1)
+        if found is None:
+            return None
+        end = found[1] + (self.phrases.tag(found[1], "comma") is not None)
+        if self.phrases.tokens[end].text.lower() != "respectively":
+            return None
+        return found[0], end + 1
 
     def _way_adjunct(self) -> bool:
         """Read areas, headings, directions and what a vehicle drives towards."""
@@ -168,7 +223,7 @@ class AdjunctReader(ReaderState):
         if (
             self.current is not None
             and self.current.verb in ("leave", "pull_out")
-            and (area := self.phrases.area_noun(self.at, "from"))
+            and (area := self.phrases.area_noun(self.at, self._role_of(self.current)))
         ):
             self.current.areas.append(area[0])
             self.at = area[1]
@@ -183,6 +238,11 @@ class AdjunctReader(ReaderState):
             self._grow()
             return True
         return self._direction()
+
+    def _role_of(self, event: Event) -> str:
+        """Whether a vehicle comes out of what stands after its verb, or goes into it: "joins the road"."""
+        words = event.span.excerpt(self.phrases.text).lower().split()
+        return "into" if any(word.startswith(("join", "merg")) for word in words) else "from"
 
     def _host_of_heading(self, end: int) -> Event | None:
         if self.links and self.current is not None and self.current.verb in TURNS and "comma" in self.links:
@@ -237,6 +297,18 @@ class AdjunctReader(ReaderState):
             if phrase is None or (phrase.kind != "pronoun" and self.phrases.resolve(phrase) == host.actor):
                 return False
             end = phrase.end
+        side_of = host.actor
+        if side.startswith("on_") and host.areas and host.areas[-1].kind == "driveway":
+            named = self.phrases.last_named
+            if named is not None and self.phrases.tokens[self.at].text.lower().startswith(("on", "to", "at")):
+                whose = self._from_whose_side(self.at)
+                side_of = named[0] if whose is not None else host.actor
+            if host.areas[-1].role == "into":
+                relation = f"driveway_{side.rpartition('_')[2]}"
+                host.relations.append((relation, side_of, self.phrases.span(self.at, end)))
+                self.at = end
+                self._grow()
+                return True
         on_driveway = any(area.kind == "driveway" for area in host.areas)
         seen_by_itself = side.startswith("on_") and on_driveway and host.actor == EGO_ID
         if seen_by_itself or (side.startswith("on_") and not on_driveway and host.verb != "pull_out"):
@@ -251,6 +323,13 @@ class AdjunctReader(ReaderState):
         event = self.current
         if event is None and self.subject_span is not None and self._tag("actor_adjective") == "oncoming":
             event = self._host()  # "GVT oncoming."
+        other_way = self._tag("oncoming_way") is not None or (
+            self._tag("preposition") in ("in", "out")
+            and self.phrases.tag(self.phrases.skip_determiner(self.at + 1), "actor_adjective") == "oncoming"
+        )
+        if event is None and self.subject_span is not None and other_way:
+            event = self._host()  # "a car from the opposite direction turns left"
+            self.reduced = event
         if event is None or event.actor is None or self.links:
             return False
         if self._tag("oncoming_way") and event.verb in ("be", "drive", "approach"):  # "coming the other way"

@@ -52,6 +52,7 @@ class ClauseReader(OpeningReader):
         return (
             self._stop()
             or self._label()
+            or self._parenthesis()
             or self._comma()
             or self._frame()
             or self._adverb()
@@ -98,6 +99,12 @@ class ClauseReader(OpeningReader):
             self.links.append({"when": "when", "main": "then_label"}.get(self.label or "main", "comma"))
             return True
         if self._tag("colon"):
+            here = [event for event in self.events if event.sentence == self.sentence]
+            states = all(e.verb in ("be", "sit", "ttc") and (e.places or e.ttc) and not e.initial for e in here)
+            if here and states and self.label is None and not any("when" in e.links for e in here):
+                here[0].links.insert(0, "when")  # "Ego 12 m from the stop line: the hero stops"
+                for event in here[1:]:
+                    event.links.append("and")
             self.at += 1
             self.links.append("comma")
             return True
@@ -116,6 +123,8 @@ class ClauseReader(OpeningReader):
             return False
         if adverb == "initially":
             self._mark_initial()
+        elif adverb == "first" and "comma" in self.links and self.phrases.verb(self.at + 1, "brake", "stop", "yield"):
+            pass  # "..., first stops, then goes"
         elif adverb == "first":
             if self.current is None or self.current.verb not in (
                 "go",
@@ -124,6 +133,8 @@ class ClauseReader(OpeningReader):
                 "keep",
                 "complete",
                 "turn",
+                "reach",
+                "enter",
             ):
                 sequence = self.subject_span is not None and self.phrases.verb(self.at + 1, "brake", "stop", "yield")
                 if not sequence and (self.links or self.current is not None):
@@ -221,7 +232,7 @@ class ClauseReader(OpeningReader):
             return True
         if self.phrases.tag(phrase.end, "genitive") is not None or self.current is None:
             return False
-        if link == "after" or self.current.verb not in (
+        if self.current.verb not in (
             "pass",
             "complete",
             "go",
@@ -232,7 +243,11 @@ class ClauseReader(OpeningReader):
             "enter",
         ):
             return False
-        self.current.than_actor = self.phrases.resolve(phrase)
+        other = self.phrases.resolve(phrase)
+        if link == "after":
+            self.current.after_actor = other
+        else:
+            self.current.than_actor = other
         self.at = phrase.end + (token.tags.get("auxiliary") == "do")
         self._grow()
         return True
@@ -294,7 +309,29 @@ class ClauseReader(OpeningReader):
         acts = self.phrases.verb(at, "brake", "stop", "accelerate", "go", "keep", "yield", "come") is not None
         return bool(subordinate and named and acts and self.pronouns == 1)
 
+    def _place_subject(self) -> bool:
+        """Read "the stop line is 12 m ahead of the ego"."""
+        found = self.phrases.landmark(self.at)
+        if found is None or self.phrases.tag(found[1], "be") is None or found[2] is not None:
+            return False
+        place = self.phrases.place(found[1] + 1)
+        if place is None or place[0].relation not in ("ahead", "from") or not isinstance(place[0].target, int):
+            return False
+        if place[0].amount is None or (self.current is not None and not self.links):
+            return False
+        start = self.at
+        self._check_subject_used()
+        self._set_subject(place[0].target, self.phrases.span(start, place[1]))
+        event = self._open("be", start)
+        landmark = "turn_start" if found[0] == "mouth" else found[0]
+        event.places.append(Place("before", landmark, place[0].amount, place[0].span, vague=found[3]))
+        self.at = place[1]
+        self._grow()
+        return True
+
     def _passive_subject(self) -> bool:
+        if self._place_subject():
+            return True
         if not self._passive_follows(self.at) or (self.current is not None and not self.links):
             return False
         found = self._passive_object_at(self.at)
@@ -337,14 +374,15 @@ class ClauseReader(OpeningReader):
             self.at = phrase.end
             self._grow()
             return True
-        if event is not None and event.verb == "approach" and phrase.adjectives & {"lead", "oncoming"}:
+        from_behind = self.phrases.tag(phrase.end, "from_behind") is not None
+        if event is not None and event.verb == "approach" and (phrase.adjectives & {"lead", "oncoming"} or from_behind):
             other = self.phrases.resolve(phrase)
             if other == event.actor or event.places or event.landmark:
                 return False
-            if "lead" in phrase.adjectives:
+            if "lead" in phrase.adjectives or from_behind:
                 event.verb = "drive"
                 event.places.append(Place("behind", other, None, phrase.span))
-            self.at = phrase.end
+            self.at = phrase.end + from_behind
             self._grow()
             return True
         if event is None or event.verb != "yield" or event.to_actor is not None:

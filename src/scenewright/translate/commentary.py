@@ -6,16 +6,15 @@ translation reports. A stretch with an amount, or with words that tell what the 
 
 from __future__ import annotations
 
-from scenewright.errors import Span
 from scenewright.translate.tokens import Token
 
 _CONTENT = frozenset(("quantity", "bare_number"))
 
 
-def without_commentary(tokens: list[Token]) -> tuple[list[Token], list[Span]]:
-    """Return the tokens that describe the scenario, and the spans of those that comment on it."""
+def without_commentary(tokens: list[Token]) -> tuple[list[Token], list[list[Token]]]:
+    """Return the tokens that describe the scenario, and the stretches that comment on it."""
     kept: list[Token] = []
-    skipped: list[Span] = []
+    skipped: list[list[Token]] = []
     at = 0
     while at < len(tokens):
         end = _comment_end(tokens, at, kept)
@@ -23,7 +22,7 @@ def without_commentary(tokens: list[Token]) -> tuple[list[Token], list[Span]]:
             kept.append(tokens[at])
             at += 1
             continue
-        skipped.append(tokens[at].span.union(tokens[end - 1].span))
+        skipped.append(tokens[at:end])
         while kept and (kept[-1].tags.keys() & {"comma"} or _is_and(kept[-1])):
             kept.pop()
         at = end
@@ -33,6 +32,21 @@ def without_commentary(tokens: list[Token]) -> tuple[list[Token], list[Span]]:
             if at < len(tokens) - 1 and "end" in tokens[at].tags:
                 at += 1
     return kept, skipped
+
+
+def denied(skipped: list[Token], ways: list[tuple[str, ...]]) -> Token | None:
+    """Return the word of a skipped stretch that no vehicle's way fits: "a left turn" where nobody turns left.
+
+    Parameters
+    ----------
+    ways
+        For each vehicle its turn and its headings.
+    """
+    for token in skipped:
+        said = token.tags.get("direction") or token.tags.get("heading")
+        if token.tags.get("adverb") != "just" and said is not None and not any(said in way for way in ways):
+            return token
+    return None
 
 
 def _is_and(token: Token) -> bool:
@@ -47,6 +61,8 @@ def _comment_end(tokens: list[Token], at: int, kept: list[Token]) -> int | None:
         kind = _expectation(tokens, at)
     if kind is None or (kind == "sentence" and not fresh):
         return None
+    if kind == "line":
+        return at + 1
     end = at + 1
     while "end" not in tokens[end].tags:
         if kind == "clause" and "comma" in tokens[end].tags:

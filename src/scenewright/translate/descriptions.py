@@ -60,6 +60,7 @@ class DescriptionReader:
             or event.duration
             or event.first
             or event.than_actor is not None
+            or event.after_actor is not None
             or (event.landmark and event.verb != "approach")
         ):
             raise self._refuse(f"'{event.span.excerpt(self.text)}' has no meaning here", event.span)
@@ -89,8 +90,17 @@ class DescriptionReader:
             raise self._refuse(
                 "a time to collision belongs into the trigger", event.span, fix="say 'when the time to collision ...'"
             )
-        if event.verb == "wait":
+        if event.verb == "wait" and event.actor == EGO_ID and self._waits_to(event):
+            said = f"'{event.span.excerpt(self.text)}': whether the ego stands is for its own driving policy to decide"
+            self.facts.assumptions.append(said)
+        elif event.verb == "wait":
             self._stand(event)
+
+    def _waits_to(self, event: Event) -> bool:
+        """Whether the ego "waits on the driveway to turn right": it is about to, and nothing is said of a start."""
+        at = self.sentence.index(event)
+        following = self.sentence[at + 1] if at + 1 < len(self.sentence) else None
+        return following is not None and following.links == ["to"] and following.actor == event.actor
 
     def _stand(self, event: Event) -> None:
         if event.actor != HERO_ID or event.speed is not None or event.wanted:

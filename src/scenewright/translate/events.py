@@ -72,6 +72,7 @@ class Event:
     ttc: Quantity | None = None
     landmark: str | None = None
     than_actor: int | None = None  # "before the ego": the actor that is beaten
+    after_actor: int | None = None  # "after the ego": the actor that comes first
     to_actor: int | None = None  # "yields to the ego"
     between: tuple[int, int] | None = None
     relations: list[tuple[str, int, Span]] = field(default_factory=list)  # ("lead", actor, span)

@@ -37,7 +37,7 @@ class FrameReader(MeasureReader):
         if (kind is None or kind == "wish") and (after := self._frame_noun(self.at + (kind is not None))):
             self.at = after
             return True
-        if kind == "build" and (after := self._frame_noun(self.at + 1)):
+        if kind in ("build", "let") and (after := self._frame_noun(self.at + 1)):
             self.at = after
             return True
         told = kind == "wish" or (kind == "let" and "and" not in self.links)
@@ -91,6 +91,15 @@ class FrameReader(MeasureReader):
         else:
             return False
         after = end + (self.phrases.tag(end, "comma") is not None)
+        if self.phrases.tag(after, "link") == "there" and (be := self._there_is(after)) is not None:
+            phrase = self.phrases.noun_phrase(be)
+            if phrase is None or phrase.kind == "pronoun":
+                return False
+            self.at = be
+            self._take_subject(phrase)
+            self._aside(found)
+            self.subject_span = None
+            return True
         inverted = self.phrases.verb(after, "come", "drive", "pull_out") is not None
         phrase = self.phrases.noun_phrase(after + inverted)
         if phrase is None or phrase.kind == "pronoun" or self.phrases.tag(phrase.end, "genitive") is not None:
@@ -101,6 +110,14 @@ class FrameReader(MeasureReader):
         if inverted:
             self.subject_span = None
         return True
+
+    def _there_is(self, at: int) -> int | None:
+        """Return the position after "there is", "there should be"."""
+        at += 1
+        at += self.phrases.tag(at, "auxiliary") == "will"
+        if self.phrases.tag(at, "be") or self.phrases.tag(at, "genitive") or self.phrases.verb(at, "exist"):
+            return at + 1
+        return None
 
     def _fronted_side(self) -> bool:
         """Read "From the right, a car ..." and "From the left comes a truck"."""
@@ -181,7 +198,9 @@ class FrameReader(MeasureReader):
         if self.subject_span is not None or (self.current is not None and not self.links):
             return False
         at = self.at
-        if self._tag("pair"):
+        if self.phrases.tokens[at].text.lower() == "both" and (pair := self._two_names(at + 1)) is not None:
+            end = pair
+        elif self._tag("pair"):
             end = at + 1
         else:
             pair = self._two_names(at)

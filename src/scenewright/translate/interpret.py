@@ -27,6 +27,8 @@ class Interpreter(ActionReader):
             mention = Event("be", actor, span, -1)
             if word in ("lead", "oncoming"):
                 self.facts.relations.append(LaneRelation(word, actor, mention))
+            elif word in ("turns_left", "turns_right"):
+                self._wish(actor, "turn", word.removeprefix("turns_"), mention)
             elif word == "rear":
                 kind, who = ("ego_leads", EGO_ID) if actor == HERO_ID else ("lead", HERO_ID)
                 self.facts.relations.append(LaneRelation(kind, who, mention))
@@ -75,7 +77,9 @@ class Interpreter(ActionReader):
         self._conditions(conditions, events)
         reacts = bool(conditions)
         for event in events:
-            if event.negated:
+            if event.verb == "attitude":
+                self._attitude(event)
+            elif event.negated:
                 self._negated(event)
             elif event.mode == "when":
                 if self._is_marker(event):
@@ -88,6 +92,13 @@ class Interpreter(ActionReader):
                 self._after(event, events)
             else:
                 self._main(event, reacts)
+
+    def _attitude(self, event: Event) -> None:
+        held = event.places or event.areas or event.headings or event.rate or event.speed or event.duration
+        if held or event.mode != "main" or event.to_speed or event.landmark:
+            raise self._refuse(f"'{event.span.excerpt(self.text)}' has no meaning here", event.span)
+        self.facts.assumptions.append(f"'{event.span.excerpt(self.text)}' changes nothing of what is orchestrated")
+        self._note(event, "nothing to orchestrate")
 
     @staticmethod
     def _settle(events: list[Event]) -> None:
@@ -118,11 +129,13 @@ class Interpreter(ActionReader):
         conditions = [event for event in events if event.mode == "when" and not self._is_marker(event)]
         if not conditions:
             return
-        for event, following in pairwise(events):
+        for event, following in pairwise([*events, None]):
+            if event is None:
+                break
             told = event.mode == "main" and event.verb in ("be", "sit", "drive", "approach", "ttc")
             if not told or event.initial or event.negated:
                 continue
-            if following.links == ["when"] and (event.places or event.speed or event.ttc):
+            if following is not None and following.links == ["when"] and (event.places or event.speed or event.ttc):
                 event.mode = "when"
             elif event.places:
                 raise self._refuse(
@@ -135,8 +148,9 @@ class Interpreter(ActionReader):
     def _give_subjects(events: list[Event]) -> None:
         """Let "After turning right, the car ..." take the subject of the clause that follows."""
         for index, event in enumerate(events):
-            if event.gerund and event.mode in ("after", "before") and index == 0:
-                following = next((e for e in events[1:] if e.mode == "main"), None)
+            fronted = event.actor is None and event.mode == "main" and len(events) > 1 and events[1].explicit
+            if event.gerund and (event.mode in ("after", "before") or fronted) and index == 0:
+                following = next((e for e in events[1:] if e.mode == "main" or fronted), None)
                 if following is not None:
                     event.actor = following.actor
 
@@ -191,7 +205,8 @@ class Interpreter(ActionReader):
     def _conditions_of(self, event: Event) -> list[Condition]:
         actor = event.actor
         assert actor is not None
-        if event.rate or event.to_speed or event.duration or event.first or event.than_actor is not None:
+        ordered = event.first or event.than_actor is not None or event.after_actor is not None
+        if event.rate or event.to_speed or event.duration or ordered:
             raise self._refuse("this cannot be a condition", event.span, "a place, a time or a speed")
         if event.verb == "wait" and event.places:
             self._stand(event)
@@ -339,9 +354,28 @@ class Interpreter(ActionReader):
         after = rest[rest.index(condition) :]
         return any(e.mode == "main" and e.actor == HERO_ID and e.verb in (*SLOWING, *SPEEDING, *GOALS) for e in after)
 
+    def _ego_in_order(self, event: Event) -> bool:
+        """Read "the ego passes the conflict point before the hero": who comes first, told from the ego's side."""
+        landmark = self._ego_landmark(event)
+        phases = self.facts.phases
+        if landmark != "conflict_point" or not phases or event.places or event.speed:
+            return False
+        if phases[-1].kind == "dec" and event.after_actor is None:
+            phases.append(Phase("acc", [event], goal="conflict_point", goal_event=event))
+            said = f"'{event.span.excerpt(self.text)}': the hero goes on after the ego has passed"
+            self.facts.assumptions.append(said)
+        if phases[-1].kind not in ("acc", "go"):
+            return False
+        phases[-1].goal = phases[-1].goal or "conflict_point"
+        self._set_order(Order(event.than_actor is None, "conflict_point", event, at_start=phases[-1].events == [event]))
+        return True
+
     def _ego(self, event: Event) -> None:
         allowed = event.verb in TELLING and not (event.rate or event.to_speed or event.duration or event.to_stop)
         ordered = event.verb in ("turn", "pass", "reach", "complete", "enter", "leave") and not event.areas
+        other = event.than_actor if event.than_actor is not None else event.after_actor
+        if ordered and other == HERO_ID and not event.negated and self._ego_in_order(event):
+            return
         timed = (ordered and event.verb != "turn") or (event.begins and event.verb == "turn")
         if timed and not any(each.mode == "after" and each.actor == HERO_ID for each in self.sentence):
             raise self._refuse(

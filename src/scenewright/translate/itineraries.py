@@ -98,7 +98,9 @@ def _options(facts: Facts, actor: int, road_map: RoadMap, text: str, name: str) 
         each.actor == actor and each.place is not None and each.place.target == "stop_line"
         for each in (*facts.initial, *facts.trigger)
     )
-    return [route for route in options if "stop_line" in route.landmarks] or options if at_line else options
+    # Who is said to be near "its stop line" comes from the minor road, unless something else was said.
+    minor = [route for route in options if route.origin_kind == "driveway"]
+    return minor if at_line and minor else options
 
 
 def route_fact(route: Route, key: str) -> str:
@@ -144,6 +146,10 @@ def _fits(relation: LaneRelation, pair: Pair, road_map: RoadMap) -> bool:
             return conflict is not None and conflict.kind == "crossing"
         case "across_or_into":
             return find_conflict(*pair) is not None and mine.lanes[0] != theirs.lanes[0]
+        case "driveway_left" | "driveway_right":
+            side = relation.kind.removeprefix("driveway_")
+            ways = [route for route in all_routes(road_map) if route.lanes[0] == mine.lanes[0] and route.turn == side]
+            return mine.origin_kind == "road" and any(route.destination_kind == "driveway" for route in ways)
         case "from_right" | "from_left":
             turned = "ENWS" if relation.kind == "from_right" else "ESWN"
             return mine.headings[0] == turned[(turned.index(theirs.headings[0]) + 1) % 4]

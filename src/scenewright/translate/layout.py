@@ -17,9 +17,9 @@ _SAYS = frozenset(("ego", "hero", "pronoun", "be", "auxiliary", "negation", "qua
 _LONGEST_TITLE = 13
 
 
-def lay_out(tokens: list[Token]) -> tuple[list[Token], list[Span]]:
+def lay_out(tokens: list[Token]) -> tuple[list[Token], list[list[Token]]]:
     """Return the tokens as running text, and the titles that say nothing of their own."""
-    titles: list[Span] = []
+    titles: list[list[Token]] = []
     return _lists(_without_titles(_without_numbers(_plain_adjectives(tokens)), titles)), titles
 
 
@@ -50,14 +50,14 @@ def _without_numbers(tokens: list[Token]) -> list[Token]:
     return kept
 
 
-def _without_titles(tokens: list[Token], titles: list[Span]) -> list[Token]:
+def _without_titles(tokens: list[Token], titles: list[list[Token]]) -> list[Token]:
     """Drop "Unprotected left turn:" and "Step:" in front of a sentence."""
     kept: list[Token] = []
     at, begins = 0, True
     while at < len(tokens):
         end = _title_end(tokens, at) if begins else None
         if end is not None:
-            titles.append(tokens[at].span.union(tokens[end - 1].span))
+            titles.append(tokens[at:end])
             at = end + 1
             continue
         begins = "end" in tokens[at].tags
@@ -79,7 +79,13 @@ def _title_end(tokens: list[Token], at: int) -> int | None:
         return None
     fragment = "colon" not in tokens[at + len(line)].tags  # "A left turn out of a side street."
     tags = {tag for token in line for tag in token.tags}
-    if fragment and ("noun" in tags or any(token.forms & {"s", "ed"} for token in line)):
+    first = line[1:] if line and "determiner" in line[0].tags else line
+    named = (
+        any("noun" in token.tags for token in first[:2])
+        or any("noun" in t.tags for t in first)
+        and not (first and first[0].tags.keys() & {"direction", "event_noun", "unknown"})
+    )
+    if fragment and (named or any(token.forms & {"s", "ed"} and "event_noun" not in token.tags for token in line)):
         return None
     if "unknown" in tags and not fragment:
         tags.discard("measure")  # "A driver misjudges the gap:"
@@ -103,14 +109,18 @@ def _lists(tokens: list[Token]) -> list[Token]:
     laid: list[Token] = []
     joining = False
     for at, token in enumerate(tokens):
+        if joining and "key" in token.tags and "colon" in tokens[at + 1].tags:
+            continue
+        if joining and "colon" in token.tags and "key" in tokens[at - 1].tags:
+            continue
         if "end" not in token.tags or token.tags["end"] == "text":
             laid.append(token)
             continue
-        heading = _heading_before(laid)
+        heading = _heading_before(laid) or (_bare_heading(laid) if _is_bullet(token) else None)
         if heading is not None:
             joining = heading != "main"
             continue  # the colon goes straight on to the first line
-        if not joining or _heading_at(tokens, at + 1):
+        if not joining or (_heading_at(tokens, at + 1) and "key" not in tokens[at + 1].tags):
             joining = False
             laid.append(token)
         elif _is_line_break(token):
@@ -123,6 +133,24 @@ def _lists(tokens: list[Token]) -> list[Token]:
 
 def _is_line_break(token: Token) -> bool:
     return "end" in token.tags and token.text.startswith("\n")
+
+
+def _is_bullet(token: Token) -> bool:
+    return _is_line_break(token) and bool(token.text.strip())
+
+
+def _bare_heading(laid: list[Token]) -> str | None:
+    """Say "actor" where the line before a list names a vehicle and nothing else."""
+    line: list[Token] = []
+    for token in reversed(laid):
+        if "end" in token.tags:
+            break
+        line.append(token)
+    whose = line and all(token.tags.keys() & _WHOSE for token in line)
+    if not whose:
+        return None
+    laid.append(replace(laid[-1], text=":", tags={"colon": ":"}, span=Span(laid[-1].span.end, laid[-1].span.end)))
+    return "actor"
 
 
 def _heading_before(laid: list[Token]) -> str | None:
@@ -145,6 +173,9 @@ def _heading_at(tokens: list[Token], at: int) -> bool:
     """Whether a line that begins here has a colon after its first words."""
     for token in tokens[at : at + 5]:
         if "colon" in token.tags:
+            return True
+        line = tokens[at : tokens.index(token)]
+        if _is_bullet(token) and line and all(each.tags.keys() & _WHOSE for each in line):
             return True
         if "end" in token.tags or token.quantity is not None:
             return False

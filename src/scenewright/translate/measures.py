@@ -80,7 +80,8 @@ class MeasureReader(VerbReader):
         if not self._qualify(measured, 1):
             return None
         at = measured.end
-        if self.phrases.tokens[at].tags.keys() & {"be", "falls", "colon"}:
+        of = self.phrases.tag(at, "preposition") == "of" and (actor is not None or measured.target is not None)
+        if self.phrases.tokens[at].tags.keys() & {"be", "falls", "colon"} or of:
             at = self.phrases.skip_hedges(at + 1)
         measured.quantity = self.phrases.tokens[at].quantity
         return self._with_amount(measured, at)
@@ -183,6 +184,8 @@ class MeasureReader(VerbReader):
             measured.actor, measured.target = EGO_ID, HERO_ID
         if isinstance(measured.target, int) and measured.actor is None:
             measured.actor = 1 - measured.target
+        if measured.kind == "ttc" and measured.actor is None and self.subject is None:
+            measured.actor = EGO_ID  # "when the TTC is 3 s": there are only two vehicles
         if measured.actor is None:
             if self.current is None and self.subject_span is None and isinstance(measured.target, str):
                 raise self.phrases.refuse(

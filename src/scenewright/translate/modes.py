@@ -28,6 +28,8 @@ def resolve_modes(events: list[Event]) -> None:
             if outer == "when" and opening is None and event.explicit and "then" in links:
                 outer = "main"
             event.mode = "main"
+            if previous is not None:
+                continue  # what follows goes on from the clause that this one interrupts
         elif outer is not None and not event.explicit and links == {"and"}:
             event.mode = "main"
         elif outer is not None and not event.explicit and links <= {"comma"} and opening is None:

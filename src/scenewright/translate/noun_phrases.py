@@ -23,6 +23,8 @@ class NounPhrases:
     tokens: list[Token]
     refs: Referents
     last_landmark: str | None = None
+    last_area: str | None = None
+    last_named: tuple[int, int] | None = None  # an actor, and the position after its name
     subject: int | None = None
     assumptions: list[str] = field(default_factory=list)
     described: list[tuple[str, int, Span]] = field(
@@ -66,14 +68,30 @@ class NounPhrases:
         phrase = self._named_again(phrase)
         where = self.tag(phrase.end, "relation")
         alone = self.tokens[phrase.end].text.lower() in ("ahead", "in front", "behind") if where else False
+        if where == "ahead" and not alone and phrase.determiner != "indefinite" and phrase.kind == "noun":
+            phrase = self._ahead_of(phrase)
         after = self.tokens[phrase.end + 1].tags.keys() if alone else set()
         finite = bool(after & {"be", "auxiliary", "genitive", "negation"}) or (
             "verb" in after and not self.tokens[phrase.end + 1].forms & {"ing"}
         )
-        if alone and where and finite and (phrase.determiner == "definite" or phrase.kind == "hero"):
+        before = self.tokens[at - 1].tags.keys() if at else set()
+        closes = bool(after & {"comma", "end"}) and bool(before & {"relation", "preposition"}) and where == "ahead"
+        if alone and where and (finite or closes) and (phrase.determiner == "definite" or phrase.kind == "hero"):
             adjectives = phrase.adjectives | {"lead" if where == "ahead" else "rear"}  # "the car in front brakes"
             phrase = replace(phrase, end=phrase.end + 1, adjectives=adjectives)
         return replace(phrase, span=self.span(at, phrase.end))
+
+    def _ahead_of(self, phrase: NounPhrase) -> NounPhrase:
+        """Read "the car ahead of it brakes", where what follows shows that this is the whole name."""
+        other = self._plain_noun_phrase(phrase.end + 1)
+        if other is None or other.kind not in ("pronoun", "ego"):
+            return phrase
+        after = self.tokens[other.end]
+        if not (after.tags.keys() & {"be", "auxiliary", "negation"} or after.forms & {"s", "base", "ed"}):
+            return phrase
+        if other.kind == "ego":
+            self.resolve(other)
+        return replace(phrase, end=other.end, adjectives=phrase.adjectives | {"lead"})
 
     def _named_again(self, phrase: NounPhrase) -> NounPhrase:
         """Read "the subject vehicle (SV)" and "a van (the hero)" as one name."""
@@ -137,8 +155,10 @@ class NounPhrases:
     def resolve(self, phrase: NounPhrase) -> int:
         """Say who `phrase` is, and keep what its adjectives say."""
         actor = self._who(phrase)
+        self.last_named = actor, phrase.end
         self.described += [
-            (each, actor, phrase.span) for each in sorted(phrase.adjectives & {"lead", "oncoming", "rear"})
+            (each, actor, phrase.span)
+            for each in sorted(phrase.adjectives & {"lead", "oncoming", "rear", "turns_left", "turns_right"})
         ]
         if phrase.heading is not None:
             self.described.append((phrase.heading, actor, phrase.span))

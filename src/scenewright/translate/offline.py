@@ -18,7 +18,7 @@ from scenewright.program.structure import Role, read_structure
 from scenewright.program.types import Program
 from scenewright.translate.assemble import Assembler
 from scenewright.translate.clauses import ClauseReader
-from scenewright.translate.commentary import without_commentary
+from scenewright.translate.commentary import denied, without_commentary
 from scenewright.translate.confidence import basis_of
 from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, Event
 from scenewright.translate.facts import Facts
@@ -107,8 +107,10 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     refuse_unknown(tokens, text, name)
     referents = Referents(text, name)
     phrases = Phrases(text, name, tokens, referents)
-    for said in sorted((*comments, *titles), key=lambda span: span.start):
-        phrases.assume(f"'{' '.join(said.excerpt(text).split())}' comments on the test; nothing in it is orchestrated")
+    skipped = [(words, words[0].span.union(words[-1].span)) for words in (*comments, *titles)]
+    for _, span in sorted(skipped, key=lambda each: each[1].start):
+        words = " ".join(span.excerpt(text).split())
+        phrases.assume(f"'{words}' comments on the test; nothing in it is orchestrated")
     for token in tokens:
         if "guess" in token.tags:
             phrases.assume(f"'{token.text}' is taken for a description that changes nothing")
@@ -119,6 +121,15 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     _complete(facts, text, name)
     chosen_map = road_map if road_map is not None else default_map()
     routes = choose_routes(facts, chosen_map, text, name)
+    for stretch, span in skipped:
+        if word := denied(stretch, [(route.turn, *route.headings) for route in (routes.ego, routes.hero)]):
+            raise TranslationError(
+                f"'{word.text}' was stepped over as a title or a comment, but neither vehicle does this",
+                place=Place(name, text, span),
+                found=" ".join(span.excerpt(text).split()),
+                expected=f"what fits {routes.ego} or {routes.hero}",
+                fix="say in a sentence of its own who does this",
+            )
     assembler = Assembler(facts, routes, text, name)
     program = assembler.program(chosen_map.name)
     _all_amounts_used(program, tokens, text, name)

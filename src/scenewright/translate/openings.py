@@ -19,10 +19,10 @@ class OpeningReader(FrameReader):
         """Read "there is a hero vehicle ..." and "there is a driveway 100 m in front of the ego"."""
         if self._tag("link") != "there":
             return False
-        at = self.at + 1
-        if not (self.phrases.tag(at, "be") or self.phrases.tag(at, "genitive") or self.phrases.verb(at, "exist")):
+        after = self._there_is(self.at)
+        if after is None:
             return False
-        at += 1
+        at = after
         found = self.phrases.landmark(at)
         if found is not None:
             return self._landmark_ahead(found[0], at, found[1])

@@ -85,6 +85,8 @@ class Phrases(NounPhrases):
         """Step over "at a distance of about" to a length or a time."""
         if self.tag(at, "preposition") in ("at", "with", "in", "on"):
             at += 1
+        elif self.tag(at, "preposition") == "to" and self.tokens[at + 1].quantity is not None:
+            at += 1  # "and the van [comes] to 8 m from the stop line"
         if (measured := self.measured(at)) is not None and measured[0] in ("length", "time", "headway"):
             return measured[2], measured[1]
         at = self.skip_hedges(at)
@@ -194,6 +196,10 @@ class Phrases(NounPhrases):
         if preposition not in roles:
             return None
         found = self.area_noun(at + 1, roles[preposition])
+        if found is None and preposition == "into" and self.tag(at + 1, "pronoun") and self.last_area is not None:
+            span = self.span(at, at + 2)
+            self.assume(f"'{span.excerpt(self.text)}' is the {self.last_area}")
+            return Area("into", cast("object", self.last_area), span), at + 2  # type: ignore[arg-type]
         if found is None:
             return None
         area, end = found
@@ -228,6 +234,8 @@ class Phrases(NounPhrases):
         if kind is None:
             return None
         end = at + 1
+        if kind != "lane":
+            self.last_area = kind
         if self.tag(at - 1, "same") and kind != "lane":
             whose = None
         elif (

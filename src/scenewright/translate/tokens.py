@@ -26,7 +26,9 @@ _RAW = re.compile(
     |(?P<number>(?<![\w.])[+\-−]?(?:\d+(?:,\d+)*(?:\.\d+)?|\.\d+)(?:/\d+)?)
     |(?P<word>[^\W\d_]+?n['’]t\b|['’](?:ll|re|ve|d)\b|[^\W\d_]+)
     |(?P<genitive>['’]s\b|(?<=s)['’](?=\s))
-    |(?P<stop>(?:[.;!?]+|…)(?=\s|$|["')\]])|\n[ \t]*(?:[-*•–—]|\d+[.)]|\(\w\))[ \t]+|\n[ \t]*\n\s*)
+    |(?P<title>(?:(?<=\n)|^)[ \t]*\#+[^\n]*(?:\n|$))
+    |(?P<mark>\*\*+|`+|__+)
+    |(?P<stop>(?:[.;!?]+|…)(?=\s|$|["')\]])|\n[ \t]*(?:[-*•–—](?!\*)|\d+[.)]|\(?\w[.)])[ \t]+|\n[ \t]*\n\s*)
     |(?P<label>:)
     |(?P<comma>[,()\[\]"“”/]|(?<=\s)[-–—](?=\s)|[–—])
     |(?P<compare>[<>≤≥]=?|±|={{1,2}}|~|≈)
@@ -35,8 +37,11 @@ _RAW = re.compile(
     |(?P<other>.)""",
     re.VERBOSE | re.DOTALL,
 )
-_LEADING_BULLET = re.compile(r"\s*(?:[-*•–—]|\d+[.)])\s+")
+_LEADING_BULLET = re.compile(r"\s*(?:[-*•–—]|\d+[.)]|\(?[a-zA-Z0-9][.)])\s+")
 _LABELLED_LINE = re.compile(r"\n(?=[ \t]*[A-Za-z][A-Za-z ]{0,30}:)")
+_GOES_ON = re.compile(
+    r"(?:[,:(]|\b(?:the|a|an|of|to|and|or|is|its|from|with|when|before|behind|at|on))$", re.IGNORECASE
+)
 _UNIT_END = r"(?![A-Za-z0-9²^/*])"
 
 
@@ -110,17 +115,31 @@ def tokenise(text: str, name: str) -> list[Token]:
 
 
 def _cut(text: str) -> list[_Raw]:
-    breaks = {match.start() for match in _LABELLED_LINE.finditer(text)}
+    breaks = {match.start() for match in _LABELLED_LINE.finditer(text)} | _line_ends(text)
     bullet = _LEADING_BULLET.match(text)
     raw: list[_Raw] = []
     for match in _RAW.finditer(text, bullet.end() if bullet else 0):
         kind = match.lastgroup or "other"
+        if kind == "mark":
+            continue
         if kind == "space":
             if any(position in breaks for position in range(match.start(), match.end())):
                 raw.append(_Raw("stop", match.group(), Span(*match.span())))
             continue
         raw.append(_Raw(kind, match.group(), Span(*match.span())))
     return raw
+
+
+def _line_ends(text: str) -> set[int]:
+    """Return where lines end that are sentences without a full stop: each line begins anew, none is broken off."""
+    lines = [line.strip() for line in text.split("\n") if line.strip()]
+    if len(lines) < 2 or not all(line[0].isupper() or not line[0].isalpha() for line in lines):
+        return set()
+    return {
+        match.start()
+        for match in re.finditer(r"\n(?=[ \t]*[A-Z])", text)
+        if not _GOES_ON.search(text[: match.start()].rstrip())
+    }
 
 
 def _corrected(raw: _Raw, lexicon: Lexicon) -> _Raw:
@@ -141,6 +160,9 @@ def _next(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
     if raw.kind in ("stop", "comma", "label", "genitive"):
         tag = {"stop": "end", "comma": "comma", "label": "colon", "genitive": "genitive"}[raw.kind]
         tokens.append(Token(raw.text, raw.span, {tag: raw.text.strip()}))
+        return index + 1
+    if raw.kind == "title":
+        tokens.append(Token(raw.text.strip(), raw.span, {"comment": "line"}))
         return index + 1
     return _words(tagger, index, tokens)
 

@@ -35,8 +35,9 @@ class VerbGroupReader(AdjunctReader):
             self.at += 2
             return True
         going = verb == "want" and token.text.lower().endswith("going")
-        if going and (self.phrases.heading(self.at + 1) or self.phrases.area(self.at + 1)):
-            self._open("drive", self.at)  # "was going west"
+        way = self._tag("direction", 1)
+        if going and (way or self.phrases.heading(self.at + 1) or self.phrases.area(self.at + 1)):
+            self._open("go" if way in ("left", "right") else "drive", self.at)  # "was going west", "is going straight"
             self.at += 1
             return True
         if verb == "begin" and "ing" in following.forms:

@@ -39,6 +39,16 @@ class VerbReader(VerbGroupReader):
             self.links += ["and"] if self.current is not None and not self.links else []
             self.at += 1 + (self._tag("link", 1) == "to")
             return True
+        ready = "ready" in token.tags and self._tag("link", 1) == "to" and self.phrases.verb(self.at + 2) is not None
+        if ready and (self.current is not None or self.subject_span is not None):
+            self.flags.add("wanted")
+            self.links += ["and"] if self.current is not None and not self.links else []
+            self.at += 2
+            return True
+        if token.tags.get("auxiliary") == "do" and "comma" in [*self.links, "comma"] and self._inverted():
+            self.links += [] if "comma" in self.links else ["comma"]
+            self.at += 1  # "Only after that does the hero drive on"
+            return True
         if "auxiliary" in token.tags:
             self.flags.add({"have": "perfect"}.get(token.tags["auxiliary"], "modal"))
             self.at += 1
@@ -62,6 +72,10 @@ class VerbReader(VerbGroupReader):
             return False
         return self._light(verb, token) or self._main_verb(verb, token)
 
+    def _inverted(self) -> bool:
+        phrase = self.phrases.noun_phrase(self.at + 1)
+        return phrase is not None and "base" in self.phrases.tokens[phrase.end].forms and self.subject_span is None
+
     def _contracted_be(self, token: Token) -> bool:
         if "genitive" not in token.tags or self.at == 0:
             return False
@@ -84,6 +98,8 @@ class VerbReader(VerbGroupReader):
             self.links.append("that")  # "behind a van doing 12 m/s"
         if verb == "let":
             return self._let(start)
+        if verb == "attitude":
+            return self._attitude(start)
         passive = "be" in self.flags and "ed" in token.forms
         if verb in ("lead", "not_yield", "beat", "get_within", "pretend", "come_towards", "cut_in_front") and not (
             verb == "lead" and passive
@@ -112,13 +128,16 @@ class VerbReader(VerbGroupReader):
             return self._led(verb, start)
         if verb == "come":
             stop = self._stop_noun_at(end)
-            if stop is None:
+            if stop is None and self._place_to(end):
+                verb, end = "reach", end + 1
+            elif stop is None:
                 if self._tag("verb") == "come" and (
                     self.phrases.heading(end)
                     or self.phrases.area(end)
                     or self.phrases.tag(end, "oncoming_way")
                     or self.phrases.tag(end, "from_side")
                     or self.phrases.tokens[end].text.lower() == "along"
+                    or self._ends_clause(end)
                     or self._from_whose_side(end)
                 ):
                     verb = "drive"
@@ -149,6 +168,19 @@ class VerbReader(VerbGroupReader):
         if verb == "stop":
             event.to_stop = True
         self.at = end
+        self._grow()
+        return True
+
+    def _attitude(self, start: int) -> bool:
+        """Read "sees the AV" and "panics": nothing that can be orchestrated, so it is only noted."""
+        event = self._open("attitude", start)
+        self.at += 1
+        phrase = self.phrases.noun_phrase(self.at)
+        if phrase is not None and self.phrases.tag(phrase.end, "genitive") is None:
+            self.phrases.resolve(phrase)
+            self.at = phrase.end
+        elif event.actor is not None and self.phrases.tag(self.phrases.skip_determiner(self.at), "measure") == "length":
+            self.at = self.phrases.skip_determiner(self.at) + 1
         self._grow()
         return True
 
@@ -206,6 +238,11 @@ class VerbReader(VerbGroupReader):
         self._grow()
         return True
 
+    def _place_to(self, at: int) -> bool:
+        """Whether "to 33 m from the conflict point" follows, as in "comes to ..."."""
+        to = self.phrases.tag(at, "preposition") == "to" or self.phrases.tag(at, "link") == "to"
+        return to and self.phrases.tokens[at + 1].quantity is not None and self.phrases.place(at + 1) is not None
+
     def _ends_clause(self, at: int) -> bool:
         tags = self.phrases.tokens[at].tags
         return bool(tags.keys() & {"end", "comma"}) or tags.get("link") in ("and", "then")
@@ -245,11 +282,13 @@ class VerbReader(VerbGroupReader):
         """Read "beats the ego to the conflict point"."""
         to = self.phrases.tag(at, "preposition") == "to" or self.phrases.tag(at, "link") == "to"
         found = self.phrases.landmark(at + 1) if to else None
-        if found is None:
-            return False
+        if found is None and self.current is not None and self.links == ["to"]:
+            self.current.than_actor, self.links, self.at = other, [], at  # "speeds up to beat the AV"
+            self._grow()
+            return True
         event = self._open("pass", start)
-        event.landmark, event.than_actor = found[0], other
-        self.at = found[1]
+        event.landmark, event.than_actor = found[0] if found else "conflict_point", other
+        self.at = found[1] if found else at
         self._grow()
         return True
 

@@ -44,6 +44,8 @@ def test_request_says_all_that_somebody_needs_to_answer(tmp_path: Path) -> None:
     assert (request["attempt"], request["map"], request["prompt_version"]) == (1, "t_intersection", "1")
     assert [message["role"] for message in request["messages"]] == ["system", "user"]
     assert TEXT in request["messages"][1]["content"]
+    shared = tmp_path / "new folder" / request["instructions_file"]
+    assert shared.read_text(encoding="utf-8") == request["messages"][0]["content"]
     assert request["reply_schema"]["properties"]["refusal"]
     assert request["reply_file"] in str(caught.value.expected)
     assert "run the same command again" in str(caught.value.fix)
