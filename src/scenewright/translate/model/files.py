@@ -6,6 +6,7 @@ What enters: calls. What leaves: ``KEY.request.json`` in a folder, written in on
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import time
@@ -69,9 +70,15 @@ class FilesModel:
             time.sleep(min(_LOOK_EVERY_S, left))
 
     def _leave(self, path: Path, key: str, call: Call) -> None:
+        # The instructions are the same for all descriptions on a map: whoever answers many reads them once, here.
+        instructions = next((each.content for each in call.messages if each.role == "system"), "")
+        shared = self.folder / f"{hashlib.sha256(instructions.encode()).hexdigest()[:12]}.instructions.md"
+        if not shared.exists():
+            write_text_whole(shared, instructions)
         data = {
             "schema_version": SCHEMA_VERSION,
             "key": key,
+            "instructions_file": shared.name,
             "prompt_version": PROMPT_VERSION,
             "attempt": call.attempt,
             "map": call.map_name,
@@ -98,7 +105,12 @@ def read_bounded(path: Path, longest: int = 4 * LONGEST_REPLY) -> str | None:
 
 
 def write_whole(path: Path, data: object) -> None:
-    """Write `data` as JSON in one step, so that nobody ever reads half of it.
+    """Write `data` as JSON in one step; raises OutputError where it cannot be written."""
+    write_text_whole(path, json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+
+
+def write_text_whole(path: Path, text: str) -> None:
+    """Write a text in one step, so that nobody ever reads half of it.
 
     Raises
     ------
@@ -108,7 +120,6 @@ def write_whole(path: Path, data: object) -> None:
     temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
         temporary.write_text(text, encoding="utf-8", errors="replace")
         os.replace(temporary, path)
     except OSError as error:
