@@ -19,7 +19,8 @@ from typing import TYPE_CHECKING, Literal
 
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.loading import load_policy
-from scenewright.program.structure import Structure, read_structure
+from scenewright.program.expressions import Compare
+from scenewright.program.structure import Role, Structure, read_structure
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, Scene, ground
 from scenewright.roads.load import load_map
@@ -284,7 +285,7 @@ def first_plan(
         planner = Planner(world.scene, world.structure, world.limits, world.backend, conditions, request.budget_s)
         replanner = Replanner(world.scene, world.structure, planner, predictor, conditions)
         attempt = replanner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
-        if best is None or _quality(attempt) > _quality(best[2]):
+        if best is None or _is_better(world.scene, attempt, best[2]):
             best = (replanner, start, attempt)
         if _quality(attempt) >= _GOOD:
             break
@@ -301,12 +302,14 @@ def _solved_start(world: World) -> Iterator[EgoFirstState]:
 
 def predictor_for(world: World, request: Request) -> Predictor:
     """Return how the ego is foreseen: as asked for, unless it has promised to hold its speed or nobody looks again."""
-    chosen = predictor_called(request.predictor, world.scene.routes[EGO])
+    cruise_mps = world.limits[EGO].natural_approach_speed_mps
+    chosen = predictor_called(request.predictor, world.scene.routes[EGO], cruise_mps)
     return ConstantSpeed() if request.mode == "open" or world.ego_bounds.holds_speed else chosen
 
 
 _GENTLENESS = {"steady": 5, "gentle": 4, "firm": 3, "whole": 2, "urgent": 1}
 _PROMISED, _GOOD = 10, 13
+_NOTABLY_S = 0.3
 
 
 def _quality(attempt: Attempt) -> int:
@@ -315,6 +318,33 @@ def _quality(attempt: Attempt) -> int:
         return 0
     promised = _PROMISED if attempt.status == "sat" and attempt.promises_outcome else 0
     return promised + _GENTLENESS[attempt.plan.manner]
+
+
+def _is_better(scene: Scene, attempt: Attempt, other: Attempt) -> bool:
+    """Whether a first plan is better than another; of two that do not promise the outcome, the one that is less late."""
+    if _PROMISED > min(_quality(attempt), _quality(other)) > 0 and _quality(attempt) < _PROMISED:
+        late_s, other_late_s = lateness_s(scene, attempt), lateness_s(scene, other)
+        if abs(late_s - other_late_s) > _NOTABLY_S:
+            return late_s < other_late_s
+    return _quality(attempt) > _quality(other)
+
+
+def lateness_s(scene: Scene, attempt: Attempt) -> float:
+    """Return by how much a plan, with the ego as predicted, misses who is to be where before whom (s)."""
+    from scenewright.program.evaluate import violation
+    from scenewright.solve.plan import PlanWorld
+
+    assert attempt.plan is not None
+    world = PlanWorld(scene, attempt.plan.profiles, attempt.plan.parameters)
+    roles = read_structure(scene.program).roles
+    orders = [
+        constraint.formula
+        for constraint in scene.program.constraints
+        if roles[constraint.id] is Role.OUTCOME and isinstance(constraint.formula, Compare)
+        if constraint.formula.operator != "=="
+    ]
+    misses = [violation(formula, world) for formula in orders]
+    return max((miss for miss in misses if math.isfinite(miss)), default=0.0)
 
 
 # -- what is left behind --------------------------------------------------------------------------------------------

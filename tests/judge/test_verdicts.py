@@ -294,3 +294,11 @@ def test_gap_without_a_shared_lane_fails_and_says_why() -> None:
     condition = judge(replace(BRAKES, offset_m=None).case()).condition("c3")
     assert not condition.holds_at(LOOSE)
     assert "share no lane" in condition.text
+
+
+def test_ego_that_began_beyond_its_place_was_there_before_the_hero() -> None:
+    # The place that the outcome speaks of lies at 64 m.
+    late = judge(NOT_YIELDING.with_ego(s_m=70.0).case())
+    order = late.condition("c6")
+    assert not order.holds_at(LOOSE)
+    assert late.condition("c5").measured is not None

@@ -273,7 +273,15 @@ def _place_time(case: Case, part: Compare, key: KnotKey, after_s: float, knots: 
         reached = first_crossing(lambda t: _level(case, part, key, knots, t), timeline.instants(start_s, end_s))
         if reached is not None:
             return reached
-    return np.inf
+    return case.start_s if _was_past(case, part, key, knots) else np.inf
+
+
+def _was_past(case: Case, part: Compare, key: KnotKey, knots: dict[KnotKey, float]) -> bool:
+    """Whether the actor was past a place when the run began: what it passed unseen, it passed before everything else."""
+    if any(isinstance(node, Derived) for node in walk(part)):
+        return False
+    first, last = _level(case, part, key, knots, np.array([case.start_s, case.end_s]))
+    return bool(first * (last - first) > 0.0)  # nobody reverses, so the level moves one way
 
 
 def _visible_time(case: Case, key: KnotKey, index: int, after_s: float) -> float | None:

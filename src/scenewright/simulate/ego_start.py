@@ -6,6 +6,7 @@ start that the policy would not hold begins the run with a transient that nobody
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -47,6 +48,26 @@ def ego_starts(
     Where the policy leaves its speed to the orchestrator (``constant``), natural speeds first. Else what the policy
     holds by itself, then slower states by choice, from which it will speed up.
     """
+    for start in _possible_starts(scene, ego, limits, conditions):
+        if start.last_resort or not _is_past_something(scene, conditions, start):
+            yield start
+
+
+def _is_past_something(scene: Scene, conditions: tuple[LinearCondition, ...], start: EgoFirstState) -> bool:
+    """Whether the ego would begin beyond a place, or nearer in time to one, that it is to come to later."""
+    first = (EGO, scene.program.ego.sketch.knots[0])
+    for condition in conditions:
+        if set(condition.weights) == {EGO} and first not in condition.moments and condition.weights[EGO][0]:
+            ahead = math.copysign(1.0, -condition.weights[EGO][0])
+            if ahead * condition.value({EGO: (start.s_m, start.speed_mps)}) < 0.0:
+                return True
+    return False
+
+
+def _possible_starts(
+    scene: Scene, ego: EgoVehicle, limits: Limits, conditions: tuple[LinearCondition, ...]
+) -> Iterator[EgoFirstState]:
+    """Yield states that meet the conditions at the ego's first knot, wherever that leads."""
     first_knot = scene.program.ego.sketch.knots[0]
     initial = [c for c in conditions if c.moments == {(EGO, first_knot)} and set(c.weights) == {EGO}]
     speed_given = next((c for c in initial if c.weights[EGO][0] == 0.0), None)

@@ -22,6 +22,9 @@ EgoSample = tuple[float, float, float, float]
 # A driver stops with the bumper at the line, and takes a turn at this lateral acceleration.
 _BUMPER_M = 2.6
 _LATERAL_MPSS = 2.5
+# Who has gained this much a second over the last second is speeding up on purpose.
+_LATELY_S, _SPEEDS_UP_MPSS = 1.0, 0.6
+_STEP_S, _MOST_STEPS = 0.5, 20
 
 
 class Predictor(Protocol):
@@ -57,6 +60,8 @@ class ConstantAcceleration:
         believed so would give up its place; and one that did not wait would creep past it.
     restart_mpss, restart_speed_mps
         How it sets off.
+    cruise_mps
+        Whoever has been speeding up for a second is on the way to this speed, ever more gently.
     """
 
     hold_s: float = 1.0
@@ -64,6 +69,7 @@ class ConstantAcceleration:
     standstill_s: float = 1.5
     restart_mpss: float = 1.2
     restart_speed_mps: float = 5.0
+    cruise_mps: float | None = None
 
     def predict(self, history: Sequence[EgoSample]) -> Profile:
         """Return motion with the recent acceleration for `hold_s`, then at constant speed."""
@@ -73,12 +79,39 @@ class ConstantAcceleration:
         end_speed = max(0.0, speed_mps + accel * self.hold_s)
         if end_speed > 0.3:
             moves.append((self.hold_s, accel, 0))
+            moves += self.speeding_up(history, end_speed)
         else:
             if speed_mps > 0.05 and accel < -0.05:
                 moves.append((speed_mps / -accel, accel, 0))
             moves.append((self.standstill_s, 0.0, 0))
             moves.append((self.restart_speed_mps / self.restart_mpss, self.restart_mpss, 0))
         return Profile(chain(time_s, s_m, speed_mps if speed_mps > 0.05 else 0.0, moves))
+
+    def speeding_up(self, history: Sequence[EgoSample], speed_mps: float) -> list[tuple[float, float, int]]:
+        """Return how one that has been speeding up for a while goes on to `cruise_mps` from a speed below it."""
+        pull = self.pull(history)
+        moves: list[tuple[float, float, int]] = []
+        while pull and speed_mps < 0.98 * (self.cruise_mps or 0.0) and len(moves) < _MOST_STEPS:
+            moves.append((_STEP_S, self.pulled(pull, speed_mps), 0))
+            speed_mps += _STEP_S * moves[-1][1]
+        return moves
+
+    def pull(self, history: Sequence[EgoSample]) -> float:
+        """Return the acceleration from standstill (m/s^2) of one that means to reach `cruise_mps`; 0 where none is seen.
+
+        The intelligent driver model's free road, without knowing its parameters: fitted to what is seen now.
+        """
+        time_s, _, speed_mps, accel = history[-1]
+        lately = [sample for sample in history[-60:] if sample[0] >= time_s - _LATELY_S]
+        if len(lately) > 1:
+            accel = (speed_mps - lately[0][2]) / (time_s - lately[0][0])
+        if self.cruise_mps is None or accel < _SPEEDS_UP_MPSS or speed_mps >= 0.98 * self.cruise_mps:
+            return 0.0
+        return min(3.0, accel / (1.0 - (speed_mps / self.cruise_mps) ** 4))
+
+    def pulled(self, pull_mpss: float, speed_mps: float) -> float:
+        """Return the acceleration (m/s^2) at a speed, of one that pulls like that from standstill."""
+        return max(0.0, pull_mpss * (1.0 - (speed_mps / (self.cruise_mps or 1.0)) ** 4))
 
     def recent_acceleration(self, history: Sequence[EgoSample]) -> float:
         """Return the mean acceleration (m/s^2) of the last moments."""
@@ -115,15 +148,15 @@ class RoadAware:
     horizon_s: float = 20.0
 
     @classmethod
-    def on(cls, route: Route) -> RoadAware:
-        """Return the predictor for an ego on `route`."""
+    def on(cls, route: Route, cruise_mps: float | None = None) -> RoadAware:
+        """Return the predictor for an ego on `route`, where people drive at `cruise_mps`."""
         places: list[tuple[float, float]] = []
         if route.origin_kind == "driveway" and "stop_line" in route.landmarks:
             places.append((route.landmarks["stop_line"] - _BUMPER_M, 0.0))
         turn, curvature = TurnSpan.of(route), tightest_curvature(route)
         if turn is not None and curvature > 1e-3:
             places.append((turn.start_m + 0.25 * (turn.end_m - turn.start_m), math.sqrt(_LATERAL_MPSS / curvature)))
-        return cls(tuple(places))
+        return cls(tuple(places), ConstantAcceleration(cruise_mps=cruise_mps))
 
     def predict(self, history: Sequence[EgoSample]) -> Profile:
         """Return the motion step by step; without a place ahead that matters, that of `base`."""
@@ -133,11 +166,11 @@ class RoadAware:
         ahead = [place for place in self.places if self._means_to(place, s_m, speed, accel)]
         if not ahead:
             return self.base.predict(history)
-        first = self.base.recent_acceleration(history)
+        first, pull = self.base.recent_acceleration(history), self.base.pull(history)
         moves: list[tuple[float, float, int]] = []
         elapsed = 0.0
         while elapsed < self.horizon_s:
-            wanted = first if elapsed < self.base.hold_s else 0.0
+            wanted = first if elapsed < self.base.hold_s else self.base.pulled(pull, speed)
             needed = max((self._needed(place, s_m, speed) for place in ahead), default=0.0)
             if needed > 0.85 * self.gentle_mpss:
                 wanted = min(wanted, -needed) if elapsed < self.base.hold_s and first < 0 else -needed
@@ -184,8 +217,8 @@ class RoadAware:
         return rise / (2.0 * distance) if distance > 0.05 and rise > 0 else 0.0
 
 
-def predictor_called(name: str, route: Route) -> Predictor:
-    """Return a predictor by its name, for an ego on `route`.
+def predictor_called(name: str, route: Route, cruise_mps: float | None = None) -> Predictor:
+    """Return a predictor by its name, for an ego on `route`, where people drive at `cruise_mps`.
 
     Raises
     ------
@@ -193,7 +226,7 @@ def predictor_called(name: str, route: Route) -> Predictor:
         Where there is none of that name.
     """
     makers: dict[str, Callable[[], Predictor]] = {
-        "road": lambda: RoadAware.on(route),
+        "road": lambda: RoadAware.on(route, cruise_mps),
         "acceleration": ConstantAcceleration,
         "speed": ConstantSpeed,
     }
