@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from scenewright.roads.model import RoadMap
     from scenewright.roads.routes import Route
 
-_LEAST_TIME_S = 0.5
+_LEAST_TIME_S = 0.1
 _LEAST_WAY_M = 0.05
 
 
