@@ -103,9 +103,9 @@ class Plan:
         }
 
 
-# One row in five: every interaction, both kinds of trigger, and heroes from every side.
-_QUICK_ROWS = (1, 4, 7, 12, 17, 20, 26, 32, 37, 42, 49, 55, 60, 63, 74, 80)
-_QUICK_EGOS = ("constant", "idm", "stop-and-go")
+# One row in four: every interaction, both kinds of trigger, and heroes from every side.
+_QUICK_ROWS = (1, 4, 7, 12, 15, 17, 20, 26, 29, 32, 37, 42, 49, 55, 60, 63, 66, 74, 78, 80)
+_QUICK_EGOS = ("constant", "idm", "staller", "stop-and-go")
 # A sample is a whole run: its method by its own default would take half of the time of all others together.
 _DEAR = {"rejection": "rejection:10"}
 
