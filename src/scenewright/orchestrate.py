@@ -321,7 +321,7 @@ def _quality(attempt: Attempt) -> int:
 
 
 def _is_better(scene: Scene, attempt: Attempt, other: Attempt) -> bool:
-    """Whether a first plan is better than another; of two that do not promise the outcome, the one that is less late."""
+    """Whether a first plan is better than another; of two that do not promise the outcome, the less late."""
     if _PROMISED > min(_quality(attempt), _quality(other)) > 0 and _quality(attempt) < _PROMISED:
         late_s, other_late_s = lateness_s(scene, attempt), lateness_s(scene, other)
         if abs(late_s - other_late_s) > _NOTABLY_S:

@@ -277,7 +277,7 @@ def _place_time(case: Case, part: Compare, key: KnotKey, after_s: float, knots: 
 
 
 def _was_past(case: Case, part: Compare, key: KnotKey, knots: dict[KnotKey, float]) -> bool:
-    """Whether the actor was past a place when the run began: what it passed unseen, it passed before everything else."""
+    """Whether the actor was past a place when the run began: what it passed unseen, it passed before all else."""
     if any(isinstance(node, Derived) for node in walk(part)):
         return False
     first, last = _level(case, part, key, knots, np.array([case.start_s, case.end_s]))

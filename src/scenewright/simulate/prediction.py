@@ -97,7 +97,7 @@ class ConstantAcceleration:
         return moves
 
     def pull(self, history: Sequence[EgoSample]) -> float:
-        """Return the acceleration from standstill (m/s^2) of one that means to reach `cruise_mps`; 0 where none is seen.
+        """Return the acceleration from standstill (m/s^2) of one on its way to `cruise_mps`; 0 where none is seen.
 
         The intelligent driver model's free road, without knowing its parameters: fitted to what is seen now.
         """
