@@ -173,7 +173,8 @@ def _tell_translation(console: Console, sentences: tuple[str, ...], translation:
             console.print(f"doubt: {each}", soft_wrap=True, style="yellow")
         if translation.impossible is not None:
             console.print(f"doubt: this cannot happen. {translation.impossible}", soft_wrap=True, style="yellow")
-        console.print(f"\n{translation.translator}, prompt {translation.prompt}: {translation.tokens()}", soft_wrap=True)
+        who = f"{translation.translator}, prompt {translation.prompt}"
+        console.print(f"\n{who}: {translation.tokens()}", soft_wrap=True)
 
 
 @with_translator
