@@ -36,6 +36,11 @@ def test_examples_pass_the_checks_that_replies_must_pass(example: dict[str, obje
     assert parse_program(print_program(verified.program)) == verified.program
 
 
+def test_examples_are_shown_as_replies_that_can_be_read() -> None:
+    shown = prompt.instructions(T_INTERSECTION).split("# 7. Examples")[1].split("Reply:")[1:]
+    assert [read_reply(each) for each in shown] == [Reply.model_validate(example["reply"]) for example in EXAMPLES]
+
+
 def test_examples_show_every_kind_of_reply() -> None:
     replies = [Reply.model_validate(example["reply"]) for example in EXAMPLES]
     assert any(reply.refusal for reply in replies)

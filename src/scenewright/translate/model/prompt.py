@@ -99,8 +99,15 @@ def _reply(entry: dict[str, Any]) -> dict[str, Any]:
 
 
 def _shown(number: int, example: dict[str, Any]) -> str:
-    reply = json.dumps(example["reply"], indent=1, ensure_ascii=False)
-    return f"## Example {number}\n\n{enclosed(example['description'])}\n\nReply:\n\n{reply}"
+    reply = ",\n".join(f' "{name}": {_value(value)}' for name, value in example["reply"].items())
+    return f"## Example {number}\n\n{enclosed(example['description'])}\n\nReply:\n\n{{\n{reply}\n}}"
+
+
+def _value(value: object) -> str:
+    """Return a value as JSON; a list has a line for each entry, which reads well and costs few tokens."""
+    if not isinstance(value, list) or not value:
+        return json.dumps(value, ensure_ascii=False)
+    return "[\n" + ",\n".join(f"  {json.dumps(entry, ensure_ascii=False)}" for entry in value) + "\n ]"
 
 
 @lru_cache(maxsize=8)
