@@ -44,8 +44,8 @@ def map_facts(road_map: RoadMap) -> str:
     lines += ["", "Where two routes meet (the conflict_point of a program with these two):"]
     lines += _meetings(road_map, shown, written)
     lines += [
-        "- Two vehicles on the same route follow each other; their conflict_point is where the junction begins (on a road "
-        "without one, where the route ends).",
+        "- Two vehicles on the same route follow each other; their conflict_point is where the junction begins (on a "
+        "road without one, where the route ends).",
         "- gap, headway and ttc exist for vehicles on one route, and where routes begin on one lane or come together.",
         "- Routes that are not listed as a pair here never meet and share no lane: between them there is no "
         "conflict_point and no gap.",
