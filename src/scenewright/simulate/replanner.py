@@ -270,13 +270,13 @@ class Replanner:
 
     def _ego_slack_s(self, hero: Actor, prediction: Profile, instant_s: float) -> float:
         """Return the time in which the ego gets one tight tolerance off its side of the trigger."""
-        side = self._ego_side(hero)
-        _, speed, accel = prediction.state(instant_s)
-        if side is None:
-            return min(TIGHT_LENGTH_M / max(speed, 0.05), _LONGEST_SLACK_S)
-        per_metre, per_speed = side.weights[EGO]
-        rate = abs(per_metre * speed + per_speed * accel)
-        return min(tight_of(side, speed) / max(rate, 1e-3), _LONGEST_SLACK_S)
+        side, speed = self._ego_side(hero), prediction.state(instant_s)[1]
+        per_metre, per_speed = side.weights[EGO] if side else (1.0, 0.0)
+        tight, slack_s = tight_of(side, speed) if side else TIGHT_LENGTH_M, _LONGEST_SLACK_S
+        for sign in (0.0, -1.0, 1.0):  # faster a moment before or after than at the instant itself
+            speed, accel = prediction.state(instant_s + sign * slack_s)[1:]
+            slack_s = min(slack_s, tight / max(abs(per_metre * speed + per_speed * accel), 1e-3))
+        return slack_s
 
     def _ego_miss(self, hero: Actor, prediction: Profile, instant_s: float) -> float:
         """Return how far the ego will be off its side of the trigger, in tight tolerances; 0 where both decide."""

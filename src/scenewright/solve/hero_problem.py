@@ -167,6 +167,9 @@ class HeroProblem:
 
     def _bound_approach(self, hero: Actor, stretch: Stretch, v1: Symbol, change: Value, duration: Value) -> None:
         """Bound a stretch on the way to the trigger."""
+        if stretch.waiting:
+            self.problem.require(compare("==", v1, Fraction(0)), f"{hero.name} waits on its way")
+            return
         up, down = approach_rates(self.manner, stretch, following_piece(hero, stretch.piece))
         self._require_rate(change, duration, -down, up, f"{hero.name}'s acceleration limits")
         if stretch.end_knot is not None:

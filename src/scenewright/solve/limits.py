@@ -24,6 +24,8 @@ STANDSTILL_MIN_S = 0.5
 # Who is settled does not accelerate visibly, and half of that at most in the sense of what is to begin.
 SETTLED_MPSS = 0.45
 BEGINNING_MPSS = 0.25
+# How one brakes that is to wait on its way.
+WAIT_BRAKE_MPSS = 3.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +63,8 @@ class Manner:
         Stretches of constant acceleration before the trigger; the last is a settled one where `settle` is set.
     counter_mpss
         In a settled stretch: how hard it may do the opposite of what begins at the trigger.
+    wait_go_s
+        How long before it settles one sets off that has come to a stand and waited until then; 0 for one that does not.
     dec_mpss, acc_mpss, stop_s
         Ranges of braking, accelerating and standing pieces; one that speeds up and then drives on takes the upper rate.
     trigger_speed_mps
@@ -90,6 +94,7 @@ class Manner:
     outcome_margin_s: float = 0.3
     clear: bool = True
     counter_mpss: float = SETTLED_MPSS
+    wait_go_s: float = 0.0
 
     def top_speeds_mps(self, limits: Limits) -> tuple[float, float]:
         """Return the top speed on the way to the trigger and in a turn, for an actor within `limits`."""
@@ -108,14 +113,14 @@ FIRM = Manner("firm", 2.5, 3.0, 3, True, (0.7, 6.0), (0.8, 3.5), (0.5, 3.0), MOV
 WHOLE = Manner("whole", ACCEL_MAX_MPSS, 6.0, 5, True, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)
 URGENT = Manner("urgent", ACCEL_MAX_MPSS, 8.0, 4, False, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)
 # Who is about to brake may still speed up, and the other way round: nothing that was asked for has begun by that.
-COUNTER = replace(WHOLE, counter_mpss=6.0)
+COUNTER = replace(WHOLE, counter_mpss=6.0, trigger_speed_mps=0.5)
 
 # Where the hero is to be first, whatever the ego does: it loses no time after its trigger.
 GENTLE_QUICK = replace(GENTLE, dec_mpss=(1.8, 4.0), acc_mpss=(1.0, 3.5), stop_s=(0.5, 0.6), outcome_margin_s=1.5)
 FIRM_QUICK = replace(FIRM, dec_mpss=(2.0, 6.0), acc_mpss=(0.8, 4.0), stop_s=(0.5, 0.6), outcome_margin_s=1.0)
 HASTE = replace(FIRM, dec_mpss=(2.0, 8.0), acc_mpss=(0.8, 4.0), stop_s=(0.5, 0.6))
 WHOLE_QUICK = replace(WHOLE, dec_mpss=(2.0, 8.0), stop_s=(0.5, 0.6), outcome_margin_s=0.7)
-COUNTER_QUICK = replace(WHOLE_QUICK, counter_mpss=COUNTER.counter_mpss)
+COUNTER_QUICK = replace(WHOLE_QUICK, counter_mpss=COUNTER.counter_mpss, trigger_speed_mps=COUNTER.trigger_speed_mps)
 
 
 def limits_on(route: Route, road_map: RoadMap) -> Limits:

@@ -41,6 +41,7 @@ _SHIFTS = (Fraction(0), Fraction(1, 2), Fraction(1))
 # The largest miss that is searched for, in tight tolerances, and how often the search is halved.
 _FARTHEST, _HALVINGS = 16.0, 7
 # How often a re-solve asks whether a gentler way has become possible.
+_SOON_S = 8.0
 _EASE_EVERY = 3
 # How many of the instants to try are about the planned one.
 _NEAR = 4
@@ -105,13 +106,16 @@ class Planner:
 
     def first_plan(self, situations: Sequence[Situation], budget_s: float = 10.0) -> Attempt:
         """Plan from the start, with the heroes' first states free; `situations` differ in the trigger's instant."""
-        firsts = first_trials(self._outcome)
-        everything = (*firsts, *self.trials, *off())
-        ways = [(trial, situation) for trial in everything for situation in situations]
+        exact = (*first_trials(self._outcome), *self.trials)
+        # Where both decide when: rather soon and less evenly than late, when the ego may have changed its pace.
+        soon = [s for s in situations if min(s.trigger_s.values(), default=0.0) <= _SOON_S or len(situations) == 1]
+        later = [s for s in situations if s not in soon]
+        groups = ((exact, soon), (exact, later), (off(), situations))
+        ways = [(trial, situation) for trials_, some in groups for trial in trials_ for situation in some]
         attempt, found = self._search(ways, budget_s, 2 * len(ways))
         if attempt.plan is None or found is None or found[1].manner.outcome_margin_s > 0:
             return attempt
-        return self._hastened(attempt, found[0] // len(situations) - len(firsts), found[2])
+        return self._hastened(attempt, self.trials.index(found[1]), found[2])
 
     def _hastened(self, attempt: Attempt, index: int, situation: Situation) -> Attempt:
         """Return the best that can be done for an outcome that the prediction denies, between two steps of the search.
@@ -140,7 +144,8 @@ class Planner:
         first = self._position
         if not self._searching and len(situations) == 1:
             first = min(first, len(exact))  # how far off the trigger must be is asked anew at every tick
-        if self._replans % _EASE_EVERY == 0 and not self._searching:
+        if self._replans % _SOON_S = 8.0
+_EASE_EVERY == 0 and not self._searching:
             gentler = (number for number in range(min(first, len(exact)) - 1, -1, -1) if self._timed(*exact[number]))
             first = next(gentler, first) if len(situations) == 1 else 0
         attempt, tried = self._search(chain(exact[first:], others(max(0, first - len(exact)))), self.budget_s)
@@ -204,8 +209,9 @@ class Planner:
             timed = self._timed(trial, situation)
             if timed is None:
                 continue
-            gentled = self._prospects.gentled(timed, trial.manner, float(trial.tolerance))
-            for manner in (trial.manner,) if gentled == trial.manner else (gentled, trial.manner):
+            # To ask twice for each would leave no time for those further on.
+            gently = tries == 0
+            for manner in self._prospects.versions(timed, trial.manner, float(trial.tolerance), gently):
                 wall_s = time.perf_counter() - started
                 if wall_s >= budget_s:
                     return Attempt(None, "timeout", "time budget", wall_s, tries), (number, trial, situation)

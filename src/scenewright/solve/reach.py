@@ -25,6 +25,10 @@ from scenewright.solve.stretches import (
 )
 
 _SLOWEST_MPS = 0.05
+_WALKING_MPS = 1.5
+# Nobody creeps more slowly than this for long; and how long before it settles one that waits sets off.
+_CREEPS_MPS = 1.5
+_SETS_OFF_S = (1.5, 2.5, 4.0)
 # How finely the authority needed is found, and how much more is given: the solver needs some room.
 _HALVINGS, _AMPLE, _AT_LEAST = 6, 1.15, 0.04
 
@@ -55,9 +59,9 @@ class Approach:
 
     def slowest(self, s_m: float, speed_mps: float) -> tuple[float, float]:
         """Return place (m) and speed (m/s) at the trigger of a hero that holds back for as long as it can."""
-        gain = sum(up * duration_s for duration_s, up, _ in self.stretches)
+        gain = sum(max(up, 0.0) * duration_s for duration_s, up, _ in self.stretches)
         for duration_s, up, down in self.stretches:
-            gain -= up * duration_s
+            gain -= max(up, 0.0) * duration_s
             following = max(speed_mps - down * duration_s, 0.0, self.least_mps - gain)
             following = min(following, speed_mps + up * duration_s)
             s_m += 0.5 * (speed_mps + following) * duration_s
@@ -68,6 +72,11 @@ class Approach:
         """Return the same way, driven no harder than this."""
         gentler = tuple((duration_s, min(up, up_mpss), min(down, down_mpss)) for duration_s, up, down in self.stretches)
         return Approach(gentler, self.top_mps, self.least_mps)
+
+    def place_m(self, side: LinearCondition, hero: int) -> float:
+        """Return about where (m) the hero is to be at its side."""
+        per_metre, per_speed = side.weights[hero]
+        return -(side.constant + per_speed * max(self.least_mps, _WALKING_MPS)) / per_metre
 
 
 def least_miss(side: LinearCondition, hero: int, approach: Approach, s_m: float, speed_mps: float) -> float:
@@ -124,6 +133,13 @@ class Prospects:
         """Return how far off its side some hero must be at the least, in tight tolerances, when it moves so."""
         return max((least_miss(*way) for way in self._ways(situation, manner)), default=0.0)
 
+    def versions(self, situation: Situation, manner: Manner, tolerance: float, gently: bool) -> tuple[Manner, ...]:
+        """Return how to carry out a manner, best first: waiting where it has the time, gently, with all it allows."""
+        waits = self.waiting(situation, manner, tolerance)
+        gentled = self.gentled(situation, manner, tolerance) if gently else manner
+        found = (gentled,) if gentled == manner else (gentled, manner)
+        return found if waits is None else (waits, *found)
+
     def gentled(self, situation: Situation, manner: Manner, tolerance: float) -> Manner:
         """Return `manner` with no more authority on the way to the trigger than it takes to come as near as that.
 
@@ -147,6 +163,24 @@ class Prospects:
             return manner
         return replace(manner, approach_accel_mpss=share * up, approach_brake_mpss=share * down)
 
+    def waiting(self, situation: Situation, manner: Manner, tolerance: float) -> Manner | None:
+        """Return `manner` with a wait on the way where it would only creep to the trigger; None where it would not.
+
+        Who waits far back can still be early or late; who creeps ever nearer can only be early.
+        """
+        ways = self._ways(situation, manner)
+        if len(ways) != 1 or manner.natural_speed:
+            return None
+        side, hero, approach, s_m, _ = ways[0]
+        rest_s = situation.trigger_s[hero] - situation.time_s
+        if approach.place_m(side, hero) - s_m > _CREEPS_MPS * rest_s:
+            return None
+        for go_s in _SETS_OFF_S:
+            waits = replace(manner, wait_go_s=go_s)
+            if self._ways(situation, waits) and self.least_miss(situation, waits) <= tolerance:
+                return waits
+        return None
+
     def _ways(self, situation: Situation, manner: Manner) -> list[tuple[LinearCondition, int, Approach, float, float]]:
         """Return, for every hero with a side of its own and a timed way to it, what `least_miss` takes."""
         found = []
@@ -162,8 +196,12 @@ class Prospects:
         """Return the way to the trigger; None where no time is left."""
         rest_s = pin(situation.trigger_s[hero_id]) - pin(situation.time_s)
         stretches = []
-        for stretch in timed_approach(manner, task.piece, rest_s, task.knot):
+        speed = situation.heroes[hero_id].speed_mps
+        for stretch in timed_approach(manner, task.piece, rest_s, task.knot, speed):
             up, down = approach_rates(manner, stretch, task.following)
+            if stretch.waiting:
+                up, down = (-down, down) if speed > 0 else (up * 0, down)
+                speed = 0.0
             stretches.append((float(stretch.duration_s or 0), float(up), float(down)))
         if not stretches:
             return None

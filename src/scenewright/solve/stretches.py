@@ -6,7 +6,7 @@ given, those on the way to it have known durations, which keeps the problem line
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from scenewright.motion.algebra import pin
@@ -14,7 +14,7 @@ from scenewright.program.expressions import Compare, Formula, PieceRef, State, w
 from scenewright.program.structure import Structure
 from scenewright.program.types import Actor, PieceKind, Program
 from scenewright.solve.arrival import LinearCondition
-from scenewright.solve.limits import BEGINNING_MPSS, Limits, Manner
+from scenewright.solve.limits import BEGINNING_MPSS, WAIT_BRAKE_MPSS, Limits, Manner
 from scenewright.solve.situation import Situation
 
 _WALKING_MPS = 2.0
@@ -31,6 +31,7 @@ class Stretch:
     end_knot: str | None
     approach: bool = False
     settled: bool = False
+    waiting: bool = False
     to_top: bool = False
     cruise: bool = False
 
@@ -67,7 +68,8 @@ class Division:
             approach = piece < trigger_index and sketch.pieces[piece] is PieceKind.GO
             planned = self.situation.trigger_s.get(hero.id)
             if approach and piece + 1 == trigger_index and piece == first and planned is not None:
-                found += timed_approach(self.manner, piece, pin(planned) - pin(self.situation.time_s), knot)
+                speed = state.speed_mps if state else 0.0
+                found += timed_approach(self.manner, piece, pin(planned) - pin(self.situation.time_s), knot, speed)
             elif approach:
                 found += [Stretch(piece, None, None, True), Stretch(piece, None, knot, True, True)]
             elif sketch.pieces[piece] is PieceKind.ACC and self._cruises(hero, piece):
@@ -103,8 +105,19 @@ class Division:
         return None
 
 
-def timed_approach(manner: Manner, piece: int, rest_s: Fraction, knot: str) -> list[Stretch]:
-    """Divide the time that is left before the trigger into steps, the last one settled where that is asked for."""
+def timed_approach(manner: Manner, piece: int, rest_s: Fraction, knot: str, speed_mps: float) -> list[Stretch]:
+    """Divide the time that is left before the trigger into steps, the last one settled where that is asked for.
+
+    One that waits brakes from `speed_mps` to a stand, stands, and sets off in time.
+    """
+    if manner.wait_go_s:
+        brake_s, go_s = pin(speed_mps / WAIT_BRAKE_MPSS), pin(manner.wait_go_s)
+        stand_s = rest_s - brake_s - go_s - _SETTLE_S
+        if stand_s <= 0:
+            return []
+        braking = [Stretch(piece, brake_s, None, True)] if brake_s else []
+        going = [*_even(piece, go_s, 2, None), Stretch(piece, _SETTLE_S, knot, True, True)]
+        return [*(replace(s, waiting=True) for s in (*braking, Stretch(piece, stand_s, None, True))), *going]
     steps, settle = manner.steps, manner.settle
     if rest_s <= 0:
         return []
@@ -131,6 +144,8 @@ def approach_rates(manner: Manner, stretch: Stretch, following: PieceKind) -> tu
     is to begin, and do the opposite no harder than the manner says: who is about to brake may still speed up.
     """
     up, down = Fraction(str(manner.approach_accel_mpss)), Fraction(str(manner.approach_brake_mpss))
+    if stretch.waiting:
+        return up, pin(WAIT_BRAKE_MPSS)
     if not stretch.settled:
         return up, down
     if manner.steps <= 2:

@@ -1,0 +1,106 @@
+"""What arithmetic denies no motion does: it must never keep the solver from a plan that there is."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from scenarios import YIELDS, limits_of, read_structure
+from scenewright.motion.profile import Profile, chain
+from scenewright.program.types import PieceKind
+from scenewright.solve.arrival import LinearCondition, linear_conditions
+from scenewright.solve.limits import COUNTER, FIRM, GENTLE, URGENT, WHOLE, Manner
+from scenewright.solve.reach import Approach, Prospects, least_miss
+from scenewright.solve.situation import HeroState, Situation
+from scenewright.solve.stretches import approach_rates, timed_approach
+
+HERO = 1
+TIMED = LinearCondition("c", frozenset({(HERO, "t1")}), -60.0, {HERO: (1.0, 2.0)})  # 2 s from a place at 60 m
+PLACED = LinearCondition("c", frozenset({(HERO, "t1")}), -40.0, {HERO: (1.0, 0.0)})
+stretches = st.lists(st.tuples(st.floats(0.1, 2.0), st.floats(0.0, 4.0), st.floats(0.0, 6.0)), min_size=1, max_size=5)
+
+
+@given(
+    ways=stretches,
+    shares=st.lists(st.floats(0.0, 1.0), min_size=5, max_size=5),
+    s_m=st.floats(0.0, 60.0),
+    speed=st.floats(0.0, 12.0),
+    side=st.sampled_from([TIMED, PLACED]),
+)
+def test_no_motion_comes_nearer_than_arithmetic_says(
+    ways: list[tuple[float, float, float]], shares: list[float], s_m: float, speed: float, side: LinearCondition
+) -> None:
+    moves: list[tuple[float, float, int]] = []
+    now = speed
+    for (duration, up, down), share in zip(ways, shares, strict=False):
+        accel = max(-down + share * (up + down), -now / duration)  # one acceleration all through a stretch
+        moves.append((duration, accel, 0))
+        now += accel * duration
+    motion = Profile(chain(0.0, s_m, speed, moves))
+    place, end_speed, _ = motion.state(sum(duration for duration, _, _ in ways))
+    approach = Approach(tuple(ways), top_mps=60.0, least_mps=0.0)
+    tight = 0.1 * max(end_speed, 0.05) if side is TIMED else 0.5
+    miss = abs(side.value({HERO: (place, end_speed)})) / tight
+    least = least_miss(side, HERO, approach, s_m, speed)
+    # A miss in time depends on the speed there: the bound is zero or not, its size is a guide.
+    assert least == 0.0 or miss > 0.0
+    if side is PLACED:
+        assert miss >= least - 1e-6
+
+
+def test_who_hurries_and_who_holds_back_bound_the_place() -> None:
+    approach = Approach(((1.0, 2.0, 3.0), (1.0, 0.25, 0.25)), top_mps=10.0, least_mps=1.0)
+    assert approach.fastest(0.0, 6.0) == pytest.approx((7.0 + 8.125, 8.25))
+    assert approach.slowest(0.0, 6.0) == pytest.approx((4.5 + 2.875, 2.75))
+    assert approach.within(1.0, 1.0).fastest(0.0, 6.0) == pytest.approx((6.5 + 7.125, 7.25))
+
+
+@pytest.mark.parametrize("manner", [FIRM, WHOLE, COUNTER], ids=["firm", "whole", "counter"])
+@pytest.mark.parametrize("rest_s", [Fraction(1, 10), Fraction(1, 2), Fraction(3, 5), Fraction(3)])
+def test_the_last_half_second_is_settled_however_little_is_left(manner: Manner, rest_s: Fraction) -> None:
+    left = rest_s
+    for stretch in timed_approach(manner, 0, rest_s, "t1", 5.0):
+        up, down = approach_rates(manner, stretch, PieceKind.DEC)
+        left -= stretch.duration_s or 0
+        if left < Fraction(1, 2) and stretch.end_knot:
+            assert down <= Fraction(1, 4)
+            assert up <= Fraction(9, 20) or manner is COUNTER
+    assert left == 0
+
+
+def test_who_has_long_to_go_a_short_way_stands_and_waits() -> None:
+    scene = YIELDS.scene()
+    structure = read_structure(scene.program)
+    conditions = linear_conditions(scene, structure)
+    prospects = Prospects(scene.program, structure, limits_of(scene), conditions)
+    side = next(c for c in conditions if set(c.weights) == {HERO} and (HERO, "t1") in c.moments)
+    place = -(side.constant + side.weights[HERO][1] * 5.0) / side.weights[HERO][0]
+    ego = Profile(chain(0.0, 0.0, 1.0, [(60.0, 0.0, 0)]))
+    for ahead_m, trigger_s, waits in ((14.0, 12.0, True), (40.0, 6.0, False)):
+        state = HeroState(0.0, place - ahead_m, 5.0, 0, {"t0": 0.0}, ego)
+        situation = Situation(0.0, ego, {"t0": 0.0}, {HERO: state}, {HERO: trigger_s})
+        found = prospects.waiting(situation, COUNTER, 0.0)
+        assert (found is not None) == waits
+        assert prospects.waiting(situation, GENTLE, 0.0) is None
+        if found is not None:
+            approach = timed_approach(found, 0, Fraction(12), "t1", 5.0)
+            assert [stretch.waiting for stretch in approach] == [True, True, False, False, False]
+            assert sum(stretch.duration_s or 0 for stretch in approach) == 12
+
+
+def test_takes_no_more_authority_than_it_needs() -> None:
+    scene = YIELDS.scene()
+    structure = read_structure(scene.program)
+    conditions = linear_conditions(scene, structure)
+    prospects = Prospects(scene.program, structure, limits_of(scene), conditions)
+    side = next(c for c in conditions if set(c.weights) == {HERO} and (HERO, "t1") in c.moments)
+    place = -(side.constant + side.weights[HERO][1] * 8.0) / side.weights[HERO][0]
+    ego = Profile(chain(0.0, 0.0, 8.0, [(60.0, 0.0, 0)]))
+    state = HeroState(0.0, place - 34.0, 8.0, 0, {"t0": 0.0}, ego)  # 2 m behind where it should be
+    situation = Situation(0.0, ego, {"t0": 0.0}, {HERO: state}, {HERO: 4.5})
+    gentled = prospects.gentled(situation, URGENT, 0.0)
+    assert gentled.approach_accel_mpss < 0.5 * URGENT.approach_accel_mpss
+    assert prospects.least_miss(situation, gentled) == 0.0
