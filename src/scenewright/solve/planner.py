@@ -41,8 +41,9 @@ _SHIFTS = (Fraction(0), Fraction(1, 2), Fraction(1))
 # The largest miss that is searched for, in tight tolerances, and how often the search is halved.
 _FARTHEST, _HALVINGS = 16.0, 7
 # How often a re-solve asks whether a gentler way has become possible.
-_SOON_S = 8.0
 _EASE_EVERY = 3
+# What is soon for a trigger whose moment is free (s).
+_SOON_S = 8.0
 # How many of the instants to try are about the planned one.
 _NEAR = 4
 # Pinning rounds by at most 5e-5 at each of a handful of numbers; a checked plan may be off by that, no more.
@@ -144,8 +145,7 @@ class Planner:
         first = self._position
         if not self._searching and len(situations) == 1:
             first = min(first, len(exact))  # how far off the trigger must be is asked anew at every tick
-        if self._replans % _SOON_S = 8.0
-_EASE_EVERY == 0 and not self._searching:
+        if self._replans % _EASE_EVERY == 0 and not self._searching:
             gentler = (number for number in range(min(first, len(exact)) - 1, -1, -1) if self._timed(*exact[number]))
             first = next(gentler, first) if len(situations) == 1 else 0
         attempt, tried = self._search(chain(exact[first:], others(max(0, first - len(exact)))), self.budget_s)
