@@ -24,8 +24,9 @@ class Z3Backend:
 
     def solve(self, problem: Problem, timeout_s: float, want_core: bool = False) -> Result:
         """Solve `problem` within `timeout_s`; unsatisfiable results carry a minimal core where `want_core` is set."""
-        # Cores name their assertions, and names stay behind in a context: a fresh one keeps answers repeatable.
-        solver = z3.Solver(ctx=z3.Context()) if want_core else z3.Solver()
+        # What was asked before stays behind in a context and sways the models of what comes next: a fresh one, for a
+        # millisecond, keeps an answer the same whatever else the process has solved.
+        solver = z3.Solver(ctx=z3.Context())
         solver.set("timeout", max(1, int(timeout_s * 1000)))
         solver.from_string(problem.smtlib(named=want_core))
         answer = solver.check()
