@@ -217,6 +217,12 @@ class ActionReader(DescriptionReader):
         return phase
 
     def _ego_landmark(self, event: Event) -> str:
+        at = event.places[0] if len(event.places) == 1 else None
+        if event.verb == "be" and at is not None and at.relation == "at" and isinstance(at.target, str):
+            return at.target  # "before the ego is at the conflict point"
+        if event.verb == "reach" and event.landmark is None and not event.places:
+            self.facts.assumptions.append(f"'{event.span.excerpt(self.text)}': at the conflict point")
+            return "conflict_point"
         if event.verb in ("pass", "reach", "enter", "leave") and event.landmark:
             return EDGE.get((event.verb, event.landmark), event.landmark)
         if event.verb in ("turn", "pull_out", "complete") and not event.places:

@@ -7,23 +7,27 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from scenewright.translate.events import EGO_ID, Area, Event, Place
-from scenewright.translate.reader import TURNS, ReaderState
+from scenewright.translate.events import Event
+from scenewright.translate.place_adjuncts import PlaceAdjunctReader
+from scenewright.translate.reader import TURNS
 from scenewright.translate.tokens import Quantity
 
 
 @dataclass(slots=True)
-class AdjunctReader(ReaderState):
+class AdjunctReader(PlaceAdjunctReader):
     """Puts adjuncts into the event that they belong to."""
 
     def _adjunct(self) -> bool:
         return (
-            self._particle()
+            self._each_its_own()
+            or self._particle()
             or self._shared_place()
             or self._amount_adjunct()
             or self._stop_adjunct()
             or self._place_adjunct()
             or self._through()
+            or self._for_whom()
+            or self._reached_in()
             or self._side()
             or self._oncoming()
             or self._way_adjunct()
@@ -74,6 +78,14 @@ class AdjunctReader(ReaderState):
             at += 1
         quantity: Quantity | None
         measured = self.phrases.measured(at)
+        behind = self.current is not None and self.current.places and self.current.places[-1].relation == "behind"
+        if measured is not None and measured[0] in ("headway", "length") and behind and not self.links:
+            place = self.current.places[-1] if self.current else None
+            if self.current is not None and place is not None and place.amount is None:
+                self.current.places[-1] = replace(place, amount=measured[1])  # "follows at a headway of 2 s"
+                self.at = measured[2]
+                self._grow()
+                return True
         if measured is not None and measured[0] in ("rate", "speed"):
             quantity, end = measured[1], measured[2]
         else:
@@ -103,99 +115,6 @@ class AdjunctReader(ReaderState):
         self._grow()
         return True
 
-    def _shared_place(self) -> bool:
-        """Read a bare amount whose place another vehicle names: "the ego is 35 m and the hero 20 m from it"."""
-        amount = self.phrases.tokens[self.at].quantity
-        if amount is None or amount.dimension not in ("length", "time"):
-            return False
-        after = self.phrases.tokens[self.at + 1].tags
-        ends = "end" in after or "comma" in after or after.get("link") == "and"
-        shared = (self._place_before() or self._place_after(self.at + 1)) if ends else None
-        if shared is None or not isinstance(shared.target, str) or shared.of_whom is not None:
-            return False
-        if (
-            shared.target == "stop_line" and not self._respectively_follows()
-        ):  # each vehicle has its own, or none: nothing that two can share
-            return False
-        if shared.amount is None or shared.amount.dimension != amount.dimension:
-            return False
-        host = self._host()
-        if host is None or host.verb not in ("be", "sit"):
-            return False
-        host.places.append(replace(shared, amount=amount, span=amount.span))
-        self.at += 1
-        self._grow()
-        return True
-
-    def _respectively_follows(self) -> bool:
-        at = self.at
-        while "end" not in self.phrases.tokens[at].tags:
-            if self.phrases.tokens[at].text.lower() == "respectively":
-                return True
-            at += 1
-        return False
-
-    def _place_before(self) -> Place | None:
-        """Return the place that the vehicle before is compared with: "the ego is 35 m from it and the hero 20 m"."""
-        last = self.events[-1] if self.events else None
-        if last is None or last.sentence != self.sentence or self.subject_span is None or last.actor == self.subject:
-            return None
-        return last.places[0] if last.verb in ("be", "sit") and len(last.places) == 1 else None
-
-    def _place_after(self, at: int) -> Place | None:
-        """Return the place that follows for the other vehicle: "... 35 m and the hero 20 m from it"."""
-        at += self.phrases.tag(at, "comma") is not None
-        at += self.phrases.tag(at, "link") == "and"
-        phrase = self.phrases.noun_phrase(at)
-        if phrase is None or phrase.kind == "pronoun":
-            return None
-        at = phrase.end + (self.phrases.tag(phrase.end, "be") is not None)
-        found = self.phrases.place(at) if self.phrases.tokens[at].quantity is not None else None
-        return found[0] if found else None
-
-    def _stop_adjunct(self) -> bool:
-        end = self._stop_noun_at(self.at)
-        if end is None or self.current is None or self.current.verb not in ("brake", "stop"):
-            return False
-        self.current.to_stop = True
-        self.at = end
-        self._grow()
-        return True
-
-    def _place_adjunct(self) -> bool:
-        passing = self.current is not None and self.current.verb in ("pass", "complete")
-        if passing and self._tag("link") == "before" and self.phrases.tokens[self.at].quantity is None:
-            return False
-        found = self.phrases.place(self.at)
-        if found is None:
-            return False
-        place, end = found
-        host = self._host()
-        if host is None:
-            return False
-        if (
-            second := self._respective(end)
-        ) is not None:  # "... from the conflict point and the stop line respectively"
-            place, end = replace(place, target=second[0]), second[1]
-        host.places.append(place)
-        if place.target == "stop_line" and self.phrases.tag(end - 1, "area") == "driveway":
-            host.areas.append(Area("on", "driveway", place.span))  # "at the stop line of the driveway"
-        self.at = end
-        self._grow()
-        return True
-
-    def _respective(self, at: int) -> tuple[str, int] | None:
-        """Read "and the stop line(,) respectively" after the first of two places; the second one and what follows."""
-        if self.phrases.tag(at, "link") != "and":
-            return None
-        found = self.phrases.landmark(at + 1)
-        if found is None:
-            return None
-        end = found[1] + (self.phrases.tag(found[1], "comma") is not None)
-        if self.phrases.tokens[end].text.lower() != "respectively":
-            return None
-        return found[0], end + 1
-
     def _way_adjunct(self) -> bool:
         """Read areas, headings, directions and what a vehicle drives towards."""
         towards = self._tag("preposition") == "to" and self.current is not None and self.current.verb == "drive"
@@ -222,7 +141,7 @@ class AdjunctReader(ReaderState):
             return True
         if (
             self.current is not None
-            and self.current.verb in ("leave", "pull_out")
+            and (self.current.verb in ("leave", "pull_out") or self._uses())
             and (area := self.phrases.area_noun(self.at, self._role_of(self.current)))
         ):
             self.current.areas.append(area[0])
@@ -239,9 +158,18 @@ class AdjunctReader(ReaderState):
             return True
         return self._direction()
 
+    def _uses(self) -> bool:
+        """Whether a verb takes its lane without a preposition: "uses the westbound lane"."""
+        before = self.phrases.tokens[self.at - 1]
+        return before.tags.get("verb") == "drive" and before.text.lower().split()[0].startswith(
+            ("us", "occup", "keep", "kept", "stick")
+        )
+
     def _role_of(self, event: Event) -> str:
         """Whether a vehicle comes out of what stands after its verb, or goes into it: "joins the road"."""
         words = event.span.excerpt(self.phrases.text).lower().split()
+        if self._uses():
+            return "on"
         return "into" if any(word.startswith(("join", "merg")) for word in words) else "from"
 
     def _host_of_heading(self, end: int) -> Event | None:
@@ -252,8 +180,33 @@ class AdjunctReader(ReaderState):
                 return self.current
         return self._host()
 
+    def _for_whom(self) -> bool:
+        """Read "stops for the ego"."""
+        event = self.current
+        if (
+            event is None
+            or self.links
+            or self._tag("preposition") != "for"
+            or event.verb not in ("stop", "brake", "yield")
+        ):
+            return False
+        phrase = self.phrases.noun_phrase(self.at + 1)
+        if phrase is None or event.to_actor is not None or event.actor is None:
+            return False
+        event.to_actor = 1 - event.actor if phrase.kind == "pronoun" else self.phrases.resolve(phrase)
+        self.at = phrase.end
+        self._grow()
+        return True
+
     def _through(self) -> bool:
         """Read "accelerates through the conflict point" as two verbs."""
+        on_its_way = self.current is not None and self.current.verb in ("drive", "lane_follow", "go") and not self.links
+        if on_its_way and self._tag("through") is not None and not self.flags:
+            found = self.phrases.landmark(self.at + 1)
+            if found is not None and found[0] == "intersection" and found[2] is None:
+                self.at = found[1]  # "continues straight through the T-junction"
+                self._grow()
+                return True
         past = self._tag("through") is not None or self._tag("relation") == "past"
         if not past or self.current is None or self.current.verb not in ("accelerate", "go", "keep", "drive"):
             return False
@@ -264,57 +217,6 @@ class AdjunctReader(ReaderState):
         event = self._open("pass", self.at)
         event.landmark = "turn_start" if found[0] == "mouth" else found[0]
         self.at = found[1]
-        self._grow()
-        return True
-
-    def _from_whose_side(self, at: int) -> tuple[str, int] | None:
-        """Read "from the AV's left [side]"; return the side and the position after it."""
-        if self.phrases.tag(at, "preposition") not in ("out", "on", "to"):
-            return None
-        phrase = self.phrases.noun_phrase(at + 1)
-        if phrase is None or phrase.kind == "pronoun" or self.phrases.tag(phrase.end, "genitive") is None:
-            return None
-        direction = self.phrases.tag(phrase.end + 1, "direction")
-        if direction not in ("left", "right"):
-            return None
-        end = phrase.end + 2 + (self.phrases.tag(phrase.end + 2, "side_noun") is not None)
-        return f"from_{direction}" if self.phrases.tag(at, "preposition") == "out" else f"on_{direction}", end
-
-    def _side(self) -> bool:
-        """Read "from the ego's left" and "on its right": where a vehicle comes from, as the other one sees it."""
-        side, end = self._tag("from_side"), self.at + 1
-        if side is None and (found := self._from_whose_side(self.at)):
-            side, end = found
-        host = self.current or (self._host() if side is not None and self.subject_span is not None else None)
-        if side is None or host is None or host.actor is None or (self.links and self.subject_span is None):
-            return False
-        if self.links and host is self.current:
-            host = self._host()
-        if host is None or host.actor is None:
-            return False
-        if self.phrases.tag(end, "preposition") == "of":
-            phrase = self.phrases.noun_phrase(end + 1)
-            if phrase is None or (phrase.kind != "pronoun" and self.phrases.resolve(phrase) == host.actor):
-                return False
-            end = phrase.end
-        side_of = host.actor
-        if side.startswith("on_") and host.areas and host.areas[-1].kind == "driveway":
-            named = self.phrases.last_named
-            if named is not None and self.phrases.tokens[self.at].text.lower().startswith(("on", "to", "at")):
-                whose = self._from_whose_side(self.at)
-                side_of = named[0] if whose is not None else host.actor
-            if host.areas[-1].role == "into":
-                relation = f"driveway_{side.rpartition('_')[2]}"
-                host.relations.append((relation, side_of, self.phrases.span(self.at, end)))
-                self.at = end
-                self._grow()
-                return True
-        on_driveway = any(area.kind == "driveway" for area in host.areas)
-        seen_by_itself = side.startswith("on_") and on_driveway and host.actor == EGO_ID
-        if seen_by_itself or (side.startswith("on_") and not on_driveway and host.verb != "pull_out"):
-            return False
-        host.relations.append((f"from_{side.rpartition('_')[2]}", host.actor, self.phrases.span(self.at, end)))
-        self.at = end
         self._grow()
         return True
 
@@ -342,6 +244,11 @@ class AdjunctReader(ReaderState):
             if self.phrases.tag(at, "actor_adjective") == "oncoming" and self.phrases.tag(at + 1, "direction_noun"):
                 event.relations.append(("oncoming", event.actor, self.phrases.span(self.at, at + 2)))
                 self.at = at + 2
+                other = (
+                    self.phrases.noun_phrase(self.at + 1) if self._tag("preposition") in ("to", "of", "as") else None
+                )
+                if other is not None and other.kind != "pronoun" and self.phrases.resolve(other) != event.actor:
+                    self.at = other.end  # "in the opposite direction to the ego"
                 self._grow()
                 return True
         if event.verb != "be":
@@ -357,6 +264,15 @@ class AdjunctReader(ReaderState):
         at = self.at
         if self.phrases.tag(at, "preposition") == "to":
             at = self.phrases.skip_determiner(at + 1)
+        elif self.phrases.tokens[at].text.lower() in ("with", "by", "for", "in") and self._turn_after(at + 1):
+            at = self.phrases.skip_determiner(at + 1)  # "leaves the driveway with a left turn"
+            host = self.current
+            if host is not None and host.verb in ("leave", "pull_out", "turn", "drive") and host.direction is None:
+                host.direction = self.phrases.tag(at, "direction")
+                self.at = at + 2
+                self._grow()
+                return True
+            return False
         elif self.phrases.tag(at, "determiner") and self.phrases.tag(at + 2, "event_noun") == "turn":
             at += 1
         direction = self.phrases.tag(at, "direction")
@@ -382,8 +298,18 @@ class AdjunctReader(ReaderState):
             return False
         host.direction = direction
         self.at = at + 1
+        on_area = (
+            self.phrases.area_noun(self.at, "on") if self.phrases.tokens[at].text.lower().endswith(" on") else None
+        )
+        if on_area is not None:  # "straight on the main road"
+            host.areas.append(on_area[0])
+            self.at = on_area[1]
         self._grow()
         return True
+
+    def _turn_after(self, at: int) -> bool:
+        at = self.phrases.skip_determiner(at)
+        return self.phrases.tag(at, "direction") is not None and self.phrases.tag(at + 1, "event_noun") == "turn"
 
     def _bare(self) -> bool:
         """Read telegraphic notes: "Ego: driveway, left turn, eastbound"."""

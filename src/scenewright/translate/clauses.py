@@ -8,16 +8,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place
+from scenewright.translate.events import EGO_ID, HERO_ID, Event
 from scenewright.translate.modes import resolve_modes
-from scenewright.translate.openings import OpeningReader
+from scenewright.translate.objects import ObjectReader
 from scenewright.translate.references import NounPhrase
 
 _UNSUPPORTED_FIX = "leave it out: the offline translator knows two vehicles that drive along their lanes"
 
 
 @dataclass(slots=True)
-class ClauseReader(OpeningReader):
+class ClauseReader(ObjectReader):
     """Reads a whole description."""
 
     def read(self) -> list[Event]:
@@ -166,6 +166,8 @@ class ClauseReader(OpeningReader):
             return False
         if link == "until" and self.phrases.tag(after, "landmark"):
             return False
+        if word.startswith("by the time") and any(e.sentence == self.sentence for e in self.events):
+            link = "before"  # "is through by the time the ego begins to turn"
         if link == "only" and self.phrases.tag(after, "link") not in ("when", "after", "then"):
             return False
         if link == "there":
@@ -186,7 +188,9 @@ class ClauseReader(OpeningReader):
         if link == "that" and self.current is None and self.subject_span is None:
             return False
         if link == "that":
-            self._turn_to_object()
+            comma, self.links = self.links, [] if self.links == ["comma"] else self.links
+            if not self._turn_to_object():
+                self.links = comma
         self.links.append(link)
         self.at = after
         if link == "then" and self.phrases.noun_phrase(after) is None:
@@ -202,21 +206,12 @@ class ClauseReader(OpeningReader):
         if self.subject != main[-1].actor and main[-1].actor == HERO_ID:
             self._set_subject(main[-1].actor, None)
 
-    def _agent(self, phrase: NounPhrase) -> bool:
-        """Read "by the hero" after a passive."""
-        event = self.current
-        if event is None or event.actor is not None:
-            return False
-        self._set_subject(self.phrases.resolve(phrase), None)
-        event.actor = self.subject
-        self.at = phrase.end
-        self._grow()
-        return True
-
     def _order(self, link: str) -> bool:
         """Read "before": a clause, or "before the ego" alone."""
         phrase = self.phrases.noun_phrase(self.at + 1)
         after = self.phrases.tokens[self.at + 1]
+        if self._before_a_turn(link):
+            return True
         if phrase is None:
             if "ing" in after.forms or self._passive_follows(self.at + 1):
                 self.links.append(link)
@@ -252,21 +247,28 @@ class ClauseReader(OpeningReader):
         self._grow()
         return True
 
-    def _passive_follows(self, at: int) -> bool:
-        found = self._passive_object_at(at)
-        return found is not None and bool(self.phrases.tag(found[1], "be") or self.phrases.tag(found[1], "auxiliary"))
-
-    def _passive_object_at(self, at: int) -> tuple[str, int] | None:
-        """Read what can be passed or begun: "the conflict point", "the turn"; its name and the position after it."""
-        if found := self.phrases.landmark(at):
-            return ("turn_start" if found[0] == "mouth" else found[0]), found[1]
-        at = self.phrases.skip_determiner(at)
-        at += self.phrases.tag(at, "direction") is not None
-        return ("its turn", at + 1) if self.phrases.tag(at, "event_noun") == "turn" else None
+    def _before_a_turn(self, link: str) -> bool:
+        """Read "before the ego's turn"."""
+        owner = self.phrases.possessor(self.at + 1) if link == "before" and self.current is not None else None
+        if owner is None or self.phrases.tag(owner[1], "event_noun") != "turn":
+            return False
+        if self.phrases.tokens[owner[1] + 1].tags.keys() & {"be", "auxiliary", "verb"}:
+            return False
+        start = self.at + 1
+        self.links.append(link)
+        self._set_subject(owner[0], self.phrases.span(start, owner[1]))
+        event = self._open("turn", start)
+        event.begins = True
+        self.at = owner[1] + 1
+        self._grow()
+        return True
 
     def _who(self) -> bool:
-        if self._tag("landmark") or (
-            self._tag("determiner") and (self._tag("landmark", 1) or self._tag("event_noun", 1))
+        owned = self._tag("possessive") and self._tag("event_noun", 1)
+        if (
+            owned
+            or self._tag("landmark")
+            or (self._tag("determiner") and (self._tag("landmark", 1) or self._tag("event_noun", 1)))
         ):
             return self._passive_subject()
         phrase = self.phrases.noun_phrase(self.at)
@@ -309,42 +311,6 @@ class ClauseReader(OpeningReader):
         acts = self.phrases.verb(at, "brake", "stop", "accelerate", "go", "keep", "yield", "come") is not None
         return bool(subordinate and named and acts and self.pronouns == 1)
 
-    def _place_subject(self) -> bool:
-        """Read "the stop line is 12 m ahead of the ego"."""
-        found = self.phrases.landmark(self.at)
-        if found is None or self.phrases.tag(found[1], "be") is None or found[2] is not None:
-            return False
-        place = self.phrases.place(found[1] + 1)
-        if place is None or place[0].relation not in ("ahead", "from") or not isinstance(place[0].target, int):
-            return False
-        if place[0].amount is None or (self.current is not None and not self.links):
-            return False
-        start = self.at
-        self._check_subject_used()
-        self._set_subject(place[0].target, self.phrases.span(start, place[1]))
-        event = self._open("be", start)
-        landmark = "turn_start" if found[0] == "mouth" else found[0]
-        event.places.append(Place("before", landmark, place[0].amount, place[0].span, vague=found[3]))
-        self.at = place[1]
-        self._grow()
-        return True
-
-    def _passive_subject(self) -> bool:
-        if self._place_subject():
-            return True
-        if not self._passive_follows(self.at) or (self.current is not None and not self.links):
-            return False
-        found = self._passive_object_at(self.at)
-        if found is None:
-            return False
-        self._check_subject_used()
-        self.passive_object = found[0]
-        self.subject = self.phrases.subject = None
-        self.subject_span = self.phrases.span(self.at, found[1])
-        self.at = found[1]
-        self.current = None
-        return True
-
     def _clause_follows(self, phrase: NounPhrase) -> bool:
         """Whether a new clause begins without a comma: "when the ego is at the stop line the hero brakes"."""
         token = self.phrases.tokens[phrase.end]
@@ -353,42 +319,3 @@ class ClauseReader(OpeningReader):
             self.links.append("comma")
             return True
         return False
-
-    def _object(self, phrase: NounPhrase) -> bool:
-        """Read an actor as an object or predicate: "yields to the ego", "follows the hero", "is an oncoming car"."""
-        event = self.current
-        if event is not None and event.verb == "be" and phrase.kind == "noun" and phrase.determiner == "indefinite":
-            if event.actor != HERO_ID or event.places or event.areas:
-                return False
-            self.phrases.refs.hero(phrase.noun)
-            event.relations += [(each, HERO_ID, phrase.span) for each in phrase.adjectives & {"lead", "oncoming"}]
-            self.at = phrase.end
-            self._grow()
-            return True
-        if event is not None and event.verb == "follow" and not event.places:
-            event.verb = "drive"
-            other = self.phrases.resolve(phrase)
-            if other == event.actor:
-                return False
-            event.places.append(Place("behind", other, None, phrase.span))
-            self.at = phrase.end
-            self._grow()
-            return True
-        from_behind = self.phrases.tag(phrase.end, "from_behind") is not None
-        if event is not None and event.verb == "approach" and (phrase.adjectives & {"lead", "oncoming"} or from_behind):
-            other = self.phrases.resolve(phrase)
-            if other == event.actor or event.places or event.landmark:
-                return False
-            if "lead" in phrase.adjectives or from_behind:
-                event.verb = "drive"
-                event.places.append(Place("behind", other, None, phrase.span))
-            self.at = phrase.end + from_behind
-            self._grow()
-            return True
-        if event is None or event.verb != "yield" or event.to_actor is not None:
-            return False
-        pronoun = phrase.kind == "pronoun" and event.actor is not None
-        event.to_actor = 1 - (event.actor or 0) if pronoun else self.phrases.resolve(phrase)
-        self.at = phrase.end
-        self._grow()
-        return True

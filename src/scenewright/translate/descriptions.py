@@ -154,7 +154,19 @@ class DescriptionReader:
         for area in event.areas:
             self._tell_area(actor, area, event, turning)
         for heading, span in event.headings:
+            if self.text[span.start : span.end].lower().startswith(("from", "out of")):
+                self._wish(actor, "origin_heading", heading, event)
+                continue
             before_verb = bool(event.areas) is False and span.start < event.span.start
+            turned = [e for e in self.sentence if e.actor == actor and e.verb in ("turn", "pull_out", "leave")]
+            if (
+                event.verb in ("drive", "go")
+                and turned
+                and turned[0].span.start < event.span.start
+                and event is not turned[0]
+            ):
+                self._wish(actor, "destination_heading", heading, event)  # "leaves the driveway and heads east"
+                continue
             ends = turning and span.start > event.span.start and not before_verb
             self._wish(actor, "destination_heading" if ends else "origin_heading", heading, event)
             if event.verb == "lane_follow":
@@ -168,7 +180,7 @@ class DescriptionReader:
             self.facts.relations.append(LaneRelation("across", actor, event))
             return
         end = "destination" if role == "into" or (turning and role == "on") else "origin"
-        if event.verb == "approach" and role == "into":
+        if role == "towards" or (event.verb == "approach" and role == "into"):
             self._note(event, f"it drives towards the {area.kind}")
             return
         if event.verb == "drive" and role == "into":

@@ -33,7 +33,7 @@ class Place:
 class Area:
     """A stretch of the map that an actor is on, comes from or wants: ``onto the road travelling westbound``."""
 
-    role: Literal["on", "from", "into", "across"]
+    role: Literal["on", "from", "into", "across", "towards"]
     kind: Literal["road", "driveway", "lane"]
     span: Span
     heading: str | None = None

@@ -7,7 +7,7 @@ say of a vehicle goes into an event of its own. Words that ask for a scenario sa
 from __future__ import annotations
 
 from copy import deepcopy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from scenewright.errors import Span
 from scenewright.translate.events import EGO_ID, HERO_ID, Area, Event, Place
@@ -72,7 +72,7 @@ class FrameReader(MeasureReader):
             return False
         if any(event.sentence == self.sentence for event in self.events):
             return False
-        if not {"preposition", "from_side"} & self.phrases.tokens[self.at].tags.keys() and (
+        if not {"preposition", "from_side", "heading"} & self.phrases.tokens[self.at].tags.keys() and (
             self._tag("relation") not in ("ahead", "behind")
         ):
             return False
@@ -87,6 +87,10 @@ class FrameReader(MeasureReader):
             found: Area | tuple[str, Span] = area[0]
             end = area[1]
         elif heading := self.phrases.heading(self.at):
+            if (also := self.phrases.area(heading[1])) and also[0].lane_of is None and also[0].heading is None:
+                heading = heading[0], also[1], heading[2]  # "Eastbound on the main road, the AV ..."
+                if also[0].kind != "road":
+                    return False
             found, end = (heading[0], self.phrases.span(self.at, heading[1])), heading[1]
         else:
             return False
@@ -209,9 +213,47 @@ class FrameReader(MeasureReader):
             end = pair + (self.phrases.tag(pair, "pair") is not None)
         if self.phrases.tag(end, "genitive") is not None:
             return False
+        if self._respectively(at, end):
+            return True
         self._set_subject(EGO_ID, self.phrases.span(at, end))
         self.phrases.subject = None
         self.pair, self.at, self.current = True, end, None
+        return True
+
+    def _respectively(self, start: int, at: int) -> bool:
+        """Read "the ego and the hero are 12 m and 20 m from the stop line and the conflict point, respectively"."""
+        at += self.phrases.tag(at, "be") is not None
+        first = self.phrases.tokens[at].quantity
+        if first is None or not self._says_respectively(at):
+            return False
+        places: list[Place] = []
+        if self.phrases.tag(at + 1, "link") == "and" and self.phrases.tokens[at + 2].quantity is not None:
+            found = self.phrases.place(at + 2)
+            if found is None:
+                return False
+            second = self.phrases.landmark(found[1] + 1) if self.phrases.tag(found[1], "link") == "and" else None
+            places = [replace(found[0], amount=first), found[0]]
+            end = found[1]
+            if second is not None:
+                places[1], end = replace(places[1], target=second[0]), second[1]
+        elif found := self.phrases.place(at):
+            after = self.phrases.place(found[1] + 1) if self.phrases.tag(found[1], "link") == "and" else None
+            if after is None:
+                return False
+            places, end = [found[0], after[0]], after[1]
+        else:
+            return False
+        names = [self.phrases.noun_phrase(start + (self.phrases.tokens[start].text.lower() == "both"))]
+        if names[0] is None or names[0].kind == "pronoun":
+            return False
+        order = self.phrases.resolve(names[0])
+        links = self.links
+        for actor, place in ((order, places[0]), (1 - order, places[1])):
+            self.links = links
+            self._set_subject(actor, self.phrases.span(start, end))
+            self._open("be", start).places.append(place)
+            links = ["and"]
+        self.at = end + (self.phrases.tag(end, "comma") is not None) + 1
         return True
 
     def _two_names(self, at: int) -> int | None:

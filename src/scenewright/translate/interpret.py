@@ -6,19 +6,17 @@ What enters: events with modes. What leaves: `Facts`. It knows no map and builds
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import groupby, pairwise
+from itertools import groupby
 
 from scenewright.errors import Span
-from scenewright.translate.actions import EDGE, GOALS, SLOWING, SPEEDING, ActionReader
-from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place
-from scenewright.translate.facts import Condition, Facts, LaneRelation, Order, Phase
-
-INSTANT = ("brake", "accelerate", "yield")
-TELLING = ("be", "sit", "drive", "approach", "lane_follow", "turn", "pull_out", "leave", "wait", "go")
+from scenewright.translate.actions import GOALS, SLOWING, SPEEDING
+from scenewright.translate.events import EGO_ID, HERO_ID, Event
+from scenewright.translate.facts import Facts, LaneRelation, Order, Phase
+from scenewright.translate.moments import TELLING, MomentReader
 
 
 @dataclass(slots=True)
-class Interpreter(ActionReader):
+class Interpreter(MomentReader):
     """Decides what every event is for."""
 
     def run(self, events: list[Event], described: list[tuple[str, int, Span]]) -> Facts:
@@ -72,6 +70,7 @@ class Interpreter(ActionReader):
             if event.to_actor == event.actor or any(place.target == event.actor for place in event.places):
                 raise self._refuse("a vehicle is no measure of itself", event.span, "the other vehicle")
             self.facts.mentioned.add(event.actor)
+        self._one_moment(events)
         self._join_conditions(events)
         conditions = [e for e in events if e.mode == "when" and not self._is_marker(e)]
         self._conditions(conditions, events)
@@ -94,147 +93,12 @@ class Interpreter(ActionReader):
                 self._main(event, reacts)
 
     def _attitude(self, event: Event) -> None:
-        held = event.places or event.areas or event.headings or event.rate or event.speed or event.duration
+        held = event.places or event.rate or event.speed or event.duration
         if held or event.mode != "main" or event.to_speed or event.landmark:
             raise self._refuse(f"'{event.span.excerpt(self.text)}' has no meaning here", event.span)
         self.facts.assumptions.append(f"'{event.span.excerpt(self.text)}' changes nothing of what is orchestrated")
         self._note(event, "nothing to orchestrate")
-
-    @staticmethod
-    def _settle(events: list[Event]) -> None:
-        """Let "with both driving west" tell; let "the ego is 30 m from it when the hero brakes" be the condition."""
-        for event in events:
-            tells = event.verb in ("be", "drive", "lane_follow") and not (event.places or event.speed or event.ttc)
-            if "with" in event.links and event.mode == "when" and tells:
-                event.mode = "main"
-        acts = [e for e in events if e.mode == "when" and e.actor == HERO_ID and e.verb in INSTANT and not e.places]
-        acts = acts or [e for e in events if e.mode == "when" and e.actor == HERO_ID and e.verb in ("brake", "stop")]
-        conditions = [event for event in events if event.mode == "when"]
-        states = [e for e in events if e.mode == "main" and (e.places or e.ttc) and e.verb in ("be", "sit", "ttc")]
-        if not acts or conditions[0] is not acts[0] or events.index(acts[0]) == 0:
-            return
-        before = [e for e in events[: events.index(acts[0])] if not e.wanted or e.places]
-        relative = [e for e in events if "that" in e.links and e in states and e.actor == acts[0].actor]
-        if any(each not in states or each.initial for each in before) or not (
-            acts[0].links[:1] == ["when"] or any("when" in e.links for e in relative)
-        ):
-            return
-        for event in (*before, *relative):
-            event.mode = "when"
-        for event in conditions:
-            event.mode = "main"
-
-    def _join_conditions(self, events: list[Event]) -> None:
-        """Let "the hero is 20 m behind the conflict point when the ego is ..." tell of one moment."""
-        conditions = [event for event in events if event.mode == "when" and not self._is_marker(event)]
-        if not conditions:
-            return
-        for event, following in pairwise([*events, None]):
-            if event is None:
-                break
-            told = event.mode == "main" and event.verb in ("be", "sit", "drive", "approach", "ttc")
-            if not told or event.initial or event.negated:
-                continue
-            if following is not None and following.links == ["when"] and (event.places or event.speed or event.ttc):
-                event.mode = "when"
-            elif event.places:
-                raise self._refuse(
-                    "it is not clear whether this holds at the start or at the trigger",
-                    event.span,
-                    "'initially', or the words inside the 'when' clause",
-                )
-
-    @staticmethod
-    def _give_subjects(events: list[Event]) -> None:
-        """Let "After turning right, the car ..." take the subject of the clause that follows."""
-        for index, event in enumerate(events):
-            fronted = event.actor is None and event.mode == "main" and len(events) > 1 and events[1].explicit
-            if event.gerund and (event.mode in ("after", "before") or fronted) and index == 0:
-                following = next((e for e in events[1:] if e.mode == "main" or fronted), None)
-                if following is not None:
-                    event.actor = following.actor
-
-    @staticmethod
-    def _is_marker(event: Event) -> bool:
-        """Whether a condition only names the end of what the hero does anyway: "once it has stopped"."""
-        return event.actor == HERO_ID and event.verb in ("stop", "wait") and not event.places
-
-    def _marker(self, event: Event) -> None:
-        if not self.facts.phases or self.facts.phases[-1].kind not in ("dec", "turn"):
-            raise self._refuse("nothing was said before that this could refer to", event.span)
-        self._note(event, "after the hero has done so")
-
-    def _conditions(self, conditions: list[Event], events: list[Event]) -> None:
-        for event in events:
-            if "within" in event.notes and (
-                event.mode != "when" or len([e for e in events if "within" in e.notes]) > 1
-            ):
-                raise self._refuse(
-                    "this gives a bound, not a value",
-                    event.span,
-                    "an exact distance, or one 'gets within' after 'when'",
-                )
-        if not conditions:
-            return
-        heroes = [e for e in events if e.mode == "main" and e.actor == HERO_ID]
-        releases = self.facts.trigger and self.facts.phases and heroes and heroes[0].verb in (*SPEEDING, *GOALS, "keep")
-        if releases:
-            self._release(conditions)
-            return
-        if self.facts.trigger:
-            raise self._refuse(
-                "there is a second trigger", conditions[0].span, "one trigger", "join the conditions with 'and'"
-            )
-        for event in conditions:
-            if event.negated:
-                raise self._refuse(
-                    "a negated condition has no moment", event.span, "where the vehicles are when it begins"
-                )
-            found = self._conditions_of(event)
-            for each in found:
-                self._no_second_place(each, self.facts.trigger)
-                self.facts.trigger.append(each)
-            if not found:
-                raise self._refuse(
-                    "this condition has no place, time or speed",
-                    event.span,
-                    "such as 'the ego is 12 m behind the stop line'",
-                )
-            self._tell_route(event)
-
-    def _conditions_of(self, event: Event) -> list[Condition]:
-        actor = event.actor
-        assert actor is not None
-        ordered = event.first or event.than_actor is not None or event.after_actor is not None
-        if event.rate or event.to_speed or event.duration or ordered:
-            raise self._refuse("this cannot be a condition", event.span, "a place, a time or a speed")
-        if event.verb == "wait" and event.places:
-            self._stand(event)
-        found = [Condition(actor, event, place=place) for place in event.places]
-        if event.ttc:
-            found.append(Condition(actor, event, ttc=event.ttc))
-        if event.speed:
-            found.append(Condition(actor, event, speed=event.speed))
-        if event.verb in ("pass", "reach", "enter", "leave") and event.landmark:
-            landmark = EDGE.get((event.verb, event.landmark), event.landmark)
-            found.append(Condition(actor, event, place=Place("at", landmark, None, event.span)))
-        elif event.verb in ("turn", "complete") and event.direction is None and not event.areas:
-            landmark = "turn_end" if event.verb == "complete" else "turn_start"
-            found.append(Condition(actor, event, place=Place("at", landmark, None, event.span)))
-        elif event.verb == "reach" and found:
-            pass  # "reaches a point 12 m behind the stop line"
-        elif event.verb not in ("be", "sit", "drive", "approach", "ttc", "wait", "lane_follow"):
-            raise self._refuse(f"'{event.span.excerpt(self.text)}' is not a moment that can be waited for", event.span)
-        if event.verb == "approach" and not found:
-            return []
-        return found
-
-    def _release(self, conditions: list[Event]) -> None:
-        for event in conditions:
-            if event.actor != EGO_ID or self.pending_release:
-                raise self._refuse("there is a second trigger", event.span, "one trigger")
-            self._tell_route(event)
-            self.pending_release.append(event)
+        self._tell_route(event)
 
     def _before(self, event: Event) -> None:
         if (
@@ -304,6 +168,10 @@ class Interpreter(ActionReader):
         return next((e for e in events if e.actor == EGO_ID and e.mode == "main" and not e.negated), None)
 
     def _negated(self, event: Event) -> None:
+        straight = event.verb == "turn" and event.direction is None and not (event.areas or event.places)
+        if straight and event.mode == "main" and event.actor is not None and not self.facts.phases:
+            self._wish(event.actor, "turn", "straight", event)
+            return
         plain = not (event.places or event.rate or event.speed or event.to_speed or event.landmark or event.areas)
         if event.actor == HERO_ID and event.verb in (*SLOWING, "wait") and plain and event.mode == "main":
             self.facts.not_yielding = self.facts.not_yielding or event
@@ -326,34 +194,6 @@ class Interpreter(ActionReader):
         else:
             raise self._refuse(f"'{event.span.excerpt(self.text)}' has no meaning here", event.span)
 
-    def _is_action(self, event: Event, reacts: bool) -> bool:
-        if event.wanted or event.initial:
-            return event.verb in (*SLOWING, "accelerate")
-        if event.verb in (*SLOWING, "accelerate", "keep", "pass", "complete", "reach", "enter"):
-            return True
-        if event.verb == "go":
-            return reacts or not (event.direction or event.headings or event.areas)
-        later = bool(self.facts.phases) and bool({"then", "then_label"} & set(event.links))
-        if event.verb in ("turn", "pull_out"):
-            return (reacts and not self._told_before(event)) or later
-        if event.verb == "leave":
-            return event.landmark is not None
-        turned = bool(self.facts.phases) and self.facts.phases[-1].kind == "turn"
-        if event.verb in ("lane_follow", "drive"):
-            return turned and (event.speed is not None) and (later or event.begins or reacts)
-        if event.verb == "wait":
-            return bool(self.facts.phases) or (reacts and bool(event.places) and not event.gerund)
-        return False
-
-    def _told_before(self, event: Event) -> bool:
-        """Whether this is told on the way to a "when" clause that has a reaction of its own after it."""
-        rest = self.sentence[self.sentence.index(event) + 1 :]
-        condition = next((e for e in rest if e.mode == "when"), None)
-        if condition is None or not {"comma", "and"} & set(condition.links):
-            return False
-        after = rest[rest.index(condition) :]
-        return any(e.mode == "main" and e.actor == HERO_ID and e.verb in (*SLOWING, *SPEEDING, *GOALS) for e in after)
-
     def _ego_in_order(self, event: Event) -> bool:
         """Read "the ego passes the conflict point before the hero": who comes first, told from the ego's side."""
         landmark = self._ego_landmark(event)
@@ -371,10 +211,19 @@ class Interpreter(ActionReader):
         return True
 
     def _ego(self, event: Event) -> None:
+        across = event.verb == "pass" and event.landmark == "intersection" and not self.facts.phases
+        if across and "then" not in event.links and event.than_actor is None:  # "the ego crosses the T-junction"
+            event.verb, event.landmark = "lane_follow", None
+        if event.verb == "keep" and (event.headings or event.areas):
+            event.verb = "drive"  # "the ego keeps driving west"
         allowed = event.verb in TELLING and not (event.rate or event.to_speed or event.duration or event.to_stop)
         ordered = event.verb in ("turn", "pass", "reach", "complete", "enter", "leave") and not event.areas
         other = event.than_actor if event.than_actor is not None else event.after_actor
         if ordered and other == HERO_ID and not event.negated and self._ego_in_order(event):
+            return
+        goes = bool(self.facts.phases) and self.facts.phases[-1].kind in ("acc", "go")
+        if ordered and goes and "then" in event.links and not event.negated and event.mode == "main":
+            self._set_order(Order(True, self._ego_landmark(event), event))  # "..., after which the ego begins to turn"
             return
         timed = (ordered and event.verb != "turn") or (event.begins and event.verb == "turn")
         if timed and not any(each.mode == "after" and each.actor == HERO_ID for each in self.sentence):

@@ -15,6 +15,13 @@ from scenewright.translate.tokens import Token
 _WHOSE = frozenset(("ego", "hero", "noun", "actor_adjective", "determiner", "aspect", "genitive", "pair"))
 _SAYS = frozenset(("ego", "hero", "pronoun", "be", "auxiliary", "negation", "quantity", "measure", "bound"))
 _LONGEST_TITLE = 13
+_LONG_ADVERB = 7
+_NO_MANNER = frozenset(
+    ["scarcely", "rarely", "mostly", "partially", "supposedly", "allegedly", "possibly", "probably", "randomly",
+     "occasionally", "alternately", "alternatively", "repeatedly", "potentially", "presumably", "seemingly", "assembly",
+     "anomaly", "multiply", "ideally", "usually", "generally", "typically", "optionally", "vertically", "laterally",
+     "virtually", "practically", "temporarily", "exclusively", "conditionally"]
+)  # fmt: skip
 
 
 def lay_out(tokens: list[Token]) -> tuple[list[Token], list[list[Token]]]:
@@ -33,10 +40,17 @@ def _plain_adjectives(tokens: list[Token]) -> list[Token]:
             "unknown" in tokens[at].tags
             and tokens[at].text.isalpha()
             and described
-            and after & {"noun", "hero", "area"}
+            and after & {"noun", "hero", "area", "direction", "event_noun"}
         ):
             read[at] = replace(tokens[at], tags={"actor_adjective": "plain", "guess": "adjective"})
+        elif "unknown" in tokens[at].tags and _is_manner(tokens[at].text.lower()):
+            read[at] = replace(tokens[at], tags={"adverb": "gently", "guess": "adverb"})
     return read
+
+
+def _is_manner(word: str) -> bool:
+    """Whether a word looks like an adverb of manner ("courteously"), and not like one that takes something back."""
+    return len(word) >= _LONG_ADVERB and word.endswith("ly") and word not in _NO_MANNER
 
 
 def _without_numbers(tokens: list[Token]) -> list[Token]:
@@ -80,9 +94,8 @@ def _title_end(tokens: list[Token], at: int) -> int | None:
     fragment = "colon" not in tokens[at + len(line)].tags  # "A left turn out of a side street."
     tags = {tag for token in line for tag in token.tags}
     first = line[1:] if line and "determiner" in line[0].tags else line
-    named = (
-        any("noun" in token.tags for token in first[:2])
-        or any("noun" in t.tags for t in first)
+    named = any("noun" in token.tags for token in first[:2]) or (
+        any("noun" in t.tags for t in first)
         and not (first and first[0].tags.keys() & {"direction", "event_noun", "unknown"})
     )
     if fragment and (named or any(token.forms & {"s", "ed"} and "event_noun" not in token.tags for token in line)):

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
 
+from scenewright.translate.numerals import WORDS
+
 VOWELS = "aeiou"
 SLOT = "~"
 SLOT_WORDS = (("the",), ("its",), ("his",), ("her",), ("their",), ())
@@ -72,7 +74,7 @@ def load_lexicon() -> Lexicon:
                     forms.setdefault(words, set()).add(form)
     longest = max(len(words) for words in entries)
     single = {word for phrase in entries for word in phrase}
-    single |= {word for spelling in units for word in spelling.split()} | set(numbers)
+    single |= {word for spelling in units for word in spelling.split()} | set(numbers) | WORDS
     frozen = {words: frozenset(names) for words, names in forms.items()}
     return Lexicon(entries, frozen, units, numbers, frozenset(single), longest)
 

@@ -39,7 +39,8 @@ class MeasureReader(VerbReader):
             if self.current is not None and not self.links:
                 return False
             at, link = at + 1, "when"
-        first = self._measured_at(at, amount_first=link is not None or "when" in self.links)
+        again = self.links == ["and"] and self.measured_last == len(self.events)
+        first = self._measured_at(at, amount_first=link is not None or "when" in self.links or again)
         if first is None or (link is not None and first.kind not in ("length", "time", "headway", "ttc")):
             return False
         found = [first]
@@ -61,6 +62,7 @@ class MeasureReader(VerbReader):
             self._open_measure(each)
             self.links = ["and"]
         self.links = []
+        self.measured_last = len(self.events)
         return True
 
     # -- reading one ------------------------------------------------------------------------------------------------
@@ -73,10 +75,17 @@ class MeasureReader(VerbReader):
         if actor is None and (phrase := self.phrases.noun_phrase(at)) and self.phrases.tag(phrase.end, "measure"):
             actor, at = self.phrases.resolve(phrase), phrase.end  # "ego speed is 10 m/s"
         kind = self.phrases.tag(at, "measure")
+        of_one = (
+            self.phrases.tokens[start].text.lower() == "that" and self.phrases.tag(start + 1, "preposition") == "of"
+        )
+        at = start if of_one else at
+        if kind is None and of_one and self.measured_last == len(self.events):
+            kind = self.last_kind  # "... is 12 m and that of the hero to the conflict point is 20 m"
         if kind is None:
             return None
+        self.last_kind = kind
         measured = Measured(start, at + 1, kind, actor)
-        measured.of_pair = actor is None and self._tells_of_both(at)
+        measured.of_pair = self._tells_of_both(at)
         if not self._qualify(measured, 1):
             return None
         at = measured.end
@@ -93,6 +102,13 @@ class MeasureReader(VerbReader):
         if quantity is not None and kind is not None:
             found = Measured(start, at + 2, kind, quantity=quantity)
             found.of_pair = self._tells_of_both(at + 1)
+        elif quantity is not None and self.phrases.tag(self._after_remain(at), "preposition") == "between":
+            if quantity.dimension not in ("length", "time"):  # "with 16 m between the two"
+                return None
+            at = self._after_remain(at) - 1
+            found = Measured(
+                start, at + 1, "length" if quantity.dimension == "length" else "headway", quantity=quantity
+            )
         elif measured := self.phrases.measured(start):
             kind, quantity, end = measured
             found = Measured(start, end, kind, quantity=quantity)
@@ -105,6 +121,12 @@ class MeasureReader(VerbReader):
         """Whether a measure is one of two vehicles, even where none is named: "the gap", "the headway"."""
         words = self.phrases.tokens[at].text.lower()
         return any(word in words for word in ("gap", "headway", "thw", "spacing", "following", "separation"))
+
+    def _after_remain(self, at: int) -> int:
+        """Return the position after "12 m" or "12 m remain"."""
+        return (
+            at + 2 if self.phrases.tokens[at + 1].text.lower() in ("remain", "remains", "left", "are left") else at + 1
+        )
 
     def _with_amount(self, measured: Measured, at: int) -> Measured | None:
         if measured.quantity is None:
@@ -134,7 +156,9 @@ class MeasureReader(VerbReader):
         preposition, relation = self.phrases.tag(at, "preposition"), self.phrases.tag(at, "relation")
         if preposition in ("of", "out", "for") and measured.actor is None and self._whose(measured, at + 1):
             return True
-        aims = preposition in ("to", "at", "out") or relation is not None or self.phrases.tag(at, "link") == "to"
+        aims = (
+            preposition in ("to", "at", "out", "with") or relation is not None or self.phrases.tag(at, "link") == "to"
+        )
         return aims and measured.target is None and self._to_what(measured, at, relation)
 
     def _whose(self, measured: Measured, at: int) -> bool:
@@ -184,6 +208,9 @@ class MeasureReader(VerbReader):
             measured.actor, measured.target = EGO_ID, HERO_ID
         if isinstance(measured.target, int) and measured.actor is None:
             measured.actor = 1 - measured.target
+        both = measured.kind == "headway" or measured.of_pair
+        if measured.actor is not None and measured.target is None and both and measured.kind != "ttc":
+            measured.target = 1 - measured.actor  # "the ego's headway is 2 s"
         if measured.kind == "ttc" and measured.actor is None and self.subject is None:
             measured.actor = EGO_ID  # "when the TTC is 3 s": there are only two vehicles
         if measured.actor is None:

@@ -75,7 +75,11 @@ class NounPhrases:
             "verb" in after and not self.tokens[phrase.end + 1].forms & {"ing"}
         )
         before = self.tokens[at - 1].tags.keys() if at else set()
-        closes = bool(after & {"comma", "end"}) and bool(before & {"relation", "preposition"}) and where == "ahead"
+        closes = (
+            bool(after & {"comma", "end"})
+            and bool(before & {"relation", "preposition"} and "link" not in before)
+            and where == "ahead"
+        )
         if alone and where and (finite or closes) and (phrase.determiner == "definite" or phrase.kind == "hero"):
             adjectives = phrase.adjectives | {"lead" if where == "ahead" else "rear"}  # "the car in front brakes"
             phrase = replace(phrase, end=phrase.end + 1, adjectives=adjectives)

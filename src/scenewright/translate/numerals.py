@@ -27,6 +27,8 @@ TAILS = {
 }
 MULTIPLES = {("a", "dozen"): 12, ("one", "dozen"): 12, ("a", "hundred"): 100, ("a", "score"): 20, ("two", "dozen"): 24}
 
+WORDS = frozenset(word for table in (FRACTIONS, TAILS, MULTIPLES) for phrase in table for word in phrase)
+
 
 def number_in_words(words: Sequence[str], start: int, values: Mapping[str, int]) -> tuple[Fraction, int] | None:
     """Return the number that begins at `start` and how many words it takes, or None.

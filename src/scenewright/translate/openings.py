@@ -23,6 +23,12 @@ class OpeningReader(FrameReader):
         if after is None:
             return False
         at = after
+        measured = self.phrases.measured(at)
+        if (
+            self.phrases.tokens[at].quantity is not None or (measured and measured[0] != "speed")
+        ) and self.links:  # "when there are 12 m between ..."
+            self.at = at
+            return True
         found = self.phrases.landmark(at)
         if found is not None:
             return self._landmark_ahead(found[0], at, found[1])
@@ -56,7 +62,15 @@ class OpeningReader(FrameReader):
     def _intention(self) -> bool:
         """Read "the ego's intent is to ..."."""
         owner = self.phrases.possessor(self.at)
-        if owner and self.phrases.tag(owner[1], "intent_noun") and self.phrases.tag(owner[1] + 1, "be"):
+        is_to = owner is not None and self.phrases.tokens[owner[1] + 1].text.lower() in ("is to", "was to")
+        if owner and self.phrases.tag(owner[1], "aspect") and self.phrases.tag(owner[1] + 1, "be"):
+            if self.phrases.place(owner[1] + 2) is None:
+                return False
+            self._check_subject_used()
+            self._set_subject(owner[0], self.phrases.span(self.at, owner[1] + 1))  # "the ego's position is 12 m before"
+            self.current, self.at = None, owner[1] + 1
+            return True
+        if owner and self.phrases.tag(owner[1], "intent_noun") and (self.phrases.tag(owner[1] + 1, "be") or is_to):
             return self._intent(owner[0], owner[1] + 2)
         return False
 

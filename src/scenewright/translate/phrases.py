@@ -5,7 +5,7 @@ What enters: tagged tokens and a position. What leaves: what the phrase says and
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import cast
 
 from scenewright.translate.events import Area, Place, Relation
@@ -36,9 +36,10 @@ class Phrases(NounPhrases):
         if self.tag(at, "same") and self.tag(at + 1, "landmark"):
             at += 1
         name = self.tag(at, "landmark")
-        if name is None and self.tag(at, "back_reference") and self.last_landmark is not None:
-            self.assume(f"'{self.tokens[at].text}' is the {self.last_landmark.replace('_', ' ')}")
-            name = self.last_landmark
+        last = self.last_landmark if self.tokens[at + 1].quantity is None else None
+        if name is None and self.tag(at, "back_reference") and last and self.tag(at - 1, "determiner") == "definite":
+            self.assume(f"'{self.tokens[at].text}' is the {last.replace('_', ' ')}")
+            name = last
         if name is not None:
             end = at + 1
             if self.tag(end, "genitive") is not None and not self.short_be(end):  # "the T-junction's main road"
@@ -72,7 +73,9 @@ class Phrases(NounPhrases):
             at = start
             if self.tag(at, "adverb") == "just" and self.tag(at + 1, "relation") in ("before", "behind"):
                 just, at = True, at + 1
-            elif self.tag(at, "adverb") in ("exact", "just") and self.tag(at + 1, "preposition") == "at":
+            elif self.tag(at, "adverb") in ("exact", "just") and (
+                self.tag(at + 1, "preposition") == "at" or self.tag(at + 1, "relation") == "ahead"
+            ):
                 at += 1
         relation, at = self._relation(at, amount is not None)
         if relation is None:
@@ -85,6 +88,8 @@ class Phrases(NounPhrases):
         """Step over "at a distance of about" to a length or a time."""
         if self.tag(at, "preposition") in ("at", "with", "in", "on"):
             at += 1
+            if self.tag(at, "measure") in ("time", "length") and self.tokens[at + 1].quantity is not None:
+                return at + 2, self.tokens[at + 1].quantity  # "at TTA 3 s to the stop line"
         elif self.tag(at, "preposition") == "to" and self.tokens[at + 1].quantity is not None:
             at += 1  # "and the van [comes] to 8 m from the stop line"
         if (measured := self.measured(at)) is not None and measured[0] in ("length", "time", "headway"):
@@ -97,7 +102,7 @@ class Phrases(NounPhrases):
 
     def measured(self, at: int) -> tuple[str, Quantity, int] | None:
         """Read "a rate of 3 m/s^2", "a distance of 12 m": measure, amount, position after it."""
-        at = self.skip_determiner(at)
+        at = self.skip_hedges(self.skip_determiner(at)) if self.tag(at, "adverb") != "just" else at
         measure = self.tag(at, "measure")
         if measure is None or self.tag(at + 1, "preposition") != "of":
             return None
@@ -123,6 +128,11 @@ class Phrases(NounPhrases):
             raise self.refuse("a distance cannot be a time", quantity.span, "metres or feet", "write 'time to arrival'")
 
     def _relation(self, at: int, has_amount: bool) -> tuple[Relation | None, int]:
+        reaching = has_amount and self.verb(at + 1, "reach") is not None
+        if reaching and (self.tag(at, "link") == "to" or self.tag(at, "preposition") == "to"):
+            return "from", at + 2  # "3 s to reach the stop line"
+        if reaching and self.tag(at, "relation") == "before" and "ing" in self.tokens[at + 1].forms:
+            return "before", at + 2  # "5 m before reaching the conflict point"
         relation = self.tag(at, "relation")
         if relation:
             at += 1
@@ -169,6 +179,9 @@ class Phrases(NounPhrases):
             return self._pronoun_target(start, phrase, relation, amount)
         if amount is None and relation not in ("behind", "ahead"):
             return None
+        by = self.tokens[phrase.end + 1].quantity if self.tag(phrase.end, "preposition") == "by" else None
+        if amount is None and by is not None and by.dimension == "length":  # "is ahead of the ego by 15 m"
+            return Place(relation, self.resolve(phrase), by, self.span(start, phrase.end + 2)), phrase.end + 2
         return Place(relation, self.resolve(phrase), amount, self.span(start, phrase.end)), phrase.end
 
     def _ends_here(self, at: int) -> bool:
@@ -203,6 +216,8 @@ class Phrases(NounPhrases):
         if found is None:
             return None
         area, end = found
+        if self.tokens[at].text.lower() in ("towards", "toward"):
+            area = replace(area, role="towards")
         if preposition == "at" and area.kind == "lane":
             return None
         return area, end
@@ -243,6 +258,12 @@ class Phrases(NounPhrases):
         ):
             end = phrase.end
             whose = self.resolve(phrase)
+        crossroads = self.skip_determiner(end + 1)
+        of_junction = (
+            self.tag(end, "preposition") in ("of", "at") and self.tag(crossroads, "landmark") == "intersection"
+        )
+        if of_junction and self.tag(crossroads + 1, "genitive") is None and role != "across":
+            end = crossroads + 1  # "the minor road of a T-junction"
         if kind == "lane" and whose is None and self.tag(end, "preposition") == "of":
             phrase = self.noun_phrase(end + 1)
             if phrase is not None and phrase.kind != "pronoun":  # "across the path of the ego"

@@ -34,6 +34,8 @@ class ReaderState:
     main_subject: int | None = None
     label: str | None = None
     pair: bool = False  # the subject is both vehicles
+    measured_last: int = -1  # how many events there were after the last measure
+    last_kind: str | None = None  # what was measured last
     pronouns: int = 0  # as subjects in this sentence
     reduced: Event | None = None  # "a truck waiting on the driveway", before its finite verb
     pending_heading: tuple[str, Span] | None = None
@@ -179,3 +181,10 @@ class ReaderState:
         # "is on the road and 30 m behind the stop line": without a subject of its own it still belongs to the same verb
         self.links = [link for link in self.links if link not in ("comma", "and")]
         return self.current if not self.links else self._open("be", self.at)
+
+    def _says_respectively(self, at: int) -> bool:
+        while "end" not in self.phrases.tokens[at].tags:
+            if self.phrases.tokens[at].text.lower() == "respectively":
+                return True
+            at += 1
+        return False

@@ -219,6 +219,8 @@ def _number_in_words(tagger: _Tagger, index: int, words: list[str], ends: list[i
         if value == 1 and used == 1 and len(words) > 1:  # "one car"
             tokens.append(Token(words[0], span, {"determiner": "indefinite"}))
             return ends[0]
+        if used == 1 and "stop_noun" in tagger.lexicon.entries.get((words[0],), {}):
+            return None  # "brakes to zero"
         tokens.append(Token(" ".join(words[:used]), span, {"bare_number": " ".join(words[:used])}))
         return ends[used - 1]
     rest = [raw.text.lower() for raw in tagger.raw[after : after + 4] if raw.kind == "word"]

@@ -27,6 +27,15 @@ class VerbGroupReader(AdjunctReader):
             return True
         following = self.phrases.tokens[self.at + 1]
         to_verb = self._tag("link", 1) == "to" and self.phrases.tag(self.at + 2, "verb") is not None
+        if verb == "need" and token.text.lower().endswith(" to") and "base" in following.forms:
+            self.flags.add("modal")  # "has to turn left"
+            self.at += 1
+            return True
+        reacts = verb == "react" and self._tag("link", 1) == "by" and "ing" in self.phrases.tokens[self.at + 2].forms
+        if reacts or (verb == "react" and "ing" in following.forms):
+            self.flags.add("modal")  # "reacts by braking", "ends up standing"
+            self.at += 1 + reacts
+            return True
         flag = {"begin": "begins", "want": "wanted", "need": "modal", "fail": "negated", "wait": "wanted"}.get(verb)
         if flag and to_verb:
             if flag == "negated":
@@ -35,6 +44,10 @@ class VerbGroupReader(AdjunctReader):
             self.at += 2
             return True
         going = verb == "want" and token.text.lower().endswith("going")
+        if going and following.quantity is not None and following.quantity.dimension == "speed":
+            self._open("drive", self.at)  # "is going 8 m/s"
+            self.at += 1
+            return True
         way = self._tag("direction", 1)
         if going and (way or self.phrases.heading(self.at + 1) or self.phrases.area(self.at + 1)):
             self._open("go" if way in ("left", "right") else "drive", self.at)  # "was going west", "is going straight"
@@ -45,6 +58,11 @@ class VerbGroupReader(AdjunctReader):
             self.at += 1
             return True
         if verb in ("begin", "want", "make", "complete", "use") and self._turn_noun(verb):
+            return True
+        if verb == "complete" and self.phrases.verb(self.at + 1, "turn") and "ing" in following.forms:
+            self._open("complete", self.at)  # "finishes turning"
+            self.at += 2
+            self._grow()
             return True
         if verb in ("begin", "make") and (after := self._brake_noun(self.at, self.at + 1)):
             self.at = after
@@ -68,6 +86,8 @@ class VerbGroupReader(AdjunctReader):
             at = owner[1]
         else:
             at = self.phrases.skip_determiner(at)
+        while self.phrases.tag(at, "actor_adjective") == "plain":
+            at += 1  # "an unprotected left turn"
         direction = self.phrases.tag(at, "direction")
         at += direction is not None
         noun = self.phrases.tag(at, "event_noun")
@@ -103,18 +123,25 @@ class VerbGroupReader(AdjunctReader):
             "gently",
         ):
             at += 1
+        rate = self.phrases.tokens[at].quantity
+        at += rate is not None and rate.dimension == "acceleration"
         noun = self.phrases.tag(at, "event_noun")
         stops = self.phrases.tag(at, "stop_noun") is not None
         if noun != "brake" and not stops:
             return None
         event = self._open("stop" if stops else "brake", start)
         event.to_stop = stops
+        if rate is not None and rate.dimension == "acceleration":
+            event.rate = rate  # "performs a 4 m/s^2 braking"
         return at + 1
 
     def _let(self, start: int) -> bool:
         """Read "lets the ego go first" as yielding."""
         phrase = self.phrases.noun_phrase(self.at + 1)
-        if phrase is None or not self.phrases.verb(phrase.end, "pass", "go", "turn", "cross"):
+        if phrase is None:
+            return False
+        particle = self.phrases.tag(phrase.end, "let_particle") is not None
+        if not particle and not self.phrases.verb(phrase.end, "pass", "go", "turn", "pull_out", "complete", "enter"):
             return False
         event = self._open("yield", start)
         pronoun = phrase.kind == "pronoun" and event.actor is not None

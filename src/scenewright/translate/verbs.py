@@ -72,6 +72,18 @@ class VerbReader(VerbGroupReader):
             return False
         return self._light(verb, token) or self._main_verb(verb, token)
 
+    def _needs_time(self) -> bool:
+        """Read "needs another 3 s to reach the stop line" as a time to arrival."""
+        if self._tag("verb") != "need":
+            return False
+        at = self.at + 1 + (self._tag("determiner", 1) == "another")
+        quantity = self.phrases.tokens[at].quantity
+        if quantity is None or quantity.dimension != "time" or self.phrases.place(at) is None:
+            return False
+        self._open("be", self.at)
+        self.at = at
+        return True
+
     def _inverted(self) -> bool:
         phrase = self.phrases.noun_phrase(self.at + 1)
         return phrase is not None and "base" in self.phrases.tokens[phrase.end].forms and self.subject_span is None
@@ -84,7 +96,7 @@ class VerbReader(VerbGroupReader):
     def _has_amount(self) -> bool:
         """Whether "has" is a full verb here: "has 12 m to go to the stop line", "has a speed of 8 m/s"."""
         if self._tag("auxiliary") != "have":
-            return False
+            return self._needs_time()
         after = self.phrases.tokens[self.at + 1]
         if after.quantity is not None or self.phrases.measured(self.at + 1) is not None:
             self._open("be", self.at)
@@ -98,9 +110,20 @@ class VerbReader(VerbGroupReader):
             self.links.append("that")  # "behind a van doing 12 m/s"
         if verb == "let":
             return self._let(start)
-        if verb == "attitude":
+        if verb in ("attitude", "react"):
             return self._attitude(start)
+        stopping = self.current is not None and self.current.verb in ("stop", "brake", "yield")
+        if verb == "leave" and "ing" in token.forms and stopping and self.phrases.tokens[self.at + 1].quantity:
+            self.links = []  # "brakes to a stop, leaving 5 m to the conflict point"
+            self.at += 1
+            return True
+        if verb == "reach" and token.text.lower().startswith("arriv") and self._tag("preposition", 1) == "out":
+            verb = "drive"  # "arrives from the driveway"
         passive = "be" in self.flags and "ed" in token.forms
+        by = self._tag("link", 1) == "by" or self._tag("preposition", 1) == "by"
+        if verb in ("follow", "lead") and "ed" in token.forms and by and self.current is not None and not self.flags:
+            self.links = [link for link in self.links if link != "comma"]
+            return self._led(verb, start)  # "is westbound, followed by the ego"
         if verb in ("lead", "not_yield", "beat", "get_within", "pretend", "come_towards", "cut_in_front") and not (
             verb == "lead" and passive
         ):
@@ -118,8 +141,9 @@ class VerbReader(VerbGroupReader):
             return False
         if verb == "wait" and self.phrases.tag(end, "preposition") == "for" and self.phrases.noun_phrase(end + 1):
             verb, end = "yield", end + 1  # "waits for the ego"
-        if verb == "go" and token.text.lower().endswith(" on") and (area := self.phrases.area_noun(end, "on")):
-            event = self._open("drive", start)  # "drives on the main road"
+        follows = verb in ("go", "lane_follow", "drive")
+        if follows and token.text.lower().endswith(" on") and (area := self.phrases.area_noun(end, "on")):
+            event = self._open("lane_follow" if verb == "lane_follow" else "drive", start)  # "drives on the main road"
             event.areas.append(area[0])
             self.at = area[1]
             self._grow()
@@ -299,6 +323,14 @@ class VerbReader(VerbGroupReader):
         found = self.phrases.landmark(at)
         if found is not None and event.verb == "leave" and found[3]:
             return at  # "leaves the driveway": an area, read as an adjunct
+        if (found is None or found[3]) and event.verb == "enter" and (area := self.phrases.area_noun(at, "into")):
+            event.verb = "turn"  # "enters the driveway", "enters the main road"
+            event.areas.append(area[0])
+            return area[1]
+        if found is None and event.verb == "pass" and (area := self.phrases.area_noun(at, "across")):
+            event.verb = "drive"  # "crosses the ego's path"
+            event.areas.append(area[0])
+            return area[1]
         if found is None and event.verb in ("reach", "pass") and self.phrases.tag(at, "preposition") in ("at", "in"):
             found = self.phrases.landmark(at + 1)
         if (

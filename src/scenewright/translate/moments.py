@@ -1,0 +1,202 @@
+"""Finds the moment at which the hero reacts: which events of a sentence are its conditions.
+
+What enters: the events of a sentence with their modes. What leaves: conditions in `Facts`; two moments are refused.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+from scenewright.translate.actions import EDGE, GOALS, SLOWING, SPEEDING, ActionReader
+from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place
+from scenewright.translate.facts import Condition
+
+INSTANT = ("brake", "accelerate", "yield")
+TELLING = ("be", "sit", "drive", "approach", "lane_follow", "turn", "pull_out", "leave", "wait", "go")
+
+
+@dataclass(slots=True)
+class MomentReader(ActionReader):
+    """Collects the conditions of the trigger."""
+
+    @staticmethod
+    def _settle(events: list[Event]) -> None:
+        """Let "with both driving west" tell; let "the ego is 30 m from it when the hero brakes" be the condition."""
+        for event in events:
+            placed = any(isinstance(place.target, str) or place.amount for place in event.places)
+            tells = event.verb in ("be", "drive", "lane_follow", "turn", "pull_out", "leave") and not (
+                placed or event.speed or event.ttc
+            )
+            if "with" in event.links and event.mode == "when" and tells:
+                event.mode = "main"
+        acts = [e for e in events if e.mode == "when" and e.actor == HERO_ID and e.verb in INSTANT and not e.places]
+        acts = acts or [e for e in events if e.mode == "when" and e.actor == HERO_ID and e.verb in ("brake", "stop")]
+        conditions = [event for event in events if event.mode == "when"]
+        states = [e for e in events if e.mode == "main" and (e.places or e.ttc) and e.verb in ("be", "sit", "ttc")]
+        if not acts or conditions[0] is not acts[0] or events.index(acts[0]) == 0:
+            return
+        before = [e for e in events[: events.index(acts[0])] if not e.wanted or e.places]
+        relative = [e for e in events if "that" in e.links and e in states and e.actor == acts[0].actor]
+        if any(each not in states or each.initial for each in before) or not (
+            acts[0].links[:1] == ["when"] or any("when" in e.links for e in relative)
+        ):
+            return
+        for event in (*before, *relative):
+            event.mode = "when"
+        for event in conditions:
+            event.mode = "main"
+
+    def _one_moment(self, events: list[Event]) -> None:
+        """Refuse "When A, the hero goes when B": two moments in one sentence."""
+        groups, inside = 0, False
+        for event in events:
+            condition = event.mode == "when" and not self._is_marker(event)
+            acts = event.mode == "main" and event.actor == HERO_ID and event.verb in (*SLOWING, *SPEEDING, *GOALS)
+            if condition and not inside:
+                groups, inside = groups + 1, True
+                if groups > 1:
+                    raise self._refuse("there is a second trigger", event.span, "one trigger", "join them with 'and'")
+            elif acts:
+                inside = False
+
+    def _join_conditions(self, events: list[Event]) -> None:
+        """Let "the hero is 20 m behind the conflict point when the ego is ..." tell of one moment."""
+        conditions = [event for event in events if event.mode == "when" and not self._is_marker(event)]
+        if not conditions:
+            return
+        for event, following in pairwise([*events, None]):
+            if event is None:
+                break
+            told = event.mode == "main" and event.verb in (*TELLING, "ttc") and "that" not in event.links
+            told = told and not self._is_action(event, True)
+            if not told or event.initial or event.negated:
+                continue
+            if following is not None and following.links == ["when"] and (event.places or event.speed or event.ttc):
+                event.mode = "when"
+            elif event.places:
+                raise self._refuse(
+                    "it is not clear whether this holds at the start or at the trigger",
+                    event.span,
+                    "'initially', or the words inside the 'when' clause",
+                )
+
+    @staticmethod
+    def _give_subjects(events: list[Event]) -> None:
+        """Let "After turning right, the car ..." take the subject of the clause that follows."""
+        for index, event in enumerate(events):
+            fronted = event.actor is None and event.mode == "main" and len(events) > 1 and events[1].explicit
+            if event.gerund and (event.mode in ("after", "before") or fronted) and index == 0:
+                following = next((e for e in events[1:] if e.mode == "main" or fronted), None)
+                if following is not None:
+                    event.actor = following.actor
+
+    @staticmethod
+    def _is_marker(event: Event) -> bool:
+        """Whether a condition only names the end of what the hero does anyway: "once it has stopped"."""
+        return event.actor == HERO_ID and event.verb in ("stop", "wait") and not event.places
+
+    def _marker(self, event: Event) -> None:
+        if not self.facts.phases or self.facts.phases[-1].kind not in ("dec", "turn"):
+            raise self._refuse("nothing was said before that this could refer to", event.span)
+        self._note(event, "after the hero has done so")
+
+    def _conditions(self, conditions: list[Event], events: list[Event]) -> None:
+        for event in events:
+            if "within" in event.notes and (
+                event.mode != "when" or len([e for e in events if "within" in e.notes]) > 1
+            ):
+                raise self._refuse(
+                    "this gives a bound, not a value",
+                    event.span,
+                    "an exact distance, or one 'gets within' after 'when'",
+                )
+        if not conditions:
+            return
+        heroes = [e for e in events if e.mode == "main" and e.actor == HERO_ID]
+        releases = self.facts.trigger and self.facts.phases and heroes and heroes[0].verb in (*SPEEDING, *GOALS, "keep")
+        if releases:
+            self._release(conditions)
+            return
+        if self.facts.trigger:
+            raise self._refuse(
+                "there is a second trigger", conditions[0].span, "one trigger", "join the conditions with 'and'"
+            )
+        for event in conditions:
+            if event.negated:
+                raise self._refuse(
+                    "a negated condition has no moment", event.span, "where the vehicles are when it begins"
+                )
+            found = self._conditions_of(event)
+            for each in found:
+                self._no_second_place(each, self.facts.trigger)
+                self.facts.trigger.append(each)
+            if not found:
+                raise self._refuse(
+                    "this condition has no place, time or speed",
+                    event.span,
+                    "such as 'the ego is 12 m behind the stop line'",
+                )
+            self._tell_route(event)
+
+    def _conditions_of(self, event: Event) -> list[Condition]:
+        actor = event.actor
+        assert actor is not None
+        ordered = event.first or event.than_actor is not None or event.after_actor is not None
+        if event.rate or event.to_speed or event.duration or ordered:
+            raise self._refuse("this cannot be a condition", event.span, "a place, a time or a speed")
+        if event.verb == "wait" and event.places:
+            self._stand(event)
+        found = [Condition(actor, event, place=place) for place in event.places]
+        if event.ttc:
+            found.append(Condition(actor, event, ttc=event.ttc))
+        if event.speed:
+            found.append(Condition(actor, event, speed=event.speed))
+        if event.verb in ("pass", "reach", "enter", "leave") and event.landmark:
+            landmark = EDGE.get((event.verb, event.landmark), event.landmark)
+            found.append(Condition(actor, event, place=Place("at", landmark, None, event.span)))
+        elif event.verb in ("turn", "complete") and event.direction is None and not event.areas:
+            landmark = "turn_end" if event.verb == "complete" else "turn_start"
+            found.append(Condition(actor, event, place=Place("at", landmark, None, event.span)))
+        elif event.verb in ("reach", "pass") and found:
+            pass  # "reaches a point 12 m behind the stop line"
+        elif event.verb not in ("be", "sit", "drive", "approach", "ttc", "wait", "lane_follow"):
+            raise self._refuse(f"'{event.span.excerpt(self.text)}' is not a moment that can be waited for", event.span)
+        if event.verb == "approach" and not found:
+            return []
+        return found
+
+    def _release(self, conditions: list[Event]) -> None:
+        for event in conditions:
+            if event.actor != EGO_ID or self.pending_release:
+                raise self._refuse("there is a second trigger", event.span, "one trigger")
+            self._tell_route(event)
+            self.pending_release.append(event)
+
+    def _is_action(self, event: Event, reacts: bool) -> bool:
+        if event.wanted or event.initial:
+            return event.verb in (*SLOWING, "accelerate")
+        if event.verb in (*SLOWING, "accelerate", "keep", "pass", "complete", "reach", "enter"):
+            return True
+        if event.verb == "go":
+            return reacts or not (event.direction or event.headings or event.areas)
+        later = bool(self.facts.phases) and bool({"then", "then_label"} & set(event.links))
+        if event.verb in ("turn", "pull_out"):
+            return (reacts and not self._told_before(event)) or later
+        if event.verb == "leave":
+            return event.landmark is not None
+        turned = bool(self.facts.phases) and self.facts.phases[-1].kind == "turn"
+        if event.verb in ("lane_follow", "drive"):
+            return turned and (event.speed is not None) and (later or event.begins or reacts)
+        if event.verb == "wait":
+            return bool(self.facts.phases) or (reacts and bool(event.places) and not event.gerund)
+        return False
+
+    def _told_before(self, event: Event) -> bool:
+        """Whether this is told on the way to a "when" clause that has a reaction of its own after it."""
+        rest = self.sentence[self.sentence.index(event) + 1 :]
+        condition = next((e for e in rest if e.mode == "when"), None)
+        if condition is None or not {"comma", "and"} & set(condition.links):
+            return False
+        after = rest[rest.index(condition) :]
+        return any(e.mode == "main" and e.actor == HERO_ID and e.verb in (*SLOWING, *SPEEDING, *GOALS) for e in after)

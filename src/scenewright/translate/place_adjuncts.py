@@ -1,0 +1,132 @@
+"""Reads places beside a verb: "12 m behind the stop line", places that two vehicles share, where a vehicle stops.
+
+What enters: the reader's state at some token. What leaves: True where a place was read and put into its event.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from scenewright.translate.events import Area, Place
+from scenewright.translate.sides import SideReader
+
+
+@dataclass(slots=True)
+class PlaceAdjunctReader(SideReader):
+    """Puts places into the event that they belong to."""
+
+    def _each_its_own(self) -> bool:
+        """Step over "respectively" where each of two vehicles has been given one place of its own."""
+        if self._tag("respectively") is None or len(self.events) < 2:
+            return False
+        one, two = self.events[-2:]
+        apart = one.sentence == two.sentence == self.sentence and one.actor != two.actor
+        if not apart or one.both or two.both or len(one.places) != 1 or len(two.places) != 1:
+            return False
+        self.links = [link for link in self.links if link != "comma"]
+        self.at += 1
+        return True
+
+    def _shared_place(self) -> bool:
+        """Read a bare amount whose place another vehicle names: "the ego is 35 m and the hero 20 m from it"."""
+        amount = self.phrases.tokens[self.at].quantity
+        if amount is None or amount.dimension not in ("length", "time"):
+            return False
+        after = self.phrases.tokens[self.at + 1].tags
+        ends = "end" in after or "comma" in after or after.get("link") == "and"
+        shared = (self._place_before() or self._place_after(self.at + 1)) if ends else None
+        if shared is None or not isinstance(shared.target, str) or shared.of_whom is not None:
+            return False
+        if shared.target == "stop_line" and not self._says_respectively(
+            self.at
+        ):  # each vehicle has its own, or none: nothing that two can share
+            return False
+        if shared.amount is None or shared.amount.dimension != amount.dimension:
+            return False
+        host = self._host()
+        if host is None or host.verb not in ("be", "sit"):
+            return False
+        host.places.append(replace(shared, amount=amount, span=amount.span))
+        self.at += 1
+        self._grow()
+        return True
+
+    def _place_before(self) -> Place | None:
+        """Return the place that the vehicle before is compared with: "the ego is 35 m from it and the hero 20 m"."""
+        last = self.events[-1] if self.events else None
+        if last is None or last.sentence != self.sentence or self.subject_span is None or last.actor == self.subject:
+            return None
+        return last.places[0] if last.verb in ("be", "sit") and len(last.places) == 1 else None
+
+    def _place_after(self, at: int) -> Place | None:
+        """Return the place that follows for the other vehicle: "... 35 m and the hero 20 m from it"."""
+        at += self.phrases.tag(at, "comma") is not None
+        at += self.phrases.tag(at, "link") == "and"
+        phrase = self.phrases.noun_phrase(at)
+        if phrase is None or phrase.kind == "pronoun":
+            return None
+        at = phrase.end + (self.phrases.tag(phrase.end, "be") is not None)
+        found = self.phrases.place(at) if self.phrases.tokens[at].quantity is not None else None
+        return found[0] if found else None
+
+    def _stop_adjunct(self) -> bool:
+        end = self._stop_noun_at(self.at)
+        if end is None or self.current is None or self.current.verb not in ("brake", "stop"):
+            return False
+        self.current.to_stop = True
+        self.at = end
+        self._grow()
+        return True
+
+    def _place_adjunct(self) -> bool:
+        passing = self.current is not None and self.current.verb in ("pass", "complete")
+        if passing and self._tag("link") == "before" and self.phrases.tokens[self.at].quantity is None:
+            return False
+        found = self.phrases.place(self.at)
+        if found is None:
+            return False
+        place, end = found
+        host = self._host()
+        if host is None:
+            return False
+        if (
+            second := self._respective(end)
+        ) is not None:  # "... from the conflict point and the stop line respectively"
+            place, end = replace(place, target=second[0]), second[1]
+        cuts = place.relation == "ahead" and isinstance(place.target, int) and place.amount is None
+        if cuts and host.verb in ("turn", "pull_out", "pass", "leave"):
+            host.in_front = True  # "turns right out of the driveway in front of the ego"
+            self.at = end
+            self._grow()
+            return True
+        host.places.append(place)
+        if place.target == "stop_line" and self.phrases.tag(end - 1, "area") == "driveway":
+            host.areas.append(Area("on", "driveway", place.span))  # "at the stop line of the driveway"
+        self.at = end
+        self._grow()
+        return True
+
+    def _respective(self, at: int) -> tuple[str, int] | None:
+        """Read "and the stop line(,) respectively" after the first of two places; the second one and what follows."""
+        if self.phrases.tag(at, "link") != "and":
+            return None
+        found = self.phrases.landmark(at + 1)
+        if found is None:
+            return None
+        end = found[1] + (self.phrases.tag(found[1], "comma") is not None)
+        if self.phrases.tokens[end].text.lower() != "respectively":
+            return None
+        return found[0], end + 1
+
+    def _reached_in(self) -> bool:
+        """Read "will reach the stop line in 3 s" as a time to arrival."""
+        event, amount = self.current, self.phrases.tokens[self.at + 1].quantity
+        if event is None or self.links or self.phrases.tokens[self.at].text.lower() != "in" or amount is None:
+            return False
+        if event.verb != "reach" or event.landmark is None or amount.dimension != "time" or event.places:
+            return False
+        event.places.append(Place("from", event.landmark, amount, self.phrases.span(self.at, self.at + 2)))
+        event.verb, event.landmark = "be", None
+        self.at += 2
+        self._grow()
+        return True
