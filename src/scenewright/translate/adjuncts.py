@@ -49,6 +49,14 @@ class AdjunctReader(PlaceAdjunctReader):
             elif heading is not None:
                 event.headings.append((heading[0], self.phrases.span(at, heading[1])))
                 at = heading[1]
+            elif self.phrases.tag(at, "direction") and self.phrases.tag(at + 1, "event_noun") == "turn":
+                turn = Event("turn", actor, self.phrases.span(at, at + 2), self.sentence, ["that"], wanted=True)
+                turn.direction = self.phrases.tag(at, "direction")
+                self.events.append(turn)
+                at += 2
+            elif area := (self.phrases.area(at) or self.phrases.area_noun(at, "on")):
+                event.areas.append(area[0])
+                at = area[1]
             elif self.phrases.tag(at, "comma") is not None or self.phrases.tag(at, "preposition") == "at":
                 at += 1
             else:
@@ -200,6 +208,14 @@ class AdjunctReader(PlaceAdjunctReader):
 
     def _through(self) -> bool:
         """Read "accelerates through the conflict point" as two verbs."""
+        beyond = self._tag("relation") == "past" and self.current is not None and not self.links
+        if beyond and self.current is not None and self.current.verb in ("drive", "lane_follow", "go"):
+            found = self.phrases.landmark(self.at + 1)
+            if found is not None and found[3]:  # "drives straight past a driveway"
+                self.current.direction = self.current.direction or "straight"
+                self.at = found[1]
+                self._grow()
+                return True
         on_its_way = self.current is not None and self.current.verb in ("drive", "lane_follow", "go") and not self.links
         if on_its_way and self._tag("through") is not None and not self.flags:
             found = self.phrases.landmark(self.at + 1)

@@ -73,7 +73,7 @@ class ClauseReader(ObjectReader):
         if self._tag("end") is None:
             return False
         self._check_subject_used()
-        left_over = [link for link in self.links if link not in ("comma", "then")]
+        left_over = [link for link in self.links if link not in ("comma", "then", "moment")]
         if left_over or self.flags - {"initial"} or self.passive_object:
             raise self._stuck_before("this sentence is not finished")
         resolve_modes([event for event in self.events if event.sentence == self.sentence])

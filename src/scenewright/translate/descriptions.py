@@ -13,6 +13,7 @@ from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, SAY_IT_AL
 from scenewright.translate.facts import Condition, Facts, LaneRelation, Said, WishKey
 
 OPPOSITE = {"N": "S", "S": "N", "E": "W", "W": "E"}
+ACTING = ("brake", "stop", "yield", "accelerate", "keep", "pass", "complete")
 
 
 @dataclass(slots=True)
@@ -111,6 +112,14 @@ class DescriptionReader:
         self._note(event, "the hero stands still until the trigger")
 
     def _start(self, condition: Condition) -> None:
+        index = next((at for at, event in enumerate(self.sentence) if event is condition.event), 0)
+        acted = [e for e in self.sentence[:index] if e.actor == HERO_ID and e.mode == "main" and e.verb in ACTING]
+        if any(not event.wanted and not event.negated for event in acted):
+            raise self._refuse(
+                "it is not clear whether this holds at the start or after what the hero does",
+                condition.event.span,
+                "'initially', or a place to stop right after 'stops'",
+            )
         self._no_second_place(condition, self.facts.initial)
         self.facts.initial.append(condition)
 

@@ -32,8 +32,9 @@ class Interpreter(MomentReader):
                 self.facts.relations.append(LaneRelation(kind, who, mention))
             else:
                 self._wish(actor, "origin_heading", word, mention)
-        for _, group in groupby(events, key=lambda event: event.sentence):
-            self._sentence(list(group))
+        sentences = [list(group) for _, group in groupby(events, key=lambda event: event.sentence)]
+        for sentence in self._moments_told_before(sentences):
+            self._sentence(sentence)
         refused = self.facts.not_yielding
         if not self.facts.phases and refused is not None and refused.verb == "yield":
             self.facts.phases.append(Phase("acc", [refused], goal="conflict_point", goal_event=refused))
@@ -43,6 +44,29 @@ class Interpreter(MomentReader):
             if left is not None:
                 raise self._refuse("it is not said what the hero does then", left.span, "an action of the hero")
         return self.facts
+
+    @staticmethod
+    def _moments_told_before(sentences: list[list[Event]]) -> list[list[Event]]:
+        """Let "The ego gets to 12 m before the line. At that moment the hero brakes" be one sentence."""
+        joined: list[list[Event]] = []
+        for sentence in sentences:
+            before = joined[-1] if joined else []
+            placed = [event for event in before if event.places or event.ttc]
+            free = all(
+                event.mode == "main"
+                and not event.initial
+                and event.verb in ("be", "sit", "reach", "drive", "approach", "ttc")
+                for event in placed
+            )
+            if "moment" in sentence[0].links and placed and free and not any(e.mode == "when" for e in before):
+                for event in placed:
+                    event.mode = "when"
+                joined[-1] = before + sentence
+            else:
+                joined.append(sentence)
+            for event in sentence:
+                event.links = ["then" if link == "moment" else link for link in event.links]
+        return joined
 
     def _let_go_first(self) -> None:
         """Let a hero that "lets the ego pass, then continues" go on only when the ego has passed."""
@@ -117,7 +141,10 @@ class Interpreter(MomentReader):
                 "say how far before, in metres",
             )
         self._tell_route(event)
-        if not self.facts.phases:
+        first = self.sentence[0] is event and any(
+            e.mode == "main" and e.actor == HERO_ID and e.verb in (*SPEEDING, *GOALS) for e in self.sentence
+        )
+        if not self.facts.phases or (first and self.facts.phases[-1].kind == "dec"):
             self.pending_before = event
             return
         self._check_order_phase(event)

@@ -75,8 +75,9 @@ class MeasureReader(VerbReader):
         if actor is None and (phrase := self.phrases.noun_phrase(at)) and self.phrases.tag(phrase.end, "measure"):
             actor, at = self.phrases.resolve(phrase), phrase.end  # "ego speed is 10 m/s"
         kind = self.phrases.tag(at, "measure")
-        of_one = (
-            self.phrases.tokens[start].text.lower() == "that" and self.phrases.tag(start + 1, "preposition") == "of"
+        of_one = self.phrases.tokens[start].text.lower() == "that" and self.phrases.tag(start + 1, "preposition") in (
+            "of",
+            "out",
         )
         at = start if of_one else at
         if kind is None and of_one and self.measured_last == len(self.events):

@@ -28,6 +28,8 @@ class VerbReader(VerbGroupReader):
         return read
 
     def _verb_word(self, token: Token) -> bool:
+        if self._instead():
+            return True
         if "negation" in token.tags:
             self._negate(token.span)
             self.at += 1
@@ -88,6 +90,24 @@ class VerbReader(VerbGroupReader):
         phrase = self.phrases.noun_phrase(self.at + 1)
         return phrase is not None and "base" in self.phrases.tokens[phrase.end].forms and self.subject_span is None
 
+    def _instead(self) -> bool:
+        """Step over "instead of waiting for the ego": what is done follows."""
+        if self.phrases.tokens[self.at].text.lower() not in ("instead of", "rather than"):
+            return False
+        if self.phrases.verb(self.at + 1, "wait") is None or "ing" not in self.phrases.tokens[self.at + 1].forms:
+            return False
+        end = self.at + 2
+        if self.phrases.tag(end, "preposition") == "for" and (phrase := self.phrases.noun_phrase(end + 1)):
+            end = phrase.end
+        if self.phrases.tag(end, "comma") is None and self.phrases.tag(end, "end") is None:
+            return False
+        span = self.phrases.span(self.at, end)
+        self.phrases.assume(
+            f"'{span.excerpt(self.phrases.text)}' says what it does not do; what it does is said beside it"
+        )
+        self.at = end
+        return True
+
     def _contracted_be(self, token: Token) -> bool:
         if "genitive" not in token.tags or self.at == 0:
             return False
@@ -133,7 +153,8 @@ class VerbReader(VerbGroupReader):
             self.at = after
             self._grow()
             return True
-        if verb == "make" and (quantity := self.phrases.tokens[end].quantity) and quantity.dimension == "speed":
+        goes = verb == "make" or (verb == "go" and self.current is None)
+        if goes and (quantity := self.phrases.tokens[end].quantity) and quantity.dimension == "speed":
             self._open("drive", start)  # "doing 35 mph"
             self.at = end
             return True
