@@ -99,6 +99,12 @@ class ActionReader(DescriptionReader):
         last = self.facts.phases[-1] if self.facts.phases else None
         if event.verb == "accelerate" and last is not None and last.kind == "go":
             raise self._refuse("the hero cannot keep its speed and speed up", event.span)
+        if last is not None and last.kind == "turn" and kind == "acc" and last.to_speed is None:
+            last.kind = "acc"  # "pulls out, accelerating to complete its turn"
+            if last.goal is None:
+                assumed = f"'{last.events[0].span.excerpt(self.text)}' is done when the turn is complete"
+                self.facts.assumptions.append(assumed)
+                last.goal, last.goal_event, last.goal_assumed = "turn_end", last.events[0], assumed
         if last is not None and last.kind in ("acc", "go"):
             phase = last
         else:

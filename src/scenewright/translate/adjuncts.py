@@ -303,7 +303,12 @@ class AdjunctReader(PlaceAdjunctReader):
             self._grow()
             return True
         host = self.current
-        if host is not None and host.verb == "be" and direction == "straight" and self.links == ["comma"]:
+        if (
+            host is not None
+            and host.verb in ("be", "drive", "go")
+            and direction == "straight"
+            and self.links == ["comma"]
+        ):
             self.links = []  # "Ego: westbound, straight"
         allowed: tuple[str, ...] = TURNS if direction != "straight" else ("drive", "lane_follow", "go", "be")
         if direction != "straight" and at > self.at:  # "leaves the driveway to the left"

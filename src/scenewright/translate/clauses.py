@@ -188,9 +188,7 @@ class ClauseReader(ObjectReader):
         if link == "that" and self.current is None and self.subject_span is None:
             return False
         if link == "that":
-            comma, self.links = self.links, [] if self.links == ["comma"] else self.links
-            if not self._turn_to_object():
-                self.links = comma
+            self._turn_to_object()
         self.links.append(link)
         self.at = after
         if link == "then" and self.phrases.noun_phrase(after) is None:
@@ -299,7 +297,7 @@ class ClauseReader(ObjectReader):
         return True
 
     def _means_the_hero(self, phrase: NounPhrase) -> bool:
-        """Whether "it" after a clause about the ego is the hero: "When the ego is near, it brakes"."""
+        """Whether "it" after a clause about the ego is the hero: "After the ego has passed, it goes"."""
         here = [event for event in self.events if event.sentence == self.sentence]
         if self.subject != EGO_ID or self.main_subject != HERO_ID or not here or "comma" not in self.links:
             return False
@@ -308,7 +306,8 @@ class ClauseReader(ObjectReader):
         at = phrase.end
         while self.phrases.tokens[at].tags.keys() & {"auxiliary", "adverb"} or self.phrases.verb(at, "begin"):
             at += 1 + (self.phrases.tag(at + 1, "link") == "to")
-        acts = self.phrases.verb(at, "brake", "stop", "accelerate", "go", "keep", "yield", "come") is not None
+        released = bool(here) and here[-1].verb in ("pass", "complete", "leave", "turn", "pull_out")
+        acts = released and self.phrases.verb(at, "accelerate", "go", "keep") is not None
         return bool(subordinate and named and acts and self.pronouns == 1)
 
     def _clause_follows(self, phrase: NounPhrase) -> bool:

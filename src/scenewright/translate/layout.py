@@ -27,7 +27,30 @@ _NO_MANNER = frozenset(
 def lay_out(tokens: list[Token]) -> tuple[list[Token], list[list[Token]]]:
     """Return the tokens as running text, and the titles that say nothing of their own."""
     titles: list[list[Token]] = []
-    return _lists(_without_titles(_without_numbers(_plain_adjectives(tokens)), titles)), titles
+    tokens = _without_titles(_without_numbers(_plain_adjectives(tokens)), titles)
+    return _lists(_joined_conditions(tokens)), titles
+
+
+def _joined_conditions(tokens: list[Token]) -> list[Token]:
+    """Let a semicolon inside "Trigger: ...; ..." and "When ...; ..." be a comma: what follows belongs to it."""
+    joined: list[Token] = []
+    conditional, begins = False, True
+    for at, token in enumerate(tokens):
+        if begins:
+            labelled = token.tags.get("label") == "when" and "colon" in tokens[at + 1].tags
+            conditional = labelled or (token.tags.get("link") == "when" and not _has_action(tokens, at))
+        begins = "end" in token.tags and not (conditional and token.text.strip() == ";")
+        joined.append(token if begins or "end" not in token.tags else replace(token, tags={"comma": ","}))
+    return joined
+
+
+def _has_action(tokens: list[Token], at: int) -> bool:
+    """Whether something is told to happen before the sentence (or its part before a semicolon) ends."""
+    while "end" not in tokens[at].tags:
+        if tokens[at].tags.get("verb") in ("brake", "stop", "yield", "accelerate", "go", "keep", "pass", "complete"):
+            return True
+        at += 1
+    return False
 
 
 def _plain_adjectives(tokens: list[Token]) -> list[Token]:
@@ -70,6 +93,11 @@ def _without_titles(tokens: list[Token], titles: list[list[Token]]) -> list[Toke
     at, begins = 0, True
     while at < len(tokens):
         end = _title_end(tokens, at) if begins else None
+        named = _named_line(tokens, at) if begins and end is None else None
+        if named is not None:
+            titles.append(tokens[at:named])
+            at = named + 1
+            continue
         if end is not None:
             titles.append(tokens[at:end])
             at = end + 1
@@ -78,6 +106,20 @@ def _without_titles(tokens: list[Token], titles: list[list[Token]]) -> list[Toke
         kept.append(tokens[at])
         at += 1
     return kept
+
+
+def _named_line(tokens: list[Token], at: int) -> int | None:
+    """Return the end of a line such as "Scenario: yielding car", which only gives a name."""
+    if tokens[at].tags.get("label") != "none" or "colon" not in tokens[at + 1].tags:
+        return None
+    end = at + 2
+    while "end" not in tokens[end].tags:
+        token = tokens[end]
+        finite = "verb" in token.tags and "s" in token.forms and "event_noun" not in token.tags
+        if token.quantity is not None or token.tags.keys() & {"ego", "hero", "be", "auxiliary"} or finite:
+            return None
+        end += 1
+    return end if end > at + 2 and tokens[end].tags["end"] != "text" else None
 
 
 def _title_end(tokens: list[Token], at: int) -> int | None:

@@ -170,7 +170,12 @@ class MeasureReader(VerbReader):
         return True
 
     def _to_what(self, measured: Measured, at: int, relation: str | None) -> bool:
-        if found := self.phrases.landmark(at + 1):
+        subject = self.phrases.subject
+        if measured.actor is not None:
+            self.phrases.subject = measured.actor  # "the hero's distance to its stop line"
+        found = self.phrases.landmark(at + 1)
+        self.phrases.subject = subject
+        if found:
             measured.target, measured.end = ("turn_start" if found[0] == "mouth" else found[0]), found[1]
             if found[2] is not None:
                 if measured.actor is not None and found[2] != measured.actor:

@@ -69,7 +69,8 @@ class MomentReader(ActionReader):
             if event is None:
                 break
             told = event.mode == "main" and event.verb in (*TELLING, "ttc") and "that" not in event.links
-            told = told and not self._is_action(event, True)
+            placed = any(isinstance(place.target, str) or place.amount is not None for place in event.places)
+            told = told and not self._is_action(event, True) and (placed or not event.places)
             if not told or event.initial or event.negated:
                 continue
             if following is not None and following.links == ["when"] and (event.places or event.speed or event.ttc):

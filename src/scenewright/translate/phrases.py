@@ -271,6 +271,9 @@ class Phrases(NounPhrases):
         wanted_by = None
         if kind == "lane" and (wanted := self._wanted_lane(end)):
             wanted_by, end = wanted
+        inner = self.tag(end + 1, "heading") if self.tokens[end].text == "(" else None
+        if inner is not None and self.tokens[end + 2].text == ")" and heading in (None, inner):
+            heading, end = inner, end + 3  # "the main road (eastbound)"
         if (after := self.heading(end)) and not after[2]:
             if heading and heading != after[0]:
                 raise self.refuse("two headings contradict each other", self.span(start, after[1]))

@@ -107,6 +107,7 @@ class ReaderState:
 
     def _open(self, verb: str, start: int) -> Event:
         """Begin a new event for the current subject with the links and flags gathered so far."""
+        self._after_an_insertion(start)
         resumes = self._resumes(verb, start)
         tokens = self.phrases.tokens
         span = tokens[start].span
@@ -133,22 +134,32 @@ class ReaderState:
         self.current = event
         return event
 
+    def _after_an_insertion(self, start: int) -> None:
+        """Let "it waits and, after the ego has passed, drives on" go on with who waits."""
+        inserted, token = self.current, self.phrases.tokens[start]
+        if inserted is None or self.subject_span is not None or self.links != ["comma"] or "s" not in token.forms:
+            return
+        if "and" not in inserted.links or not {"after", "when", "before"} & set(inserted.links):
+            return
+        main = [
+            e for e in self.events if e.sentence == self.sentence and not {"after", "when", "before"} & set(e.links)
+        ]
+        if main and main[-1].actor is not None and main[-1].actor != inserted.actor:
+            self._set_subject(main[-1].actor, None)
+
     def _describes(self, verb: str, start: int) -> bool:
         """Whether a subject is only described so far: "the truck waiting on the driveway", "the ego, westbound,"."""
         token = self.phrases.tokens[start]
         return "ing" in token.forms or (verb == "be" and not token.tags.keys() & {"be", "genitive", "auxiliary"})
 
     def _turn_to_object(self) -> bool:
-        """Let "behind a van doing 12 m/s" and "a van which ..." go on with the van: it was named just before."""
-        event = self.current
-        if event is None or self.links or self.subject_span is not None or event.actor is None or not event.places:
+        """Let "behind a van doing 12 m/s" and "yields to the ego, which ..." go on with who was named just before."""
+        named, comma = self.phrases.last_named, bool(self.links)
+        if named is None or self.subject_span is not None or set(self.links) - {"comma"} or self.current is None:
             return False
-        place, before = event.places[-1], self.phrases.tokens[self.at - 1]
-        if not isinstance(place.target, int) or place.span.end != before.span.end or place.target == self.subject:
+        if named[1] != self.at - comma or named[0] == self.subject or self.subject is None:
             return False
-        if "pronoun" in before.tags or place.amount is not None:
-            return False
-        self._set_subject(place.target, None)
+        self._set_subject(named[0], None)
         return True
 
     def _resumes(self, verb: str, start: int) -> bool:

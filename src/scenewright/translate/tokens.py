@@ -21,7 +21,8 @@ from scenewright.units import UNITS, Dimension, Unit, unit_of_name
 
 _PARAMETER = r"[A-Za-z][A-Za-z0-9]*(?:\\?_[A-Za-z0-9]+)+"
 _RAW = re.compile(
-    rf"""(?P<braced>\{{\s*{_PARAMETER}\s*\}})
+    rf"""(?P<ie>\b(?:i\.e\.|e\.g\.),?)
+    |(?P<braced>\{{\s*{_PARAMETER}\s*\}})
     |(?P<parameter>{_PARAMETER})
     |(?P<number>(?<![\w.])[+\-−]?(?:\d+(?:,\d+)*(?:\.\d+)?|\.\d+)(?:/\d+)?)
     |(?P<word>[^\W\d_]+?n['’]t\b|['’](?:ll|re|ve|d)\b|[^\W\d_]+)
@@ -160,6 +161,9 @@ def _next(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
     if raw.kind in ("stop", "comma", "label", "genitive"):
         tag = {"stop": "end", "comma": "comma", "label": "colon", "genitive": "genitive"}[raw.kind]
         tokens.append(Token(raw.text, raw.span, {tag: raw.text.strip()}))
+        return index + 1
+    if raw.kind == "ie":
+        tokens.append(Token(raw.text, raw.span, {"comma": ","}))
         return index + 1
     if raw.kind == "title":
         tokens.append(Token(raw.text.strip(), raw.span, {"comment": "line"}))

@@ -101,6 +101,13 @@ class VerbGroupReader(AdjunctReader):
             self.at = area[1]
             self._grow()
             return True
+        ends = bool(self.phrases.tokens[at].tags.keys() & {"end", "comma"})
+        if noun is None and verb == "want" and direction in ("left", "right") and ends:  # "wants left"
+            event = self._open("turn", start)
+            event.wanted, event.direction = True, direction
+            self.at = at
+            self._grow()
+            return True
         if noun != "turn" and not (verb == "make" and direction in ("left", "right")):
             return False
         if noun is not None:

@@ -126,7 +126,8 @@ class VerbReader(VerbGroupReader):
 
     def _main_verb(self, verb: str, token: Token) -> bool:
         start = self.at
-        if "ing" in token.forms and self._turn_to_object():
+        placed = self.current is not None and self.current.places and self.current.places[-1].amount is None
+        if "ing" in token.forms and not self.links and placed and self._turn_to_object():
             self.links.append("that")  # "behind a van doing 12 m/s"
         if verb == "let":
             return self._let(start)
@@ -173,8 +174,11 @@ class VerbReader(VerbGroupReader):
             return self._led(verb, start)
         if verb == "come":
             stop = self._stop_noun_at(end)
+            gets = token.text.lower().startswith(("get", "got")) and self.phrases.tokens[end].quantity is not None
             if stop is None and self._place_to(end):
                 verb, end = "reach", end + 1
+            elif stop is None and gets and self.phrases.place(end) is not None:
+                verb = "reach"  # "gets 7 m behind the hero"
             elif stop is None:
                 if self._tag("verb") == "come" and (
                     self.phrases.heading(end)
