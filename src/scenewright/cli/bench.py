@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from scenewright.cli import bench_results, bench_run
+from scenewright.cli import bench_results, bench_run, bench_translate
 from scenewright.cli.console import print_json, stderr, stdout
 from scenewright.cli.faults import told
 from scenewright.cli.options import AsJson
@@ -50,6 +50,14 @@ _EXAMPLES: dict[Callable[..., None], tuple[str, ...]] = {
 }
 for _command, _lines in _EXAMPLES.items():
     app.command(epilog=_examples(f"{_SMALL} --out results/small", *_lines))(_command)
+
+
+app.command(
+    epilog=_examples(
+        "scenewright bench translate --show",
+        "scenewright bench translate texts.toml --translators offline,openai:NAME",
+    )
+)(bench_translate.translate)
 
 
 @app.command(
