@@ -13,29 +13,21 @@ import time
 from collections.abc import Callable, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from scenewright.drive.guarded import GuardedPolicy
-from scenewright.drive.loading import load_policy
-from scenewright.program.expressions import Compare
-from scenewright.program.structure import Role, Structure, read_structure
-from scenewright.program.types import EGO
 from scenewright.roads.grounding import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, Scene, ground
 from scenewright.roads.load import load_map
-from scenewright.simulate.ego_start import EgoFirstState, ego_starts
+from scenewright.simulate.beginning import first_plan
+from scenewright.simulate.ego_start import EgoFirstState
 from scenewright.simulate.hindsight import drive_profile, ego_left_no_room
 from scenewright.simulate.loop import Rates, Run, simulate
-from scenewright.simulate.prediction import ConstantSpeed, Predictor, predictor_called
 from scenewright.simulate.rehearsal import Rehearsed
 from scenewright.simulate.replanner import Replanner
-from scenewright.simulate.vehicles import EgoVehicle
-from scenewright.solve.arrival import linear_conditions
-from scenewright.solve.feasibility import EgoBounds, Feasibility, check_feasibility
-from scenewright.solve.limits import Limits, limits_on
-from scenewright.solve.parameters import choose_open_parameters
-from scenewright.solve.planner import Attempt, Planner
+from scenewright.simulate.world import World
+from scenewright.solve.feasibility import Feasibility
+from scenewright.solve.limits import Limits
+from scenewright.solve.planner import Attempt
 from scenewright.solve.problem import Backend
 from scenewright.translate.model.settings import TranslatorSettings
 from scenewright.translate.sources import read_scenario
@@ -160,7 +152,7 @@ def orchestrate(
         result.status = "success" if feasibility.answer == "feasible" else "gave up"
         return result
     with stages("plan"):
-        planned = first_plan(world, request, predictor_for(world, request))
+        planned = first_plan(world, world.predictor)
         assert planned is not None
         result.attempt = planned[2]
     if result.attempt.plan is None or until == "plan":
@@ -203,9 +195,9 @@ def _rehearse(
         if last.status != "failure" or request.mode == "open" or world.ego_bounds.holds_speed or last.run is None:
             break
         drive = drive_profile(last.run.trace.actors[world.scene.program.ego.name])
-        predictor = Rehearsed(drive, predictor_for(world, request))
-        planned = first_plan(world, request, predictor, drive.state(0.0)[1] if _came_too_late(last) else math.inf)
-        planned = planned or first_plan(world, request, predictor)
+        predictor = Rehearsed(drive, world.predictor)
+        planned = first_plan(world, predictor, drive.state(0.0)[1] if _came_too_late(last) else math.inf)
+        planned = planned or first_plan(world, predictor)
         if planned is None or planned[2].plan is None:
             break
         last = replace(first, take=take, takes=last.takes, hindsight=None)
@@ -234,117 +226,9 @@ def set_up(request: Request, stages: Stages, backend: Backend | None = None) -> 
         program, translation = read_scenario(request.source, request.translator, request.map_name, request.translation)
     with stages("ground"):
         scene = ground(program, load_map(request.map_name or program.map_name), request.parameters)
-    return World(scene, request, backend), translation
-
-
-# -- planning -------------------------------------------------------------------------------------------------------
-class World:
-    """What stays the same all through one request."""
-
-    def __init__(self, scene: Scene, request: Request, backend: Backend | None = None) -> None:
-        from scenewright.solve.backends.z3_backend import Z3Backend
-
-        self.scene = scene
-        self.policy = load_policy(request.ego)
-        guarded = GuardedPolicy(self.policy.policy, self.policy.name)
-        self.ego = EgoVehicle(guarded, scene.routes[EGO], scene.road_map, request.seed)
-        self.rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
-        self.structure: Structure = read_structure(scene.program)
-        self.limits: dict[int, Limits] = {i: limits_on(route, scene.road_map) for i, route in scene.routes.items()}
-        self.backend: Backend = backend or Z3Backend()
-        envelope = guarded.envelope
-        self.ego_bounds = (
-            EgoBounds(envelope.speed_max_mps, envelope.accel_max_mpss, -envelope.accel_min_mpss, envelope.holds_speed)
-            if envelope is not None
-            else EgoBounds()
-        )
-
-    def choose_and_check(self) -> Feasibility:
-        """Give open parameters values, and ask whether the scenario can happen with them."""
-        world = (self.structure, self.limits, self.backend, self.ego_bounds)
-        self.scene = choose_open_parameters(self.scene, *world)
-        return check_feasibility(self.scene, *world)
-
-
-def first_plan(
-    world: World, request: Request, predictor: Predictor, slower_than_mps: float = math.inf
-) -> tuple[Replanner, EgoFirstState, Attempt] | None:
-    """Choose the ego's first state and plan from it; where several states may be chosen, the first that plans well.
-
-    None where the ego cannot start slower than it must.
-    """
-    conditions = linear_conditions(world.scene, world.structure)
-    best: tuple[Replanner, EgoFirstState, Attempt] | None = None
-    for start in chain(ego_starts(world.scene, world.ego, world.limits[EGO], conditions), _solved_start(world)):
-        if best is not None and best[2].plan is not None and start.last_resort:
-            break
-        if start.by_choice and best is not None and _quality(best[2]) > _PROMISED:
-            break
-        if start.speed_mps >= slower_than_mps:
-            continue
-        planner = Planner(world.scene, world.structure, world.limits, world.backend, conditions, request.budget_s)
-        replanner = Replanner(world.scene, world.structure, planner, predictor, conditions)
-        attempt = replanner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
-        if best is None or _is_better(world.scene, attempt, best[2]):
-            best = (replanner, start, attempt)
-        if _quality(attempt) >= _GOOD:
-            break
-    return best
-
-
-def _solved_start(world: World) -> Iterator[EgoFirstState]:
-    """Yield, once all others have failed, the first state in which an ego that holds its speed makes it possible."""
-    bounds = replace(world.ego_bounds, holds_speed=True)
-    found = check_feasibility(world.scene, world.structure, world.limits, world.backend, bounds, explain=False)
-    if found.ego_start is not None:
-        yield EgoFirstState(float(found.ego_start[0]), float(found.ego_start[1]), last_resort=True)
-
-
-def predictor_for(world: World, request: Request) -> Predictor:
-    """Return how the ego is foreseen: as asked for, unless it has promised to hold its speed or nobody looks again."""
-    cruise_mps = world.limits[EGO].natural_approach_speed_mps
-    chosen = predictor_called(request.predictor, world.scene.routes[EGO], cruise_mps)
-    return ConstantSpeed() if request.mode == "open" or world.ego_bounds.holds_speed else chosen
-
-
-_GENTLENESS = {"steady": 5, "gentle": 4, "firm": 3, "whole": 2, "urgent": 1}
-_PROMISED, _GOOD = 10, 13
-_NOTABLY_S = 0.3
-
-
-def _quality(attempt: Attempt) -> int:
-    """Rank a first plan: one that promises the outcome before one that does not, then the gentler one."""
-    if attempt.plan is None:
-        return 0
-    promised = _PROMISED if attempt.status == "sat" and attempt.promises_outcome else 0
-    return promised + _GENTLENESS[attempt.plan.manner]
-
-
-def _is_better(scene: Scene, attempt: Attempt, other: Attempt) -> bool:
-    """Whether a first plan is better than another; of two that do not promise the outcome, the less late."""
-    if _PROMISED > min(_quality(attempt), _quality(other)) > 0 and _quality(attempt) < _PROMISED:
-        late_s, other_late_s = lateness_s(scene, attempt), lateness_s(scene, other)
-        if abs(late_s - other_late_s) > _NOTABLY_S:
-            return late_s < other_late_s
-    return _quality(attempt) > _quality(other)
-
-
-def lateness_s(scene: Scene, attempt: Attempt) -> float:
-    """Return by how much a plan, with the ego as predicted, misses who is to be where before whom (s)."""
-    from scenewright.program.evaluate import violation
-    from scenewright.solve.plan import PlanWorld
-
-    assert attempt.plan is not None
-    world = PlanWorld(scene, attempt.plan.profiles, attempt.plan.parameters)
-    roles = read_structure(scene.program).roles
-    orders = [
-        constraint.formula
-        for constraint in scene.program.constraints
-        if roles[constraint.id] is Role.OUTCOME and isinstance(constraint.formula, Compare)
-        if constraint.formula.operator != "=="
-    ]
-    misses = [violation(formula, world) for formula in orders]
-    return max((miss for miss in misses if math.isfinite(miss)), default=0.0)
+    rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
+    world = World(scene, request.ego, request.seed, rates, request.predictor, request.budget_s, backend)
+    return world, translation
 
 
 # -- what is left behind --------------------------------------------------------------------------------------------

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from scenarios import EXAMPLE_TABLE, Example
 
+from scenarios import EXAMPLE_TABLE, Example
 from scenewright.program.text import parse_program
 from scenewright.solve.backends.z3_backend import Z3Backend
 from scenewright.study.meaning import consistent, differences

@@ -9,7 +9,8 @@ import pytest
 
 from scenewright.drive.protocol import EgoMotion, VehicleState
 from scenewright.errors import PolicyError
-from scenewright.orchestrate import Request, Stages, first_plan, predictor_for, set_up
+from scenewright.orchestrate import Request, Stages, set_up
+from scenewright.simulate.beginning import first_plan
 from scenewright.simulate.loop import Rates, Run, simulate
 from scenewright.study.rivals import run_method
 from scenewright.study.rivals.follower import AskedAnew, FollowingHeroes
@@ -57,7 +58,7 @@ class Recorder:
 def follow(driver: WaypointDriver, ego: str = "constant") -> tuple[Run, FollowingHeroes, AskedAnew]:
     request = Request(YIELDS, ego=ego)
     world, _ = set_up(request, Stages(None))
-    planned = first_plan(world, request, predictor_for(world, request))
+    planned = first_plan(world, world.predictor)
     assert planned is not None
     first, start, _ = planned
     replanner = AskedAnew(first.scene, first.structure, first.planner, first.predictor, first.conditions)

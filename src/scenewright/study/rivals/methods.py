@@ -19,18 +19,17 @@ from scenewright.orchestrate import (
     Request,
     Result,
     Stages,
-    World,
-    first_plan,
     judge_run,
     orchestrate,
-    predictor_for,
     set_up,
     write_result,
 )
+from scenewright.simulate.beginning import first_plan
 from scenewright.simulate.ego_start import EgoFirstState
 from scenewright.simulate.heroes import HeroDriver
 from scenewright.simulate.loop import Rates, simulate
 from scenewright.simulate.replanner import Replanner
+from scenewright.simulate.world import World
 from scenewright.solve.plan import Plan
 from scenewright.solve.problem import Backend
 from scenewright.study.rivals import METHODS
@@ -103,7 +102,7 @@ def _staged(
     if feasibility.answer == "infeasible":
         return result
     with stages("plan"):
-        planned = first_plan(world, request, predictor_for(world, request))
+        planned = first_plan(world, world.predictor)
         assert planned is not None  # only a later take may ask for a start that there is none of
         replanner, start, result.attempt = planned
     if result.attempt.plan is None:

@@ -1,0 +1,79 @@
+"""What stays the same all through one request: the scene, the ego and its promises, limits, rates, the solver.
+
+What enters: a scene and how it is to be run. What leaves: a `World`. Nothing is planned or driven here.
+"""
+
+from __future__ import annotations
+
+from scenewright.drive.guarded import GuardedPolicy
+from scenewright.drive.loading import load_policy
+from scenewright.program.structure import Structure, read_structure
+from scenewright.program.types import EGO
+from scenewright.roads.grounding import Scene
+from scenewright.simulate.loop import Rates
+from scenewright.simulate.prediction import ConstantSpeed, Predictor, predictor_called
+from scenewright.simulate.vehicles import EgoVehicle
+from scenewright.solve.feasibility import EgoBounds, Feasibility, check_feasibility
+from scenewright.solve.limits import Limits, limits_on
+from scenewright.solve.parameters import choose_open_parameters
+from scenewright.solve.planner import DEFAULT_BUDGET_S
+from scenewright.solve.problem import Backend
+
+
+class World:
+    """One scene with an ego, ready to be planned and driven again and again.
+
+    Parameters
+    ----------
+    ego, seed
+        Name of the policy with its options, and the seed of its random choices.
+    rates
+        Time step, and time between re-solves.
+    predictor
+        Name of how the ego is foreseen.
+    budget_s
+        Wall-clock time that one re-solve may take.
+
+    Raises
+    ------
+    ScenewrightError
+        Where there is no such policy or predictor.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        ego: str,
+        seed: int,
+        rates: Rates,
+        predictor: str = "road",
+        budget_s: float = DEFAULT_BUDGET_S,
+        backend: Backend | None = None,
+    ) -> None:
+        from scenewright.solve.backends.z3_backend import Z3Backend
+
+        self.scene = scene
+        self.rates = rates
+        self.budget_s = budget_s
+        self.policy = load_policy(ego)
+        guarded = GuardedPolicy(self.policy.policy, self.policy.name)
+        self.ego = EgoVehicle(guarded, scene.routes[EGO], scene.road_map, seed)
+        self.structure: Structure = read_structure(scene.program)
+        self.limits: dict[int, Limits] = {i: limits_on(route, scene.road_map) for i, route in scene.routes.items()}
+        self.backend: Backend = backend or Z3Backend()
+        promise = guarded.envelope
+        self.ego_bounds = (
+            EgoBounds(promise.speed_max_mps, promise.accel_max_mpss, -promise.accel_min_mpss, promise.holds_speed)
+            if promise is not None
+            else EgoBounds()
+        )
+        chosen = predictor_called(predictor, scene.routes[EGO], self.limits[EGO].natural_approach_speed_mps)
+        # Who has promised to hold its speed needs no foresight, and where nobody looks again it would be in vain.
+        steady = rates.replan_s is None or self.ego_bounds.holds_speed
+        self.predictor: Predictor = ConstantSpeed() if steady else chosen
+
+    def choose_and_check(self) -> Feasibility:
+        """Give open parameters values, and ask whether the scenario can happen with them."""
+        world = (self.structure, self.limits, self.backend, self.ego_bounds)
+        self.scene = choose_open_parameters(self.scene, *world)
+        return check_feasibility(self.scene, *world)
