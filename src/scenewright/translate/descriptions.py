@@ -185,6 +185,8 @@ class DescriptionReader:
 
     def _tell_area(self, actor: int, area: Area, event: Event, turning: bool) -> None:
         role = area.role
+        if role == "across" and area.lane_of == actor:
+            raise self._refuse("a vehicle does not cross its own way", area.span, "the other vehicle's path")
         if role == "across":
             self.facts.relations.append(LaneRelation("across", actor, event))
             return

@@ -153,7 +153,9 @@ class FrameReader(MeasureReader):
         other = self.phrases.noun_phrase(self.at + 1)
         if other is None or (other.kind == "pronoun" and self.phrases.subject is None):
             return False
-        after = other.end + (self.phrases.tag(other.end, "comma") is not None)
+        lane = self.phrases.area(other.end)  # "ahead of it in the same lane"
+        end = lane[1] if lane is not None and lane[0].kind == "lane" and lane[0].heading is None else other.end
+        after = end + (self.phrases.tag(end, "comma") is not None)
         inverted = self.phrases.verb(after, "come", "drive") is not None or self.phrases.tag(after, "be") is not None
         phrase = self.phrases.noun_phrase(after + inverted)
         if phrase is None or phrase.kind == "pronoun" or self.phrases.tag(phrase.end, "genitive") is not None:

@@ -68,7 +68,7 @@ class NounPhrases:
         phrase = self._named_again(phrase)
         where = self.tag(phrase.end, "relation")
         alone = self.tokens[phrase.end].text.lower() in ("ahead", "in front", "behind") if where else False
-        if where == "ahead" and not alone and phrase.determiner != "indefinite" and phrase.kind == "noun":
+        if where == "ahead" and not alone and phrase.kind == "noun":
             phrase = self._ahead_of(phrase)
         after = self.tokens[phrase.end + 1].tags.keys() if alone else set()
         finite = bool(after & {"be", "auxiliary", "genitive", "negation"}) or (

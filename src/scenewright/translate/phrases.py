@@ -227,6 +227,8 @@ class Phrases(NounPhrases):
         start = at
         owner = self.possessor(at)
         whose, at = owner if owner else (None, self.skip_determiner(at))
+        if role == "across" and owner and self.tag(start, "possessive"):
+            whose = 1 - owner[0]  # "turns left across its path": nobody crosses its own
         heading = side = None
         oncoming = False
         if self.tag(at, "landmark") == "intersection" and self.tag(at + 1, "genitive") is not None:

@@ -94,6 +94,8 @@ class PlaceAdjunctReader(SideReader):
         ) is not None:  # "... from the conflict point and the stop line respectively"
             place, end = replace(place, target=second[0]), second[1]
         cuts = place.relation == "ahead" and isinstance(place.target, int) and place.amount is None
+        if cuts and place.target == host.actor:
+            raise self.phrases.refuse("a vehicle is not in front of itself", place.span, "the other vehicle")
         if cuts and host.verb in ("turn", "pull_out", "pass", "leave"):
             host.in_front = True  # "turns right out of the driveway in front of the ego"
             self.at = end

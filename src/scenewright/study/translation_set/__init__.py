@@ -1,7 +1,7 @@
 """Descriptions with the meaning that a person reads in them: what translators are measured on.
 
-What it holds: TOML files of ``[[text]]`` tables. Each has an ``id``, a ``group``, the ``text``, and either ``program``, the
-text of a program (as in a `.scene` file) that means the same, or ``refuse``, why the text is to be refused:
+What it holds: TOML files of ``[[text]]`` tables. Each has an ``id``, a ``group``, the ``text``, and either ``program``,
+the text of a program (as in a `.scene` file) that means the same, or ``refuse``, why the text is to be refused:
 ``contradictory``, ``impossible geometry``, ``off-topic``, ``foreign language``, ``ambiguous``, ``no unit`` and so on.
 
 - ``voices.toml``: whole descriptions in many voices, written by hand, of the taxonomy and beyond;
@@ -9,6 +9,6 @@ text of a program (as in a `.scene` file) that means the same, or ``refuse``, wh
 - ``phrases.toml``: one part of a description at a time, said in many ways;
 - ``refusals.toml``: texts to be refused.
 
-No translator reads these files. The offline translator was widened with the mistakes made on them in mind, so its score on
-them is a regression figure; a figure for new texts comes from texts that nobody here has seen.
+No translator reads these files. The offline translator was widened with the mistakes made on them in mind, so its score
+on them is a regression figure; a figure for new texts comes from texts that were not there when it was widened.
 """

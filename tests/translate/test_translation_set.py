@@ -1,0 +1,58 @@
+"""The translation set that the project ships: read right or refused, never read wrong without a word."""
+
+from __future__ import annotations
+
+import tomllib
+from collections import Counter
+from importlib.resources import files
+from typing import Any
+
+import pytest
+
+from scenewright.errors import TranslationError
+from scenewright.program.text import parse_program
+from scenewright.program.types import Program
+from scenewright.translate.offline import translate_offline
+
+FOLDER = files("scenewright.study") / "translation_set"
+
+
+def rows(name: str) -> list[dict[str, Any]]:
+    return list(tomllib.loads((FOLDER / name).read_text(encoding="utf-8"))["text"])
+
+
+def meaning(program: Program) -> tuple[object, ...]:
+    actors = tuple((actor.route, actor.sketch) for actor in program.actors)
+    return actors, frozenset(constraint.formula for constraint in program.constraints)
+
+
+def outcome(row: dict[str, Any]) -> str:
+    try:
+        program = translate_offline(row["text"]).program
+    except TranslationError:
+        return "refused"
+    if "refuse" in row:
+        return "accepted"
+    return "right" if meaning(program) == meaning(parse_program(row["program"])) else "wrong"
+
+
+@pytest.mark.parametrize(("name", "least"), [("voices.toml", 0.9), ("taxonomy.toml", 1.0), ("phrases.toml", 0.9)])
+def test_texts_are_read_right_or_refused(name: str, least: float) -> None:
+    outcomes = {row["id"]: outcome(row) for row in rows(name)}
+    assert [identifier for identifier, what in outcomes.items() if what == "wrong"] == []
+    assert Counter(outcomes.values())["right"] >= least * len(outcomes)
+
+
+def test_what_cannot_be_meant_is_refused() -> None:
+    refusals = rows("refusals.toml")
+    assert [row["id"] for row in refusals if outcome(row) != "refused"] == []
+    reasons = {row["refuse"] for row in refusals}
+    assert {"contradictory", "impossible geometry", "off-topic", "foreign language"} <= reasons
+
+
+def test_every_row_of_the_taxonomy_is_there() -> None:
+    assert [row["id"] for row in rows("taxonomy.toml")] == [f"row-{number:02d}" for number in range(1, 81)]
+    every = [
+        row["id"] for name in ("voices.toml", "taxonomy.toml", "phrases.toml", "refusals.toml") for row in rows(name)
+    ]
+    assert len(every) == len(set(every)) >= 200
