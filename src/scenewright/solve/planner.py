@@ -40,6 +40,8 @@ _HOPE_SLACK = 0.02
 _SHIFTS = (Fraction(0), Fraction(1, 2), Fraction(1))
 # The largest miss that is searched for, in tight tolerances, and how often the search is halved.
 _FARTHEST, _HALVINGS = 16.0, 7
+# The share of a re-solve's time that one question may take: what is hard to answer is seldom a good way.
+_LONGEST_TRY_SHARE = 0.1
 # How often a re-solve asks whether a gentler way has become possible.
 _EASE_EVERY = 3
 # What is soon for a trigger whose moment is free (s).
@@ -218,7 +220,8 @@ class Planner:
                 if tries == most_tries:
                     return Attempt(None, "unsat", reason, wall_s, tries), (number, trial, situation)
                 tries += 1
-                found = self._solve(timed, manner, trial.tolerance, budget_s - wall_s)
+                left_s = min(budget_s - wall_s, _LONGEST_TRY_SHARE * budget_s)
+                found = self._solve(timed, manner, trial.tolerance, left_s)
                 if isinstance(found, Plan):
                     status = "sat" if trial.tolerance == 0 else "relaxed"
                     promises = trial.manner.outcome and trial.manner.outcome_margin_s > 0
