@@ -65,6 +65,8 @@ def _comment_end(tokens: list[Token], at: int, kept: list[Token]) -> int | None:
         return at + 1
     end = at + 1
     while "end" not in tokens[end].tags:
+        if "colon" in tokens[end].tags and end > at + 1:
+            break  # "The AV copes with a pushy driver: the AV turns right ..."
         if kind == "clause" and "comma" in tokens[end].tags:
             break  # "To see how the AV copes, the car brakes", "..., forcing the AV to react, and ..."
         end += 1

@@ -15,6 +15,7 @@ from scenewright.translate.tokens import Token
 _WHOSE = frozenset(("ego", "hero", "noun", "actor_adjective", "determiner", "aspect", "genitive", "pair"))
 _SAYS = frozenset(("ego", "hero", "pronoun", "be", "auxiliary", "negation", "quantity", "measure", "bound"))
 _LONGEST_TITLE = 13
+_ACTIONS = ("brake", "stop", "yield", "accelerate", "go", "keep", "pass", "complete")
 _LONG_ADVERB = 7
 _NO_MANNER = frozenset(
     ["scarcely", "rarely", "mostly", "partially", "supposedly", "allegedly", "possibly", "probably", "randomly",
@@ -28,7 +29,23 @@ def lay_out(tokens: list[Token]) -> tuple[list[Token], list[list[Token]]]:
     """Return the tokens as running text, and the titles that say nothing of their own."""
     titles: list[list[Token]] = []
     tokens = _without_titles(_without_numbers(_plain_adjectives(tokens)), titles)
-    return _lists(_joined_conditions(tokens)), titles
+    return _lists(_moments_within(_joined_conditions(tokens))), titles
+
+
+def _moments_within(tokens: list[Token]) -> list[Token]:
+    """Let "when the ego is within 12 m of the stop line" be the moment at which it is 12 m from it; it is noted."""
+    read = list(tokens)
+    for at, token in enumerate(tokens[:-1]):
+        amount = tokens[at + 1].quantity
+        if token.text.lower() != "within" or amount is None or amount.dimension not in ("length", "time"):
+            continue
+        back = at
+        while back >= 0 and "end" not in tokens[back].tags and tokens[back].tags.get("verb") not in _ACTIONS:
+            if tokens[back].tags.get("link") == "when" or tokens[back].tags.get("label") == "when":
+                read[at] = replace(token, tags={"adverb": "about"})
+                break
+            back -= 1
+    return read
 
 
 def _joined_conditions(tokens: list[Token]) -> list[Token]:
@@ -47,7 +64,7 @@ def _joined_conditions(tokens: list[Token]) -> list[Token]:
 def _has_action(tokens: list[Token], at: int) -> bool:
     """Whether something is told to happen before the sentence (or its part before a semicolon) ends."""
     while "end" not in tokens[at].tags:
-        if tokens[at].tags.get("verb") in ("brake", "stop", "yield", "accelerate", "go", "keep", "pass", "complete"):
+        if tokens[at].tags.get("verb") in _ACTIONS:
             return True
         at += 1
     return False
@@ -135,6 +152,8 @@ def _title_end(tokens: list[Token], at: int) -> int | None:
         return None
     fragment = "colon" not in tokens[at + len(line)].tags  # "A left turn out of a side street."
     tags = {tag for token in line for tag in token.tags}
+    if fragment and ("unknown" in tags or not any("ego" in token.tags for token in tokens[at + len(line) :])):
+        return None
     first = line[1:] if line and "determiner" in line[0].tags else line
     named = any("noun" in token.tags for token in first[:2]) or (
         any("noun" in t.tags for t in first)

@@ -104,14 +104,15 @@ class MomentReader(ActionReader):
 
     def _conditions(self, conditions: list[Event], events: list[Event]) -> None:
         for event in events:
-            if "within" in event.notes and (
-                event.mode != "when" or len([e for e in events if "within" in e.notes]) > 1
-            ):
+            if "within" in event.notes and event.mode != "when":
                 raise self._refuse(
                     "this gives a bound, not a value",
                     event.span,
                     "an exact distance, or one 'gets within' after 'when'",
                 )
+            if "within" in event.notes:
+                said = f"'{event.span.excerpt(self.text)}' is the moment at which it is at that very distance"
+                self.facts.assumptions.append(said)
         if not conditions:
             return
         heroes = [e for e in events if e.mode == "main" and e.actor == HERO_ID]

@@ -341,6 +341,8 @@ def refuse_unknown(tokens: list[Token], text: str, name: str) -> None:
         Where a token is ``unknown`` or a number without a unit.
     """
     unknown = [token for token in tokens if "unknown" in token.tags]
+    if not unknown and any("unsupported" in token.tags for token in tokens):
+        return  # "two heroes": not the number is what is amiss
     if not unknown:
         for token in tokens:
             if "bare_number" in token.tags:
