@@ -34,8 +34,8 @@ class Manipulated:
     name: str = "manipulated"
     honest: Z3Backend = field(default_factory=Z3Backend)
 
-    def solve(self, problem: Problem, timeout_s: float, want_core: bool = False) -> Result:
-        result = self.honest.solve(problem, timeout_s, want_core)
+    def solve(self, problem: Problem, timeout_s: float, want_core: bool = False, effort: int | None = None) -> Result:
+        result = self.honest.solve(problem, timeout_s, want_core, effort)
         if not self.armed:
             return result
         self.calls += 1
@@ -65,7 +65,7 @@ def faster(result: Result) -> Result:
     ("answer", "status", "reason"),
     [
         (Unsatisfiable(()), "unsat", "cannot meet the trigger"),
-        (Unknown("timeout"), "unsat", "timeout"),
+        (Unknown("timeout"), "timeout", "too hard a question"),
         (Unknown("incomplete"), "unsat", "incomplete"),
     ],
 )
@@ -150,7 +150,9 @@ def test_solver_is_told_how_much_time_is_left(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(planner, "time", clock)
 
     class Strict(Z3Backend):
-        def solve(self, problem: Problem, timeout_s: float, want_core: bool = False) -> Result:
+        def solve(
+            self, problem: Problem, timeout_s: float, want_core: bool = False, effort: int | None = None
+        ) -> Result:
             told.append(timeout_s)
             clock.now_s += 0.1
             return Unknown("timeout")
@@ -160,14 +162,12 @@ def test_solver_is_told_how_much_time_is_left(monkeypatch: pytest.MonkeyPatch) -
         stage.replanner._situations(0.0, stage.replanner.predictor.predict([(0.0, 60.0, 10.0, 0.0)]), {"t0": 0.0}, {})
     )
     assert attempt.plan is None
-    # What is left, but no more than a share of all: one hard question must not take the time of the others.
-    share_s = planner._LONGEST_TRY_SHARE * PATIENT_S
     assert told
-    assert told == pytest.approx([min(PATIENT_S - 0.1 * k, share_s) for k in range(len(told))])
+    assert told == pytest.approx([PATIENT_S - 0.1 * k for k in range(len(told))])
 
 
 def test_gives_up_and_drives_nothing_where_no_plan_is_found(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    def never(self: Z3Backend, problem: Problem, timeout_s: float, want_core: bool = False) -> Result:
+    def never(self: Z3Backend, problem: Problem, timeout_s: float, *more: object, **options: object) -> Result:
         return Unknown("incomplete")
 
     monkeypatch.setattr(Z3Backend, "solve", never)

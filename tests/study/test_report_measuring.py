@@ -168,7 +168,7 @@ class Scripted:
         self.answers = list(answers)
 
     def solve(
-        self, problem: Problem, timeout_s: float, want_core: bool = False
+        self, problem: Problem, timeout_s: float, want_core: bool = False, effort: int | None = None
     ) -> Satisfiable | Unsatisfiable | Unknown:
         return self.answers.pop(0)
 

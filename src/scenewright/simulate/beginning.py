@@ -39,7 +39,7 @@ def first_plan(
     conditions = linear_conditions(world.scene, world.structure)
     best: tuple[Replanner, EgoFirstState, Attempt] | None = None
     for start in chain(ego_starts(world.scene, world.ego, world.limits[EGO], conditions), _solved_start(world)):
-        if best is not None and best[2].plan is not None and start.last_resort:
+        if start.last_resort and not _is_last_hope(world, best):
             break
         if start.by_choice and best is not None and _quality(best[2]) > _PROMISED:
             break
@@ -53,6 +53,13 @@ def first_plan(
         if _quality(attempt) >= _GOOD:
             break
     return best
+
+
+def _is_last_hope(world: World, best: tuple[Replanner, EgoFirstState, Attempt] | None) -> bool:
+    """Whether a start that only arithmetic speaks for is worth a try: a promise, where the ego holds its speed."""
+    if best is None or best[2].plan is None:
+        return True
+    return world.ego_bounds.holds_speed and _quality(best[2]) < _PROMISED
 
 
 def _solved_start(world: World) -> Iterator[EgoFirstState]:

@@ -28,6 +28,7 @@ LONGEST_RUN_S = 90.0
 _AFTER_HEROES_S = 2.0
 _WAIT_FOR_EGO_S = 10.0
 _STALLED_S = 20.0
+_MOVES_MPS = 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,6 +165,8 @@ def _is_over(scene: Scene, heroes: HeroDriver, ego: EgoVehicle, time_s: float) -
         return True
     if time_s < last_knot_s + _AFTER_HEROES_S:
         return _stalled(heroes, time_s)
+    if time_s < last_knot_s + _WAIT_FOR_EGO_S and _any_turning(scene, profiles, time_s):
+        return False
     passed = ego.s_m > ego.route.landmarks.get("junction_end", end_m) + 5.0
     return passed or time_s >= last_knot_s + _WAIT_FOR_EGO_S
 
@@ -171,6 +174,17 @@ def _is_over(scene: Scene, heroes: HeroDriver, ego: EgoVehicle, time_s: float) -
 def _any_at_end(scene: Scene, profiles: Mapping[int, Profile], time_s: float) -> bool:
     for hero in scene.program.heroes:
         if profiles[hero.id].state(time_s)[0] >= scene.routes[hero.id].landmarks["route_end"] - 3.0:
+            return True
+    return False
+
+
+def _any_turning(scene: Scene, profiles: Mapping[int, Profile], time_s: float) -> bool:
+    """Whether a hero is on its way through the junction: which way it went is part of the story."""
+    for hero in scene.program.heroes:
+        places = scene.routes[hero.id].landmarks
+        s_m, speed_mps, _ = profiles[hero.id].state(time_s)
+        end_m = places.get("junction_end")
+        if end_m is not None and speed_mps > _MOVES_MPS and places.get("junction_start", end_m) < s_m < end_m:
             return True
     return False
 

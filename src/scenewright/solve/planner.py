@@ -40,8 +40,10 @@ _HOPE_SLACK = 0.02
 _SHIFTS = (Fraction(0), Fraction(1, 2), Fraction(1))
 # The largest miss that is searched for, in tight tolerances, and how often the search is halved.
 _FARTHEST, _HALVINGS = 16.0, 7
-# The share of a re-solve's time that one question may take: what is hard to answer is seldom a good way.
-_LONGEST_TRY_SHARE = 0.1
+# What one question may cost the solver in a re-solve (some 10 ms) and at the start, in its own measure: the answers do
+# not depend on how busy the machine is, and what is hard to answer is seldom a good way.
+_EFFORT, _FIRST_EFFORT = 24_000, 150_000
+_TOO_HARD = "timeout"
 # How often a re-solve asks whether a gentler way has become possible.
 _EASE_EVERY = 3
 # What is soon for a trigger whose moment is free (s).
@@ -220,14 +222,21 @@ class Planner:
                 if tries == most_tries:
                     return Attempt(None, "unsat", reason, wall_s, tries), (number, trial, situation)
                 tries += 1
-                left_s = min(budget_s - wall_s, _LONGEST_TRY_SHARE * budget_s)
-                found = self._solve(timed, manner, trial.tolerance, left_s)
+                effort = _EFFORT if most_tries == _TRIES_A_TICK else _FIRST_EFFORT
+                found = self._solve(timed, manner, trial.tolerance, budget_s - wall_s, effort)
                 if isinstance(found, Plan):
                     status = "sat" if trial.tolerance == 0 else "relaxed"
                     promises = trial.manner.outcome and trial.manner.outcome_margin_s > 0
                     wall_s = time.perf_counter() - started
                     return Attempt(found, status, "", wall_s, tries, promises), (number, trial, situation)
                 reason = found
+                if found == _TOO_HARD and effort == _EFFORT:
+                    wall_s = time.perf_counter() - started  # one such question a tick is enough
+                    return Attempt(None, "timeout", "too hard a question", wall_s, tries), (
+                        number + 1,
+                        trial,
+                        situation,
+                    )
         return Attempt(None, "unsat", reason, time.perf_counter() - started, tries), None
 
     def _broken_limit(self, profiles: Mapping[int, Profile], after_s: float) -> str | None:
@@ -237,11 +246,13 @@ class Planner:
                 return f"{hero.name} would break its limits: {fault}"
         return None
 
-    def _solve(self, situation: Situation, manner: Manner, tolerance: Fraction, timeout_s: float) -> Plan | str:
+    def _solve(
+        self, situation: Situation, manner: Manner, tolerance: Fraction, timeout_s: float, effort: int = _FIRST_EFFORT
+    ) -> Plan | str:
         built = HeroProblem(self.scene, self.structure, self.limits, situation, manner, tolerance, self.conditions)
-        result = self.backend.solve(built.problem, timeout_s)
+        result = self.backend.solve(built.problem, timeout_s, effort=effort)
         if isinstance(result, Unknown):
-            return result.reason
+            return _TOO_HARD if result.reason == "timeout" else result.reason
         if not isinstance(result, Satisfiable):
             return f"{manner.name} motion cannot meet the trigger"
         profiles: dict[int, Profile] = dict(built.profiles(result.model))

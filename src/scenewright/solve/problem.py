@@ -97,6 +97,13 @@ class Backend(Protocol):
 
     name: str
 
-    def solve(self, problem: Problem, timeout_s: float, want_core: bool = False) -> Result:
-        """Solve `problem`; a core is worked out only where it is wanted."""
+    def solve(self, problem: Problem, timeout_s: float, want_core: bool = False, effort: int | None = None) -> Result:
+        """Solve `problem`; a core is worked out only where it is wanted.
+
+        Parameters
+        ----------
+        effort
+            The most steps that it may take, in the solver's own measure; unlike a time it gives the same answer on a
+            busy machine.
+        """
         ...

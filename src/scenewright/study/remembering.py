@@ -33,14 +33,14 @@ class Remembering:
         self._answers: OrderedDict[bytes, Result] = OrderedDict()
         self.recalled = 0
 
-    def solve(self, problem: Problem, timeout_s: float, want_core: bool = False) -> Result:
+    def solve(self, problem: Problem, timeout_s: float, want_core: bool = False, effort: int | None = None) -> Result:
         """Answer as `beneath` does."""
         key = _key(problem, want_core)
         if key in self._answers:
             self.recalled += 1
             self._answers.move_to_end(key)
             return self._answers[key]
-        answer = self._beneath.solve(problem, timeout_s, want_core)
+        answer = self._beneath.solve(problem, timeout_s, want_core, effort)
         if not isinstance(answer, Unknown):
             self._answers[key] = answer
             if len(self._answers) > _REMEMBERED:

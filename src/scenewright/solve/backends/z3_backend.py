@@ -22,12 +22,14 @@ class Z3Backend:
 
     name = "z3"
 
-    def solve(self, problem: Problem, timeout_s: float, want_core: bool = False) -> Result:
+    def solve(self, problem: Problem, timeout_s: float, want_core: bool = False, effort: int | None = None) -> Result:
         """Solve `problem` within `timeout_s`; unsatisfiable results carry a minimal core where `want_core` is set."""
         # What was asked before stays behind in a context and sways the models of what comes next: a fresh one, for a
         # millisecond, keeps an answer the same whatever else the process has solved.
         solver = z3.Solver(ctx=z3.Context())
         solver.set("timeout", max(1, int(timeout_s * 1000)))
+        if effort is not None:
+            solver.set("rlimit", effort)
         solver.from_string(problem.smtlib(named=want_core))
         answer = solver.check()
         if answer == z3.sat:
@@ -35,7 +37,7 @@ class Z3Backend:
         if answer == z3.unsat:
             return Unsatisfiable(self._core(problem, solver, timeout_s) if want_core else ())
         reason = solver.reason_unknown()
-        return Unknown("timeout" if reason in ("timeout", "canceled") else reason)
+        return Unknown("timeout" if reason in ("timeout", "canceled", "max. resource limit exceeded") else reason)
 
     def _core(self, problem: Problem, solver: z3.Solver, timeout_s: float) -> tuple[str, ...]:
         """Return the origins of a core in which every one is needed: z3's own cores are not minimal."""

@@ -107,10 +107,10 @@ class RecordingBackend:
     def __post_init__(self) -> None:
         self.name = self.inner.name
 
-    def solve(self, problem: Problem, timeout_s: float, want_core: bool = False) -> Result:
+    def solve(self, problem: Problem, timeout_s: float, want_core: bool = False, effort: int | None = None) -> Result:
         """Ask the inner solver; its answer is returned as it is."""
         started = time.perf_counter()
-        result = self.inner.solve(problem, timeout_s, want_core)
+        result = self.inner.solve(problem, timeout_s, want_core, effort)
         wall_ms = 1000.0 * (time.perf_counter() - started)
         answers: dict[type, str] = {Satisfiable: "sat", Unsatisfiable: "unsat"}
         call = {
