@@ -66,7 +66,7 @@ def faster(result: Result) -> Result:
     ("answer", "status", "reason"),
     [
         (Unsatisfiable(()), "unsat", "cannot meet the trigger"),
-        (Unknown("timeout"), "timeout|unsat", "too hard a question|timeout"),
+        (Unknown("timeout"), "timeout|unsat", "too hard a question|no motion within the limits"),
         (Unknown("incomplete"), "unsat", "incomplete"),
     ],
 )
