@@ -121,3 +121,21 @@ def test_before_the_first_segment_the_speed_holds() -> None:
 def test_a_profile_has_a_segment() -> None:
     with pytest.raises(ValueError, match="at least one segment"):
         Profile(())
+
+
+@given(starts, speeds, moves, st.floats(0.0, 1.0), st.floats(0.1, 3.0))
+def test_held_motion_is_the_same_before_and_later_after(
+    start_s: float, speed_mps: float, moves_: list[tuple[float, float, int]], share: float, for_s: float
+) -> None:
+    profile = profile_of(start_s, speed_mps, moves_)
+    at_s = profile.start_s + share * (profile.end_s - profile.start_s)
+    held = Profile(profile.segments, {"t0": start_s - 1.0, "t1": at_s}).held(at_s, for_s)
+    place_m, speed, _ = profile.state(at_s)
+    assert held.knot_times_s == {"t0": start_s - 1.0, "t1": pytest.approx(at_s + for_s)}
+    for before_s in np.linspace(profile.start_s, at_s, 5):
+        assert held.state(float(before_s))[:2] == pytest.approx(profile.state(float(before_s))[:2], abs=1e-5)
+    assert held.state(at_s + 0.5 * for_s)[:2] == pytest.approx((place_m + 0.5 * for_s * speed, speed), abs=1e-5)
+    for after_s in np.linspace(0.0, 8.0, 9):
+        later = profile.state(at_s + float(after_s))
+        expected = (later[0] + for_s * speed, later[1])
+        assert held.state(at_s + for_s + float(after_s))[:2] == pytest.approx(expected, abs=1e-4)

@@ -114,6 +114,28 @@ class Profile:
             rest.append(Segment(time_s, 0.0, position, speed, 0.0, self.segments[-1].piece))
         return Profile(tuple(rest), self.knot_times_s)
 
+    def held(self, at_s: float, for_s: float) -> Profile:
+        """Return the motion with its speed at `at_s` held for `for_s` seconds; what follows comes later and further on.
+
+        Knots at that instant and after it come later too.
+        """
+        position, speed, _ = self.state(at_s)
+        before = [segment for segment in self.segments if segment.start_s < at_s - 1e-9]
+        after = [segment for segment in self.segments if segment.start_s >= at_s - 1e-9]
+        if before and before[-1].end_s > at_s + 1e-9:
+            whole = before[-1]
+            piece, accel = whole.piece, whole.accel_mpss
+            before[-1] = Segment(whole.start_s, at_s - whole.start_s, whole.s_m, whole.speed_mps, accel, piece)
+            after.insert(0, Segment(at_s, whole.end_s - at_s, position, speed, accel, piece))
+        piece = before[-1].piece if before else after[0].piece
+        held = Segment(at_s, for_s, position, speed, 0.0, piece)
+        moved = [
+            Segment(s.start_s + for_s, s.duration_s, s.s_m + speed * for_s, s.speed_mps, s.accel_mpss, s.piece)
+            for s in after
+        ]
+        times = {knot: time_s + for_s * (time_s >= at_s - 1e-9) for knot, time_s in self.knot_times_s.items()}
+        return Profile((*before, held, *moved), times)
+
     def accelerations(self) -> tuple[float, float]:
         """Return the smallest and largest acceleration of the whole profile (m/s^2)."""
         values = [segment.accel_mpss for segment in self.segments]

@@ -35,7 +35,7 @@ _PATIENT_FAILURES = 20
 _RETRY_EVERY = 3
 _SHORTEST_LEAD_S = 0.02
 _FIRST_TRIGGERS_S = (2.5, 3.5, 4.5, 6.0, 8.0, 10.0, 13.0, 16.0, 2.0, 1.5, 1.0, 20.0, 25.0)
-_RETRY_TRIGGERS_S = (0.0, 0.25, -0.25, 0.75, 1.5, 3.0, 6.0)
+_RETRY_TRIGGERS_S = (0.0, 0.25, -0.25, 0.75, 1.5, 3.0, 6.0, 10.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +128,18 @@ class Replanner:
         self._failures = 0 if attempt.plan is not None else self._failures + 1
         if attempt.plan is not None:
             self.plan = self._continued(attempt.plan, time_s)
+        else:
+            self._wait_for_joint_triggers(time_s)
         return self._record(time_s, attempt)
+
+    def _wait_for_joint_triggers(self, time_s: float) -> None:
+        """Let heroes whose trigger both decide go on as they are: to begin at the old moment would be too early."""
+        for hero in self.scene.program.heroes:
+            profile, knot = self.plan.profiles[hero.id], self.structure.trigger_knot(hero.id)
+            planned = profile.knot_times_s.get(knot or "", -1.0)
+            if time_s < planned < time_s + _SETTLE_S and self._ego_side(hero) is None:
+                later = {**self.plan.profiles, hero.id: profile.held(planned, _SETTLE_S)}
+                self.plan = replace(self.plan, profiles=later)
 
     def _record(self, time_s: float, attempt: Attempt) -> Replan:
         tolerance = attempt.plan.tolerance if attempt.plan else self.plan.tolerance
