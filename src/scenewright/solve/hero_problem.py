@@ -124,7 +124,10 @@ class HeroProblem:
         if state is not None:
             return pin(state.time_s), pin(state.s_m), pin(state.speed_mps)
         position, speed = self.problem.unknown(f"a{hero.id}x0"), self.problem.unknown(f"a{hero.id}v0")
-        self.problem.bound(position, pin(_START_MARGIN_M), None, f"{hero.name} starts on its route")
+        turn = TurnSpan.of(self.scene.routes[hero.id])
+        # Who begins beyond the middle of its turn comes from where it is going.
+        latest = None if turn is None else pin(0.5 * (turn.start_m + turn.end_m))
+        self.problem.bound(position, pin(_START_MARGIN_M), latest, f"{hero.name} starts on its route, before its turn")
         self._bound_speed(hero, speed)
         if self.manner.steps <= 3:
             self.problem.bound(speed, pin(MOVING_MPS), None, f"{hero.name} drives when the scenario begins")
