@@ -54,8 +54,8 @@ for _command, _lines in _EXAMPLES.items():
 
 app.command(
     epilog=_examples(
+        "scenewright bench translate --group taxonomy",
         "scenewright bench translate --show",
-        "scenewright bench translate texts.toml --translators offline,openai:NAME",
     )
 )(bench_translate.translate)
 
