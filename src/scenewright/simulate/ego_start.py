@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
@@ -86,7 +86,8 @@ def _possible_starts(
             yield EgoFirstState(_position(scene, place, speed, conditions), speed)
         return
     steady = _steady(scene, ego, place, conditions, preferred or limits.natural_approach_speed_mps)
-    yield steady
+    # A policy with moods begins a run in its first one, whatever mood it arrived in.
+    yield replace(steady, accel_mpss=_first_acceleration(ego, steady.s_m, steady.speed_mps))
     if envelope is not None and envelope.holds_speed:
         return  # it has a speed of its own
     for share in _SLOWER_SHARES:

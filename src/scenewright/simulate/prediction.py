@@ -25,6 +25,8 @@ _LATERAL_MPSS = 2.5
 # Who has gained this much a second over the last second is speeding up on purpose.
 _LATELY_S, _SPEEDS_UP_MPSS = 1.0, 0.6
 _STEP_S, _MOST_STEPS = 0.5, 20
+# Below this share of what people drive there it crawls.
+_CRAWLS = 0.25
 
 
 class Predictor(Protocol):
@@ -89,7 +91,7 @@ class ConstantAcceleration:
 
     def speeding_up(self, history: Sequence[EgoSample], speed_mps: float) -> list[tuple[float, float, int]]:
         """Return how one that has been speeding up for a while goes on to `cruise_mps` from a speed below it."""
-        pull = self.pull(history)
+        pull = self.pull(history) or self._from_a_crawl(history)
         moves: list[tuple[float, float, int]] = []
         while pull and speed_mps < 0.98 * (self.cruise_mps or 0.0) and len(moves) < _MOST_STEPS:
             moves.append((_STEP_S, self.pulled(pull, speed_mps), 0))
@@ -108,6 +110,11 @@ class ConstantAcceleration:
         if self.cruise_mps is None or accel < _SPEEDS_UP_MPSS or speed_mps >= 0.98 * self.cruise_mps:
             return 0.0
         return min(3.0, accel / (1.0 - (speed_mps / self.cruise_mps) ** 4))
+
+    def _from_a_crawl(self, history: Sequence[EgoSample]) -> float:
+        """Return how one that crawls will pull: nobody crawls for ever, and a hero that believed so would stay away."""
+        slow = self.cruise_mps is not None and history[-1][2] < _CRAWLS * self.cruise_mps
+        return self.restart_mpss if slow and self.recent_acceleration(history) > -_SPEEDS_UP_MPSS else 0.0
 
     def pulled(self, pull_mpss: float, speed_mps: float) -> float:
         """Return the acceleration (m/s^2) at a speed, of one that pulls like that from standstill."""

@@ -45,7 +45,7 @@ _WITHOUT_OUTCOME = tuple(Trial(replace(manner, outcome=False)) for manner in (FI
 _BEYOND = ((1.05, 0.03), (1.3, 0.15), (2.0, 0.6))
 _FREE = replace(COUNTER, outcome=False)
 _UNSETTLED = replace(URGENT, outcome=False)
-_WORST = 16.0
+_WORST = 100.0
 _OFF = (
     *(Trial(_FREE, Fraction(tolerance)) for tolerance in ("0.9", "2", "4")),
     *(Trial(_UNSETTLED, Fraction(tolerance)) for tolerance in ("0", "0.9", "2", "4", "16")),
