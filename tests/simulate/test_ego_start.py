@@ -72,7 +72,7 @@ def test_free_start_lies_well_before_the_trigger(ego: str) -> None:
         assert (trigger_m - start.s_m) / start.speed_mps > 2.0
 
 
-@pytest.mark.parametrize("ego", ["idm", "dawdler"])
+@pytest.mark.parametrize("ego", ["idm", "dawdler", "stop-and-go", "staller"])
 @pytest.mark.parametrize("initial", ["", "A0x(t0) == intersection - 90", "tta(A0, intersection, t0) == 8"])
 def test_ego_goes_on_as_it_starts(ego: str, initial: str) -> None:
     on = stage(initial, ego)
