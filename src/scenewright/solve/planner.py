@@ -39,7 +39,7 @@ _HOPE_SLACK = 0.02
 # By how much of what the ego may be off its side the trigger is moved: no more than it takes.
 _SHIFTS = (Fraction(0), Fraction(1, 2), Fraction(1))
 # The largest miss that is searched for, in tight tolerances, and how often the search is halved.
-_FARTHEST, _HALVINGS = 100.0, 9
+_FARTHEST, _HALVINGS = 16.0, 7
 # What one question may cost the solver in a re-solve (some 10 ms) and at the start, in its own measure: the answers do
 # not depend on how busy the machine is, and what is hard to answer is seldom a good way.
 _EFFORT, _FIRST_EFFORT = 24_000, 150_000
