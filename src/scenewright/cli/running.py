@@ -304,7 +304,7 @@ def report_verdict(
 def _trigger(verdict: Verdict) -> str:
     facts = verdict.facts
     if facts.get("ego_never_met_condition"):
-        return "The ego never came to its side of the trigger: that says something about this policy in this scenario."
+        return "The ego never came within the tight tolerance of its side of the trigger: a finding about this policy."
     times = {hero: time_s for hero, time_s in (facts.get("trigger_time_s") or {}).items() if time_s is not None}
     if len(times) > 1:
         return "The triggers came at " + ", ".join(f"{time_s:.2f} s ({hero})" for hero, time_s in times.items()) + "."

@@ -14,7 +14,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from scenewright.errors import InputError, Place, ScenewrightError
-from scenewright.orchestrate import Request, Result, orchestrate
+from scenewright.orchestrate import Mode, Request, Result, orchestrate
 from scenewright.study.causes import cause_of
 from scenewright.study.draws import RANGES, draw_parameters
 from scenewright.study.workers import Crash, each_done
@@ -145,8 +145,9 @@ def _run_numbered(numbered: tuple[int, Case]) -> Outcome:
 
 def run_case(case: Case) -> Outcome:
     """Run one case and say what came of it."""
-    text, mode = case.description.text, "open" if case.mode == "open" else "closed"
-    request = Request(text, case.parameters, ego=case.ego, seed=case.seed, mode=mode, takes=case.takes)  # type: ignore[arg-type]
+    text = case.description.text
+    mode: Mode = "open" if case.mode == "open" else "closed"
+    request = Request(text, case.parameters, ego=case.ego, seed=case.seed, mode=mode, takes=case.takes)
     try:
         result = orchestrate(request)
     except ScenewrightError as error:

@@ -29,12 +29,16 @@ class Place:
     vague: bool = False  # "the driveway" stands for the landmark
 
 
+AreaRole = Literal["on", "from", "into", "across", "towards"]
+AreaKind = Literal["road", "driveway", "lane"]
+
+
 @dataclass(frozen=True, slots=True)
 class Area:
     """A stretch of the map that an actor is on, comes from or wants: ``onto the road travelling westbound``."""
 
-    role: Literal["on", "from", "into", "across", "towards"]
-    kind: Literal["road", "driveway", "lane"]
+    role: AreaRole
+    kind: AreaKind
     span: Span
     heading: str | None = None
     side: str | None = None  # "the northern driveway"

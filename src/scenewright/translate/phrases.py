@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import cast
 
-from scenewright.translate.events import Area, Place, Relation
+from scenewright.translate.events import Area, AreaKind, AreaRole, Place, Relation
 from scenewright.translate.noun_phrases import NounPhrases
 from scenewright.translate.references import NounPhrase
 from scenewright.translate.tokens import Quantity
@@ -212,7 +212,7 @@ class Phrases(NounPhrases):
         if found is None and preposition == "into" and self.tag(at + 1, "pronoun") and self.last_area is not None:
             span = self.span(at, at + 2)
             self.assume(f"'{span.excerpt(self.text)}' is the {self.last_area}")
-            return Area("into", cast("object", self.last_area), span), at + 2  # type: ignore[arg-type]
+            return Area("into", cast("AreaKind", self.last_area), span), at + 2
         if found is None:
             return None
         area, end = found
@@ -281,7 +281,8 @@ class Phrases(NounPhrases):
                 raise self.refuse("two headings contradict each other", self.span(start, after[1]))
             heading, end = after[0], after[1]
         span = self.span(start, end)
-        return Area(cast("object", role), cast("object", kind), span, heading, side, whose, oncoming, wanted_by), end  # type: ignore[arg-type]
+        known_role, known_kind = cast("AreaRole", role), cast("AreaKind", kind)
+        return Area(known_role, known_kind, span, heading, side, whose, oncoming, wanted_by), end
 
     def _wanted_lane(self, at: int) -> tuple[int, int] | None:
         """Read "that the ego wants to turn into"; return who wants it and the position after it."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from scenewright.study.report.counting import counted, rate
+from scenewright.study.report.counting import Which, counted, rate
 from scenewright.study.report.explanations import LATER_COLOUR, colour_of
 from scenewright.study.report.records import (
     LEVEL_TEXT,
@@ -38,6 +38,7 @@ if TYPE_CHECKING:
 
 _INTERACTIONS = ("Hero brakes", "Hero yields", "Hero does not yield", "Hero yields then goes")
 _TRIGGERS = ("Distance", "Time")
+_TAKES: tuple[Which, ...] = ("first", "best")
 
 
 def draw_families(records: Sequence[CaseRecord], theme: Theme) -> Figure:
@@ -97,11 +98,11 @@ def draw_egos(records: Sequence[CaseRecord], theme: Theme) -> Figure:
     figure = new_figure(10.5, 1.5 + 0.36 * len(egos), theme)
     panels = figure.subplots(1, 2, sharey=True, squeeze=False)[0]
     by = grouped(records, lambda record: (record.ego, record.method))
-    for axes, which, title in zip(panels, ("first", "best"), ("First take", "Best of N"), strict=True):
+    for axes, which, title in zip(panels, _TAKES, ("First take", "Best of N"), strict=True):
         shares = np.full((len(egos), len(methods)), np.nan)
         for i, ego in enumerate(egos):
             for j, method in enumerate(methods):
-                value = rate(by.get((ego, method), []), which).value  # type: ignore[arg-type]
+                value = rate(by.get((ego, method), []), which).value
                 shares[i, j] = np.nan if value is None else 100 * value
         _heat(axes, shares, theme)
         axes.set_title(f"{title}: success at tight tolerance (%)")
@@ -132,8 +133,8 @@ def draw_tolerance(records: Sequence[CaseRecord], theme: Theme) -> Figure:
     places = np.arange(len(LEVEL_NAMES))
     for position, method in enumerate(methods_of(records)):
         colour, marker = method_colour(method, theme), method_marker(position)
-        for which, line in (("first", "-"), ("best", (0, (4, 2)))):
-            shares = [rate(by[method], which, level).value for level in LEVEL_NAMES]  # type: ignore[arg-type]
+        for which, line in zip(_TAKES, ("-", (0, (4, 2))), strict=True):
+            shares = [rate(by[method], which, level).value for level in LEVEL_NAMES]
             heights = [np.nan if share is None else 100 * share for share in shares]
             label = method if which == "first" else None
             wide = 2.2 if method == OURS else 1.4
