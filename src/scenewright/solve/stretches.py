@@ -143,14 +143,14 @@ def approach_rates(manner: Manner, stretch: Stretch, following: PieceKind) -> tu
     Before its trigger it settles. The gentlest shapes hold their speed; the others do not begin early what `following`
     is to begin, and do the opposite no harder than the manner says: who is about to brake may still speed up.
     """
-    up, down = Fraction(str(manner.approach_accel_mpss)), Fraction(str(manner.approach_brake_mpss))
+    up, down = pin(manner.approach_accel_mpss), pin(manner.approach_brake_mpss)
     if stretch.waiting:
         return up, pin(WAIT_BRAKE_MPSS)
     if not stretch.settled:
         return up, down
     if manner.steps <= 2:
         return Fraction(0), Fraction(0)
-    early, counter = Fraction(str(BEGINNING_MPSS)), Fraction(str(manner.counter_mpss))
+    early, counter = pin(BEGINNING_MPSS), pin(manner.counter_mpss)
     if following is PieceKind.DEC:
         return min(up, counter), min(down, early)
     if following is PieceKind.ACC:

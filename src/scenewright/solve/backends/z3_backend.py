@@ -1,8 +1,9 @@
 """Solves problems with z3, through SMT-LIB text.
 
 What enters: a `Problem`. What leaves: a `Result`. z3 parses text faster than Python builds its expressions one by one;
-a fresh solver each time stays on the fast path (push and pop leave it). Algebraic numbers in models are rounded to
-rationals.
+a fresh solver each time stays on the fast path (push and pop leave it). Equations are used up and bounds carried over
+before the algebra begins: that is most of what a motion's problem consists of. Algebraic numbers in models are rounded
+to rationals.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import z3
 from scenewright.solve.problem import Problem, Result, Satisfiable, Unknown, Unsatisfiable
 
 _ALGEBRAIC_DIGITS = 12
+_STEPS = ("simplify", "solve-eqs", "simplify", "propagate-ineqs", "qfnra-nlsat")
 
 
 class Z3Backend:
@@ -26,7 +28,8 @@ class Z3Backend:
         """Solve `problem` within `timeout_s`; unsatisfiable results carry a minimal core where `want_core` is set."""
         # What was asked before stays behind in a context and sways the models of what comes next: a fresh one, for a
         # millisecond, keeps an answer the same whatever else the process has solved.
-        solver = z3.Solver(ctx=z3.Context())
+        context = z3.Context()
+        solver = z3.Solver(ctx=context) if want_core else z3.Then(*_STEPS, ctx=context).solver()
         solver.set("timeout", max(1, int(timeout_s * 1000)))
         if effort is not None:
             solver.set("rlimit", effort)
