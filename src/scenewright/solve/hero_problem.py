@@ -18,6 +18,7 @@ from scenewright.program.structure import KnotKey, Role, Structure, actors_of, k
 from scenewright.program.types import EGO, Actor, Constraint, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
+from scenewright.solve.clearance import Clearance
 from scenewright.solve.limits import BRAKE_MAX_MPSS, MOVING_MPS, Limits, Manner
 from scenewright.solve.lowering import Lowering, NotYet
 from scenewright.solve.problem import Problem
@@ -96,6 +97,8 @@ class HeroProblem:
         pieces: dict[int, tuple[int, int]] = {}
         if state is None:
             knots[hero.sketch.knots[0]] = 0
+        clearance = self._clearance(hero, state, position)
+        now: Value | None = start
         for k, stretch in enumerate(stretches):
             duration: Value
             if stretch.duration_s is None:
@@ -108,6 +111,10 @@ class HeroProblem:
             next_speed = problem.unknown(f"{prefix}v{k + 1}")
             next_position = problem.unknown(f"{prefix}x{k + 1}")
             self._add_stretch(hero, stretch, positions[-1], speeds[-1], next_position, next_speed, duration)
+            now = now + duration if isinstance(now, Fraction) and isinstance(duration, Fraction) else None
+            if clearance is not None and isinstance(now, Fraction) and stretch.approach and stretch.end_knot is None:
+                label = f"{hero.name} keeps clear of the ego"
+                self.problem.require(clearance.condition(self.situation.ego, float(now), next_position), label)
             positions.append(next_position)
             speeds.append(next_speed)
             durations.append(duration)
@@ -118,6 +125,18 @@ class HeroProblem:
         motion = SketchedMotion(start, tuple(positions), tuple(speeds), tuple(durations), (None,) * len(durations))
         past = KnownView(state.history, state.knots_s) if state else None
         return SketchedView(motion, knots, pieces, past)
+
+    def _clearance(self, hero: Actor, state: HeroState | None, position: Value) -> Clearance | None:
+        """Return how the hero keeps clear of the ego on their way; None where it need not, or no longer does."""
+        clearance = Clearance.of(self.scene, self.structure, self.conditions, hero)
+        if clearance is None:
+            return None
+        ego, now_s = self.situation.ego, self.situation.time_s
+        if state is None:
+            label = f"{hero.name} starts clear of the ego"
+            self.problem.require(clearance.condition(ego, now_s, position), label)
+            return clearance
+        return clearance if clearance.is_kept(ego, now_s, state.s_m) else None
 
     def _first_state(self, hero: Actor, state: HeroState | None) -> tuple[Value, Value, Value]:
         """Return time, position and speed to go on from: what they are, or free within the route."""
