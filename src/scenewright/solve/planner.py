@@ -48,6 +48,8 @@ _TOO_HARD = "timeout"
 _EASE_EVERY = 3
 # What is soon for a trigger whose moment is free (s).
 _SOON_S = 8.0
+# What is later than planned by more than this is put off (s).
+_PUT_OFF_S = 0.05
 # How many of the instants to try are about the planned one.
 _NEAR = 4
 # Pinning rounds by at most 5e-5 at each of a handful of numbers; a checked plan may be off by that, no more.
@@ -165,11 +167,14 @@ class Planner:
     ) -> tuple[list[tuple[Trial, Situation]], Callable[[int], Iterator[tuple[Trial, Situation]]]]:
         """Return what to try, in order: what is exact, and, from some number on, what is not.
 
-        Every manner about the planned instant comes before any at a far one.
+        Every manner at the planned instant comes before any at a later one: who puts off its trigger to move a little
+        more gently may put it off for ever.
         """
         near, far = situations[:_NEAR], situations[_NEAR:]
+        in_time = [situation for situation in near if not _is_put_off(situation)]
+        put_off = [situation for situation in near if _is_put_off(situation)]
         gentle, others = self.trials[: len(EXACT)], self.trials[len(EXACT) :]
-        groups = ((gentle, near), (gentle, far), (others, near))
+        groups = ((gentle, in_time), (gentle, put_off), (gentle, far), (others, near))
         exact = [(trial, situation) for trials, some in groups for trial in trials for situation in some]
 
         def last(first: int) -> Iterator[tuple[Trial, Situation]]:
@@ -278,6 +283,12 @@ def broken_limit(profile: Profile, limits: Limits, after_s: float = -math.inf) -
         if min(speeds) < -_LIMIT_SLACK or max(speeds) > top + _LIMIT_SLACK:
             return f"speed {min(speeds):.3f} to {max(speeds):.3f} m/s"
     return None
+
+
+def _is_put_off(situation: Situation) -> bool:
+    """Whether a trigger would come later than it is planned to."""
+    planned = situation.planned_trigger_s
+    return any(situation.trigger_s[hero] > planned_s + _PUT_OFF_S for hero, planned_s in planned.items())
 
 
 def _retimed(situation: Situation, tolerance: Fraction) -> Situation:
