@@ -11,12 +11,14 @@ import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from scenewright.motion.profile import Profile
+from scenewright.motion.profile import Profile, chain
 from scenewright.program.structure import Role, Structure, knots_of
 from scenewright.program.types import EGO, Actor
 from scenewright.roads.grounding import Scene
-from scenewright.simulate.prediction import EgoSample, Predictor
+from scenewright.simulate.following import Leader, foresee_follower
+from scenewright.simulate.prediction import ConstantSpeed, EgoSample, Predictor
 from scenewright.solve.arrival import TIGHT_LENGTH_M, LinearCondition, tight_of
+from scenewright.solve.clearance import Clearance
 from scenewright.solve.plan import Plan
 from scenewright.solve.planner import Attempt, Planner
 from scenewright.solve.situation import HeroState, Situation
@@ -24,8 +26,8 @@ from scenewright.solve.situation import HeroState, Situation
 # While much time is left a late or early ego is nothing to act on; the dead band shrinks to almost nothing.
 _DEAD_BAND_S = 0.003
 _DEAD_BAND_SHARE = 0.02
-_DEAD_BAND_M = 0.05
-_DEAD_BAND_MPS = 0.1
+# In the last half second of a trigger whose moment is free.
+_DEAD_BAND_LAST_S = 0.03
 _SETTLE_S = 0.5
 _LATE_MISS, _EARLY_MISS = 0.5, 0.12
 _LONGEST_SLACK_S = 1.0
@@ -33,8 +35,14 @@ _FAR_S = 40.0
 # After so many failures in a row only every so many ticks are tried: the time of a hopeless run is better spent.
 _PATIENT_FAILURES = 20
 _RETRY_EVERY = 3
+# By how much a trigger that both decide may come later than first planned (s), so that the hero can hold its speed.
+_PATIENCE_S = 3.0
+# How often a first plan is made again, for an ego that reacts to the one before.
+_SECOND_THOUGHTS = 2
 _SHORTEST_LEAD_S = 0.02
 _FIRST_TRIGGERS_S = (2.5, 3.5, 4.5, 6.0, 8.0, 10.0, 13.0, 16.0, 2.0, 1.5, 1.0, 20.0, 25.0)
+# Whom the ego follows is answered: the sooner the trigger comes, the better it is foreseen.
+_FIRST_TRIGGERS_WHEN_FOLLOWED_S = (1.5, 2.0, *_FIRST_TRIGGERS_S)
 _RETRY_TRIGGERS_S = (0.0, 0.25, -0.25, 0.75, 1.5, 3.0, 6.0, 10.0)
 
 
@@ -72,6 +80,16 @@ class Replanner:
     records: list[Replan] = field(init=False, default_factory=list)
     _samples: list[EgoSample] = field(init=False, default_factory=list)
     _failures: int = field(init=False, default=0)
+    _first_trigger_s: float = field(init=False, default=0.0)
+    _leaders: dict[int, Clearance] = field(init=False, default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if isinstance(self.predictor, ConstantSpeed):
+            return  # whoever drives ahead
+        for hero in self.scene.program.heroes:
+            clearance = Clearance.of(self.scene, self.structure, self.conditions, hero)
+            if clearance is not None and clearance.ahead:
+                self._leaders[hero.id] = clearance
 
     # -- the first plan ---------------------------------------------------------------------------------------------
     def begin(self, ego: EgoSample) -> Attempt:
@@ -80,10 +98,20 @@ class Replanner:
         prediction = self.predictor.predict([ego])
         knots = {self.scene.program.ego.sketch.knots[0]: 0.0}
         attempt = self.planner.first_plan(self._situations(0.0, prediction, knots, {}))
+        for _ in range(_SECOND_THOUGHTS if self._leaders else 0):
+            if attempt.plan is None:
+                break
+            self.plan = attempt.plan
+            followed = self.planner.first_plan(self._situations(0.0, self._foresee(), knots, {}))
+            if followed.plan is None:
+                break
+            attempt = followed
         if attempt.plan is not None:
             self.plan = attempt.plan
             self.ego_knots_s = knots
             self.records = [self._record(0.0, attempt)]
+            triggered = [hero for hero in self.scene.program.heroes if self.structure.trigger_knot(hero.id)]
+            self._first_trigger_s = max(map(self._planned_trigger_s, triggered), default=0.0)
         return attempt
 
     # -- one tick ---------------------------------------------------------------------------------------------------
@@ -116,8 +144,17 @@ class Replanner:
         self.records.append(record)
         return record
 
-    def _resolve(self, time_s: float) -> Replan:
+    def _foresee(self) -> Profile:
+        """Return how the ego will go on, while the heroes do what is planned."""
         prediction = self.predictor.predict(self._samples)
+        for hero_id, clearance in self._leaders.items():
+            leader = Leader(self.plan.profiles[hero_id], clearance.offset_m)
+            cruise_mps = self.planner.limits[EGO].natural_approach_speed_mps
+            prediction = foresee_follower(prediction, self._samples, leader, cruise_mps)
+        return prediction
+
+    def _resolve(self, time_s: float) -> Replan:
+        prediction = self._foresee()
         heroes = {hero.id: self._hero_state(hero, time_s) for hero in self.scene.program.heroes}
         situations = self._situations(time_s, prediction, self.ego_knots_s, heroes)
         if self._plan_still_fits(time_s, situations[0]):
@@ -253,6 +290,11 @@ class Replanner:
             if trigger is not None and (hero.id not in heroes or trigger not in heroes[hero.id].knots_s):
                 choices[hero.id] = self._trigger_instants(hero, time_s, prediction, heroes)
         situations = []
+        coasting = self._coasting(time_s, prediction, heroes, choices) if heroes else None
+        if coasting is not None:
+            knots = self._ego_knots(time_s, prediction, ego_past, coasting)
+            planned = {hero: self._planned_trigger_s(self.scene.program.actor(hero)) for hero in coasting}
+            situations.append(Situation(time_s, prediction, knots, heroes, coasting, planned, coasting=True))
         for k in range(max((len(instants) for instants in choices.values()), default=1)):
             triggers = {hero: instants[min(k, len(instants) - 1)] for hero, instants in choices.items()}
             knots = self._ego_knots(time_s, prediction, ego_past, triggers)
@@ -271,7 +313,7 @@ class Replanner:
 
     def _ego_side(self, hero: Actor) -> LinearCondition | None:
         """Return the condition on the ego alone that the hero's trigger waits for; None where both decide."""
-        here = [c for c in self.conditions if c.moments <= self.structure.triggers[hero.id]]
+        here = self._conditions_of(hero)
         known = self._hero_place(hero, here)
         for condition in here:
             alone = condition.given(hero.id, *known) if hero.id in condition.weights and known else condition
@@ -308,8 +350,8 @@ class Replanner:
         if side is not None:
             return [self._ego_arrival_s(side, time_s, prediction)]
         if hero.id not in heroes:
-            return list(_FIRST_TRIGGERS_S)
-        here = [c for c in self.conditions if c.moments <= self.structure.triggers[hero.id]]
+            return list(_FIRST_TRIGGERS_WHEN_FOLLOWED_S if hero.id in self._leaders else _FIRST_TRIGGERS_S)
+        here = self._conditions_of(hero)
         return self._joint_instants(hero, here, time_s, prediction)
 
     def _ego_arrival_s(self, condition: LinearCondition, time_s: float, prediction: Profile) -> float:
@@ -318,6 +360,39 @@ class Replanner:
         if arrival is None and self._samples and self._is_behind(condition, self._samples[-1][1:4]):
             arrival = time_s
         return time_s + _FAR_S if arrival is None else max(arrival, time_s + _SHORTEST_LEAD_S)
+
+    def _coasting(
+        self,
+        time_s: float,
+        prediction: Profile,
+        heroes: Mapping[int, HeroState],
+        choices: Mapping[int, list[float]],
+    ) -> dict[int, float] | None:
+        """Return when a trigger that both decide comes if the hero just holds its speed; None where not soon.
+
+        An ego that follows the hero answers whatever that does: the less it does, the better the ego is foreseen.
+        """
+        if len(choices) != 1:
+            return None
+        hero = self.scene.program.actor(next(iter(choices)))
+        if self._ego_side(hero) is not None:
+            return None
+        state = heroes[hero.id]
+        motion = Profile(chain(time_s, state.s_m, state.speed_mps, [(1.0, 0.0, state.piece)]))
+        both = [c for c in self._at_trigger() if set(c.weights) == {EGO, hero.id}]
+        crossings = [c.first_time({EGO: prediction, hero.id: motion}, time_s) for c in both]
+        if len(both) != 1 or len(self._conditions_of(hero)) != 1:
+            return None
+        soonest_s = time_s + _SHORTEST_LEAD_S
+        if crossings[0] is not None and crossings[0] < self._first_trigger_s + _PATIENCE_S:
+            return {hero.id: max(crossings[0], soonest_s)}
+        # Between two ticks it may have come sooner than foreseen.
+        near = self._joint_miss(soonest_s, hero, prediction, motion) <= _LATE_MISS
+        at_once = near and self._planned_trigger_s(hero) < time_s + _SETTLE_S
+        return {hero.id: soonest_s} if at_once else None
+
+    def _conditions_of(self, hero: Actor) -> list[LinearCondition]:
+        return [c for c in self.conditions if c.moments <= self.structure.triggers[hero.id]]
 
     def _hero_place(self, hero: Actor, conditions: list[LinearCondition]) -> tuple[float, float] | None:
         """Return position and speed of the hero at its trigger where the program fixes the position."""
@@ -390,8 +465,12 @@ class Replanner:
         planned = self._planned_trigger_s(hero)
         off_s = abs(situation.trigger_s[hero.id] - planned)
         left_s = max(0.0, planned - time_s)
-        if self._joint_miss_m(hero, planned, situation.ego) > _DEAD_BAND_M + _DEAD_BAND_MPS * left_s:
+        miss = self._joint_miss(planned, hero, situation.ego, self.plan.profiles[hero.id])
+        settled = left_s <= _SETTLE_S and self.plan.tolerance <= _LATE_MISS
+        if miss > (_LATE_MISS if settled else _EARLY_MISS * (1.0 + left_s)):
             return False
+        if settled and self._ego_side(hero) is None:
+            return off_s <= _DEAD_BAND_LAST_S
         if self._ego_side(hero) is not None:
             # Within the last half second the hero stays settled for as long as that is good enough.
             miss, tolerance = (_LATE_MISS, _LATE_MISS) if left_s <= _SETTLE_S else (_EARLY_MISS, 0.0)
@@ -399,11 +478,11 @@ class Replanner:
                 return True
         return self.plan.tolerance == 0.0 and off_s <= _DEAD_BAND_S + _DEAD_BAND_SHARE * left_s
 
-    def _joint_miss_m(self, hero: Actor, planned_s: float, prediction: Profile) -> float:
-        """Return by how much the plan would miss a condition on both, such as a gap, at the planned instant."""
-        states = {EGO: prediction.state(planned_s)[:2], hero.id: self.plan.profiles[hero.id].state(planned_s)[:2]}
+    def _joint_miss(self, instant_s: float, hero: Actor, prediction: Profile, motion: Profile) -> float:
+        """Return by how much `motion` misses a condition on both, such as a gap, in tight tolerances."""
+        states = {EGO: prediction.state(instant_s)[:2], hero.id: motion.state(instant_s)[:2]}
         both = [c for c in self._at_trigger() if set(c.weights) == set(states)]
-        return max((abs(c.value(states)) for c in both), default=0.0)
+        return max((abs(c.value(states)) / tight_of(c, states[EGO][1]) for c in both), default=0.0)
 
     def _outcome_fits(self, hero: Actor, situation: Situation, times: Mapping[str, float]) -> bool:
         last_ego = max(situation.ego_knots_s.values(), default=0.0)

@@ -40,6 +40,7 @@ _START_MARGIN_M = 3.0
 _LONGEST_CLEARANCE_S = 8.0
 _RESERVE = 0.8
 _SHORTEST_S = Fraction(1, 20)
+_OPENING_RANGE_MPS = 1.0
 _SEEN_S = Fraction(3, 5)  # braking or speeding up for less is hardly seen to have begun
 _LONGEST_S = Fraction(90)
 
@@ -115,6 +116,8 @@ class HeroProblem:
             if clearance is not None and isinstance(now, Fraction) and stretch.approach and stretch.end_knot is None:
                 label = f"{hero.name} keeps clear of the ego"
                 self.problem.require(clearance.condition(self.situation.ego, float(now), next_position), label)
+            if clearance is not None and stretch.approach and stretch.end_knot is not None:
+                self._require_opening(hero, clearance, next_speed)
             positions.append(next_position)
             speeds.append(next_speed)
             durations.append(duration)
@@ -137,6 +140,15 @@ class HeroProblem:
             self.problem.require(clearance.condition(ego, now_s, position), label)
             return clearance
         return clearance if clearance.is_kept(ego, now_s, state.s_m) else None
+
+    def _require_opening(self, hero: Actor, clearance: Clearance, speed: Symbol) -> None:
+        """Require that the distance between hero and ego grows at the trigger, where the manner asks for it."""
+        instant_s, opening_mps = self.situation.trigger_s.get(hero.id), self.manner.opening_mps
+        if opening_mps is None or instant_s is None or not clearance.ahead:
+            return
+        least = pin(self.situation.ego.state(instant_s)[1] + opening_mps)
+        most = least + pin(_OPENING_RANGE_MPS)
+        self.problem.bound(speed, least, most, f"{hero.name} draws away from the ego at its trigger")
 
     def _first_state(self, hero: Actor, state: HeroState | None) -> tuple[Value, Value, Value]:
         """Return time, position and speed to go on from: what they are, or free within the route."""
@@ -235,7 +247,8 @@ class HeroProblem:
     def _bound_speed(self, hero: Actor, speed: Symbol, after: bool = False) -> None:
         limits = self.limits[hero.id]
         top = self.manner.top_speed_after_mps(limits) if after else self.manner.top_speeds_mps(limits)[0]
-        if hero.id not in self.situation.heroes and self.manner.steps <= 3 and not after:
+        reserved = self.manner.steps <= 3 and self.manner.opening_mps is None
+        if hero.id not in self.situation.heroes and reserved and not after:
             # Who starts as fast as it may drive can never catch up with an ego that is early.
             top = min(top, _RESERVE * limits.approach_speed_max_mps)
         self.problem.bound(speed, 0, pin(top), f"{hero.name} drives at 0 to {top:.1f} m/s")

@@ -78,6 +78,10 @@ class Manner:
         By how much the prediction must promise it; less than nothing asks for the best that can be done.
     clear
         Whether the first to pass must also be out of the way of the second.
+    opening_mps
+        For one that the ego follows: by how much it is faster at its trigger than the ego; None for no matter. Where
+        the distance hardly changes, nobody can tell when it is the one that was asked for; and a distance that shrinks
+        makes the ego brake, so that it may never come.
     """
 
     name: str
@@ -95,6 +99,7 @@ class Manner:
     clear: bool = True
     counter_mpss: float = SETTLED_MPSS
     wait_go_s: float = 0.0
+    opening_mps: float | None = None
 
     def top_speeds_mps(self, limits: Limits) -> tuple[float, float]:
         """Return the top speed on the way to the trigger and in a turn, for an actor within `limits`."""
@@ -108,6 +113,8 @@ class Manner:
 
 
 STEADY = Manner("steady", 0.0, 0.0, 1, True, (1.2, 2.4), (1.2, 2.5), (0.6, 1.2), 2.0, True)
+# Where the moment is free and holding the speed leads to one: only rounding is made up for.
+COASTING = Manner("steady", 0.02, 0.02, 1, True, (0.7, 6.0), (0.8, 3.5), (0.5, 3.0), MOVING_MPS, False)
 GENTLE = Manner("gentle", 1.0, 1.2, 2, True, (0.9, 4.0), (1.0, 2.5), (0.6, 1.5), 1.5, True)
 FIRM = Manner("firm", 2.5, 3.0, 3, True, (0.7, 6.0), (0.8, 3.5), (0.5, 3.0), MOVING_MPS, False)
 WHOLE = Manner("whole", ACCEL_MAX_MPSS, 6.0, 5, True, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)

@@ -22,6 +22,7 @@ from scenewright.program.structure import Role, Structure
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
+from scenewright.solve.clearance import Clearance
 from scenewright.solve.hero_problem import HeroProblem
 from scenewright.solve.limits import Limits, Manner
 from scenewright.solve.lowering import TIGHT, compared_dimension
@@ -29,7 +30,7 @@ from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.solve.problem import Backend, Satisfiable, Unknown
 from scenewright.solve.reach import Prospects
 from scenewright.solve.situation import Situation
-from scenewright.solve.trials import EXACT, Trial, first_trials, off, relaxed, trials
+from scenewright.solve.trials import COAST, EXACT, Trial, first_trials, off, opening, relaxed, trials
 
 _TRIES_A_TICK = 4
 # Steps in which the best for a denied outcome is searched, and what is left to later re-solves (s).
@@ -50,6 +51,8 @@ _EASE_EVERY = 3
 _SOON_S = 8.0
 # What is later than planned by more than this is put off (s).
 _PUT_OFF_S = 0.05
+# By how much a hero that the ego follows is faster at its trigger, at first and later (m/s).
+_FIRST_OPENINGS_MPS, _OPENING_MPS = (2.0, 1.0, 0.5), 0.5
 # How many of the instants to try are about the planned one.
 _NEAR = 4
 # Pinning rounds by at most 5e-5 at each of a handful of numbers; a checked plan may be off by that, no more.
@@ -104,6 +107,8 @@ class Planner:
         self.backend = backend
         self.budget_s = budget_s
         self._outcome = Role.OUTCOME in structure.roles.values()
+        clearances = [Clearance.of(scene, structure, conditions, hero) for hero in scene.program.heroes]
+        self._leads = any(clearance is not None and clearance.ahead for clearance in clearances)
         self._prospects = Prospects(scene.program, structure, limits, conditions)
         self.trials = trials(self._outcome)
         self._held = self.trials[0].manner
@@ -117,8 +122,10 @@ class Planner:
         # Where both decide when: rather soon and less evenly than late, when the ego may have changed its pace.
         soon = [s for s in situations if min(s.trigger_s.values(), default=0.0) <= _SOON_S or len(situations) == 1]
         later = [s for s in situations if s not in soon]
+        drawing_away = opening((*first_trials(self._outcome), *EXACT), _FIRST_OPENINGS_MPS) if self._leads else ()
         groups = ((exact, soon), (exact, later), (off(), situations))
-        ways = [(trial, situation) for trials_, some in groups for trial in trials_ for situation in some]
+        ways = [(trial, situation) for situation in soon for trial in drawing_away]
+        ways += [(trial, situation) for trials_, some in groups for trial in trials_ for situation in some]
         attempt, found = self._search(ways, budget_s, 2 * len(ways))
         if attempt.plan is None or found is None or found[1].manner.outcome_margin_s > 0:
             return attempt
@@ -151,7 +158,9 @@ class Planner:
         first = self._position
         if not self._searching and len(situations) == 1:
             first = min(first, len(exact))  # how far off the trigger must be is asked anew at every tick
-        if self._replans % _EASE_EVERY == 0 and not self._searching:
+        if any(situation.coasting for situation in situations):
+            first = 0
+        elif self._replans % _EASE_EVERY == 0 and not self._searching:
             gentler = (number for number in range(min(first, len(exact)) - 1, -1, -1) if self._timed(*exact[number]))
             first = next(gentler, first) if len(situations) == 1 else 0
         attempt, tried = self._search(chain(exact[first:], others(max(0, first - len(exact)))), self.budget_s)
@@ -170,11 +179,14 @@ class Planner:
         Every manner at the planned instant comes before any at a later one: who puts off its trigger to move a little
         more gently may put it off for ever.
         """
+        coasting = [situation for situation in situations if situation.coasting]
+        situations = [situation for situation in situations if not situation.coasting]
         near, far = situations[:_NEAR], situations[_NEAR:]
         in_time = [situation for situation in near if not _is_put_off(situation)]
         put_off = [situation for situation in near if _is_put_off(situation)]
         gentle, others = self.trials[: len(EXACT)], self.trials[len(EXACT) :]
-        groups = ((gentle, in_time), (gentle, put_off), (gentle, far), (others, near))
+        drawing_away = opening(EXACT, (_OPENING_MPS,)) if self._leads else ()
+        groups = ((COAST, coasting), (drawing_away, in_time), (gentle, in_time), (gentle, put_off), (gentle, far), (others, near))
         exact = [(trial, situation) for trials, some in groups for trial in trials for situation in some]
 
         def last(first: int) -> Iterator[tuple[Trial, Situation]]:

@@ -41,6 +41,8 @@ class Situation:
         The instant that the plan in force has for it.
     ego_slack_s
         By how much the instant may move until the ego is one tight tolerance off its own side.
+    coasting
+        Whether heroes that hold their speed meet the trigger at that instant.
     """
 
     time_s: float
@@ -50,3 +52,4 @@ class Situation:
     trigger_s: Mapping[int, float]
     planned_trigger_s: Mapping[int, float] = field(default_factory=dict)
     ego_slack_s: float = 0.0
+    coasting: bool = False

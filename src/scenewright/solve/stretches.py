@@ -14,7 +14,7 @@ from scenewright.program.expressions import Compare, Formula, PieceRef, State, w
 from scenewright.program.structure import Structure
 from scenewright.program.types import Actor, PieceKind, Program
 from scenewright.solve.arrival import LinearCondition
-from scenewright.solve.limits import BEGINNING_MPSS, WAIT_BRAKE_MPSS, Limits, Manner
+from scenewright.solve.limits import BEGINNING_MPSS, COASTING, WAIT_BRAKE_MPSS, Limits, Manner
 from scenewright.solve.situation import Situation
 
 _WALKING_MPS = 2.0
@@ -149,7 +149,7 @@ def approach_rates(manner: Manner, stretch: Stretch, following: PieceKind) -> tu
     if not stretch.settled:
         return up, down
     if manner.steps <= 2:
-        return Fraction(0), Fraction(0)
+        return (up, down) if manner == COASTING else (Fraction(0), Fraction(0))
     early, counter = pin(BEGINNING_MPSS), pin(manner.counter_mpss)
     if following is PieceKind.DEC:
         return min(up, counter), min(down, early)

@@ -5,11 +5,12 @@ What enters: nothing. What leaves: `Trial`s. It tries none of them.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from scenewright.solve.limits import (
+    COASTING,
     COUNTER,
     COUNTER_QUICK,
     FIRM,
@@ -33,6 +34,7 @@ class Trial:
     tolerance: Fraction = Fraction(0)
 
 
+COAST = (Trial(COASTING), Trial(COASTING, Fraction(1, 2)))
 EXACT = tuple(Trial(manner) for manner in (GENTLE, FIRM, WHOLE, COUNTER))
 # Where the prediction denies the outcome, the hero does the most it can for it: the ego may still give way.
 _QUICK = tuple(Trial(manner) for manner in (GENTLE_QUICK, FIRM_QUICK, WHOLE_QUICK, COUNTER_QUICK))
@@ -84,6 +86,11 @@ def off() -> tuple[Trial, ...]:
 
 def _trial(manner: Manner, tolerance: float) -> Trial:
     return Trial(manner, Fraction(round(min(tolerance, _WORST), 2)).limit_denominator(100))
+
+
+def opening(trials: tuple[Trial, ...], by_mps: Iterable[float]) -> tuple[Trial, ...]:
+    """Return the same trials for one that the ego follows, drawing away from it at its trigger, the fastest first."""
+    return tuple(replace(trial, manner=replace(trial.manner, opening_mps=mps)) for mps in by_mps for trial in trials)
 
 
 def first_trials(outcome: bool) -> tuple[Trial, ...]:
