@@ -51,8 +51,8 @@ _EASE_EVERY = 3
 _SOON_S = 8.0
 # What is later than planned by more than this is put off (s).
 _PUT_OFF_S = 0.05
-# By how much a hero that the ego follows is faster at its trigger, at first and later (m/s).
-_FIRST_OPENINGS_MPS, _OPENING_MPS = (2.0, 1.0, 0.5), 0.5
+# By how much a hero that the ego follows is faster at its trigger where it can be (m/s).
+_OPENINGS_MPS = (2.0, 1.0, 0.5)
 # How many of the instants to try are about the planned one.
 _NEAR = 4
 # Pinning rounds by at most 5e-5 at each of a handful of numbers; a checked plan may be off by that, no more.
@@ -122,7 +122,7 @@ class Planner:
         # Where both decide when: rather soon and less evenly than late, when the ego may have changed its pace.
         soon = [s for s in situations if min(s.trigger_s.values(), default=0.0) <= _SOON_S or len(situations) == 1]
         later = [s for s in situations if s not in soon]
-        drawing_away = opening((*first_trials(self._outcome), *EXACT), _FIRST_OPENINGS_MPS) if self._leads else ()
+        drawing_away = opening(first_trials(self._outcome), _OPENINGS_MPS) if self._leads else ()
         groups = ((exact, soon), (exact, later), (off(), situations))
         ways = [(trial, situation) for situation in soon for trial in drawing_away]
         ways += [(trial, situation) for trials_, some in groups for trial in trials_ for situation in some]
@@ -185,8 +185,7 @@ class Planner:
         in_time = [situation for situation in near if not _is_put_off(situation)]
         put_off = [situation for situation in near if _is_put_off(situation)]
         gentle, others = self.trials[: len(EXACT)], self.trials[len(EXACT) :]
-        drawing_away = opening(EXACT, (_OPENING_MPS,)) if self._leads else ()
-        groups = ((COAST, coasting), (drawing_away, in_time), (gentle, in_time), (gentle, put_off), (gentle, far), (others, near))
+        groups = ((COAST, coasting), (gentle, in_time), (gentle, put_off), (gentle, far), (others, near))
         exact = [(trial, situation) for trials, some in groups for trial in trials for situation in some]
 
         def last(first: int) -> Iterator[tuple[Trial, Situation]]:
