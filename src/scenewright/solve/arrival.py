@@ -189,6 +189,12 @@ def _with_rest(profile: Profile) -> Iterator[Segment]:
     yield Segment(last.end_s, HORIZON_S, last.end_s_m, last.end_speed_mps, 0.0)
 
 
+def hero_side(conditions: tuple[LinearCondition, ...], structure: Structure, hero: int) -> LinearCondition | None:
+    """Return the condition on the hero alone at its trigger; None where it has no side of its own."""
+    instant = structure.triggers.get(hero, frozenset())
+    return next((c for c in conditions if set(c.weights) == {hero} and c.moments <= instant), None)
+
+
 def tight_of(condition: LinearCondition, speed_mps: float) -> float:
     """Return one tight tolerance in the condition's own terms: a time to arrival is multiplied by the speed in them."""
     per_metre, per_speed = condition.weights[EGO]

@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 
+import numpy as np
+
 from scenewright.motion.algebra import Condition, Symbol, Value, compare, pin
 from scenewright.motion.profile import Profile, chain
 from scenewright.motion.sketched import SketchedMotion
@@ -17,7 +19,7 @@ from scenewright.program.expressions import Compare, Elapsed, Formula, PieceRef,
 from scenewright.program.structure import KnotKey, Role, Structure, actors_of, knots_of
 from scenewright.program.types import EGO, Actor, Constraint, PieceKind
 from scenewright.roads.grounding import Scene
-from scenewright.solve.arrival import LinearCondition
+from scenewright.solve.arrival import LinearCondition, hero_side
 from scenewright.solve.clearance import Clearance
 from scenewright.solve.limits import BRAKE_MAX_MPSS, MOVING_MPS, Limits, Manner
 from scenewright.solve.lowering import Lowering, NotYet
@@ -41,6 +43,8 @@ _LONGEST_CLEARANCE_S = 8.0
 _RESERVE = 0.8
 _SHORTEST_S = Fraction(1, 20)
 _OPENING_RANGE_MPS = 1.0
+# How a hero follows an ego that suddenly makes haste: not at once, and with some reserve.
+_REACTION_S, _HASTE_MPSS = 0.1, 3.2
 _SEEN_S = Fraction(3, 5)  # braking or speeding up for less is hardly seen to have begun
 _LONGEST_S = Fraction(90)
 
@@ -116,6 +120,8 @@ class HeroProblem:
             if clearance is not None and isinstance(now, Fraction) and stretch.approach and stretch.end_knot is None:
                 label = f"{hero.name} keeps clear of the ego"
                 self.problem.require(clearance.condition(self.situation.ego, float(now), next_position), label)
+            if isinstance(now, Fraction) and stretch.approach and stretch.end_knot is None:
+                self._require_readiness(hero, float(now), next_position, next_speed)
             if clearance is not None and stretch.approach and stretch.end_knot is not None:
                 self._require_opening(hero, clearance, next_speed)
             positions.append(next_position)
@@ -140,6 +146,21 @@ class HeroProblem:
             self.problem.require(clearance.condition(ego, now_s, position), label)
             return clearance
         return clearance if clearance.is_kept(ego, now_s, state.s_m) else None
+
+    def _require_readiness(self, hero: Actor, now_s: float, position: Symbol, speed: Symbol) -> None:
+        """Require that the hero can still be at its side in time if the ego makes haste from `now_s` on."""
+        earliest = self.situation.earliest_s.get(hero.id)
+        side = hero_side(self.conditions, self.structure, hero.id)
+        if not self.manner.ready or not earliest or side is None:
+            return
+        arrival_s = float(np.interp(now_s, [pair[0] for pair in earliest], [pair[1] for pair in earliest]))
+        rest = pin(max(0.0, arrival_s - now_s - _REACTION_S))
+        per_metre, per_speed = (pin(abs(weight)) for weight in side.weights[hero.id])
+        sign = 1 if side.weights[hero.id][0] > 0 else -1
+        rate = pin(_HASTE_MPSS)
+        place = position + speed * rest + rate * rest * rest / 2
+        value = sign * pin(side.constant) + per_metre * place + per_speed * (speed + rate * rest)
+        self.problem.require(compare(">=", value, Fraction(0)), f"{hero.name} is ready for an ego in haste")
 
     def _require_opening(self, hero: Actor, clearance: Clearance, speed: Symbol) -> None:
         """Require that the distance between hero and ego grows at the trigger, where the manner asks for it."""

@@ -78,6 +78,8 @@ class Manner:
         By how much the prediction must promise it; less than nothing asks for the best that can be done.
     clear
         Whether the first to pass must also be out of the way of the second.
+    ready
+        Whether it stays near enough for an ego that makes haste all of a sudden.
     opening_mps
         For one that the ego follows: by how much it is faster at its trigger than the ego; None for no matter. Where
         the distance hardly changes, nobody can tell when it is the one that was asked for; and a distance that shrinks
@@ -100,6 +102,7 @@ class Manner:
     counter_mpss: float = SETTLED_MPSS
     wait_go_s: float = 0.0
     opening_mps: float | None = None
+    ready: bool = False
 
     def top_speeds_mps(self, limits: Limits) -> tuple[float, float]:
         """Return the top speed on the way to the trigger and in a turn, for an actor within `limits`."""

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from scenewright.motion.algebra import pin
 from scenewright.program.structure import Structure
 from scenewright.program.types import Actor, PieceKind, Program
-from scenewright.solve.arrival import TIGHT_LENGTH_M, TIGHT_TIME_S, LinearCondition
+from scenewright.solve.arrival import TIGHT_LENGTH_M, TIGHT_TIME_S, LinearCondition, hero_side
 from scenewright.solve.limits import SETTLED_MPSS, Limits, Manner
 from scenewright.solve.situation import Situation
 from scenewright.solve.stretches import (
@@ -29,6 +29,8 @@ _WALKING_MPS = 1.5
 # Nobody creeps more slowly than this for long; and how long before it settles one that waits sets off.
 _CREEPS_MPS = 1.5
 _SETS_OFF_S = (1.5, 2.5, 4.0)
+# In how many of its ways it is asked to be ready for an ego in haste.
+_READY_WAYS = 2
 # How finely the authority needed is found, and how much more is given: the solver needs some room.
 _HALVINGS, _AMPLE, _AT_LEAST = 6, 1.15, 0.04
 
@@ -138,7 +140,9 @@ class Prospects:
         waits = self.waiting(situation, manner, tolerance)
         gentled = self.gentled(situation, manner, tolerance) if gently else manner
         found = (gentled,) if gentled == manner else (gentled, manner)
-        return found if waits is None else (waits, *found)
+        found = found if waits is None else (waits, *found)
+        ready = tuple(replace(way, ready=True) for way in found[:_READY_WAYS]) if situation.earliest_s else ()
+        return (*ready, *found)
 
     def gentled(self, situation: Situation, manner: Manner, tolerance: float) -> Manner:
         """Return `manner` with no more authority on the way to the trigger than it takes to come as near as that.
@@ -219,7 +223,7 @@ def _task_of(
     knots = hero.sketch.knots
     knot = structure.trigger_knot(hero.id)
     alone = [c for c in conditions if set(c.weights) == {hero.id}]
-    side = next((c for c in alone if c.moments <= structure.triggers.get(hero.id, frozenset())), None)
+    side = hero_side(conditions, structure, hero.id)
     if side is None or knot is None or knots.index(knot) == 0:
         return None
     piece = knots.index(knot) - 1

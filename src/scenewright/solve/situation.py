@@ -41,6 +41,9 @@ class Situation:
         The instant that the plan in force has for it.
     ego_slack_s
         By how much the instant may move until the ego is one tight tolerance off its own side.
+    earliest_s
+        For each hero that waits for the ego's side: ``(instant, arrival)`` pairs, in order: when the ego would be at
+        its side at the earliest if it made haste from that instant on. Empty where it does not look like that.
     coasting
         Whether heroes that hold their speed meet the trigger at that instant.
     """
@@ -52,4 +55,5 @@ class Situation:
     trigger_s: Mapping[int, float]
     planned_trigger_s: Mapping[int, float] = field(default_factory=dict)
     ego_slack_s: float = 0.0
+    earliest_s: Mapping[int, tuple[tuple[float, float], ...]] = field(default_factory=dict)
     coasting: bool = False

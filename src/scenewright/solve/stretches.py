@@ -19,7 +19,7 @@ from scenewright.solve.situation import Situation
 
 _WALKING_MPS = 2.0
 # A little longer than the half second that is asked for: the trigger may come a little sooner than planned.
-_SETTLE_S = Fraction(3, 5)
+_SETTLE_S = Fraction(3, 4)
 
 
 @dataclass(frozen=True, slots=True)
