@@ -149,3 +149,31 @@ def test_what_holds_anyway_is_left_out() -> None:
     problem.bound(p, None, None, "no bound")
     assert problem.assertions == []
     assert problem.smtlib(named=False) == "(declare-const p Real)\n(declare-const q Real)"
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    rest_m=st.fractions(2, 60, max_denominator=10),
+    speeds=st.tuples(st.integers(0, 6), st.integers(7, 18)),
+    time_s=st.fractions(1, 15, max_denominator=10),
+    gentle=st.integers(1, 4),
+)
+def test_both_ways_of_asking_agree_on_braking_to_a_stop_in_time(
+    rest_m: Fraction, speeds: tuple[int, int], time_s: Fraction, gentle: int
+) -> None:
+    problem = Problem()
+    speed, brake_s, stand_s = (problem.unknown(name) for name in ("v", "d", "w"))
+    problem.bound(speed, *speeds, "speed")
+    problem.require(compare("==", 2 * rest_m, speed * brake_s), "the laws of motion")
+    problem.require(compare(">=", speed, Fraction(gentle, 2) * brake_s), "brakes")
+    problem.require(compare("<=", speed, Fraction(8) * brake_s), "brakes")
+    problem.require(compare(">=", stand_s, Fraction(1, 2)), "stands")
+    problem.require(compare("<=", brake_s + stand_s, time_s), "in time")
+    answers = [Z3Backend().solve(problem, TIMEOUT_S, want_core=core) for core in (False, True)]
+    assert type(answers[0]) is type(answers[1])
+    # By arithmetic: as fast as its speed and its brakes allow.
+    fastest = min(speeds[1], (16 * float(rest_m)) ** 0.5)
+    slowest = max(speeds[0], (gentle * float(rest_m)) ** 0.5)
+    if fastest > slowest + 1e-6 and abs(2 * float(rest_m) / fastest + 0.5 - float(time_s)) > 1e-6:
+        possible = 2 * float(rest_m) / fastest + 0.5 < float(time_s)
+        assert isinstance(answers[0], Satisfiable) == possible

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -28,10 +30,11 @@ from scenewright.program.structure import knots_of
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.backends.z3_backend import Z3Backend
-from scenewright.solve.hero_problem import HeroState, Situation
-from scenewright.solve.limits import Limits
+from scenewright.solve.situation import HeroState, Situation
+from scenewright.solve.limits import COUNTER, Limits
 from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.solve.planner import Planner
+from scenewright.solve.reach import Prospects
 
 PLANNED = (BRAKES, YIELDS, NOT_YIELDING, YIELDS_THEN_GOES, ONE_SIDED, BOUNDED)
 _STEP_S = 0.001
@@ -189,3 +192,45 @@ def test_a_plan_as_data() -> None:
     for segment in hero["segments"]:
         s_m, speed, _ = plan.profiles[1].state(segment["start_s"])
         assert (segment["s_m"], segment["speed_mps"]) == pytest.approx((s_m, speed))
+
+
+@settings(max_examples=20, deadline=None)
+@given(
+    behind_m=st.floats(4.0, 25.0),
+    speed_mps=st.floats(0.0, 7.0),
+    expected_s=st.floats(2.0, 9.0),
+    earlier_s=st.floats(0.5, 3.0),
+)
+def test_a_hero_is_ready_for_an_ego_that_makes_haste_and_for_one_that_stops(
+    behind_m: float, speed_mps: float, expected_s: float, earlier_s: float
+) -> None:
+    scene = YIELDS.scene()
+    planner = planner_of(scene)
+    place = scene.landmark_m(1, "conflict_point", 0) - 20.0
+    past = Profile(chain(0.0, place - behind_m, speed_mps, [(0.1, 0.0, 0)]))
+    state = HeroState(0.0, place - behind_m, speed_mps, 0, {"t0": 0.0}, past)
+    arrival_s = max(0.6, expected_s - earlier_s)
+    earliest = {1: ((0.0, arrival_s), (expected_s, expected_s))}
+    ego = ego_at(3.0, scene.landmark_m(0, "stop_line") - 25.0, expected_s)
+    situation = Situation(0.0, ego, {"t0": 0.0, "t1": expected_s}, {1: state}, {1: expected_s}, earliest_s=earliest)
+    prospects = Prospects(scene.program, planner.structure, planner.limits, planner.conditions)
+    for manner in prospects.versions(situation, replace(COUNTER, ready=True), 0.0, gently=True):
+        plan = planner._solve(situation, manner, Fraction(0), 20.0)
+        if not isinstance(plan, Plan):
+            continue
+        approach = [segment for segment in plan.profiles[1].segments if segment.piece == 0]
+        for segment in approach[:-1]:
+            if manner.wait is not None:
+                # From where it stands it gets to its place at no more than all it has, as fast as it must be.
+                if segment.end_speed_mps == 0.0:
+                    run_m = place - segment.end_s_m
+                    assert math.sqrt(2 * limits_of(scene)[1].accel_max_mpss * run_m) >= COUNTER.trigger_speed_mps
+                    assert run_m > 0.0
+            else:
+                assert manner.waiting_place_m is not None
+                stop_m = segment.end_speed_mps**2 / (2 * limits_of(scene)[1].brake_max_mpss)
+                if segment.end_s < expected_s - manner.sets_off_s:
+                    assert segment.end_s_m + stop_m <= manner.waiting_place_m + 1e-3
+                left_s = np.interp(segment.end_s, [0.0, expected_s], [arrival_s, expected_s]) - segment.end_s
+                reach_m = segment.end_speed_mps * left_s + 0.5 * limits_of(scene)[1].accel_max_mpss * left_s**2
+                assert segment.end_s_m + reach_m >= place - 1e-3

@@ -62,7 +62,7 @@ def test_who_hurries_and_who_holds_back_bound_the_place() -> None:
 @pytest.mark.parametrize("rest_s", [Fraction(1, 10), Fraction(1, 2), Fraction(3, 5), Fraction(3)])
 def test_the_last_half_second_is_settled_however_little_is_left(manner: Manner, rest_s: Fraction) -> None:
     left = rest_s
-    for stretch in timed_approach(manner, 0, rest_s, "t1", 5.0):
+    for stretch in timed_approach(manner, 0, rest_s, "t1"):
         up, down = approach_rates(manner, stretch, PieceKind.DEC)
         left -= stretch.duration_s or 0
         if left < Fraction(1, 2) and stretch.end_knot:
@@ -82,13 +82,18 @@ def test_who_has_long_to_go_a_short_way_stands_and_waits() -> None:
     for ahead_m, trigger_s, waits in ((14.0, 12.0, True), (40.0, 6.0, False)):
         state = HeroState(0.0, place - ahead_m, 5.0, 0, {"t0": 0.0}, ego)
         situation = Situation(0.0, ego, {"t0": 0.0}, {HERO: state}, {HERO: trigger_s})
-        found = prospects.waiting(situation, COUNTER, 0.0)
+        found = prospects.waiting(situation, COUNTER)
         assert (found is not None) == waits
-        assert prospects.waiting(situation, GENTLE, 0.0) is None
+        assert prospects.waiting(situation, GENTLE) is None
         if found is not None:
-            approach = timed_approach(found, 0, Fraction(12), "t1", 5.0)
-            assert [stretch.waiting for stretch in approach] == [True, True, False, False, False]
+            approach = timed_approach(found, 0, Fraction(12), "t1")
+            standing = [k for k, stretch in enumerate(approach) if stretch.waiting]
+            assert standing == [standing[0], standing[0] + 1]  # to a stand, and standing there
+            assert standing[-1] < len(approach) - 1
             assert sum(stretch.duration_s or 0 for stretch in approach) == 12
+            where = approach[standing[0]].place_m
+            assert where is not None
+            assert place - 14.0 < where < place
 
 
 def test_takes_no_more_authority_than_it_needs() -> None:

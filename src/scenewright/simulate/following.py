@@ -125,13 +125,17 @@ def _lately(history: Sequence[EgoSample], for_s: float) -> list[EgoSample]:
 
 
 def _heeds(history: Sequence[EgoSample], leader: Leader, cruise_mps: float) -> bool:
-    """Whether the ego's last second speaks against its following the leader."""
+    """Whether the ego's last second speaks for a follower rather than for one alone on the road, or one that holds on."""
     samples = _lately(history, _JUDGED_S)[::5]
-    seen = sum(sample[3] for sample in samples)
-    alone = sum(_free(sample[2], cruise_mps) for sample in samples)
-    behind = sum(_modelled(*sample[:3], leader, cruise_mps) for sample in samples)
-    telling = alone - behind > _TELLING_MPSS * len(samples) and history[-1][0] - samples[-1][0] > 0.5 * _JUDGED_S
-    return not telling or seen < 0.5 * (min(alone, 0.0) + behind)
+    if history[-1][0] - samples[-1][0] < 0.5 * _JUDGED_S:
+        return True
+    seen = sum(sample[3] for sample in samples) / len(samples)
+    alone = sum(_free(sample[2], cruise_mps) for sample in samples) / len(samples)
+    behind = sum(_modelled(*sample[:3], leader, cruise_mps) for sample in samples) / len(samples)
+    if alone - behind < _TELLING_MPSS:
+        return True
+    others = (alone, 0.0) if behind < -_TELLING_MPSS else (alone,)
+    return all(abs(seen - behind) <= abs(seen - other) for other in others)
 
 
 def _own_way(history: Sequence[EgoSample], leader: Leader, cruise_mps: float) -> float:

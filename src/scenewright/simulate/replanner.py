@@ -38,7 +38,7 @@ _RETRY_EVERY = 3
 # By how much a trigger that both decide may come later than first planned (s), so that the hero can hold its speed.
 _PATIENCE_S = 3.0
 # An ego that makes haste does so like this (m/s^2); from which shares of the time that is left; what is worth a thought.
-_HASTE_MPSS, _HASTE_SHARES = 1.5, (0.0, 0.25, 0.5, 0.75, 1.0)
+_HASTE_MPSS, _SETS_OFF_MPS, _HASTE_SHARES = 1.5, 0.4, (0.0, 0.25, 0.5, 0.75, 1.0)
 _HASTE_HORIZON_S, _NOTABLY_EARLIER_S = 12.0, 0.25
 # How often a first plan is made again, for an ego that reacts to the one before.
 _SECOND_THOUGHTS = 2
@@ -331,18 +331,16 @@ class Replanner:
     ) -> tuple[tuple[float, float], ...]:
         """Return when the ego would be at its side if it made haste, from some instants on; empty where it cannot much.
 
-        Who crawls or stands may speed up to what it has been seen to drive, and mostly does so all of a sudden.
+        Who crawls or stands may speed up, and mostly does so all of a sudden.
         """
         side = self._ego_side(self.scene.program.actor(hero_id))
         if side is None or expected_s > time_s + _HASTE_HORIZON_S:
             return ()
-        top_mps = max(sample[2] for sample in self._samples)
         found: list[tuple[float, float]] = []
         for share in _HASTE_SHARES:
             begin_s = time_s + share * (expected_s - time_s)
             s_m, speed_mps, _ = prediction.state(begin_s)
-            haste_s = max(0.0, top_mps - speed_mps) / _HASTE_MPSS
-            motion = Profile(chain(begin_s, s_m, speed_mps, [(haste_s, _HASTE_MPSS, 0), (_FAR_S, 0.0, 0)]))
+            motion = self.predictor.predict([(begin_s, s_m, max(speed_mps, _SETS_OFF_MPS), _HASTE_MPSS)])
             arrival = side.first_time({EGO: motion}, begin_s)
             found.append((begin_s, expected_s if arrival is None else min(expected_s, arrival)))
         return tuple(found) if expected_s - found[0][1] > _NOTABLY_EARLIER_S else ()

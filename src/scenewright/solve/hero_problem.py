@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 
@@ -43,9 +44,14 @@ _LONGEST_CLEARANCE_S = 8.0
 _RESERVE = 0.8
 _SHORTEST_S = Fraction(1, 20)
 _OPENING_RANGE_MPS = 1.0
+# How far off its place one may wait: rather short of it.
+_WAITING_ROOM_M = (-0.3, 0.3)
 # How a hero follows an ego that suddenly makes haste: not at once, and with some reserve.
 _REACTION_S, _HASTE_MPSS = 0.1, 3.2
+# How it stops short of its place, and at which speeds the way that this takes is exact.
+_STOPS_MPSS, _CHORDS_MPS = 5.0, (0, 3, 6, 10, 15, 22)
 _SEEN_S = Fraction(3, 5)  # braking or speeding up for less is hardly seen to have begun
+_OF_TIME_TO_ARRIVAL = Fraction(2, 3)
 _LONGEST_S = Fraction(90)
 
 
@@ -116,6 +122,9 @@ class HeroProblem:
             next_speed = problem.unknown(f"{prefix}v{k + 1}")
             next_position = problem.unknown(f"{prefix}x{k + 1}")
             self._add_stretch(hero, stretch, positions[-1], speeds[-1], next_position, next_speed, duration)
+            if stretch.place_m is not None:
+                low, high = (pin(stretch.place_m + off_m) for off_m in _WAITING_ROOM_M)
+                self.problem.bound(next_position, low, high, f"{hero.name} waits at its place")
             now = now + duration if isinstance(now, Fraction) and isinstance(duration, Fraction) else None
             if clearance is not None and isinstance(now, Fraction) and stretch.approach and stretch.end_knot is None:
                 label = f"{hero.name} keeps clear of the ego"
@@ -148,10 +157,10 @@ class HeroProblem:
         return clearance if clearance.is_kept(ego, now_s, state.s_m) else None
 
     def _require_readiness(self, hero: Actor, now_s: float, position: Symbol, speed: Symbol) -> None:
-        """Require that the hero can still be at its side in time if the ego makes haste from `now_s` on."""
+        """Require that the hero can be at its side in time, whether the ego makes haste from `now_s` on or stops."""
         earliest = self.situation.earliest_s.get(hero.id)
         side = hero_side(self.conditions, self.structure, hero.id)
-        if not self.manner.ready or not earliest or side is None:
+        if self.manner.waiting_place_m is None or not earliest or side is None:
             return
         arrival_s = float(np.interp(now_s, [pair[0] for pair in earliest], [pair[1] for pair in earliest]))
         rest = pin(max(0.0, arrival_s - now_s - _REACTION_S))
@@ -161,6 +170,13 @@ class HeroProblem:
         place = position + speed * rest + rate * rest * rest / 2
         value = sign * pin(side.constant) + per_metre * place + per_speed * (speed + rate * rest)
         self.problem.require(compare(">=", value, Fraction(0)), f"{hero.name} is ready for an ego in haste")
+        if now_s > self.situation.trigger_s[hero.id] - self.manner.sets_off_s:
+            return  # it is on its way, whatever happens
+        # The way to a stand, by chords of the square of the speed.
+        latest = pin(self.manner.waiting_place_m)
+        for low, high in pairwise(_CHORDS_MPS):
+            stop = ((low + high) * speed - low * high) * pin(0.5 / _STOPS_MPSS)
+            self.problem.require(compare("<=", position + stop, latest), f"{hero.name} is ready for an ego that stops")
 
     def _require_opening(self, hero: Actor, clearance: Clearance, speed: Symbol) -> None:
         """Require that the distance between hero and ego grows at the trigger, where the manner asks for it."""
@@ -197,7 +213,15 @@ class HeroProblem:
     def _shortest_s(self, hero: Actor, stretch: Stretch) -> Fraction:
         """Return how long a stretch must last at least: long enough to be seen where it is what was asked for."""
         seen = hero.sketch.pieces[stretch.piece] in (PieceKind.DEC, PieceKind.ACC) and self.manner.settle
-        return _SEEN_S if seen else _SHORTEST_S
+        if not seen:
+            return _SHORTEST_S
+        side = hero_side(self.conditions, self.structure, hero.id)
+        begins = hero.sketch.knots[stretch.piece] == self.structure.trigger_knot(hero.id)
+        if begins and side is not None and side.weights[hero.id][0] and side.weights[hero.id][1]:
+            # Who is half a second from a place and speeds up is there before that.
+            away_s = pin(side.weights[hero.id][1] / side.weights[hero.id][0])
+            return min(_SEEN_S, max(_SHORTEST_S, away_s * _OF_TIME_TO_ARRIVAL))
+        return _SEEN_S
 
     def _add_stretch(
         self, hero: Actor, stretch: Stretch, x0: Value, v0: Value, x1: Symbol, v1: Symbol, duration: Value
@@ -224,7 +248,6 @@ class HeroProblem:
         """Bound a stretch on the way to the trigger."""
         if stretch.waiting:
             self.problem.require(compare("==", v1, Fraction(0)), f"{hero.name} waits on its way")
-            return
         up, down = approach_rates(self.manner, stretch, following_piece(hero, stretch.piece))
         self._require_rate(change, duration, -down, up, f"{hero.name}'s acceleration limits")
         if stretch.end_knot is not None:

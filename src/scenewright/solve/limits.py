@@ -52,6 +52,27 @@ class Limits:
 
 
 @dataclass(frozen=True, slots=True)
+class Wait:
+    """How one drives up to a place, stands there, and sets off in time for its trigger.
+
+    Attributes
+    ----------
+    speed_up_s, hold_s, brake_s
+        What it does on the way to that place, at most.
+    place_m
+        Where it stands: as near as it can and still be fast enough at its trigger.
+    go_s
+        How long before its trigger it sets off.
+    """
+
+    speed_up_s: float
+    hold_s: float
+    brake_s: float
+    place_m: float
+    go_s: float
+
+
+@dataclass(frozen=True, slots=True)
 class Manner:
     """How an actor may move in one attempt at a plan; each list of attempts goes from natural to whole authority.
 
@@ -63,8 +84,8 @@ class Manner:
         Stretches of constant acceleration before the trigger; the last is a settled one where `settle` is set.
     counter_mpss
         In a settled stretch: how hard it may do the opposite of what begins at the trigger.
-    wait_go_s
-        How long before it settles one sets off that has come to a stand and waited until then; 0 for one that does not.
+    wait
+        How one waits on its way that would otherwise only creep; None for one that does not.
     dec_mpss, acc_mpss, stop_s
         Ranges of braking, accelerating and standing pieces; one that speeds up and then drives on takes the upper rate.
     trigger_speed_mps
@@ -78,8 +99,9 @@ class Manner:
         By how much the prediction must promise it; less than nothing asks for the best that can be done.
     clear
         Whether the first to pass must also be out of the way of the second.
-    ready
-        Whether it stays near enough for an ego that makes haste all of a sudden.
+    ready, waiting_place_m, sets_off_s
+        Whether it stays near enough for an ego that makes haste all of a sudden, and far enough for one that stops; the
+        place that it does not go beyond then, until it has to: so long before its trigger.
     opening_mps
         For one that the ego follows: by how much it is faster at its trigger than the ego; None for no matter. Where
         the distance hardly changes, nobody can tell when it is the one that was asked for; and a distance that shrinks
@@ -100,9 +122,11 @@ class Manner:
     outcome_margin_s: float = 0.3
     clear: bool = True
     counter_mpss: float = SETTLED_MPSS
-    wait_go_s: float = 0.0
+    wait: Wait | None = None
     opening_mps: float | None = None
     ready: bool = False
+    waiting_place_m: float | None = None
+    sets_off_s: float = 0.0
 
     def top_speeds_mps(self, limits: Limits) -> tuple[float, float]:
         """Return the top speed on the way to the trigger and in a turn, for an actor within `limits`."""

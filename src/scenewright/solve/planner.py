@@ -30,7 +30,7 @@ from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.solve.problem import Backend, Satisfiable, Unknown
 from scenewright.solve.reach import Prospects
 from scenewright.solve.situation import Situation
-from scenewright.solve.trials import COAST, EXACT, Trial, first_trials, off, opening, relaxed, trials
+from scenewright.solve.trials import COAST, EXACT, HASTY, Trial, first_trials, off, opening, relaxed, trials
 
 _TRIES_A_TICK = 6
 # Steps in which the best for a denied outcome is searched, and what is left to later re-solves (s).
@@ -154,38 +154,45 @@ class Planner:
     def replan(self, situations: Sequence[Situation]) -> Attempt:
         """Plan the rest; begins with what the last re-solve needed, now and then one gentler, and makes a few tries."""
         self._replans += 1
-        exact, others = self._ways(situations)
+        preferred, exact, others = self._ways(situations)
         first = self._position
         if not self._searching and len(situations) == 1:
             first = min(first, len(exact))  # how far off the trigger must be is asked anew at every tick
-        if any(situation.coasting for situation in situations):
-            first = 0
-        elif self._replans % _EASE_EVERY == 0 and not self._searching:
+        if self._replans % _EASE_EVERY == 0 and not self._searching:
             gentler = (number for number in range(min(first, len(exact)) - 1, -1, -1) if self._timed(*exact[number]))
             first = next(gentler, first) if len(situations) == 1 else 0
-        attempt, tried = self._search(chain(exact[first:], others(max(0, first - len(exact)))), self.budget_s)
+        ways = chain(preferred, exact[first:], others(max(0, first - len(exact))))
+        attempt, tried = self._search(ways, self.budget_s)
         # What was not reached in this tick is where the next one goes on; after the last hope it starts over midway.
         self._searching = attempt.plan is None
-        self._position = len(exact) // 2 if tried is None else first + tried[0]
+        if tried is None:
+            self._position = len(exact) // 2
+        elif tried[0] >= len(preferred):
+            self._position = first + tried[0] - len(preferred)
         if attempt.plan is not None and tried is not None:
             self._held = tried[1].manner
         return attempt
 
     def _ways(
         self, situations: Sequence[Situation]
-    ) -> tuple[list[tuple[Trial, Situation]], Callable[[int], Iterator[tuple[Trial, Situation]]]]:
-        """Return what to try, in order: what is exact, and, from some number on, what is not.
+    ) -> tuple[
+        list[tuple[Trial, Situation]],
+        list[tuple[Trial, Situation]],
+        Callable[[int], Iterator[tuple[Trial, Situation]]],
+    ]:
+        """Return what to try, in order: what is tried at every tick, what is exact, and, from some number on, the rest.
 
         Every manner at the planned instant comes before any at a later one: who puts off its trigger to move a little
         more gently may put it off for ever.
         """
-        coasting = [situation for situation in situations if situation.coasting]
+        preferred = [(trial, situation) for trial in COAST for situation in situations if situation.coasting]
+        preferred += [(trial, situation) for trial in HASTY for situation in situations if situation.earliest_s]
         situations = [situation for situation in situations if not situation.coasting]
         near, far = situations[:_NEAR], situations[_NEAR:]
         in_time = [situation for situation in near if not _is_put_off(situation)]
         put_off = [situation for situation in near if _is_put_off(situation)]
         gentle, others = self.trials[: len(EXACT)], self.trials[len(EXACT) :]
-        groups = ((COAST, coasting), (gentle, in_time), (gentle, put_off), (gentle, far), (others, near))
+        groups = ((gentle, in_time), (gentle, put_off), (gentle, far), (others, near))
         exact = [(trial, situation) for trials, some in groups for trial in trials for situation in some]
 
         def last(first: int) -> Iterator[tuple[Trial, Situation]]:
@@ -194,7 +201,7 @@ class Planner:
                 trials = relaxed(self._held, lambda manner: self._least_tolerance(manner, situations[0]))
             yield from [(trial, situation) for trial in trials for situation in near][first:]
 
-        return exact, last
+        return preferred, exact, last
 
     def _least_tolerance(self, manner: Manner, situation: Situation) -> float:
         """Return the smallest tolerance with which there is hope, by arithmetic: a lower bound of what is needed."""

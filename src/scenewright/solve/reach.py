@@ -14,9 +14,10 @@ from scenewright.motion.algebra import pin
 from scenewright.program.structure import Structure
 from scenewright.program.types import Actor, PieceKind, Program
 from scenewright.solve.arrival import TIGHT_LENGTH_M, TIGHT_TIME_S, LinearCondition, hero_side
-from scenewright.solve.limits import SETTLED_MPSS, Limits, Manner
+from scenewright.solve.limits import SETTLED_MPSS, WAIT_BRAKE_MPSS, Limits, Manner, Wait
 from scenewright.solve.situation import Situation
 from scenewright.solve.stretches import (
+    SETTLE_S,
     approach_rates,
     following_piece,
     rate_is_given,
@@ -26,11 +27,13 @@ from scenewright.solve.stretches import (
 
 _SLOWEST_MPS = 0.05
 _WALKING_MPS = 1.5
-# Nobody creeps more slowly than this for long; and how long before it settles one that waits sets off.
-_CREEPS_MPS = 1.5
-_SETS_OFF_S = (1.5, 2.5, 4.0)
-# In how many of its ways it is asked to be ready for an ego in haste.
-_READY_WAYS = 2
+# Nobody creeps more slowly than this for long, even less where the ego may make haste; how one that waits drives up and
+# sets off, how fast it is then at its trigger if it may choose (to brake or to speed up), and with how much to spare.
+_CREEPS_MPS, _CREEPS_WHEN_HASTY_MPS = 1.5, 4.0
+_DRIVES_UP_MPS, _DRIVES_UP_MPSS = 5.0, 2.0
+_SETS_OFF_MPS, _FLYING_MPS, _SETS_OFF_MPSS = 1.2, 3.5, 3.5
+_SOMEWHAT_FASTER = 1.1
+_STANDS_MPS, _NEAR_ENOUGH_M, _BRAKES_AT_MOST_MPSS = 0.2, 0.3, 5.0
 # How finely the authority needed is found, and how much more is given: the solver needs some room.
 _HALVINGS, _AMPLE, _AT_LEAST = 6, 1.15, 0.04
 
@@ -107,6 +110,10 @@ class _Task:
     stop_after_m: float | None
 
 
+# Its side, its id, its way to it, its place (m) and its speed (m/s).
+_Way = tuple[LinearCondition, int, Approach, float, float]
+
+
 class Prospects:
     """Tells of a way to try whether there is any hope in it, for the heroes of one scene.
 
@@ -137,12 +144,21 @@ class Prospects:
 
     def versions(self, situation: Situation, manner: Manner, tolerance: float, gently: bool) -> tuple[Manner, ...]:
         """Return how to carry out a manner, best first: waiting where it has the time, gently, with all it allows."""
-        waits = self.waiting(situation, manner, tolerance)
+        waits = self.waiting(situation, manner)
+        if manner.ready:
+            return self._ready(situation, manner, waits)
         gentled = self.gentled(situation, manner, tolerance) if gently else manner
         found = (gentled,) if gentled == manner else (gentled, manner)
-        found = found if waits is None else (waits, *found)
-        ready = tuple(replace(way, ready=True) for way in found[:_READY_WAYS]) if situation.earliest_s else ()
-        return (*ready, *found)
+        return found if waits is None else (waits, *found)
+
+    def _ready(self, situation: Situation, manner: Manner, waits: Manner | None) -> tuple[Manner, ...]:
+        """Return how a hero that is about to brake is ready for whatever the ego does; nothing for any other."""
+        ways = self._ways(situation, manner)
+        if len(ways) != 1 or self._tasks[ways[0][1]].following is not PieceKind.DEC:
+            return ()
+        place_m, go_s = self._waiting_place(ways[0], manner)
+        ready = replace(manner, waiting_place_m=place_m, sets_off_s=_SOMEWHAT_FASTER * go_s)
+        return (ready,) if waits is None else (waits, ready)
 
     def gentled(self, situation: Situation, manner: Manner, tolerance: float) -> Manner:
         """Return `manner` with no more authority on the way to the trigger than it takes to come as near as that.
@@ -167,25 +183,39 @@ class Prospects:
             return manner
         return replace(manner, approach_accel_mpss=share * up, approach_brake_mpss=share * down)
 
-    def waiting(self, situation: Situation, manner: Manner, tolerance: float) -> Manner | None:
+    def waiting(self, situation: Situation, manner: Manner) -> Manner | None:
         """Return `manner` with a wait on the way where it would only creep to the trigger; None where it would not.
 
-        Who waits far back can still be early or late; who creeps ever nearer can only be early.
+        Who waits can still be early or late; who creeps ever nearer can only be early. One waits as near as it can and
+        still be fast enough at its trigger, for the ego may make haste.
         """
         ways = self._ways(situation, manner)
         if len(ways) != 1 or manner.natural_speed:
             return None
-        side, hero, approach, s_m, _ = ways[0]
+        side, hero, approach, s_m, speed_mps = ways[0]
         rest_s = situation.trigger_s[hero] - situation.time_s
-        if approach.place_m(side, hero) - s_m > _CREEPS_MPS * rest_s:
+        creeps_mps = _CREEPS_WHEN_HASTY_MPS if situation.earliest_s else _CREEPS_MPS
+        if approach.place_m(side, hero) - s_m > creeps_mps * rest_s:
             return None
-        for go_s in _SETS_OFF_S:
-            waits = replace(manner, wait_go_s=go_s)
-            if self._ways(situation, waits) and self.least_miss(situation, waits) <= tolerance:
-                return waits
-        return None
+        place_m, go_s = self._waiting_place(ways[0], manner)
+        wait = _drive_up(s_m, speed_mps, place_m, _SOMEWHAT_FASTER * go_s)
+        if wait is None or wait.speed_up_s + wait.hold_s + wait.brake_s + wait.go_s >= rest_s:
+            return None
+        return replace(manner, wait=wait)
 
-    def _ways(self, situation: Situation, manner: Manner) -> list[tuple[LinearCondition, int, Approach, float, float]]:
+    def _waiting_place(self, way: _Way, manner: Manner) -> tuple[float, float]:
+        """Return the place (m) from which a hero that stands can just be at its side, and how long (s) that takes."""
+        side, hero, approach, _, _ = way
+        brakes = self._tasks[hero].following is PieceKind.DEC
+        speed = max(_SETS_OFF_MPS if brakes else _FLYING_MPS, _SOMEWHAT_FASTER * approach.least_mps)
+        per_metre, per_speed = side.weights[hero]
+        go_s, run_m = speed / _SETS_OFF_MPSS, speed * speed / (2.0 * _SETS_OFF_MPSS)
+        if not brakes or manner.counter_mpss < _SETS_OFF_MPSS:
+            settle_s = float(SETTLE_S)
+            go_s, run_m = go_s + settle_s, run_m + speed * settle_s
+        return -(side.constant + per_speed * speed) / per_metre - run_m, go_s
+
+    def _ways(self, situation: Situation, manner: Manner) -> list[_Way]:
         """Return, for every hero with a side of its own and a timed way to it, what `least_miss` takes."""
         found = []
         for hero_id, state in situation.heroes.items():
@@ -200,12 +230,8 @@ class Prospects:
         """Return the way to the trigger; None where no time is left."""
         rest_s = pin(situation.trigger_s[hero_id]) - pin(situation.time_s)
         stretches = []
-        speed = situation.heroes[hero_id].speed_mps
-        for stretch in timed_approach(manner, task.piece, rest_s, task.knot, speed):
+        for stretch in timed_approach(manner, task.piece, rest_s, task.knot):
             up, down = approach_rates(manner, stretch, task.following)
-            if stretch.waiting:
-                up, down = (-down, down) if speed > 0 else (up * 0, down)
-                speed = 0.0
             stretches.append((float(stretch.duration_s or 0), float(up), float(down)))
         if not stretches:
             return None
@@ -214,6 +240,25 @@ class Prospects:
         if task.stop_after_m is not None:
             least = max(least, math.sqrt(2.0 * manner.dec_mpss[0] * task.stop_after_m))
         return Approach(tuple(stretches), manner.top_speeds_mps(self._limits[hero_id])[0], least)
+
+
+def _drive_up(s_m: float, speed_mps: float, place_m: float, go_s: float) -> Wait | None:
+    """Return how one comes to a stand at a place; None where it cannot, or stands too far on already."""
+    rest_m = place_m - s_m
+    if speed_mps < _STANDS_MPS and abs(rest_m) <= _NEAR_ENOUGH_M:
+        return Wait(0.0, 0.0, speed_mps / WAIT_BRAKE_MPSS, place_m, go_s)
+    reach_m = rest_m + _NEAR_ENOUGH_M
+    if speed_mps * speed_mps > 2.0 * _BRAKES_AT_MOST_MPSS * reach_m:
+        return None
+    if speed_mps * speed_mps >= 2.0 * WAIT_BRAKE_MPSS * rest_m:
+        return Wait(0.0, 0.0, 2.0 * max(rest_m, 0.5 * reach_m) / max(speed_mps, _SLOWEST_MPS), place_m, go_s)
+    # Up to a peak, on at it, and down again.
+    before_m = rest_m + speed_mps**2 / (2 * _DRIVES_UP_MPSS)
+    peak = math.sqrt(before_m / (0.5 / _DRIVES_UP_MPSS + 0.5 / WAIT_BRAKE_MPSS))
+    peak = max(speed_mps, min(peak, _DRIVES_UP_MPS))
+    up_m = (peak * peak - speed_mps * speed_mps) / (2.0 * _DRIVES_UP_MPSS)
+    hold_m = max(0.0, rest_m - up_m - peak * peak / (2.0 * WAIT_BRAKE_MPSS))
+    return Wait((peak - speed_mps) / _DRIVES_UP_MPSS, hold_m / peak, peak / WAIT_BRAKE_MPSS, place_m, go_s)
 
 
 def _task_of(

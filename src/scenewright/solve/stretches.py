@@ -14,12 +14,12 @@ from scenewright.program.expressions import Compare, Formula, PieceRef, State, w
 from scenewright.program.structure import Structure
 from scenewright.program.types import Actor, PieceKind, Program
 from scenewright.solve.arrival import LinearCondition
-from scenewright.solve.limits import BEGINNING_MPSS, COASTING, WAIT_BRAKE_MPSS, Limits, Manner
+from scenewright.solve.limits import BEGINNING_MPSS, COASTING, Limits, Manner, Wait
 from scenewright.solve.situation import Situation
 
 _WALKING_MPS = 2.0
 # A little longer than the half second that is asked for: the trigger may come a little sooner than planned.
-_SETTLE_S = Fraction(3, 4)
+SETTLE_S = Fraction(3, 4)
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +32,7 @@ class Stretch:
     approach: bool = False
     settled: bool = False
     waiting: bool = False
+    place_m: float | None = None
     to_top: bool = False
     cruise: bool = False
 
@@ -68,8 +69,7 @@ class Division:
             approach = piece < trigger_index and sketch.pieces[piece] is PieceKind.GO
             planned = self.situation.trigger_s.get(hero.id)
             if approach and piece + 1 == trigger_index and piece == first and planned is not None:
-                speed = state.speed_mps if state else 0.0
-                found += timed_approach(self.manner, piece, pin(planned) - pin(self.situation.time_s), knot, speed)
+                found += timed_approach(self.manner, piece, pin(planned) - pin(self.situation.time_s), knot)
             elif approach:
                 found += [Stretch(piece, None, None, True), Stretch(piece, None, knot, True, True)]
             elif sketch.pieces[piece] is PieceKind.ACC and self._cruises(hero, piece):
@@ -105,19 +105,10 @@ class Division:
         return None
 
 
-def timed_approach(manner: Manner, piece: int, rest_s: Fraction, knot: str, speed_mps: float) -> list[Stretch]:
-    """Divide the time that is left before the trigger into steps, the last one settled where that is asked for.
-
-    One that waits brakes from `speed_mps` to a stand, stands, and sets off in time.
-    """
-    if manner.wait_go_s:
-        brake_s, go_s = pin(speed_mps / WAIT_BRAKE_MPSS), pin(manner.wait_go_s)
-        stand_s = rest_s - brake_s - go_s - _SETTLE_S
-        if stand_s <= 0:
-            return []
-        braking = [Stretch(piece, brake_s, None, True)] if brake_s else []
-        going = [*_even(piece, go_s, 2, None), Stretch(piece, _SETTLE_S, knot, True, True)]
-        return [*(replace(s, waiting=True) for s in (*braking, Stretch(piece, stand_s, None, True))), *going]
+def timed_approach(manner: Manner, piece: int, rest_s: Fraction, knot: str) -> list[Stretch]:
+    """Divide the time that is left before the trigger into steps, the last one settled where that is asked for."""
+    if manner.wait is not None:
+        return _waiting_approach(manner.wait, piece, rest_s, knot)
     steps, settle = manner.steps, manner.settle
     if rest_s <= 0:
         return []
@@ -125,10 +116,26 @@ def timed_approach(manner: Manner, piece: int, rest_s: Fraction, knot: str, spee
         return [Stretch(piece, rest_s, knot, True, settle)]
     if not settle:
         return _even(piece, rest_s, steps, knot)
-    if rest_s <= _SETTLE_S * Fraction(11, 10):
+    if rest_s <= SETTLE_S * Fraction(11, 10):
         return [Stretch(piece, rest_s, knot, True, True)]
-    hold_s = max(_SETTLE_S, rest_s * Fraction(2, 5)) if steps == 2 else _SETTLE_S
+    hold_s = max(SETTLE_S, rest_s * Fraction(2, 5)) if steps == 2 else SETTLE_S
     return [*_even(piece, rest_s - hold_s, steps - 1, None), Stretch(piece, hold_s, knot, True, True)]
+
+
+def _waiting_approach(wait: Wait, piece: int, rest_s: Fraction, knot: str) -> list[Stretch]:
+    """Divide the way of one that waits: up to its place, standing there, and off in time."""
+    way_s = [pin(duration_s) for duration_s in (wait.speed_up_s, wait.hold_s, wait.brake_s)]
+    go_s = pin(wait.go_s)
+    stand_s = rest_s - go_s - sum(way_s)
+    if stand_s <= 0:
+        return []
+    found = [Stretch(piece, duration_s, None, True) for duration_s in way_s if duration_s]
+    if found:
+        found[-1] = replace(found[-1], waiting=True, place_m=wait.place_m)
+    found.append(Stretch(piece, stand_s, None, True, waiting=True))
+    if go_s <= SETTLE_S:
+        return [*found, Stretch(piece, go_s, knot, True, True)]
+    return [*found, *_even(piece, go_s - SETTLE_S, 2, None), Stretch(piece, SETTLE_S, knot, True, True)]
 
 
 def following_piece(hero: Actor, piece: int) -> PieceKind:
@@ -144,8 +151,6 @@ def approach_rates(manner: Manner, stretch: Stretch, following: PieceKind) -> tu
     is to begin, and do the opposite no harder than the manner says: who is about to brake may still speed up.
     """
     up, down = pin(manner.approach_accel_mpss), pin(manner.approach_brake_mpss)
-    if stretch.waiting:
-        return up, pin(WAIT_BRAKE_MPSS)
     if not stretch.settled:
         return up, down
     if manner.steps <= 2:

@@ -35,6 +35,8 @@ class Trial:
 
 
 COAST = (Trial(COASTING), Trial(COASTING, Fraction(1, 2)))
+# Where the ego may make haste: to its place and wait there, or at least never far from it.
+HASTY = (Trial(replace(COUNTER, ready=True)),)
 EXACT = tuple(Trial(manner) for manner in (GENTLE, FIRM, WHOLE, COUNTER))
 # Where the prediction denies the outcome, the hero does the most it can for it: the ego may still give way.
 _QUICK = tuple(Trial(manner) for manner in (GENTLE_QUICK, FIRM_QUICK, WHOLE_QUICK, COUNTER_QUICK))
@@ -47,7 +49,7 @@ _WITHOUT_OUTCOME = tuple(Trial(replace(manner, outcome=False)) for manner in (FI
 _BEYOND = ((1.05, 0.03), (1.3, 0.15), (2.0, 0.6))
 _FREE = replace(COUNTER, outcome=False)
 _UNSETTLED = replace(URGENT, outcome=False)
-_WORST = 100.0
+_WORST, _STILL_GOOD = 100.0, 0.45
 _OFF = (
     *(Trial(_FREE, Fraction(tolerance)) for tolerance in ("0.9", "2", "4")),
     *(Trial(_UNSETTLED, Fraction(tolerance)) for tolerance in ("0", "0.9", "2", "4", "16")),
@@ -75,6 +77,8 @@ def relaxed(held: Manner, least: Callable[[Manner], float]) -> tuple[Trial, ...]
     ways = (quick, _FREE) if held.outcome else (_FREE,)
     miss = least(_FREE)
     nearest = [_trial(way, factor * miss + rest) for factor, rest in _BEYOND for way in ways]
+    if miss < _STILL_GOOD:
+        nearest.append(_trial(_FREE, _STILL_GOOD))  # settled and a little off beats exact and begun too early
     unsettled = [_trial(_UNSETTLED, factor * least(_UNSETTLED) + rest) for factor, rest in _BEYOND[:2]]
     return (*nearest, *unsettled, _trial(_UNSETTLED, _WORST))
 

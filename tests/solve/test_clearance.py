@@ -1,0 +1,71 @@
+"""A hero on the ego's lane: which of the two is ahead, and that neither starts or drives inside the other."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from scenarios import BRAKES, YIELDS, example, limits_of, read_structure
+from scenewright.motion.profile import Profile, chain
+from scenewright.program.text import parse_program
+from scenewright.roads.conflicts import VEHICLE_LENGTH_M
+from scenewright.roads.grounding import Scene, ground
+from scenewright.roads.load import load_map
+from scenewright.solve.arrival import linear_conditions
+from scenewright.solve.backends.z3_backend import Z3Backend
+from scenewright.solve.clearance import Clearance
+from scenewright.solve.planner import Planner
+from scenewright.solve.situation import Situation
+
+EGO, HERO = 0, 1
+
+
+def scene_with(distance: str) -> Scene:
+    text = example("W", "t0, go, t1, dec, t2", f"A0(t1) == A1(t1)\n{distance}\nA1v(t2) == 0\n")
+    program = parse_program(text)
+    return ground(program, load_map("t_intersection"), {})
+
+
+def clearance_of(scene: Scene) -> Clearance | None:
+    structure = read_structure(scene.program)
+    return Clearance.of(scene, structure, linear_conditions(scene, structure), scene.program.heroes[0])
+
+
+@pytest.mark.parametrize(
+    ("distance", "ahead"),
+    [
+        ("gap(A0, A1, t1) == 20", True),
+        ("20 == gap(A0, A1, t1)", True),
+        ("gap(A1, A0, t1) == 20", False),
+        ("headway(A0, A1, t1) == 2", True),
+        ("A1x(t1) - A0x(t1) == 15", True),
+        ("A0x(t1) - A1x(t1) == 15", False),
+    ],
+)
+def test_the_distance_tells_who_is_ahead(distance: str, ahead: bool) -> None:
+    clearance = clearance_of(scene_with(distance))
+    assert clearance is not None
+    assert clearance.ahead is ahead
+
+
+def test_who_only_crosses_need_not_keep_clear() -> None:
+    assert clearance_of(YIELDS.scene()) is None
+
+
+@settings(max_examples=8, deadline=None)
+@given(ego_mps=st.floats(4.0, 13.0), slows_mpss=st.floats(-0.5, 0.3), instant_s=st.sampled_from([1.5, 2.5, 4.0]))
+def test_nobody_starts_or_drives_inside_the_other(ego_mps: float, slows_mpss: float, instant_s: float) -> None:
+    scene = BRAKES.scene()
+    structure = read_structure(scene.program)
+    planner = Planner(scene, structure, limits_of(scene), Z3Backend(), linear_conditions(scene, structure), 20.0)
+    ego = Profile(chain(0.0, 180.0, ego_mps, [(6.0, slows_mpss, 0)]))
+    plan = planner.first_plan([Situation(0.0, ego, {"t0": 0.0, "t1": instant_s}, {}, {HERO: instant_s})]).plan
+    if plan is None:
+        return
+    for step in range(int(instant_s / 0.05)):
+        gap_m = plan.profiles[HERO].state(0.05 * step)[0] - ego.state(0.05 * step)[0]
+        assert gap_m > VEHICLE_LENGTH_M
+    # It draws away where it can: then the gap is the one that was asked for at one instant only.
+    if ego_mps < 11.0:
+        assert plan.profiles[HERO].state(instant_s)[1] > ego.state(instant_s)[1] + 0.4
