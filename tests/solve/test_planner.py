@@ -30,11 +30,11 @@ from scenewright.program.structure import knots_of
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.backends.z3_backend import Z3Backend
-from scenewright.solve.situation import HeroState, Situation
 from scenewright.solve.limits import COUNTER, Limits
 from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.solve.planner import Planner
 from scenewright.solve.reach import Prospects
+from scenewright.solve.situation import HeroState, Situation
 
 PLANNED = (BRAKES, YIELDS, NOT_YIELDING, YIELDS_THEN_GOES, ONE_SIDED, BOUNDED)
 _STEP_S = 0.001

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from scenewright.errors import InputError, SolverError, TranslationError
 from scenewright.program.text import parse_program
-from scenewright.program.types import Program
-from scenewright.study.translation import GoldText, Outcome, measure, read_texts, shipped_texts, tally
+from scenewright.study.translation import (
+    Asking,
+    GoldText,
+    Outcome,
+    Translate,
+    measure,
+    read_texts,
+    shipped_texts,
+    tally,
+)
 from scenewright.translate.sources import read_scenario
 
 GOLD = """
@@ -32,20 +39,23 @@ ASKED = GoldText("a", "any text", GOLD)
 REFUSED = GoldText("b", "any text", None, "off-topic")
 
 
-def gives(text: str) -> Callable[[str], Program]:
-    return lambda _: parse_program(text)
+AMBIGUOUS = GoldText("c", "any text", None, "ambiguous")
 
 
-def outcome_of(gold: GoldText, translate: Callable[[str], Program]) -> Outcome:
+def gives(text: str, *questions: str) -> Translate:
+    return lambda _: Asking(parse_program(text), questions)
+
+
+def outcome_of(gold: GoldText, translate: Translate) -> Outcome:
     (reading,) = measure([gold], translate)
     return reading.outcome
 
 
-def refuses(_: str) -> Program:
+def refuses(_: str) -> Asking:
     raise TranslationError("not understood", found="hover")
 
 
-def falls_silent(_: str) -> Program:
+def falls_silent(_: str) -> Asking:
     raise SolverError("no reply in time")
 
 
@@ -60,10 +70,14 @@ def falls_silent(_: str) -> Program:
         (REFUSED, refuses, "rightly refused"),
         (REFUSED, gives(GOLD), "wrongly accepted"),
         (REFUSED, gives(GOLD + "A1v(t1) == 0\n"), "rightly refused"),
+        (AMBIGUOUS, gives(GOLD), "wrongly accepted"),
+        (AMBIGUOUS, gives(GOLD, "Which of the two?"), "rightly asked"),
+        (REFUSED, gives(GOLD, "Which of the two?"), "wrongly accepted"),
+        (ASKED, gives(GOLD.replace("== 20", "== 2"), "Really?"), "silently wrong"),
         (ASKED, falls_silent, "unanswered"),
     ],
 )
-def test_outcomes(gold: GoldText, translate: Callable[[str], Program], outcome: Outcome) -> None:
+def test_outcomes(gold: GoldText, translate: Translate, outcome: Outcome) -> None:
     assert outcome_of(gold, translate) == outcome
 
 
@@ -101,7 +115,7 @@ def test_shipped_set_is_large_sound_and_read_well_offline() -> None:
     texts = shipped_texts()
     assert len({text.id for text in texts}) == len(texts) >= 200
     assert sum(text.program is None for text in texts) >= 20
-    readings = list(measure(texts, lambda text: read_scenario(text)[0]))
+    readings = list(measure(texts, lambda text: Asking(read_scenario(text)[0])))
     counts = tally(readings)[-1]
     # Floors, so that a change for the worse is seen; docs/evaluation.md has the figures.
     assert counts.share("silently wrong", "wrongly accepted") <= 0.01

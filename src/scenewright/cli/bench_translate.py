@@ -55,12 +55,14 @@ def _readings(texts: Sequence[GoldText], translator: str, settings: TranslatorSe
     from rich.progress import track
 
     from scenewright.solve.backends.z3_backend import Z3Backend
-    from scenewright.study.translation import measure
+    from scenewright.study.translation import Asking, measure
     from scenewright.translate.sources import read_scenario
 
-    readings: Iterator[Reading] = measure(
-        texts, lambda text: read_scenario(text, translator, settings=settings)[0], Z3Backend()
-    )
+    def answer(text: str) -> Asking:
+        program, translation = read_scenario(text, translator, settings=settings)
+        return Asking(program, tuple(each.question for each in getattr(translation, "questions", ())))
+
+    readings: Iterator[Reading] = measure(texts, answer, Z3Backend())
     console = stderr()
     return list(track(readings, "translating", len(texts), console=console, disable=not console.is_terminal))
 
@@ -78,13 +80,13 @@ def _plain(reading: Reading) -> dict[str, object]:
 def _print_table(translator: str, tallies: Sequence[Tally], readings: Sequence[Reading]) -> None:
     from rich.table import Table
 
-    from scenewright.study.translation import OUTCOMES
+    from scenewright.study.translation import GOOD, OUTCOMES
 
     used = [outcome for outcome in OUTCOMES if any(tally.counts[outcome] for tally in tallies)]
-    table = Table("group", "texts", *used, "right or rightly refused", title=translator)
+    table = Table("group", "texts", *used, "as it should be", title=translator)
     for tally in tallies:
         counts = (str(tally.counts[outcome] or "") for outcome in used)
-        table.add_row(tally.group, str(tally.total), *counts, f"{100 * tally.share('right', 'rightly refused'):.1f} %")
+        table.add_row(tally.group, str(tally.total), *counts, f"{100 * tally.share(*GOOD):.1f} %")
     stdout().print(table)
     times = sorted(reading.seconds for reading in readings)
     if times:
@@ -93,8 +95,10 @@ def _print_table(translator: str, tallies: Sequence[Tally], readings: Sequence[R
 
 
 def _print_misses(readings: Sequence[Reading]) -> None:
+    from scenewright.study.translation import GOOD
+
     for reading in readings:
-        if reading.outcome not in ("right", "rightly refused"):
+        if reading.outcome not in GOOD:
             stdout().print(f"\n[bold]{reading.text.id}[/bold] {reading.outcome}", highlight=False)
             stdout().print(reading.text.text, soft_wrap=True, markup=False, highlight=False)
             for note in reading.notes:

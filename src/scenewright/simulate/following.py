@@ -125,7 +125,7 @@ def _lately(history: Sequence[EgoSample], for_s: float) -> list[EgoSample]:
 
 
 def _heeds(history: Sequence[EgoSample], leader: Leader, cruise_mps: float) -> bool:
-    """Whether the ego's last second speaks for a follower rather than for one alone on the road, or one that holds on."""
+    """Whether the ego's last second speaks for a follower rather than for one alone, or one that just holds on."""
     samples = _lately(history, _JUDGED_S)[::5]
     if history[-1][0] - samples[-1][0] < 0.5 * _JUDGED_S:
         return True

@@ -37,7 +37,7 @@ _PATIENT_FAILURES = 20
 _RETRY_EVERY = 3
 # By how much a trigger that both decide may come later than first planned (s), so that the hero can hold its speed.
 _PATIENCE_S = 3.0
-# An ego that makes haste does so like this (m/s^2); from which shares of the time that is left; what is worth a thought.
+# An ego that makes haste does so like this (m/s^2, from m/s), from these shares of the time left; what is worth it.
 _HASTE_MPSS, _SETS_OFF_MPS, _HASTE_SHARES = 1.5, 0.4, (0.0, 0.25, 0.5, 0.75, 1.0)
 _HASTE_HORIZON_S, _NOTABLY_EARLIER_S = 12.0, 0.25
 # How often a first plan is made again, for an ego that reacts to the one before.

@@ -13,25 +13,41 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from scenewright.errors import InputError, Place, ProgramError, ScenewrightError
 from scenewright.program.text import parse_program
+from scenewright.program.types import Program
 
 if TYPE_CHECKING:
-    from scenewright.program.types import Program
     from scenewright.solve.problem import Backend
 
-Outcome = Literal["right", "refused", "silently wrong", "rightly refused", "wrongly accepted", "unanswered"]
+Outcome = Literal[
+    "right", "refused", "silently wrong", "rightly refused", "rightly asked", "wrongly accepted", "unanswered"
+]
 OUTCOMES: tuple[Outcome, ...] = (
     "right",
     "refused",
     "silently wrong",
     "rightly refused",
+    "rightly asked",
     "wrongly accepted",
     "unanswered",
 )
-Translate = Callable[[str], "Program"]
+# What is as it should be.
+GOOD: tuple[Outcome, ...] = ("right", "rightly refused", "rightly asked")
+# A text that is to be refused for one of these may as well be asked about: with the answer it is whole.
+_DOUBTS = ("ambiguous", "vague amount", "no unit")
+
+
+class Asking(NamedTuple):
+    """A translator's answer: the program, and what it asks because the text leaves it open."""
+
+    program: Program
+    questions: tuple[str, ...] = ()
+
+
+Translate = Callable[[str], Asking]
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,18 +136,21 @@ def measure(texts: Iterable[GoldText], translate: Translate, backend: Backend | 
     Parameters
     ----------
     translate
-        Returns the program that a text stands for, or raises a `ScenewrightError`.
+        Returns the program that a text stands for with its questions, or raises a `ScenewrightError`.
     """
     for text in texts:
         started = time.perf_counter()
         try:
-            program = translate(text.text)
+            answer = translate(text.text)
         except ScenewrightError as error:
             seconds = time.perf_counter() - started
             yield Reading(text, _refused(text, error), (_words(error),), seconds)
             continue
         seconds = time.perf_counter() - started
-        yield _compared(text, program, seconds, backend)
+        if answer.questions and text.refusal in _DOUBTS:
+            yield Reading(text, "rightly asked", answer.questions, seconds)
+            continue
+        yield _compared(text, answer.program, seconds, backend)
 
 
 def _refused(text: GoldText, error: ScenewrightError) -> Outcome:

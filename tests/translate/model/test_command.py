@@ -98,7 +98,7 @@ def test_strict_offline_refuses_assumptions_but_not_conventions() -> None:
 def test_prompt_is_shown_with_and_without_a_description() -> None:
     result = call("translate", "--show-prompt")
     assert result.exit_code == 0
-    assert result.stdout.startswith("prompt version 1 (")
+    assert result.stdout.startswith("prompt version 2 (")
     for words in ("----- system -----", "# 6. The map", "(your description)", "Actor 0 (ego):"):
         assert words in result.stdout
     assert TEXT in call("translate", TEXT, "--show-prompt", "--translator", "openai:x").stdout

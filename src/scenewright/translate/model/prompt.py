@@ -20,7 +20,7 @@ from scenewright.translate.model.exchange import Message
 from scenewright.translate.model.map_facts import map_facts
 from scenewright.units import UNITS
 
-PROMPT_VERSION = "1"
+PROMPT_VERSION = "2"
 _SUFFIXES = ("_m", "_ft", "_s", "_mps", "_kmph", "_mph", "_mpss")
 
 
