@@ -32,7 +32,7 @@ from scenewright.solve.reach import Prospects
 from scenewright.solve.situation import Situation
 from scenewright.solve.trials import COAST, EXACT, HASTY, Trial, first_trials, off, opening, relaxed, trials
 
-_TRIES_A_TICK = 6
+_TRIES_A_TICK = 5
 # Steps in which the best for a denied outcome is searched, and what is left to later re-solves (s).
 _HASTENINGS, _HASTE_SLACK_S = 4, 0.05
 # What arithmetic calls just out of reach may be rounding.
