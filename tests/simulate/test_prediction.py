@@ -146,7 +146,8 @@ class Counted:
 
     def predict(self, history: Sequence[EgoSample]) -> Profile:
         assert [sample[0] for sample in history] == sorted({sample[0] for sample in history})
-        self.asked.append(history[-1][0])
+        if len(history) > 1 or history[0][0] == 0.0:  # a state alone is what the ego might do if it made haste
+            self.asked.append(history[-1][0])
         return self.inner.predict(history)
 
 
