@@ -39,6 +39,7 @@ ASKED = GoldText("a", "any text", GOLD)
 REFUSED = GoldText("b", "any text", None, "off-topic")
 
 
+EITHER = GoldText("d", "any text", GOLD, "not supported")
 AMBIGUOUS = GoldText("c", "any text", None, "ambiguous")
 
 
@@ -70,6 +71,9 @@ def falls_silent(_: str) -> Asking:
         (REFUSED, refuses, "rightly refused"),
         (REFUSED, gives(GOLD), "wrongly accepted"),
         (REFUSED, gives(GOLD + "A1v(t1) == 0\n"), "rightly refused"),
+        (EITHER, gives(GOLD), "right"),
+        (EITHER, refuses, "rightly refused"),
+        (EITHER, gives(GOLD.replace("== 20", "== 2")), "silently wrong"),
         (AMBIGUOUS, gives(GOLD), "wrongly accepted"),
         (AMBIGUOUS, gives(GOLD, "Which of the two?"), "rightly asked"),
         (REFUSED, gives(GOLD, "Which of the two?"), "wrongly accepted"),
@@ -99,7 +103,6 @@ def test_tallies_add_up() -> None:
     [
         "nothing here",
         '[[text]]\nid = "a"\ntext = "x"\n',
-        '[[text]]\nid = "a"\ntext = "x"\nprogram = "p"\nrefuse = "off-topic"\n',
         '[[text]]\ntext = "x"\nprogram = "p"\n',
     ],
 )
