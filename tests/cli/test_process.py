@@ -97,3 +97,21 @@ def test_output_without_unicode_still_says_yes_and_no(process: Start) -> None:
 def test_debug_may_stand_anywhere_before_the_end_of_options() -> None:
     assert cli._debug_first(["maps", "x", "--debug"]) == ["--debug", "maps", "x"]
     assert cli._debug_first(["maps", "--", "--debug"]) == ["maps", "--", "--debug"]
+
+
+@pytest.mark.parametrize(
+    ("words", "part"),
+    [
+        (["run", "--json"], "Missing argument"),
+        (["run", "x", "--takes", "zero", "--json"], "--takes"),
+        (["nonsense", "--json"], "No such command"),
+    ],
+)
+def test_what_is_typed_wrong_is_told_to_programs_too(process: Start, words: list[str], part: str) -> None:
+    running = process(*words)
+    out, err = running.communicate(timeout=60)
+    data = json.loads(out)
+    assert running.returncode == data["exit_status"] == 2
+    assert data["error"]["error"] == "UsageError"
+    assert part in data["error"]["message"]
+    assert "Usage:" in err

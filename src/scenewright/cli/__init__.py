@@ -25,7 +25,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
         from scenewright.cli.app import app
 
         words = list(sys.argv[1:] if arguments is None else arguments)
-        app(args=_debug_first(words), prog_name="scenewright")
+        try:
+            app(args=_debug_first(words), prog_name="scenewright")
+        except SystemExit as leaving:
+            if "--json" in words:
+                _tell_misuse(leaving)
+            raise
     except KeyboardInterrupt:  # while the command itself was starting; commands say more about what they kept
         sys.exit(INTERRUPTED)
     except BrokenPipeError:
@@ -33,6 +38,17 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
         drop_output()
         sys.exit(BROKEN_PIPE)
+
+
+def _tell_misuse(leaving: SystemExit) -> None:
+    """Print as JSON, for programs, what was wrong with the words typed; whatever a command says it has said itself."""
+    message = getattr(leaving.__context__, "format_message", None)
+    if message is None:
+        return
+    from scenewright.cli.console import print_json
+
+    fault = {"error": "UsageError", "message": message()}
+    print_json({"status": "error", "exit_status": leaving.code, "error": fault})
 
 
 def _debug_first(words: list[str]) -> list[str]:
