@@ -19,6 +19,7 @@ from scenewright.simulate.following import Leader, foresee_follower
 from scenewright.simulate.prediction import ConstantSpeed, EgoSample, Predictor
 from scenewright.solve.arrival import TIGHT_LENGTH_M, LinearCondition, tight_of
 from scenewright.solve.clearance import Clearance
+from scenewright.solve.lags import Lag
 from scenewright.solve.plan import Plan
 from scenewright.solve.planner import Attempt, Planner
 from scenewright.solve.situation import HeroState, Situation
@@ -85,8 +86,11 @@ class Replanner:
     _failures: int = field(init=False, default=0)
     _first_trigger_s: float = field(init=False, default=0.0)
     _leaders: dict[int, Clearance] = field(init=False, default_factory=dict)
+    _lags: dict[int, Lag] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
+        lags = {hero.id: Lag.of(self.scene, self.structure, hero.id) for hero in self.scene.program.heroes}
+        self._lags = {hero_id: lag for hero_id, lag in lags.items() if lag is not None}
         if isinstance(self.predictor, ConstantSpeed):
             return  # whoever drives ahead
         for hero in self.scene.program.heroes:
@@ -373,6 +377,8 @@ class Replanner:
         side = self._ego_side(hero)
         if side is not None:
             return [self._ego_arrival_s(side, time_s, prediction)]
+        if hero.id in self._lags:
+            return [self._lagged_s(self._lags[hero.id], time_s, prediction)]
         if hero.id not in heroes:
             return list(_FIRST_TRIGGERS_WHEN_FOLLOWED_S if hero.id in self._leaders else _FIRST_TRIGGERS_S)
         here = self._conditions_of(hero)
@@ -417,6 +423,14 @@ class Replanner:
 
     def _conditions_of(self, hero: Actor) -> list[LinearCondition]:
         return [c for c in self.conditions if c.moments <= self.structure.triggers[hero.id]]
+
+    def _lagged_s(self, lag: Lag, time_s: float, prediction: Profile) -> float:
+        """Return when a trigger comes that is told by the time since the ego was somewhere."""
+        since_s = self.ego_knots_s.get(lag.knot)
+        if since_s is None:
+            there = next((c for c in self._ego_alone() if (EGO, lag.knot) in c.moments), None)
+            since_s = time_s + _FAR_S if there is None else self._ego_arrival_s(there, time_s, prediction)
+        return max(since_s + lag.after_s, time_s + _SHORTEST_LEAD_S)
 
     def _hero_place(self, hero: Actor, conditions: list[LinearCondition]) -> tuple[float, float] | None:
         """Return position and speed of the hero at its trigger where the program fixes the position."""

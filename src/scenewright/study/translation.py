@@ -99,7 +99,7 @@ def shipped_texts() -> list[GoldText]:
 
 
 def read_texts(path: Path) -> list[GoldText]:
-    """Read gold texts from a TOML file with ``[[text]]`` tables of ``id``, ``text`` and ``program`` or ``refuse``, or both.
+    """Read gold texts from a TOML file of ``[[text]]`` tables: ``id``, ``text`` and ``program`` or ``refuse``, or both.
 
     Raises
     ------
