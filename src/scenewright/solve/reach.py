@@ -1,7 +1,7 @@
 """How near to its side of the trigger a hero can come, by arithmetic alone: what a solver need not be asked.
 
 What enters: a hero's state, the stretches before its trigger, what it may do in them. What leaves: the least miss of
-its side, in tight tolerances, never more than any solution has. It knows nothing of what comes after the trigger.
+its side, in tight tolerances, never more than any solution has; without end where it comes too late for the outcome.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from scenewright.motion.algebra import pin
 from scenewright.program.structure import Structure
 from scenewright.program.types import Actor, PieceKind, Program
 from scenewright.solve.arrival import TIGHT_LENGTH_M, TIGHT_TIME_S, LinearCondition, hero_side
+from scenewright.solve.haste import Errand
 from scenewright.solve.limits import SETTLED_MPSS, WAIT_BRAKE_MPSS, Limits, Manner, Wait
 from scenewright.solve.situation import Situation
 from scenewright.solve.stretches import (
@@ -33,6 +34,7 @@ _CREEPS_MPS, _CREEPS_WHEN_HASTY_MPS = 1.5, 4.0
 _DRIVES_UP_MPS, _DRIVES_UP_MPSS = 5.0, 2.0
 _SETS_OFF_MPS, _FLYING_MPS, _SETS_OFF_MPSS = 1.2, 3.5, 3.5
 _SOMEWHAT_FASTER = 1.1
+_LATE_SLACK_S = 0.01
 _STANDS_MPS, _NEAR_ENOUGH_M, _BRAKES_AT_MOST_MPSS = 0.2, 0.3, 5.0
 # How finely the authority needed is found, and how much more is given: the solver needs some room.
 _HALVINGS, _AMPLE, _AT_LEAST = 6, 1.15, 0.04
@@ -133,14 +135,33 @@ class Prospects:
         self._heroes = {hero.id: hero for hero in program.heroes}
         self._limits = limits
         self._tasks: dict[int, _Task] = {}
+        errands = {hero.id: Errand.of(program, structure, conditions, hero) for hero in program.heroes}
+        self._errands = {hero: errand for hero, errand in errands.items() if errand is not None}
         for hero in program.heroes:
             task = _task_of(program, hero, structure, conditions)
             if task is not None:
                 self._tasks[hero.id] = task
 
     def least_miss(self, situation: Situation, manner: Manner) -> float:
-        """Return how far off its side some hero must be at the least, in tight tolerances, when it moves so."""
+        """Return how far off its side some hero must be at the least, in tight tolerances, when it moves so.
+
+        Without end where it then comes too late for what is to come of it.
+        """
+        if manner.outcome and self._comes_too_late(situation, manner):
+            return math.inf
         return max((least_miss(*way) for way in self._ways(situation, manner)), default=0.0)
+
+    def _comes_too_late(self, situation: Situation, manner: Manner) -> bool:
+        """Whether no hero that moves so can be first where it is to be, with the margin that is asked for."""
+        for hero, trigger_s in situation.trigger_s.items():
+            errand = self._errands.get(hero)
+            latest_s = situation.ego_knots_s.get(errand.ego_knot) if errand else None
+            if errand is None or latest_s is None:
+                continue
+            soonest_s = trigger_s + errand.least_s(manner, self._limits[hero]) + manner.outcome_margin_s
+            if soonest_s > latest_s + _LATE_SLACK_S:
+                return True
+        return False
 
     def versions(self, situation: Situation, manner: Manner, tolerance: float, gently: bool) -> tuple[Manner, ...]:
         """Return how to carry out a manner, best first: waiting where it has the time, gently, with all it allows."""
