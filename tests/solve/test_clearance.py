@@ -39,6 +39,8 @@ def clearance_of(scene: Scene) -> Clearance | None:
         ("20 == gap(A0, A1, t1)", True),
         ("gap(A1, A0, t1) == 20", False),
         ("headway(A0, A1, t1) == 2", True),
+        ("ttc(A0, A1, t1) == 4", True),
+        ("ttc(A1, A0, t1) == 4", False),
         ("A1x(t1) - A0x(t1) == 15", True),
         ("A0x(t1) - A1x(t1) == 15", False),
     ],

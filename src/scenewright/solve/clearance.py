@@ -10,6 +10,7 @@ from fractions import Fraction
 
 from scenewright.motion.algebra import Condition, Value, compare, pin
 from scenewright.motion.profile import Profile
+from scenewright.program.expressions import Derived, Node, walk
 from scenewright.program.structure import Structure
 from scenewright.program.types import EGO, Actor
 from scenewright.roads.conflicts import VEHICLE_LENGTH_M
@@ -17,8 +18,8 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
 
 # A vehicle's length, and some room between the bumpers.
-_APART_M = VEHICLE_LENGTH_M + 1.5
-# A headway means a distance at some speed: what people drive in town tells the side.
+APART_M = VEHICLE_LENGTH_M + 1.5
+# A difference of places may depend on speeds too: what people drive in town tells the side.
 _TYPICAL_MPS = 10.0
 
 
@@ -32,10 +33,13 @@ class Clearance:
         Whether the hero is the one in front.
     offset_m
         What to add to the hero's arc length to compare it with the ego's.
+    closing
+        Whether the distance has to shrink at the trigger, as a time to collision says.
     """
 
     ahead: bool
     offset_m: float
+    closing: bool = False
 
     @classmethod
     def of(
@@ -46,13 +50,17 @@ class Clearance:
         if conflict is None or conflict.kind != "following":
             return None
         offset_m = scene.offset_m(EGO, hero.id)
+        instant = structure.triggers.get(hero.id, frozenset())
+        formulas = {constraint.id: constraint.formula for constraint in scene.program.constraints}
         for condition in conditions:
-            if set(condition.weights) == {EGO, hero.id} and condition.moments <= structure.triggers.get(
-                hero.id, frozenset()
-            ):
-                gap_m = _gap_m(condition, hero.id, offset_m)
-                if gap_m is not None:
-                    return cls(gap_m > 0.0, offset_m)
+            if set(condition.weights) != {EGO, hero.id} or not condition.moments <= instant:
+                continue
+            distance = _distance(formulas[condition.constraint_id])
+            if distance is not None:
+                return cls(distance.actor == EGO, offset_m, distance.kind == "ttc")
+            gap_m = _gap_m(condition, hero.id, offset_m)
+            if gap_m is not None:
+                return cls(gap_m > 0.0, offset_m)
         return None
 
     def gap_m(self, ego: Profile, time_s: float, s_m: float) -> float:
@@ -60,15 +68,21 @@ class Clearance:
         gap_m = s_m + self.offset_m - ego.state(time_s)[0]
         return gap_m if self.ahead else -gap_m
 
-    def condition(self, ego: Profile, time_s: float, s_m: Value) -> Condition:
+    def condition(self, ego: Profile, time_s: float, s_m: Value, apart_m: float = APART_M) -> Condition:
         """Return that the hero, at `s_m`, is far enough from the ego at a time."""
         sign = 1 if self.ahead else -1
-        least = pin(_APART_M) + sign * pin(ego.state(time_s)[0] - self.offset_m)
+        least = pin(apart_m) + sign * pin(ego.state(time_s)[0] - self.offset_m)
         return compare(">=", sign * s_m, least)
 
     def is_kept(self, ego: Profile, time_s: float, s_m: Fraction | float) -> bool:
         """Whether the hero is far enough from the ego."""
-        return self.gap_m(ego, time_s, float(s_m)) >= _APART_M
+        return self.gap_m(ego, time_s, float(s_m)) >= APART_M
+
+
+def _distance(formula: Node) -> Derived | None:
+    """Return the gap, headway or time to collision that a formula speaks of; its first actor is the one behind."""
+    found = (node for node in walk(formula) if isinstance(node, Derived) and isinstance(node.target, int))
+    return next(found, None)
 
 
 def _gap_m(condition: LinearCondition, hero: int, offset_m: float) -> float | None:

@@ -19,9 +19,10 @@ from scenewright.motion.sketched import SketchedMotion
 from scenewright.program.expressions import Compare, Elapsed, Formula, PieceRef, State, walk
 from scenewright.program.structure import KnotKey, Role, Structure, actors_of, knots_of
 from scenewright.program.types import EGO, Actor, Constraint, PieceKind
+from scenewright.roads.conflicts import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition, hero_side
-from scenewright.solve.clearance import Clearance
+from scenewright.solve.clearance import APART_M, Clearance
 from scenewright.solve.limits import BRAKE_MAX_MPSS, MOVING_MPS, Limits, Manner
 from scenewright.solve.lowering import Lowering, NotYet
 from scenewright.solve.problem import Problem
@@ -126,9 +127,11 @@ class HeroProblem:
                 low, high = (pin(stretch.place_m + off_m) for off_m in _WAITING_ROOM_M)
                 self.problem.bound(next_position, low, high, f"{hero.name} waits at its place")
             now = now + duration if isinstance(now, Fraction) and isinstance(duration, Fraction) else None
-            if clearance is not None and isinstance(now, Fraction) and stretch.approach and stretch.end_knot is None:
+            if clearance is not None and isinstance(now, Fraction) and stretch.approach:
                 label = f"{hero.name} keeps clear of the ego"
-                self.problem.require(clearance.condition(self.situation.ego, float(now), next_position), label)
+                apart_m = APART_M if stretch.end_knot is None else VEHICLE_LENGTH_M
+                kept = clearance.condition(self.situation.ego, float(now), next_position, apart_m)
+                self.problem.require(kept, label)
             if isinstance(now, Fraction) and stretch.approach and stretch.end_knot is None:
                 self._require_readiness(hero, float(now), next_position, next_speed)
             if clearance is not None and stretch.approach and stretch.end_knot is not None:
@@ -181,7 +184,7 @@ class HeroProblem:
     def _require_opening(self, hero: Actor, clearance: Clearance, speed: Symbol) -> None:
         """Require that the distance between hero and ego grows at the trigger, where the manner asks for it."""
         instant_s, opening_mps = self.situation.trigger_s.get(hero.id), self.manner.opening_mps
-        if opening_mps is None or instant_s is None or not clearance.ahead:
+        if opening_mps is None or instant_s is None or not clearance.ahead or clearance.closing:
             return
         least = pin(self.situation.ego.state(instant_s)[1] + opening_mps)
         most = least + pin(_OPENING_RANGE_MPS)
