@@ -26,7 +26,7 @@ from scenewright.solve.planner import Attempt, Planner
 
 _GENTLENESS = {"steady": 5, "gentle": 4, "firm": 3, "whole": 2, "urgent": 1}
 _PROMISED, _GOOD = 10, 13
-_NOTABLY_S = 0.3
+_NOTABLY_S = 0.12
 
 
 def first_plan(
