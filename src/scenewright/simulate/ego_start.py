@@ -74,7 +74,8 @@ def _possible_starts(
     place = next((c for c in initial if c.weights[EGO][0] != 0.0), None)
     if speed_given is not None:
         speed = -speed_given.constant / speed_given.weights[EGO][1]
-        yield EgoFirstState(_position(scene, place, speed, conditions), speed)
+        position = _position(scene, place, speed, conditions)
+        yield EgoFirstState(position, speed, _first_acceleration(ego, position, speed))
         return
     guess = _position(scene, place, limits.natural_turn_speed_mps, conditions)
     preferred = ego.policy.preferred_speed_mps(ego.start_at(max(0.0, guess), limits.natural_approach_speed_mps))
