@@ -51,7 +51,6 @@ _WAITING_ROOM_M = (-0.3, 0.3)
 _REACTION_S, _HASTE_MPSS = 0.1, 3.2
 # How it stops short of its place, and at which speeds the way that this takes is exact.
 _STOPS_MPSS, _CHORDS_MPS = 5.0, (0, 3, 6, 10, 15, 22)
-_SEEN_S = Fraction(3, 5)  # braking or speeding up for less is hardly seen to have begun
 _OF_TIME_TO_ARRIVAL = Fraction(2, 3)
 _LONGEST_S = Fraction(90)
 
@@ -223,8 +222,8 @@ class HeroProblem:
         if begins and side is not None and side.weights[hero.id][0] and side.weights[hero.id][1]:
             # Who is half a second from a place and speeds up is there before that.
             away_s = pin(side.weights[hero.id][1] / side.weights[hero.id][0])
-            return min(_SEEN_S, max(_SHORTEST_S, away_s * _OF_TIME_TO_ARRIVAL))
-        return _SEEN_S
+            return min(pin(self.manner.seen_s), max(_SHORTEST_S, away_s * _OF_TIME_TO_ARRIVAL))
+        return pin(self.manner.seen_s)
 
     def _add_stretch(
         self, hero: Actor, stretch: Stretch, x0: Value, v0: Value, x1: Symbol, v1: Symbol, duration: Value

@@ -102,6 +102,8 @@ class Manner:
     ready, waiting_place_m, sets_off_s
         Whether it stays near enough for an ego that makes haste all of a sudden, and far enough for one that stops; the
         place that it does not go beyond then, until it has to: so long before its trigger.
+    seen_s
+        How long it brakes or speeds up at least, once that is what was asked for: less is hardly seen to have begun.
     opening_mps
         For one that the ego follows: by how much it is faster at its trigger than the ego; None for no matter. Where
         the distance hardly changes, nobody can tell when it is the one that was asked for; and a distance that shrinks
@@ -123,6 +125,7 @@ class Manner:
     clear: bool = True
     counter_mpss: float = SETTLED_MPSS
     wait: Wait | None = None
+    seen_s: float = 0.6
     opening_mps: float | None = None
     ready: bool = False
     waiting_place_m: float | None = None
@@ -152,7 +155,7 @@ COUNTER = replace(WHOLE, counter_mpss=6.0, trigger_speed_mps=0.5)
 # Where the hero is to be first, whatever the ego does: it loses no time after its trigger.
 GENTLE_QUICK = replace(GENTLE, dec_mpss=(1.8, 4.0), acc_mpss=(1.0, 3.5), stop_s=(0.5, 0.6), outcome_margin_s=1.5)
 FIRM_QUICK = replace(FIRM, dec_mpss=(2.0, 6.0), acc_mpss=(0.8, 4.0), stop_s=(0.5, 0.6), outcome_margin_s=1.0)
-HASTE = replace(FIRM, dec_mpss=(2.0, 8.0), acc_mpss=(0.8, 4.0), stop_s=(0.5, 0.6))
+HASTE = replace(FIRM, dec_mpss=(2.0, 8.0), acc_mpss=(0.8, 4.0), stop_s=(0.5, 0.6), seen_s=0.35)
 WHOLE_QUICK = replace(WHOLE, dec_mpss=(2.0, 8.0), stop_s=(0.5, 0.6), outcome_margin_s=0.7)
 COUNTER_QUICK = replace(WHOLE_QUICK, counter_mpss=COUNTER.counter_mpss, trigger_speed_mps=COUNTER.trigger_speed_mps)
 
