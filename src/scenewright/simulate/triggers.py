@@ -1,0 +1,236 @@
+"""When a trigger comes, as the ego is foreseen: at its side of it, some time after a place, or wherever both agree.
+
+What enters: a scene, what is foreseen of the ego, what is planned for a hero. What leaves: instants, and how far off a
+motion is at one. It plans nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from scenewright.motion.profile import Profile, chain
+from scenewright.program.structure import Structure
+from scenewright.program.types import EGO, Actor
+from scenewright.roads.grounding import Scene
+from scenewright.simulate.prediction import ConstantSpeed, Predictor
+from scenewright.solve.arrival import TIGHT_LENGTH_M, LinearCondition, tight_of
+from scenewright.solve.clearance import Clearance
+from scenewright.solve.lags import Lag
+from scenewright.solve.situation import HeroState
+
+_LONGEST_SLACK_S = 1.0
+_FAR_S = 40.0
+# An ego that makes haste does so like this (m/s^2, from m/s), from these shares of the time left; what is worth it.
+_HASTE_MPSS, _SETS_OFF_MPS, _HASTE_SHARES = 1.5, 0.4, (0.0, 0.25, 0.5, 0.75, 1.0)
+_HASTE_HORIZON_S, _NOTABLY_EARLIER_S = 12.0, 0.25
+_SHORTEST_LEAD_S = 0.02
+_FIRST_TRIGGERS_S = (2.5, 3.5, 4.5, 6.0, 8.0, 10.0, 13.0, 16.0, 2.0, 1.5, 1.0, 20.0, 25.0)
+# Whom the ego follows is answered: the sooner the trigger comes, the better it is foreseen.
+_FIRST_TRIGGERS_WHEN_FOLLOWED_S = (1.5, 2.0, *_FIRST_TRIGGERS_S)
+_RETRY_TRIGGERS_S = (0.0, 0.25, -0.25, 0.75, 1.5, 3.0, 6.0, 10.0)
+# How near (in tight tolerances) and how soon before it is planned (s) a trigger that both decide may come at once.
+_NEAR, _NEARLY_S = 0.5, 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class PlannedTrigger:
+    """A hero's trigger in the plan in force: when it comes, and the way to it, going on where it would begin."""
+
+    time_s: float
+    approach: Profile
+
+
+@dataclass(slots=True)
+class TriggerTimes:
+    """Tells for one scene when triggers come.
+
+    Attributes
+    ----------
+    ego_began
+        The ego's position (m) and speed (m/s) when the run began.
+    leaders
+        For each hero that the ego follows: on which side of it the hero is.
+    """
+
+    scene: Scene
+    structure: Structure
+    conditions: tuple[LinearCondition, ...]
+    predictor: Predictor
+    ego_began: tuple[float, float] = (0.0, 0.0)
+    leaders: dict[int, Clearance] = field(init=False, default_factory=dict)
+    _lags: dict[int, Lag] = field(init=False, default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for hero in self.scene.program.heroes:
+            lag = Lag.of(self.scene, self.structure, hero.id)
+            if lag is not None:
+                self._lags[hero.id] = lag
+            clearance = Clearance.of(self.scene, self.structure, self.conditions, hero)
+            if clearance is not None and clearance.ahead and not isinstance(self.predictor, ConstantSpeed):
+                self.leaders[hero.id] = clearance
+
+    def ego_alone(self) -> list[LinearCondition]:
+        """Conditions on the ego alone at knots that it passes by itself (not those it shares with a hero's trigger)."""
+        shared = {key for instant in self.structure.triggers.values() for key in instant}
+        first = (EGO, self.scene.program.ego.sketch.knots[0])
+        return [
+            c for c in self.conditions if set(c.weights) == {EGO} and not c.moments & shared and first not in c.moments
+        ]
+
+    def ego_side(self, hero: Actor) -> LinearCondition | None:
+        """Return the condition on the ego alone that the hero's trigger waits for; None where both decide."""
+        here = self._conditions_of(hero)
+        known = _hero_place(hero, here)
+        for condition in here:
+            alone = condition.given(hero.id, *known) if hero.id in condition.weights and known else condition
+            if set(alone.weights) == {EGO} and alone.weights[EGO][0]:
+                return alone
+        return None
+
+    def instants_s(
+        self,
+        hero: Actor,
+        time_s: float,
+        prediction: Profile,
+        ego_knots_s: Mapping[str, float],
+        planned: PlannedTrigger | None,
+    ) -> list[float]:
+        """Return when a hero's trigger may come, best first: one instant where the ego alone decides.
+
+        Parameters
+        ----------
+        planned
+            The trigger of the plan in force; None where nothing is planned yet.
+        """
+        side = self.ego_side(hero)
+        if side is not None:
+            return [self._ego_arrival_s(side, time_s, prediction)]
+        if hero.id in self._lags:
+            return [self._lagged_s(self._lags[hero.id], time_s, prediction, ego_knots_s)]
+        if planned is None:
+            return list(_FIRST_TRIGGERS_WHEN_FOLLOWED_S if hero.id in self.leaders else _FIRST_TRIGGERS_S)
+        return self._joint_instants(hero, time_s, prediction, planned)
+
+    def _ego_arrival_s(self, condition: LinearCondition, time_s: float, prediction: Profile) -> float:
+        """Return when the ego will be at its side: at once where it is past it, late where that is not in sight."""
+        arrival = condition.first_time({EGO: prediction}, time_s)
+        if arrival is None and self._is_behind(condition, prediction.state(time_s)):
+            arrival = time_s
+        return time_s + _FAR_S if arrival is None else max(arrival, time_s + _SHORTEST_LEAD_S)
+
+    def _lagged_s(self, lag: Lag, time_s: float, prediction: Profile, ego_knots_s: Mapping[str, float]) -> float:
+        """Return when a trigger comes that is told by the time since the ego was somewhere."""
+        since_s = ego_knots_s.get(lag.knot)
+        if since_s is None:
+            there = next((c for c in self.ego_alone() if (EGO, lag.knot) in c.moments), None)
+            since_s = time_s + _FAR_S if there is None else self._ego_arrival_s(there, time_s, prediction)
+        return max(since_s + lag.after_s, time_s + _SHORTEST_LEAD_S)
+
+    def _joint_instants(self, hero: Actor, time_s: float, prediction: Profile, planned: PlannedTrigger) -> list[float]:
+        """Return instants to try where both decide: when the plan as it is meets the condition, then around it."""
+        result: list[float] = []
+        for condition in self._conditions_of(hero):
+            crossing = condition.first_time({EGO: prediction, hero.id: planned.approach}, time_s)
+            if crossing is not None and crossing < planned.time_s + 5.0:
+                result.append(max(crossing, time_s + _SHORTEST_LEAD_S))
+        shifted = (planned.time_s + shift for shift in _RETRY_TRIGGERS_S)
+        return [*result, *(instant for instant in shifted if instant > time_s + _SHORTEST_LEAD_S)]
+
+    def coasting_s(
+        self, hero: Actor, prediction: Profile, state: HeroState, planned: PlannedTrigger, latest_s: float
+    ) -> float | None:
+        """Return when a trigger that both decide comes if the hero just holds its speed; None where not by `latest_s`.
+
+        An ego that follows the hero answers whatever that does: the less it does, the better the ego is foreseen.
+        """
+        both = [c for c in self._conditions_of(hero) if set(c.weights) == {EGO, hero.id}]
+        if len(both) != 1 or len(self._conditions_of(hero)) != 1 or self.ego_side(hero) is not None:
+            return None
+        time_s = state.time_s
+        motion = Profile(chain(time_s, state.s_m, state.speed_mps, [(1.0, 0.0, state.piece)]))
+        crossing = both[0].first_time({EGO: prediction, hero.id: motion}, time_s)
+        soonest_s = time_s + _SHORTEST_LEAD_S
+        if crossing is not None and crossing < latest_s:
+            return max(crossing, soonest_s)
+        # Between two ticks it may have come sooner than foreseen.
+        near = self.joint_miss(hero, prediction, soonest_s, motion) <= _NEAR
+        return soonest_s if near and planned.time_s < time_s + _NEARLY_S else None
+
+    def earliest_s(
+        self, hero: Actor, time_s: float, prediction: Profile, expected_s: float
+    ) -> tuple[tuple[float, float], ...]:
+        """Return when the ego would be at its side if it made haste, from some instants on; empty where it cannot much.
+
+        Who crawls or stands may speed up, and mostly does so all of a sudden.
+        """
+        side = self.ego_side(hero)
+        if side is None or expected_s > time_s + _HASTE_HORIZON_S:
+            return ()
+        found: list[tuple[float, float]] = []
+        for share in _HASTE_SHARES:
+            begin_s = time_s + share * (expected_s - time_s)
+            s_m, speed_mps, _ = prediction.state(begin_s)
+            motion = self.predictor.predict([(begin_s, s_m, max(speed_mps, _SETS_OFF_MPS), _HASTE_MPSS)])
+            arrival = side.first_time({EGO: motion}, begin_s)
+            found.append((begin_s, expected_s if arrival is None else min(expected_s, arrival)))
+        return tuple(found) if expected_s - found[0][1] > _NOTABLY_EARLIER_S else ()
+
+    def slack_s(self, hero: Actor, prediction: Profile, instant_s: float) -> float:
+        """Return the time in which the ego gets one tight tolerance off its side of the trigger."""
+        side, speed = self.ego_side(hero), prediction.state(instant_s)[1]
+        per_metre, per_speed = side.weights[EGO] if side else (1.0, 0.0)
+        tight, slack_s = tight_of(side, speed) if side else TIGHT_LENGTH_M, _LONGEST_SLACK_S
+        for sign in (0.0, -1.0, 1.0):  # faster a moment before or after than at the instant itself
+            speed, accel = prediction.state(instant_s + sign * slack_s)[1:]
+            slack_s = min(slack_s, tight / max(abs(per_metre * speed + per_speed * accel), 1e-3))
+        return slack_s
+
+    def ego_miss(self, hero: Actor, prediction: Profile, instant_s: float) -> float:
+        """Return how far the ego will be off its side of the trigger, in tight tolerances; 0 where both decide."""
+        side = self.ego_side(hero)
+        if side is None:
+            return 0.0
+        state = prediction.state(instant_s)
+        return abs(side.value({EGO: state[:2]})) / tight_of(side, state[1])
+
+    def joint_miss(self, hero: Actor, prediction: Profile, instant_s: float, motion: Profile) -> float:
+        """Return by how much `motion` misses a condition on both, such as a gap, in tight tolerances."""
+        states = {EGO: prediction.state(instant_s)[:2], hero.id: motion.state(instant_s)[:2]}
+        both = [c for c in self._conditions_of(hero) if set(c.weights) == set(states)]
+        return max((abs(c.value(states)) / tight_of(c, states[EGO][1]) for c in both), default=0.0)
+
+    def ego_knots_s(
+        self, time_s: float, prediction: Profile, past: Mapping[str, float], triggers_s: Mapping[int, float]
+    ) -> dict[str, float]:
+        """Return when the ego passes its knots: those behind it, its triggers, and those it is predicted to reach."""
+        knots = dict(past)
+        for hero, instant_s in triggers_s.items():
+            for owner, name in self.structure.triggers[hero]:
+                if owner == EGO:
+                    knots[name] = instant_s
+        latest = max([time_s, *knots.values()])
+        for condition in self.ego_alone():
+            name = next(iter(condition.moments))[1]
+            if name not in knots:
+                arrival = condition.first_time({EGO: prediction}, max(time_s, latest))
+                if arrival is None and self._is_behind(condition, prediction.state(latest)):
+                    arrival = latest  # it is past that place before it may be: nothing can come before it any more
+                if arrival is not None:
+                    knots[name] = arrival
+        return knots
+
+    def _is_behind(self, condition: LinearCondition, state: tuple[float, float, float]) -> bool:
+        """Whether the ego, in `state`, is past a place that lay ahead of it when the run began."""
+        return condition.value({EGO: self.ego_began}) * condition.value({EGO: state[:2]}) < 0.0
+
+    def _conditions_of(self, hero: Actor) -> list[LinearCondition]:
+        return [c for c in self.conditions if c.moments <= self.structure.triggers[hero.id]]
+
+
+def _hero_place(hero: Actor, conditions: list[LinearCondition]) -> tuple[float, float] | None:
+    """Return position and speed of the hero at its trigger where the program fixes the position."""
+    for condition in conditions:
+        if set(condition.weights) == {hero.id} and condition.weights[hero.id][1] == 0.0:
+            return -condition.constant / condition.weights[hero.id][0], 0.0
+    return None
