@@ -9,9 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
-from itertools import pairwise
-
-import numpy as np
 
 from scenewright.motion.algebra import Condition, Symbol, Value, compare, pin
 from scenewright.motion.profile import Profile, chain
@@ -26,6 +23,7 @@ from scenewright.solve.clearance import APART_M, Clearance
 from scenewright.solve.limits import BRAKE_MAX_MPSS, MOVING_MPS, Limits, Manner
 from scenewright.solve.lowering import Lowering, NotYet
 from scenewright.solve.problem import Problem
+from scenewright.solve.readiness import readiness
 from scenewright.solve.situation import HeroState, Situation
 from scenewright.solve.stretches import (
     Division,
@@ -47,10 +45,6 @@ _SHORTEST_S = Fraction(1, 20)
 _OPENING_RANGE_MPS = 1.0
 # How far off its place one may wait: rather short of it.
 _WAITING_ROOM_M = (-0.3, 0.3)
-# How a hero follows an ego that suddenly makes haste: not at once, and with some reserve.
-_REACTION_S, _HASTE_MPSS = 0.1, 3.2
-# How it stops short of its place, and at which speeds the way that this takes is exact.
-_STOPS_MPSS, _CHORDS_MPS = 5.0, (0, 3, 6, 10, 15, 22)
 _OF_TIME_TO_ARRIVAL = Fraction(2, 3)
 _LONGEST_S = Fraction(90)
 
@@ -132,7 +126,11 @@ class HeroProblem:
                 kept = clearance.condition(self.situation.ego, float(now), next_position, apart_m)
                 self.problem.require(kept, label)
             if isinstance(now, Fraction) and stretch.approach and stretch.end_knot is None:
-                self._require_readiness(hero, float(now), next_position, next_speed)
+                side = hero_side(self.conditions, self.structure, hero.id)
+                for condition, reason in readiness(
+                    self.situation, self.manner, side, hero.id, float(now), next_position, next_speed
+                ):
+                    self.problem.require(condition, f"{hero.name} {reason}")
             if clearance is not None and stretch.approach and stretch.end_knot is not None:
                 self._require_opening(hero, clearance, next_speed)
             positions.append(next_position)
@@ -157,28 +155,6 @@ class HeroProblem:
             self.problem.require(clearance.condition(ego, now_s, position), label)
             return clearance
         return clearance if clearance.is_kept(ego, now_s, state.s_m) else None
-
-    def _require_readiness(self, hero: Actor, now_s: float, position: Symbol, speed: Symbol) -> None:
-        """Require that the hero can be at its side in time, whether the ego makes haste from `now_s` on or stops."""
-        earliest = self.situation.earliest_s.get(hero.id)
-        side = hero_side(self.conditions, self.structure, hero.id)
-        if self.manner.waiting_place_m is None or not earliest or side is None:
-            return
-        arrival_s = float(np.interp(now_s, [pair[0] for pair in earliest], [pair[1] for pair in earliest]))
-        rest = pin(max(0.0, arrival_s - now_s - _REACTION_S))
-        per_metre, per_speed = (pin(abs(weight)) for weight in side.weights[hero.id])
-        sign = 1 if side.weights[hero.id][0] > 0 else -1
-        rate = pin(_HASTE_MPSS)
-        place = position + speed * rest + rate * rest * rest / 2
-        value = sign * pin(side.constant) + per_metre * place + per_speed * (speed + rate * rest)
-        self.problem.require(compare(">=", value, Fraction(0)), f"{hero.name} is ready for an ego in haste")
-        if now_s > self.situation.trigger_s[hero.id] - self.manner.sets_off_s:
-            return  # it is on its way, whatever happens
-        # The way to a stand, by chords of the square of the speed.
-        latest = pin(self.manner.waiting_place_m)
-        for low, high in pairwise(_CHORDS_MPS):
-            stop = ((low + high) * speed - low * high) * pin(0.5 / _STOPS_MPSS)
-            self.problem.require(compare("<=", position + stop, latest), f"{hero.name} is ready for an ego that stops")
 
     def _require_opening(self, hero: Actor, clearance: Clearance, speed: Symbol) -> None:
         """Require that the distance between hero and ego grows at the trigger, where the manner asks for it."""
