@@ -56,3 +56,10 @@ def test_every_row_of_the_taxonomy_is_there() -> None:
         row["id"] for name in ("voices.toml", "taxonomy.toml", "phrases.toml", "refusals.toml") for row in rows(name)
     ]
     assert len(every) == len(set(every)) >= 200
+
+
+def test_actions_in_other_words_are_read_right() -> None:
+    texts = rows("fresh_actions.toml")
+    outcomes = {row["id"]: (outcome(row), "refused" if "refuse" in row else "right") for row in texts}
+    assert {identifier: each for identifier, each in outcomes.items() if each[0] != each[1]} == {}
+    assert len(outcomes) == len(texts)

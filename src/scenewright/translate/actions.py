@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from scenewright.translate.descriptions import DescriptionReader
 from scenewright.translate.events import HERO_ID, Event, Place
-from scenewright.translate.facts import LaneRelation, Order, Phase
+from scenewright.translate.facts import Condition, LaneRelation, Order, Phase
 
 SLOWING = ("brake", "stop", "yield")
 SPEEDING = ("accelerate", "go")
@@ -62,6 +62,9 @@ class ActionReader(DescriptionReader):
             self.facts.order, self.order_assumed = Order(True, "conflict_point", event), True
 
     def _slowing(self, event: Event) -> Phase:
+        if self._tells_when(event):
+            self.facts.phases[0].events.append(event)
+            return self.facts.phases[0]
         if self.facts.phases and self.facts.phases[-1].kind != "dec" and self.facts.phases[-1].kind != "turn":
             raise self._refuse("the hero cannot slow down after it has gone", event.span, "slow down first, then go")
         merge = bool(self.facts.phases) and self.facts.phases[-1].kind == "dec"
@@ -72,10 +75,18 @@ class ActionReader(DescriptionReader):
             raise self._refuse("the hero has stopped already", event.span, "what it does after its stop")
         phase.events.append(event)
         phase.to_stop |= event.to_stop or event.verb in ("stop", "yield")
+        if event.duration is not None and (event.to_stop or event.verb == "stop") and phase.wait is None:
+            phase.wait, event.duration = event.duration, None  # "stops there for 3 s"
         phase.yields |= event.verb == "yield"
+        if "let" in event.notes and event.landmark is not None:
+            self._let_reach(event.landmark, event)
         if event.verb == "yield" and not event.places and not event.rate and "as_if" in event.links:
             self._note(event, "the hero gives way")
         for place in event.places:
+            begins_there = event.begins and event.verb == "brake" and not event.to_stop and place.amount is not None
+            if begins_there and isinstance(place.target, str):  # "starts to brake 15 m before the conflict point"
+                self._begins_at(event, place)
+                continue
             if phase.place is not None and _differ(phase.place, place):
                 raise self._refuse(
                     "two different places to stop are given",
@@ -94,17 +105,53 @@ class ActionReader(DescriptionReader):
             phase.to_speed = event.to_speed
         return phase
 
+    def _begins_at(self, event: Event, place: Place) -> None:
+        """Let the place at which the hero begins to brake be its place at the trigger."""
+        condition = Condition(HERO_ID, event, place=place)
+        if len(self.facts.phases) > 1:
+            raise self._refuse("there is a second trigger", place.span, "one trigger")
+        self._no_second_place(condition, self.facts.trigger)
+        self.facts.trigger.append(condition)
+
+    def _tells_when(self, event: Event) -> bool:
+        """Whether "The van begins to brake when ..." only tells when what was told before begins."""
+        here = [id(each) for each in self.sentence]
+        told_now = bool(self.facts.trigger) and all(id(each.event) in here for each in self.facts.trigger)
+        plain = not (event.places or event.rate or event.to_speed or event.to_stop or event.duration or event.to_actor)
+        kinds = [phase.kind for phase in self.facts.phases]
+        return told_now and plain and event.verb == "brake" and kinds in (["dec", "acc"], ["dec", "go"])
+
+    def _let_reach(self, landmark: str, event: Event) -> None:
+        """Note the moment of the ego that the hero lets it reach."""
+        known = self.facts.let_goal
+        if known is not None and known[0] != landmark:
+            raise self._refuse("two different moments of the ego are asked for", event.span)
+        self.facts.let_goal = known or (landmark, event)
+        self._note(event, f"the hero lets the ego reach its {landmark.replace('_', ' ')}")
+
     def _speeding(self, event: Event) -> Phase:
         kind = "go" if event.verb == "keep" else "acc"
         last = self.facts.phases[-1] if self.facts.phases else None
+        if last is not None and last.kind == "turn" and self._after_the_turn(event, last):
+            last.to_speed, last.events = event.to_speed or last.to_speed, [*last.events, event]
+            return last
         if event.verb == "accelerate" and last is not None and last.kind == "go":
             raise self._refuse("the hero cannot keep its speed and speed up", event.span)
+        if last is not None and last.kind == "turn" and event.to_speed is not None and self._turned_before(event):
+            last.to_speed = event.to_speed  # "After completing its turn it speeds up to 10 m/s"
+            last.events.append(event)
+            return last
         if last is not None and last.kind == "turn" and kind == "acc" and last.to_speed is None:
             last.kind = "acc"  # "pulls out, accelerating to complete its turn"
             if last.goal is None:
                 assumed = f"'{last.events[0].span.excerpt(self.text)}' is done when the turn is complete"
                 self.facts.assumptions.append(assumed)
                 last.goal, last.goal_event, last.goal_assumed = "turn_end", last.events[0], assumed
+        sped = last is not None and any(each.verb in ("accelerate", "go") for each in last.events)
+        if last is not None and last.kind == "acc" and kind == "go" and len(self.facts.phases) == 1:
+            if sped or last.rate is not None:
+                raise self._refuse("the hero cannot speed up and keep its speed", event.span)
+            last.kind = "go"  # "passes the conflict point first, keeping its speed"
         if last is not None and last.kind in ("acc", "go"):
             phase = last
         else:
@@ -123,8 +170,30 @@ class ActionReader(DescriptionReader):
             phase.to_speed = event.to_speed
         return phase
 
+    def _turned_before(self, event: Event) -> bool:
+        """Whether the hero has turned when this begins: "then", "after its turn"."""
+        after = [e for e in self.sentence if e.mode in ("after", "when") and e.actor == HERO_ID]
+        return "then" in event.links or any(e.verb in ("complete", "turn") for e in after)
+
+    def _after_the_turn(self, event: Event, turn: Phase) -> bool:
+        """Whether this is the drive after the turn: "after completing the turn it speeds up and drives on"."""
+        told = any(
+            each.actor == HERO_ID and each.verb in ("turn", "complete") and ("after" in each.links or each.perfect)
+            for each in self.sentence
+        )
+        if event.rate is not None or event.places:
+            return False
+        if event.to_speed is not None:
+            return (told or "then" in event.links) and turn.to_speed is None
+        return event.verb in ("go", "keep") and turn.to_speed is not None
+
     def _goal(self, event: Event) -> Phase:
         last = self.facts.phases[-1] if self.facts.phases else None
+        slowed_there = last is not None and last.kind == "dec" and last.to_speed is not None and last.place is not None
+        if last is not None and slowed_there and last.place and last.place.target == event.landmark:
+            last.events.append(event)  # "slows to 2 m/s by the conflict point, and it gets there after the ego"
+            last.goal = event.landmark
+            return last
         if last is not None and last.kind in ("acc", "go", "turn"):
             phase = last
         else:
@@ -135,6 +204,8 @@ class ActionReader(DescriptionReader):
         if last is not None and last.kind == "dec" and "to" in event.links:
             raise self._refuse("the hero cannot slow down to do this", event.span, "accelerates to pass ...")
         phase.events.append(event)
+        if event.speed is not None and event.verb in ("pass", "reach") and phase.to_speed is None:
+            phase.to_speed, event.speed = event.speed, None  # "reaches the conflict point at 12 m/s"
         if event.verb == "complete":
             goal = "turn_end"
             self._until_it_turns(event)
@@ -192,8 +263,9 @@ class ActionReader(DescriptionReader):
             last.events.append(event)
             return last
         if last is not None and last.kind in ("acc", "go") and last.goal is None:
-            self.facts.assumptions.append(f"'{event.span.excerpt(self.text)}' is done when the turn is complete")
-            last.goal, last.goal_event = "turn_end", event
+            assumed = f"'{event.span.excerpt(self.text)}' is done when the turn is complete"
+            self.facts.assumptions.append(assumed)
+            last.goal, last.goal_event, last.goal_assumed = "turn_end", event, assumed
             last.events.append(event)
             return last
         if last is not None and last.kind == "dec" and last.to_stop:  # "stops, then pulls out and turns right"
@@ -215,8 +287,12 @@ class ActionReader(DescriptionReader):
             if phase.place is not None and _differ(phase.place, place):
                 raise self._refuse("two different places to stop are given", place.span)
             phase.place, phase.place_event = place, event
+        if phase.to_speed is not None:
+            raise self._refuse("a hero that slows to a speed does not stand", event.span, "a stop, or a speed")
         phase.to_stop = True
         if event.duration is not None:
+            if phase.wait is not None and phase.wait.term != event.duration.term:
+                raise self._refuse("two times of waiting are given", event.span)
             phase.wait = event.duration
         phase.events.append(event)
         self._note(event, "the hero stands still")
@@ -226,14 +302,14 @@ class ActionReader(DescriptionReader):
         at = event.places[0] if len(event.places) == 1 else None
         if event.verb == "be" and at is not None and at.relation == "at" and isinstance(at.target, str):
             return at.target  # "before the ego is at the conflict point"
-        if event.verb == "reach" and event.landmark is None and not event.places:
+        if event.verb in ("reach", "pass") and event.landmark is None and not event.places:
             self.facts.assumptions.append(f"'{event.span.excerpt(self.text)}': at the conflict point")
             return "conflict_point"
         if event.verb in ("pass", "reach", "enter", "leave") and event.landmark:
             return EDGE.get((event.verb, event.landmark), event.landmark)
         if event.verb in ("turn", "pull_out", "complete") and not event.places:
-            if event.verb == "complete":
-                return "turn_end"
+            if event.verb == "complete" or (event.perfect and not event.begins):
+                return "turn_end"  # "until the ego has turned"
             if not event.begins:
                 self.facts.assumptions.append(
                     f"'{event.span.excerpt(self.text)}' is the moment at which the ego begins to turn"
@@ -276,7 +352,7 @@ class ActionReader(DescriptionReader):
             return
         if event.than_actor == HERO_ID:
             raise self._refuse("the hero cannot come before itself", event.span)
-        if phase.goal in ("turn_end", "turn_start") or phase.kind in ("dec", "turn"):
+        if phase.goal in ("turn_end", "turn_start") or phase.kind == "turn" or (phase.kind == "dec" and not phase.goal):
             raise self._refuse(
                 "it is not clear which moment of the ego this is before",
                 event.span,
@@ -294,7 +370,7 @@ class ActionReader(DescriptionReader):
         """Read "passes the conflict point after the ego" and "goes after the ego"."""
         if event.after_actor == HERO_ID:
             raise self._refuse("the hero cannot come after itself", event.span)
-        if phase.kind in ("dec", "turn"):
+        if phase.kind == "turn" or (phase.kind == "dec" and not phase.goal):
             raise self._refuse("it is not clear which moment of the ego this is after", event.span)
         starts = (
             event.verb in SPEEDING and phase.goal is None and [p.kind for p in self.facts.phases] == ["dec", phase.kind]

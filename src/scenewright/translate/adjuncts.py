@@ -7,14 +7,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from scenewright.translate.directions import DirectionReader
 from scenewright.translate.events import Event
-from scenewright.translate.place_adjuncts import PlaceAdjunctReader
 from scenewright.translate.reader import TURNS
 from scenewright.translate.tokens import Quantity
 
 
 @dataclass(slots=True)
-class AdjunctReader(PlaceAdjunctReader):
+class AdjunctReader(DirectionReader):
     """Puts adjuncts into the event that they belong to."""
 
     def _adjunct(self) -> bool:
@@ -33,41 +33,18 @@ class AdjunctReader(PlaceAdjunctReader):
             or self._way_adjunct()
         )
 
-    def _parenthesis(self) -> bool:
-        """Read "the ego (13 m/s)" and "the hero (westbound)": said of the vehicle that was named just before."""
-        if self.phrases.tokens[self.at].text != "(" or self.phrases.last_named is None:
-            return False
-        actor, end = self.phrases.last_named
-        if end != self.at:
-            return False
-        event = Event("be", actor, self.phrases.tokens[self.at - 1].span, self.sentence, ["that"])
-        at = self.at + 1
-        while self.phrases.tokens[at].text != ")":
-            quantity, heading = self.phrases.tokens[at].quantity, self.phrases.heading(at)
-            if quantity is not None and quantity.dimension == "speed" and event.speed is None:
-                event.speed, at = quantity, at + 1
-            elif heading is not None:
-                event.headings.append((heading[0], self.phrases.span(at, heading[1])))
-                at = heading[1]
-            elif self.phrases.tag(at, "direction") and self.phrases.tag(at + 1, "event_noun") == "turn":
-                turn = Event("turn", actor, self.phrases.span(at, at + 2), self.sentence, ["that"], wanted=True)
-                turn.direction = self.phrases.tag(at, "direction")
-                self.events.append(turn)
-                at += 2
-            elif area := (self.phrases.area(at) or self.phrases.area_noun(at, "on")):
-                event.areas.append(area[0])
-                at = area[1]
-            elif self.phrases.tag(at, "comma") is not None or self.phrases.tag(at, "preposition") == "at":
-                at += 1
-            else:
-                return False
-        event.span = self.phrases.span(self.at - 1, at + 1)
-        self.events.append(event)
-        self.at = at + 1
-        return True
-
     def _particle(self) -> bool:
-        """Step over "along" in "comes along westbound", "forward" in "creeps forward"."""
+        """Step over "along" in "comes along westbound", "forward" in "creeps forward", "by" in "passes by west"."""
+        passing = self.current is not None and self.current.verb == "pass" and self.current.landmark is None
+        by = self.phrases.tokens[self.at].text.lower() == "by" and self.phrases.heading(self.at + 1) is not None
+        if passing and by and self.current is not None and not self.links:
+            self.current.verb = "drive"
+            self.at += 1
+            return True
+        emphatic = self.phrases.tokens[self.at].text.lower() in ("itself", "himself", "herself")
+        if emphatic and self.at and self.phrases.tokens[self.at - 1].tags.keys() & {"landmark", "noun", "hero"}:
+            self.at += 1  # "the conflict point itself"
+            return True
         if self.current is None or self.current.verb not in ("drive", "approach", "pull_out") or self.links:
             return False
         word, after = self.phrases.tokens[self.at].text.lower(), self.phrases.tokens[self.at + 1].tags
@@ -139,6 +116,18 @@ class AdjunctReader(PlaceAdjunctReader):
                 self.at = found[1]
                 self._grow()
                 return True
+        if way := self._tag("way"):
+            host = self._host()
+            if host is None:
+                return False
+            span = self.phrases.tokens[self.at].span
+            begin, end = way.split()
+            host.headings.append((begin, span))
+            host.ends.append((end, span))
+            self.phrases.assume(f"'{self.phrases.tokens[self.at].text}' tells headings: first {begin}, then {end}")
+            self.at += 1
+            self._grow()
+            return True
         if area := self.phrases.area(self.at):
             host = self._host()
             if host is None:
@@ -209,7 +198,11 @@ class AdjunctReader(PlaceAdjunctReader):
     def _through(self) -> bool:
         """Read "accelerates through the conflict point" as two verbs."""
         beyond = self._tag("relation") == "past" and self.current is not None and not self.links
-        if beyond and self.current is not None and self.current.verb in ("drive", "lane_follow", "go"):
+        event = self.current
+        moves = event is not None and (
+            event.verb in ("drive", "lane_follow", "go", "keep") or (event.verb == "be" and bool(event.headings))
+        )
+        if beyond and moves and self.current is not None:
             found = self.phrases.landmark(self.at + 1)
             if found is not None and found[3]:  # "drives straight past a driveway"
                 self.current.direction = self.current.direction or "straight"
@@ -223,6 +216,8 @@ class AdjunctReader(PlaceAdjunctReader):
                 self.at = found[1]  # "continues straight through the T-junction"
                 self._grow()
                 return True
+        if self._as_far_as():
+            return True
         past = self._tag("through") is not None or self._tag("relation") == "past"
         if not past or self.current is None or self.current.verb not in ("accelerate", "go", "keep", "drive"):
             return False
@@ -236,101 +231,20 @@ class AdjunctReader(PlaceAdjunctReader):
         self._grow()
         return True
 
-    def _oncoming(self) -> bool:
-        """Read "is oncoming" and "in the opposite direction"."""
-        event = self.current
-        if event is None and self.subject_span is not None and self._tag("actor_adjective") == "oncoming":
-            event = self._host()  # "GVT oncoming."
-        other_way = self._tag("oncoming_way") is not None or (
-            self._tag("preposition") in ("in", "out")
-            and self.phrases.tag(self.phrases.skip_determiner(self.at + 1), "actor_adjective") == "oncoming"
-        )
-        if event is None and self.subject_span is not None and other_way:
-            event = self._host()  # "a car from the opposite direction turns left"
-            self.reduced = event
-        if event is None or event.actor is None or self.links:
+    def _as_far_as(self) -> bool:
+        """Read "accelerates up to the conflict point" as two verbs."""
+        far = self._tag("as_far_as") or self._tag("link") in ("until", "to") or self._tag("preposition") == "to"
+        if not far or self.current is None or self.links or self.current.verb not in ("accelerate", "go", "keep"):
             return False
-        if self._tag("oncoming_way") and event.verb in ("be", "drive", "approach"):  # "coming the other way"
-            event.relations.append(("oncoming", event.actor, self.phrases.tokens[self.at].span))
-            self.at += 1
-            self._grow()
-            return True
-        if self._tag("preposition") in ("in", "out"):  # "in the opposite direction", "from the opposite direction"
-            at = self.phrases.skip_determiner(self.at + 1)
-            if self.phrases.tag(at, "actor_adjective") == "oncoming" and self.phrases.tag(at + 1, "direction_noun"):
-                event.relations.append(("oncoming", event.actor, self.phrases.span(self.at, at + 2)))
-                self.at = at + 2
-                other = (
-                    self.phrases.noun_phrase(self.at + 1) if self._tag("preposition") in ("to", "of", "as") else None
-                )
-                if other is not None and other.kind != "pronoun" and self.phrases.resolve(other) != event.actor:
-                    self.at = other.end  # "in the opposite direction to the ego"
-                self._grow()
-                return True
-        if event.verb != "be":
+        found = self.phrases.landmark(self.at + 1)
+        if found is None or found[3]:
             return False
-        if self._tag("actor_adjective") != "oncoming" or self.phrases.noun_phrase(self.at) is not None:
-            return False
-        event.relations.append(("oncoming", event.actor, self.phrases.tokens[self.at].span))
-        self.at += 1
+        self.links.append("to")
+        event = self._open("reach", self.at)
+        event.landmark = "turn_start" if found[0] == "mouth" else found[0]
+        self.at = found[1]
         self._grow()
         return True
-
-    def _direction(self) -> bool:
-        at = self.at
-        if self.phrases.tag(at, "preposition") == "to":
-            at = self.phrases.skip_determiner(at + 1)
-        elif self.phrases.tokens[at].text.lower() in ("with", "by", "for", "in") and self._turn_after(at + 1):
-            at = self.phrases.skip_determiner(at + 1)  # "leaves the driveway with a left turn"
-            host = self.current
-            if host is not None and host.verb in ("leave", "pull_out", "turn", "drive") and host.direction is None:
-                host.direction = self.phrases.tag(at, "direction")
-                self.at = at + 2
-                self._grow()
-                return True
-            return False
-        elif self.phrases.tag(at, "determiner") and self.phrases.tag(at + 2, "event_noun") == "turn":
-            at += 1
-        direction = self.phrases.tag(at, "direction")
-        if direction is None:
-            return False
-        if self.phrases.tag(at + 1, "event_noun") == "turn":  # "left turn" without a verb
-            if self.current is not None and not self.links:
-                return False
-            event = self._open("turn", at)
-            event.wanted, event.direction = True, direction
-            self.at = at + 2
-            self._grow()
-            return True
-        host = self.current
-        if (
-            host is not None
-            and host.verb in ("be", "drive", "go")
-            and direction == "straight"
-            and self.links == ["comma"]
-        ):
-            self.links = []  # "Ego: westbound, straight"
-        allowed: tuple[str, ...] = TURNS if direction != "straight" else ("drive", "lane_follow", "go", "be")
-        if direction != "straight" and at > self.at:  # "leaves the driveway to the left"
-            allowed = (*TURNS, "leave", "drive", "go")
-        elif direction != "straight" and host is not None and host.verb == "go":
-            allowed = (*TURNS, "go")
-        if host is None or host.verb not in allowed or host.direction is not None or self.links:
-            return False
-        host.direction = direction
-        self.at = at + 1
-        on_area = (
-            self.phrases.area_noun(self.at, "on") if self.phrases.tokens[at].text.lower().endswith(" on") else None
-        )
-        if on_area is not None:  # "straight on the main road"
-            host.areas.append(on_area[0])
-            self.at = on_area[1]
-        self._grow()
-        return True
-
-    def _turn_after(self, at: int) -> bool:
-        at = self.phrases.skip_determiner(at)
-        return self.phrases.tag(at, "direction") is not None and self.phrases.tag(at + 1, "event_noun") == "turn"
 
     def _bare(self) -> bool:
         """Read telegraphic notes: "Ego: driveway, left turn, eastbound"."""

@@ -45,6 +45,10 @@ class Assembler(ConditionAssembler):
         for condition in sorted(self.facts.initial, key=_canonical):
             self._add(self._condition(condition, "t0"), condition.event)
         sketch = self._interaction()
+        if self.facts.let_goal is not None and self.facts.order is None:
+            landmark, event = self.facts.let_goal
+            aim = self._landmark(landmark, EGO_ID, event.span)
+            self._add(Compare("==", State(EGO_ID, _POSITION, Knot("t2")), aim), event)
         ego_sketch = Sketch(("t0", "t1", "t2"), (PieceKind.GO, PieceKind.GO))
         actors = tuple(
             Actor(actor, ACTOR_NAMES[actor], HeadingsRoute(self.routes.of(actor).headings), each)
@@ -74,6 +78,8 @@ class Assembler(ConditionAssembler):
             return self._from_standstill(self.facts.standing, phases)
         if kinds == ["dec"]:
             self._slow(phases[0], "t2")
+            if phases[0].goal is not None:
+                self._order("t2")
             return _sketch("go dec")
         if kinds in (["dec", "acc"], ["dec", "go"]):
             return self._stop_and_go(phases)
@@ -124,7 +130,7 @@ class Assembler(ConditionAssembler):
             )
         if phase.place is not None:
             self._stop_place(phase.place, phase.place_event or event, knot)
-        elif phase.yields and phase.rate is None:
+        elif phase.yields and phase.rate is None and phase.to_speed is None:
             raise self._refuse(
                 "it is not said where the hero stops to yield", event.span, "such as '5 m behind the conflict point'"
             )

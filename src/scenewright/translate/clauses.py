@@ -8,24 +8,29 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from scenewright.translate.anaphora import AnaphoraReader
 from scenewright.translate.events import EGO_ID, HERO_ID, Event
 from scenewright.translate.modes import resolve_modes
-from scenewright.translate.objects import ObjectReader
+from scenewright.translate.onsets import OnsetReader
 from scenewright.translate.references import NounPhrase
 
+_MOST_READERS = 8  # that may read one token after the other without a step on
 _UNSUPPORTED_FIX = "leave it out: the offline translator knows two vehicles that drive along their lanes"
 
 
 @dataclass(slots=True)
-class ClauseReader(ObjectReader):
+class ClauseReader(OnsetReader):
     """Reads a whole description."""
 
     def read(self) -> list[Event]:
         """Read all tokens."""
         self._refuse_unsupported()
+        stood = 0
         while self.at < len(self.phrases.tokens):
-            if not self._step():
+            before = self.at
+            if not self._step() or stood > _MOST_READERS:
                 raise self._stuck()
+            stood = stood + 1 if self.at == before else 0
         return self.events
 
     def _refuse_unsupported(self) -> None:
@@ -54,16 +59,31 @@ class ClauseReader(ObjectReader):
             or self._label()
             or self._parenthesis()
             or self._comma()
+            or self._onset()
+            or self._deed()
+            or self._deed_predicate()
+            or self._noted_deed()
+            or self._expected_deed()
+            or self._no_deed()
+            or self._state_of_turn()
+            or self._after_a_while()
+            or self._this_lets()
             or self._frame()
+            or self._likewise()
             or self._adverb()
+            or self._nominal_turn()
             or self._existence()
+            or self._shares()
             or self._measure()
             or self._front()
+            or self._place_before_clause()
             or self._apposition()
             or self._both()
             or self._intention()
             or self._adjunct()
+            or self._for_which()
             or self._link()
+            or self._command()
             or self._verb()
             or self._who()
             or self._bare()
@@ -73,6 +93,10 @@ class ClauseReader(ObjectReader):
         if self._tag("end") is None:
             return False
         self._check_subject_used()
+        if self.interrupted is not None:
+            raise self.phrases.refuse(
+                "nothing is said about this vehicle here", self.interrupted[1], "a verb after what interrupts it"
+            )
         left_over = [link for link in self.links if link not in ("comma", "then", "moment")]
         if left_over or self.flags - {"initial"} or self.passive_object:
             raise self._stuck_before("this sentence is not finished")
@@ -96,7 +120,22 @@ class ClauseReader(ObjectReader):
         if self._tag("label") and self._tag("colon", 1):
             self.label = self._tag("label")
             self.at += 2
+            if self.label == "main" and "base" in self.phrases.tokens[self.at].forms:
+                self._set_subject(HERO_ID, None)  # "Command: brake, ..." is for the hero: nobody commands the ego
             self.links.append({"when": "when", "main": "then_label"}.get(self.label or "main", "comma"))
+            return True
+        whose = (
+            self.phrases.noun_phrase(self.at + 2)
+            if self._tag("label") and self._tag("preposition", 1) == "of"
+            else None
+        )
+        if (
+            whose is not None and self.phrases.tag(whose.end, "colon") and self.current is None
+        ):  # "Reaction of the van:"
+            self.label = self._tag("label")
+            self.links.append({"when": "when", "main": "then_label"}.get(self.label or "main", "comma"))
+            self._take_subject(whose)
+            self.at += 1
             return True
         if self._tag("colon"):
             here = [event for event in self.events if event.sentence == self.sentence]
@@ -123,6 +162,10 @@ class ClauseReader(ObjectReader):
             return False
         if adverb == "initially":
             self._mark_initial()
+        elif adverb == "steady":
+            if self.current is None or self.links:
+                return False
+            self.current.notes.append("steady")
         elif adverb == "first" and "comma" in self.links and self.phrases.verb(self.at + 1, "brake", "stop", "yield"):
             pass  # "..., first stops, then goes"
         elif adverb == "first":
@@ -161,6 +204,10 @@ class ClauseReader(ObjectReader):
         after = self.at + 1
         if link in ("before", "after"):
             return self._order(link)
+        bare = self.subject_span is not None and self.links == ["comma"] and self.current is None and not self.pair
+        if link == "when" and bare and self.interrupted is None and self.subject is not None:
+            assert self.subject_span is not None
+            self.interrupted, self.subject_span, self.links = (self.subject, self.subject_span), None, []
         word = self.phrases.tokens[self.at].text.lower()
         if word == "to" and not self.phrases.tag(after, "verb"):
             return False
@@ -168,8 +215,14 @@ class ClauseReader(ObjectReader):
             return False
         if word.startswith("by the time") and any(e.sentence == self.sentence for e in self.events):
             link = "before"  # "is through by the time the ego begins to turn"
+            self.links.append("by_then")
         if link == "only" and self.phrases.tag(after, "link") not in ("when", "after", "then"):
-            return False
+            only_then = self._only_later(after)
+            self.at += only_then
+            return only_then
+        if link == "there" and self._rests_there(after):
+            self.at = after
+            return True
         if link == "there":
             still = self.current is not None and self.current.verb in ("wait", "stop", "brake", "yield", "keep")
             self.at += still and not self.links
@@ -217,9 +270,10 @@ class ClauseReader(ObjectReader):
                 return True
             return False
         token = self.phrases.tokens[phrase.end]
-        if token.tags.keys() & {"verb", "be", "auxiliary", "negation"} and not (
-            token.tags.get("auxiliary") == "do" and self.phrases.tokens[phrase.end + 1].tags.keys() & {"end", "comma"}
-        ):
+        elliptic = token.tags.get("auxiliary") in ("do", "have") or "be" in token.tags
+        elliptic = elliptic and bool(self.phrases.tokens[phrase.end + 1].tags.keys() & {"end", "comma"})
+        self._arrival(elliptic or not token.tags.keys() & {"verb", "be", "auxiliary", "negation"})
+        if token.tags.keys() & {"verb", "be", "auxiliary", "negation"} and not elliptic:
             self.links.append(link)
             self.at += 1
             return True
@@ -241,7 +295,7 @@ class ClauseReader(ObjectReader):
             self.current.after_actor = other
         else:
             self.current.than_actor = other
-        self.at = phrase.end + (token.tags.get("auxiliary") == "do")
+        self.at = phrase.end + elliptic
         self._grow()
         return True
 
@@ -293,22 +347,42 @@ class ClauseReader(ObjectReader):
                 f"'{phrase.span.excerpt(self.phrases.text)}' is the hero: the ego is driven by its own policy"
             )
             self.phrases.subject = HERO_ID
+        absolute = self.current is None and self.phrases.tokens[phrase.end].text.lower() in ("being", "having")
         self._take_subject(phrase)
+        if self.phrases.tokens[self.at].text.lower() in ("itself", "himself", "herself"):
+            self.at += 1
+        if absolute and not self.links and self._amount_before_comma():
+            self.links.append("when")  # "The ego being 30 m from the stop line, the hero brakes"
         return True
 
     def _means_the_hero(self, phrase: NounPhrase) -> bool:
-        """Whether "it" after a clause about the ego is the hero: "After the ego has passed, it goes"."""
+        """Whether "it" is the hero: who acts beside the ego, or after a clause about the ego."""
         here = [event for event in self.events if event.sentence == self.sentence]
-        if self.subject != EGO_ID or self.main_subject != HERO_ID or not here or "comma" not in self.links:
+        if self._only_the_hero_can(phrase, here) or self._placed_beside_the_ego(phrase, here):
+            return True
+        return AnaphoraReader._means_the_hero(self, phrase)
+
+    def _placed_beside_the_ego(self, phrase: NounPhrase, here: list[Event]) -> bool:
+        """Whether "it" is who acts, in "it brakes once the ego is 20 m and it is 12 m from ...": each has one place."""
+        if self.subject != EGO_ID or not here or set(self.links) - {"and", "comma"} or "and" not in self.links:
             return False
-        subordinate = all(set(event.links) & {"when", "after", "and", "comma"} and event.explicit for event in here)
-        named = all(event.actor == EGO_ID for event in here)
+        acts = here[0].actor == HERO_ID and here[0].verb in ("brake", "accelerate", "stop", "yield", "go")
+        placed = here[-1].actor == EGO_ID and here[-1].explicit and bool(here[-1].places) and len(here) > 1
+        amount = self.phrases.tokens[phrase.end + 1].quantity
+        told = self.phrases.tag(phrase.end, "be") is not None and amount is not None
+        return acts and placed and told and amount is not None and amount.dimension in ("length", "time")
+
+    def _only_the_hero_can(self, phrase: NounPhrase, here: list[Event]) -> bool:
+        """Whether "it" brakes or speeds up after a clause that named both: nobody tells the ego to do so."""
+        if self.subject != EGO_ID or self.pronouns > 2 or not {"comma", "then", "and"} & set(self.links):
+            return False
+        told = [event for event in here if event.actor == HERO_ID and (event.explicit or event.verb == "attitude")]
+        named = len(told) > self.pronouns - 1  # by a name, and not only by another "it"
         at = phrase.end
         while self.phrases.tokens[at].tags.keys() & {"auxiliary", "adverb"} or self.phrases.verb(at, "begin"):
             at += 1 + (self.phrases.tag(at + 1, "link") == "to")
-        released = bool(here) and here[-1].verb in ("pass", "complete", "leave", "turn", "pull_out")
-        acts = released and self.phrases.verb(at, "accelerate", "go", "keep") is not None
-        return bool(subordinate and named and acts and self.pronouns == 1)
+        token = self.phrases.tokens[at]
+        return named and self.phrases.verb(at, "brake", "accelerate") is not None and bool(token.forms & {"s", "base"})
 
     def _clause_follows(self, phrase: NounPhrase) -> bool:
         """Whether a new clause begins without a comma: "when the ego is at the stop line the hero brakes"."""

@@ -6,6 +6,9 @@ translation reports. A stretch with an amount, or with words that tell what the 
 
 from __future__ import annotations
 
+from itertools import pairwise
+
+from scenewright.translate.geometry import remark_end
 from scenewright.translate.tokens import Token
 
 _CONTENT = frozenset(("quantity", "bare_number"))
@@ -42,9 +45,12 @@ def denied(skipped: list[Token], ways: list[tuple[str, ...]]) -> Token | None:
     ways
         For each vehicle its turn and its headings.
     """
-    for token in skipped:
+    for token, following in pairwise([*skipped, None]):
+        if token is None:
+            break
         said = token.tags.get("direction") or token.tags.get("heading")
-        if token.tags.get("adverb") != "just" and said is not None and not any(said in way for way in ways):
+        turns = following is not None and "event_noun" in following.tags  # "a right turn", not "right at the line"
+        if (turns or token.tags.get("adverb") != "just") and said is not None and not any(said in way for way in ways):
             return token
     return None
 
@@ -59,6 +65,9 @@ def _comment_end(tokens: list[Token], at: int, kept: list[Token]) -> int | None:
     fresh = not kept or bool(kept[-1].tags.keys() & {"end", "colon"})
     if kind is None and fresh:
         kind = _expectation(tokens, at)
+    parted = fresh or bool(kept[-1].tags.keys() & {"comma"})
+    if parted and (meets := remark_end(tokens, at)) is not None:
+        return meets
     if kind is None or (kind == "sentence" and not fresh):
         return None
     if kind == "line":

@@ -67,7 +67,8 @@ class DescriptionReader:
             raise self._refuse(f"'{event.span.excerpt(self.text)}' has no meaning here", event.span)
         actor = event.actor
         assert actor is not None
-        if "then" in event.links:
+        route = event.verb in ("turn", "pull_out", "leave", "drive", "lane_follow", "go") and not event.places
+        if "then" in event.links and not (route and not self.facts.phases and not self.facts.trigger):
             raise self._refuse("this comes 'then', but nothing happens in it", event.span, "an action of the hero")
         self._tell_route(event)
         if event.in_front and event.actor == HERO_ID:
@@ -81,6 +82,8 @@ class DescriptionReader:
                 if place.target not in ("intersection", "turn_start", "turn"):
                     raise self._refuse("a turn takes no place of its own", place.span, "where the vehicle turns into")
                 self._note(event, "it turns where the roads meet")
+            elif self._straight_at(event, place):
+                self._note(event, "it drives straight on where the roads meet")
             elif isinstance(place.target, int) and place.amount is None:
                 self._lead(place, actor, event)
             else:
@@ -91,11 +94,20 @@ class DescriptionReader:
             raise self._refuse(
                 "a time to collision belongs into the trigger", event.span, fix="say 'when the time to collision ...'"
             )
-        if event.verb == "wait" and event.actor == EGO_ID and self._waits_to(event):
-            said = f"'{event.span.excerpt(self.text)}': whether the ego stands is for its own driving policy to decide"
-            self.facts.assumptions.append(said)
+        waits = event.verb == "wait" and self._waits_to(event)
+        if waits and (event.actor == EGO_ID or "wait" in event.span.excerpt(self.text).lower()):
+            said = "whether the ego stands is for its own driving policy to decide"
+            said = said if event.actor == EGO_ID else "it is about to; nothing is said of a stand"
+            self.facts.assumptions.append(f"'{event.span.excerpt(self.text)}': {said}")
         elif event.verb == "wait":
             self._stand(event)
+
+    @staticmethod
+    def _straight_at(event: Event, place: Place) -> bool:
+        """Whether "straight on at the junction" tells of a way and not of a first place."""
+        moves = event.verb == "lane_follow" or (event.verb in ("drive", "go") and event.direction == "straight")
+        there = place.relation == "at" and place.target in ("intersection", "turn", "turn_start")
+        return moves and there and not event.initial
 
     def _waits_to(self, event: Event) -> bool:
         """Whether the ego "waits on the driveway to turn right": it is about to, and nothing is said of a start."""
@@ -152,7 +164,11 @@ class DescriptionReader:
         actor = event.actor
         assert actor is not None
         turning = event.verb in ("turn", "pull_out", "complete")
-        if event.verb == "lane_follow" or (event.verb == "go" and event.direction == "straight"):
+        if "no turn" in event.notes:
+            self._wish(actor, "turn", "straight", event)
+        if self._until_a_turn(event):
+            pass  # "follows the road and turns left into the driveway"
+        elif event.verb == "lane_follow" or (event.verb == "go" and event.direction == "straight"):
             self._wish(actor, "turn", "straight", event)
         elif event.verb in ("turn", "complete", "pull_out", "leave") and event.direction is not None:
             self._wish(actor, "turn", event.direction, event)
@@ -162,12 +178,25 @@ class DescriptionReader:
             self._wish(actor, "turn", event.direction, event)
         for area in event.areas:
             self._tell_area(actor, area, event, turning)
+        joins = event.verb == "pull_out" and any(area.role == "into" and area.kind == "road" for area in event.areas)
+        if joins and "origin_kind" not in self.facts.wishes[actor]:
+            self._wish(actor, "origin_kind", "driveway", event)  # "joins the road": it was not there before
+        for heading, _ in event.ends:
+            self._wish(actor, "destination_heading", heading, event)
         for heading, span in event.headings:
             if self.text[span.start : span.end].lower().startswith(("from", "out of")):
                 self._wish(actor, "origin_heading", heading, event)
                 continue
             before_verb = bool(event.areas) is False and span.start < event.span.start
-            turned = [e for e in self.sentence if e.actor == actor and e.verb in ("turn", "pull_out", "leave")]
+            turned = [
+                each
+                for each in self.sentence
+                if each.actor == actor
+                and each.verb in ("turn", "pull_out", "leave")
+                and not (
+                    "that" in each.links and each.verb == "turn" and "that" not in event.links
+                )  # "a van that is to turn right drives west"
+            ]
             if (
                 event.verb in ("drive", "go")
                 and turned
@@ -178,10 +207,21 @@ class DescriptionReader:
                 continue
             ends = turning and span.start > event.span.start and not before_verb
             self._wish(actor, "destination_heading" if ends else "origin_heading", heading, event)
-            if event.verb == "lane_follow":
+            if event.verb == "lane_follow" and not self._until_a_turn(event):
                 self._wish(actor, "destination_heading", heading, event)
         for kind, who, _ in event.relations:
             self.facts.relations.append(LaneRelation(kind, who, event))
+
+    def _until_a_turn(self, event: Event) -> bool:
+        """Whether a vehicle follows a road only as far as the turn that the same sentence tells."""
+        words = f" {event.span.excerpt(self.text).lower()}"
+        if event.verb != "lane_follow" or not any(f" follow{end} " in words for end in ("", "s", "ing")):
+            return False
+        at = next((index for index, each in enumerate(self.sentence) if each is event), len(self.sentence))
+        return any(
+            each.actor == event.actor and each.verb in ("turn", "leave") and each.direction not in (None, "straight")
+            for each in self.sentence[at + 1 :]
+        )
 
     def _tell_area(self, actor: int, area: Area, event: Event, turning: bool) -> None:
         role = area.role
@@ -206,7 +246,7 @@ class DescriptionReader:
             heading = area.side if end == "destination" else opposite[area.side]
         if heading is not None:
             self._wish(actor, "destination_heading" if end == "destination" else "origin_heading", heading, event)
-        if event.verb == "lane_follow" and area.kind == "road":
+        if event.verb == "lane_follow" and area.kind == "road" and not self._until_a_turn(event):
             self._wish(actor, "destination_kind", "road", event)
         if area.wanted_by is not None:
             self.facts.relations.append(LaneRelation("in_wanted_lane", actor, event))

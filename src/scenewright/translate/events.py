@@ -68,6 +68,7 @@ class Event:
     places: list[Place] = field(default_factory=list)
     areas: list[Area] = field(default_factory=list)
     headings: list[tuple[str, Span]] = field(default_factory=list)
+    ends: list[tuple[str, Span]] = field(default_factory=list)  # headings at the end of the way
     direction: str | None = None
     rate: Quantity | None = None
     speed: Quantity | None = None

@@ -82,6 +82,9 @@ class Facts:
     phases: list[Phase] = field(default_factory=list)
     order: Order | None = None
     not_yielding: Event | None = None
+    let_goal: tuple[str, Event] | None = None  # the moment of the ego that the hero lets it reach
+    steady: Event | None = None  # the hero does not speed up
+    held: Event | None = None  # what the hero does not do until the ego has passed
     standing: Event | None = None  # the hero waits at the start until the trigger
     mentioned: set[int] = field(default_factory=set)
     assumptions: list[str] = field(default_factory=list)

@@ -6,17 +6,16 @@ say of a vehicle goes into an event of its own. Words that ask for a scenario sa
 
 from __future__ import annotations
 
-from copy import deepcopy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from scenewright.errors import Span
-from scenewright.translate.events import EGO_ID, HERO_ID, Area, Event, Place
-from scenewright.translate.measures import MeasureReader
+from scenewright.translate.events import EGO_ID, HERO_ID, Area, Place
+from scenewright.translate.pairs import PairReader
 from scenewright.translate.references import NounPhrase
 
 
 @dataclass(slots=True)
-class FrameReader(MeasureReader):
+class FrameReader(PairReader):
     """Reads the surroundings of clauses."""
 
     fronted: list[Area | tuple[str, Span]] | None = None
@@ -41,13 +40,19 @@ class FrameReader(MeasureReader):
             self.at = after
             return True
         told = kind == "wish" or (kind == "let" and "and" not in self.links)
-        if told and (phrase := self.phrases.noun_phrase(self.at + 1)) and phrase.kind != "pronoun":
+        phrase = self.phrases.noun_phrase(self.at + 1) if told else None
+        named = phrase is not None and (phrase.kind != "pronoun" or self._told_to(phrase))
+        if told and phrase is not None and named:
             self.at += 1
             self._take_subject(phrase)
             if kind == "wish" and self._tag("link") == "to":
                 self.at += 1
             return True
         return False
+
+    def _told_to(self, phrase: NounPhrase) -> bool:
+        """Whether "it" is told to act: "Let it begin to brake"."""
+        return self.main_subject == HERO_ID and "base" in self.phrases.tokens[phrase.end].forms and self.current is None
 
     def _amount_before_comma(self) -> bool:
         at = self.at
@@ -68,20 +73,29 @@ class FrameReader(MeasureReader):
 
     def _front(self) -> bool:
         """Read a place in front of its clause: "On the driveway, the ego ...", "from the east, a bus ..."."""
-        if self.current is not None or self.subject_span is not None or self.links or self.label or self.fronted:
+        joined = self.current is not None and self.links in (["comma", "and"], ["and"], ["comma"])
+        if self.subject_span is not None or self.label or self.fronted:
+            return False
+        if joined and not any("when" in event.links for event in self.events if event.sentence == self.sentence):
+            return self._front_joined()
+        if self.current is not None or self.links:
             return False
         if any(event.sentence == self.sentence for event in self.events):
             return False
-        if not {"preposition", "from_side", "heading"} & self.phrases.tokens[self.at].tags.keys() and (
+        if not {"preposition", "from_side", "heading", "oncoming_way"} & self.phrases.tokens[self.at].tags.keys() and (
             self._tag("relation") not in ("ahead", "behind")
         ):
             return False
+        if self._fronted_speed():
+            return True
         if (site := self._junction(self.at)) is not None:
             self.at = site
             return True
         if self._tag("relation") in ("ahead", "behind") and self._fronted_relation():
             return True
         if self._tag("from_side") and self._fronted_side():
+            return True
+        if self._tag("oncoming_way") and self._fronted_way():
             return True
         if (area := self.phrases.area(self.at)) and area[0].lane_of is None:
             found: Area | tuple[str, Span] = area[0]
@@ -115,6 +129,35 @@ class FrameReader(MeasureReader):
             self.subject_span = None
         return True
 
+    def _front_joined(self) -> bool:
+        """Read ", and behind it a motorcycle also turns right" and "and on the road a bus drives west"."""
+        relation = self._tag("relation") in ("ahead", "behind")
+        at = self.at + 1
+        if relation and (other := self.phrases.noun_phrase(at)) is not None:
+            at = other.end
+        elif (area := self.phrases.area(self.at)) is not None and area[0].lane_of is None:
+            at = area[1]
+        else:
+            return False
+        at += self.phrases.tag(at, "comma") is not None
+        phrase = self.phrases.noun_phrase(at)
+        if phrase is None or phrase.kind == "pronoun":
+            return False
+        after = phrase.end + (self.phrases.tag(phrase.end, "adverb") is not None)
+        token = self.phrases.tokens[after]
+        if not (token.tags.keys() & {"be", "auxiliary"} or token.forms & {"s"}):
+            return False
+        links, self.links = self.links, []
+        if relation and self._fronted_relation():
+            return True
+        if not relation and area is not None:
+            self.at = at
+            self._take_subject(phrase)
+            self._aside(area[0])
+            return True
+        self.links = links
+        return False
+
     def _there_is(self, at: int) -> int | None:
         """Return the position after "there is", "there should be"."""
         at += 1
@@ -122,6 +165,27 @@ class FrameReader(MeasureReader):
         if self.phrases.tag(at, "be") or self.phrases.tag(at, "genitive") or self.phrases.verb(at, "exist"):
             return at + 1
         return None
+
+    def _fronted_speed(self) -> bool:
+        """Read "With an initial speed of 55 km/h the ego goes west"."""
+        if self._tag("preposition") not in ("with", "at"):
+            return False
+        measured = self.phrases.measured(self.at + 1)
+        at = self.phrases.skip_hedges(self.at + 1)
+        amount, end = (measured[1], measured[2]) if measured is not None else (self.phrases.tokens[at].quantity, at + 1)
+        if amount is None or amount.dimension != "speed":
+            return False
+        end += self.phrases.tag(end, "comma") is not None
+        phrase = self.phrases.noun_phrase(end)
+        drives = phrase is not None and self.phrases.verb(phrase.end, "drive", "go", "lane_follow", "approach", "come")
+        if phrase is None or phrase.kind == "pronoun" or not drives:
+            return False
+        start, self.at = self.at, end
+        self._take_subject(phrase)
+        subject_span = self.subject_span
+        self._open("be", start).speed = amount
+        self.subject_span = subject_span
+        return True
 
     def _fronted_side(self) -> bool:
         """Read "From the right, a car ..." and "From the left comes a truck"."""
@@ -139,11 +203,39 @@ class FrameReader(MeasureReader):
         subject_span, end = self.subject_span, self.at
         event = self._open("drive", start)
         self.at = start
-        if not self._side():
+        side = self._tag("from_side") or ""
+        if side.startswith("on_"):  # "To its left, a van approaches"
+            if inverted or self.subject is None or not self.phrases.verb(phrase.end, "come", "approach"):
+                return False
+            event.relations.append((f"from_{side.removeprefix('on_')}", self.subject, self.phrases.tokens[start].span))
+        elif not self._side():
             return False
         if area is not None:
             event.areas.append(area[0])
         self.at = end
+        self.subject_span = None if inverted else subject_span
+        return True
+
+    def _fronted_way(self) -> bool:
+        """Read "From the other direction comes a hero" and "In the opposite direction, a car ..."."""
+        start = self.at
+        after = start + 1 + (self.phrases.tag(start + 1, "comma") is not None)
+        area = self.phrases.area(after)
+        if area is not None:
+            after = area[1] + (self.phrases.tag(area[1], "comma") is not None)
+        inverted = self.phrases.verb(after, "come", "drive", "approach") is not None
+        phrase = self.phrases.noun_phrase(after + inverted)
+        if phrase is None or phrase.kind == "pronoun" or self.phrases.tag(phrase.end, "genitive") is not None:
+            return False
+        self.at = after + inverted
+        self._take_subject(phrase)
+        if self.subject is None:
+            return False
+        subject_span = self.subject_span
+        event = self._open("drive", start)
+        event.relations.append(("oncoming", self.subject, self.phrases.tokens[start].span))
+        if area is not None:
+            event.areas.append(area[0])
         self.subject_span = None if inverted else subject_span
         return True
 
@@ -198,104 +290,33 @@ class FrameReader(MeasureReader):
             event.span = event.span.union(found[1])
         self.subject_span = subject_span
 
-    # -- both vehicles ----------------------------------------------------------------------------------------------
-    def _both(self) -> bool:
-        """Read "both vehicles" and "the ego and the hero" as the subject of one clause."""
-        if self.subject_span is not None or (self.current is not None and not self.links):
-            return False
-        at = self.at
-        if self.phrases.tokens[at].text.lower() == "both" and (pair := self._two_names(at + 1)) is not None:
-            end = pair
-        elif self._tag("pair"):
-            end = at + 1
-        else:
-            pair = self._two_names(at)
-            if pair is None:
-                return False
-            end = pair + (self.phrases.tag(pair, "pair") is not None)
-        if self.phrases.tag(end, "genitive") is not None:
-            return False
-        if self._respectively(at, end):
-            return True
-        self._set_subject(EGO_ID, self.phrases.span(at, end))
-        self.phrases.subject = None
-        self.pair, self.at, self.current = True, end, None
-        return True
-
-    def _respectively(self, start: int, at: int) -> bool:
-        """Read "the ego and the hero are 12 m and 20 m from the stop line and the conflict point, respectively"."""
-        at += self.phrases.tag(at, "be") is not None
-        first = self.phrases.tokens[at].quantity
-        if first is None or not self._says_respectively(at):
-            return False
-        places: list[Place] = []
-        if self.phrases.tag(at + 1, "link") == "and" and self.phrases.tokens[at + 2].quantity is not None:
-            found = self.phrases.place(at + 2)
-            if found is None:
-                return False
-            second = self.phrases.landmark(found[1] + 1) if self.phrases.tag(found[1], "link") == "and" else None
-            places = [replace(found[0], amount=first), found[0]]
-            end = found[1]
-            if second is not None:
-                places[1], end = replace(places[1], target=second[0]), second[1]
-        elif found := self.phrases.place(at):
-            after = self.phrases.place(found[1] + 1) if self.phrases.tag(found[1], "link") == "and" else None
-            if after is None:
-                return False
-            places, end = [found[0], after[0]], after[1]
-        else:
-            return False
-        names = [self.phrases.noun_phrase(start + (self.phrases.tokens[start].text.lower() == "both"))]
-        if names[0] is None or names[0].kind == "pronoun":
-            return False
-        order = self.phrases.resolve(names[0])
-        links = self.links
-        for actor, place in ((order, places[0]), (1 - order, places[1])):
-            self.links = links
-            self._set_subject(actor, self.phrases.span(start, end))
-            self._open("be", start).places.append(place)
-            links = ["and"]
-        self.at = end + (self.phrases.tag(end, "comma") is not None) + 1
-        return True
-
-    def _two_names(self, at: int) -> int | None:
-        first = self.phrases.noun_phrase(at)
-        if first is None or self.phrases.tag(first.end, "link") != "and" or first.kind == "pronoun":
-            return None
-        second = self.phrases.noun_phrase(first.end + 1)
-        if second is None or second.kind == "pronoun" or self.phrases.tag(second.end, "genitive") is not None:
-            return None
-        if self.phrases.tokens[first.end].text.lower() != "and":
-            return None
-        if self.phrases.resolve(first) == self.phrases.resolve(second):
-            raise self.phrases.refuse("these are the same vehicle", self.phrases.span(at, second.end))
-        return second.end
-
-    def _spread(self) -> None:
-        """Tell of the hero too what the sentence tells of both."""
-        spread: list[Event] = []
-        for event in self.events:
-            spread.append(event)
-            if event.both:
-                event.both = False
-                other = deepcopy(event)
-                other.actor = HERO_ID
-                spread.append(other)
-        self.events = spread
-
-    # -- appositions ------------------------------------------------------------------------------------------------
     def _apposition(self) -> bool:
         """Read "the NPC, a bus, ..."."""
         if self.subject_span is None or self.subject is None or self.links[-1:] != ["comma"] or self.pair:
             return False
         phrase: NounPhrase | None = self.phrases.noun_phrase(self.at)
-        if phrase is None or phrase.kind != "noun" or phrase.determiner != "indefinite" or phrase.heading:
+        if phrase is not None and phrase.kind in ("ego", "hero") and "comma" in self.phrases.tokens[phrase.end].tags:
+            if self.phrases.resolve(phrase) != self.subject:  # "the front one, the hero, turns right"
+                return False
+            self.links.pop()
+            self.at = phrase.end + 1
+            return True
+        noted = "colon" in self.phrases.tokens[self.at - 1].tags and phrase is not None and phrase.determiner is None
+        if phrase is None or phrase.kind != "noun" or phrase.heading:
             return False
+        if phrase.determiner != "indefinite" and not noted and phrase.noun not in ("front_one", "rear_one"):
+            return False
+        if phrase.noun in ("front_one", "rear_one"):  # "the hero, the front one, turns left"
+            self.phrases.described += [
+                (each, self.subject, phrase.span) for each in phrase.adjectives & {"lead", "rear"}
+            ]
+            phrase.adjectives.clear()
         if self.phrases.tag(phrase.end, "comma") is None or phrase.adjectives - {"plain"}:
             return False
         refs = self.phrases.refs
         _ = refs.ego(phrase.noun) if self.subject == EGO_ID else refs.hero(phrase.noun)
-        self.links.pop()
+        if not noted:  # "lead: sedan, same lane": notes go on after a comma
+            self.links.pop()
         self.subject_span = self.subject_span.union(phrase.span)
         self.at = phrase.end + 1
         return True

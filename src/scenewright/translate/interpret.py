@@ -5,6 +5,7 @@ What enters: events with modes. What leaves: `Facts`. It knows no map and builds
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from itertools import groupby
 
@@ -13,6 +14,8 @@ from scenewright.translate.actions import GOALS, SLOWING, SPEEDING
 from scenewright.translate.events import EGO_ID, HERO_ID, Event
 from scenewright.translate.facts import Facts, LaneRelation, Order, Phase
 from scenewright.translate.moments import TELLING, MomentReader
+
+_NAMED_TRIGGER = re.compile(r"trigger|activation|\b(?:start|beginning|onset) of (?:the|its)", re.IGNORECASE)
 
 
 @dataclass(slots=True)
@@ -27,6 +30,8 @@ class Interpreter(MomentReader):
                 self.facts.relations.append(LaneRelation(word, actor, mention))
             elif word in ("turns_left", "turns_right"):
                 self._wish(actor, "turn", word.removeprefix("turns_"), mention)
+            elif word == "standing":
+                self._stand(Event("wait", actor, span, -1))
             elif word == "rear":
                 kind, who = ("ego_leads", EGO_ID) if actor == HERO_ID else ("lead", HERO_ID)
                 self.facts.relations.append(LaneRelation(kind, who, mention))
@@ -39,14 +44,15 @@ class Interpreter(MomentReader):
         if not self.facts.phases and refused is not None and refused.verb == "yield":
             self.facts.phases.append(Phase("acc", [refused], goal="conflict_point", goal_event=refused))
             self.facts.assumptions.append("a hero that does not yield may speed up to pass the conflict point")
+        self._go_when_released()
+        self._keeps_its_speed()
         self._let_go_first()
         for left in [self.pending_before, *self.pending_release]:
             if left is not None:
                 raise self._refuse("it is not said what the hero does then", left.span, "an action of the hero")
         return self.facts
 
-    @staticmethod
-    def _moments_told_before(sentences: list[list[Event]]) -> list[list[Event]]:
+    def _moments_told_before(self, sentences: list[list[Event]]) -> list[list[Event]]:
         """Let "The ego gets to 12 m before the line. At that moment the hero brakes" be one sentence."""
         joined: list[list[Event]] = []
         for sentence in sentences:
@@ -58,6 +64,15 @@ class Interpreter(MomentReader):
                 and event.verb in ("be", "sit", "reach", "drive", "approach", "ttc")
                 for event in placed
             )
+            since = before[-1].span.end if before else 0
+            named = _NAMED_TRIGGER.search(self.text[since : sentence[0].span.start]) is not None
+            told = [event for event in sentence if event.mode == "main" and not event.initial]
+            stated = all(e.verb in ("be", "sit") and e.places and isinstance(e.places[0].target, str) for e in told)
+            asked = any(event.mode == "when" for every in sentences for event in every)
+            if "moment" in sentence[0].links and stated and len(told) == len(sentence) and not asked and named:
+                for event in sentence:
+                    event.mode = "when"  # "At the trigger the ego is 45 m from its stop line"
+                sentence[0].links.remove("moment")
             if "moment" in sentence[0].links and placed and free and not any(e.mode == "when" for e in before):
                 for event in placed:
                     event.mode = "when"
@@ -67,20 +82,6 @@ class Interpreter(MomentReader):
             for event in sentence:
                 event.links = ["then" if link == "moment" else link for link in event.links]
         return joined
-
-    def _let_go_first(self) -> None:
-        """Let a hero that "lets the ego pass, then continues" go on only when the ego has passed."""
-        let = [event for phase in self.facts.phases for event in phase.events if "let" in event.notes]
-        if (
-            let
-            and self.facts.order is None
-            and [phase.kind for phase in self.facts.phases]
-            in (
-                ["dec", "acc"],
-                ["dec", "go"],
-            )
-        ):
-            self._set_order(Order(False, "conflict_point", let[0], at_start=True))
 
     def _sentence(self, events: list[Event]) -> None:
         self.sentence = events
@@ -100,6 +101,8 @@ class Interpreter(MomentReader):
         self._conditions(conditions, events)
         reacts = bool(conditions)
         for event in events:
+            if "steady" in event.notes and event.mode != "main":
+                raise self._refuse("a constant speed is no moment", event.span)
             if event.verb == "attitude":
                 self._attitude(event)
             elif event.negated:
@@ -125,6 +128,9 @@ class Interpreter(MomentReader):
         self._tell_route(event)
 
     def _before(self, event: Event) -> None:
+        if self._goes_on_to_turn(event):
+            self._tell_route(event)
+            return
         if (
             event.actor == HERO_ID
             and event.verb in (*SPEEDING, *GOALS)
@@ -132,6 +138,8 @@ class Interpreter(MomentReader):
             and not (event.explicit or event.resumed)
         ):
             self._action(event)  # "stops before accelerating"
+            return
+        if self._slow_by_then(event):
             return
         if event.actor != EGO_ID:
             raise self._refuse(
@@ -151,6 +159,8 @@ class Interpreter(MomentReader):
         self._set_order(Order(True, self._ego_landmark(event), event))
 
     def _until(self, event: Event) -> None:
+        if self._slow_until(event):
+            return
         if event.actor == HERO_ID and event.verb in ("stop", "wait") and self.facts.phases:
             self._action(event)
         elif event.actor == EGO_ID and self.facts.phases and self.facts.phases[-1].kind == "dec":
@@ -168,12 +178,14 @@ class Interpreter(MomentReader):
             )
 
     def _after(self, event: Event, events: list[Event]) -> None:
+        if self._rests(event):
+            return
         if event.actor == HERO_ID and event.verb in SLOWING:
             if event.places or event.rate:
                 self._action(event)
             else:
                 self._marker(event)
-        elif event.actor == HERO_ID and event.verb in ("turn", "complete") and self.facts.phases:
+        elif event.actor == HERO_ID and event.verb in ("turn", "complete") and self.facts.phases and not self._runs():
             self._tell_route(event)
             self._marker(event)
         elif event.actor == HERO_ID and self.facts.order is not None:
@@ -190,6 +202,11 @@ class Interpreter(MomentReader):
         else:
             raise self._refuse("it is not clear what comes after this", event.span)
 
+    def _runs(self) -> bool:
+        """Whether the hero is on its way to a goal of which the ego's moment is told: "the ego passes after it"."""
+        ego = self._ego_main(self.sentence)
+        return self.facts.phases[-1].kind in ("acc", "go") and ego is not None and ego.verb in GOALS
+
     @staticmethod
     def _ego_main(events: list[Event]) -> Event | None:
         return next((e for e in events if e.actor == EGO_ID and e.mode == "main" and not e.negated), None)
@@ -199,7 +216,14 @@ class Interpreter(MomentReader):
         if straight and event.mode == "main" and event.actor is not None and not self.facts.phases:
             self._wish(event.actor, "turn", "straight", event)
             return
-        plain = not (event.places or event.rate or event.speed or event.to_speed or event.landmark or event.areas)
+        if self._holds(event):
+            return
+        plain = not (event.places or event.rate or event.speed or event.to_speed or event.areas)
+        if event.actor == HERO_ID and event.verb == "accelerate" and plain and event.mode == "main":
+            self.facts.steady = event
+            self._note(event, "the hero does not speed up")
+            return
+        plain = plain and (event.landmark is None or "let" in event.notes)
         if event.actor == HERO_ID and event.verb in (*SLOWING, "wait") and plain and event.mode == "main":
             self.facts.not_yielding = self.facts.not_yielding or event
             self._note(event, "the hero does not stop for the ego")
@@ -212,9 +236,19 @@ class Interpreter(MomentReader):
         )
 
     def _main(self, event: Event, reacts: bool) -> None:
+        way = event.headings or event.areas or event.direction == "straight"
+        if event.verb == "keep" and way and not self.facts.phases and not reacts:
+            event.verb = "drive"  # "the van keeps going west"
+        self._drive_past(event, reacts)
+        arrives = self._arrives(event)
+        if "steady" in event.notes:
+            passes = event.actor == HERO_ID and event.verb in GOALS and (reacts or self.facts.trigger)
+            if not passes:
+                raise self._refuse("a constant speed is supported only on the way past the ego", event.span)
+            self.facts.steady = event
         if event.actor == EGO_ID:
             self._ego(event)
-        elif self._is_action(event, reacts):
+        elif arrives or self._is_action(event, reacts):
             self._action(event)
         elif event.verb in TELLING:
             self._tell(event)
@@ -237,6 +271,23 @@ class Interpreter(MomentReader):
         self._set_order(Order(event.than_actor is None, "conflict_point", event, at_start=phases[-1].events == [event]))
         return True
 
+    def _drive_past(self, event: Event, reacts: bool) -> None:
+        """Let a vehicle that "passes the driveway" before anything happens drive straight on."""
+        first = not reacts and not self.facts.phases and "then" not in event.links and not event.negated
+        beside = event.verb == "pass" and event.landmark == "turn" and not event.places
+        if first and beside and event.than_actor is None and event.after_actor is None and not event.first:
+            event.verb, event.landmark, event.direction = "drive", None, "straight"
+
+    def _goes_on_to_turn(self, event: Event) -> bool:
+        """Whether "before turning left into the driveway" only tells where a drive ends."""
+        at = next(index for index, each in enumerate(self.sentence) if each is event)
+        told = any(
+            each.actor == event.actor and each.verb in ("drive", "lane_follow", "approach", "be", "go")
+            for each in self.sentence[:at]
+        )
+        acts = any(each.verb in (*SLOWING, *SPEEDING, *GOALS) and each.actor == HERO_ID for each in self.sentence)
+        return told and not acts and event.gerund and event.verb == "turn" and not self.facts.phases
+
     def _ego(self, event: Event) -> None:
         across = event.verb == "pass" and event.landmark == "intersection" and not self.facts.phases
         if across and "then" not in event.links and event.than_actor is None:  # "the ego crosses the T-junction"
@@ -251,6 +302,8 @@ class Interpreter(MomentReader):
         goes = bool(self.facts.phases) and self.facts.phases[-1].kind in ("acc", "go")
         if ordered and goes and "then" in event.links and not event.negated and event.mode == "main":
             self._set_order(Order(True, self._ego_landmark(event), event))  # "..., after which the ego begins to turn"
+            return
+        if self._is_let(event):
             return
         timed = (ordered and event.verb != "turn") or (event.begins and event.verb == "turn")
         if timed and not any(each.mode == "after" and each.actor == HERO_ID for each in self.sentence):

@@ -52,6 +52,7 @@ def choose_routes(facts: Facts, road_map: RoadMap, text: str, name: str) -> Itin
     TranslationError
         Where nothing on the map fits, or where the words leave a choice open.
     """
+    _one_leader(facts, text, name)
     options = {actor: _options(facts, actor, road_map, text, name) for actor in (EGO_ID, HERO_ID)}
     pairs = [(ego, hero) for ego in options[EGO_ID] for hero in options[HERO_ID]]
     for relation in facts.relations:
@@ -78,6 +79,20 @@ def choose_routes(facts: Facts, road_map: RoadMap, text: str, name: str) -> Itin
     for actor, route in ((EGO_ID, ego), (HERO_ID, hero)):
         assumptions += _inferred(facts, actor, route, road_map)
     return Itineraries(ego, hero, tuple(assumptions))
+
+
+def _one_leader(facts: Facts, text: str, name: str) -> None:
+    """Refuse a text in which each of the two is in front of the other."""
+    leads = [relation for relation in facts.relations if relation.kind in ("lead", "ego_leads")]
+    second = next((each for each in leads if each.actor != leads[0].actor), None)
+    if second is not None:
+        raise TranslationError(
+            "each of the two vehicles is said to be in front of the other",
+            place=ErrorPlace(name, text, second.event.span),
+            found=second.event.span.excerpt(text),
+            expected=f"one order, as in '{leads[0].event.span.excerpt(text)}'",
+            fix="say who is ahead, once",
+        )
 
 
 def _options(facts: Facts, actor: int, road_map: RoadMap, text: str, name: str) -> list[Route]:

@@ -10,10 +10,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from scenewright.errors import Span
+from scenewright.translate.headlines import headline_end, summary_end
 from scenewright.translate.tokens import Token
 
 _WHOSE = frozenset(("ego", "hero", "noun", "actor_adjective", "determiner", "aspect", "genitive", "pair"))
-_SAYS = frozenset(("ego", "hero", "pronoun", "be", "auxiliary", "negation", "quantity", "measure", "bound"))
+_SAYS = frozenset(("pair", "ego", "hero", "pronoun", "be", "auxiliary", "negation", "quantity", "measure", "bound"))
 _LONGEST_TITLE = 13
 _ACTIONS = ("brake", "stop", "yield", "accelerate", "go", "keep", "pass", "complete")
 _LONG_ADVERB = 7
@@ -29,7 +30,17 @@ def lay_out(tokens: list[Token]) -> tuple[list[Token], list[list[Token]]]:
     """Return the tokens as running text, and the titles that say nothing of their own."""
     titles: list[list[Token]] = []
     tokens = _without_titles(_without_numbers(_plain_adjectives(tokens)), titles)
-    return _lists(_moments_within(_joined_conditions(tokens))), titles
+    return _lists(_reaches(_moments_within(_joined_conditions(tokens)))), titles
+
+
+def _reaches(tokens: list[Token]) -> list[Token]:
+    """Let "up to the conflict point" be a way, where no amount makes it a bound."""
+    read = list(tokens)
+    for at, token in enumerate(tokens[:-2]):
+        after = at + 1 + ("determiner" in tokens[at + 1].tags or "possessive" in tokens[at + 1].tags)
+        if "as_far_as" in token.tags and "landmark" in tokens[after].tags:
+            read[at] = replace(token, tags={"as_far_as": token.tags["as_far_as"]})
+    return read
 
 
 def _moments_within(tokens: list[Token]) -> list[Token]:
@@ -109,7 +120,7 @@ def _without_titles(tokens: list[Token], titles: list[list[Token]]) -> list[Toke
     kept: list[Token] = []
     at, begins = 0, True
     while at < len(tokens):
-        end = _title_end(tokens, at) if begins else None
+        end = (headline_end(tokens, at) or summary_end(tokens, at) or _title_end(tokens, at)) if begins else None
         named = _named_line(tokens, at) if begins and end is None else None
         if named is not None:
             titles.append(tokens[at:named])

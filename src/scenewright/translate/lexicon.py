@@ -1,22 +1,26 @@
-"""The words that the offline translator knows, read from `lexicon.toml`, with their inflected forms.
+"""The words that the offline translator knows, read from its tables, with their inflected forms.
 
-What enters: the table beside this module. What leaves: tags for sequences of words, numbers in words, unit spellings.
-It holds no grammar: which tag counts in a sentence is decided by `clauses`.
+What enters: the tables beside this module, `lexicon.toml` first. What leaves: tags for sequences of words, numbers in
+words, unit spellings. It holds no grammar: which tag counts in a sentence is decided by `clauses`.
 """
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
+from itertools import product
 
 from scenewright.translate.numerals import WORDS
 
+FILES = ("lexicon.toml", "lexicon_routes.toml", "lexicon_triggers.toml")
 VOWELS = "aeiou"
 SLOT = "~"
 SLOT_WORDS = (("the",), ("its",), ("his",), ("her",), ("their",), ())
+_ALTERNATIVES = re.compile(r"\(([^()]*)\)")
 FORM_NAMES = ("base", "s", "ing", "ed")
 
 
@@ -57,7 +61,7 @@ class Lexicon:
 @lru_cache(maxsize=1)
 def load_lexicon() -> Lexicon:
     """Read the table once and inflect its verbs."""
-    table = tomllib.loads(files("scenewright.translate").joinpath("lexicon.toml").read_text(encoding="utf-8"))
+    table = _tables()
     entries: dict[tuple[str, ...], dict[str, str]] = {}
     forms: dict[tuple[str, ...], set[str]] = {}
     units = {spelling: symbol for symbol, spellings in table.pop("unit").items() for spelling in spellings}
@@ -65,7 +69,7 @@ def load_lexicon() -> Lexicon:
     numbers = {word: int(value) for value, words in table.pop("number").items() for word in words}
     for tag, values in table.items():
         for value, phrases in values.items():
-            for phrase in phrases:
+            for phrase in (each for written in phrases for each in alternatives(written)):
                 if tag != "verb":
                     entries.setdefault(tuple(phrase.split()), {})[tag] = value
                     continue
@@ -77,6 +81,28 @@ def load_lexicon() -> Lexicon:
     single |= {word for spelling in units for word in spelling.split()} | set(numbers) | WORDS
     frozen = {words: frozenset(names) for words, names in forms.items()}
     return Lexicon(entries, frozen, units, numbers, frozenset(single), longest)
+
+
+def _tables() -> dict[str, dict[str, list[str]]]:
+    """Read all tables of words; what several say of one class is joined."""
+    joined: dict[str, dict[str, list[str]]] = {}
+    for name in FILES:
+        text = files("scenewright.translate").joinpath(name).read_text(encoding="utf-8")
+        for tag, values in tomllib.loads(text).items():
+            for value, phrases in values.items():
+                joined.setdefault(tag, {}).setdefault(value, []).extend(phrases)
+    return joined
+
+
+def alternatives(phrase: str) -> list[str]:
+    """Return every phrase that one with alternatives in parentheses stands for; an empty one may be left out.
+
+    >>> alternatives("at the (very|) moment (when|that)")
+    ['at the very moment when', 'at the very moment that', 'at the moment when', 'at the moment that']
+    """
+    parts = _ALTERNATIVES.split(phrase)
+    choices = [part.split("|") if index % 2 else [part] for index, part in enumerate(parts)]
+    return [" ".join("".join(each).split()) for each in product(*choices)]
 
 
 def inflect(phrase: str, irregular: Mapping[str, Sequence[str]]) -> list[tuple[str, tuple[str, ...]]]:

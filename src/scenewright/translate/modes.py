@@ -64,7 +64,7 @@ def _mode_of(event: Event, links: set[str], previous: Event | None) -> str:
 
 
 def _stays_condition(previous: Event, event: Event, links: set[str]) -> bool:
-    if links & {"then", "then_label", "moment"}:
+    if links & {"then", "then_label", "moment", "back"}:
         return False
     if not links or links <= {"to"}:
         return previous.mode in ("when", "before", "after", "until") and event.actor == previous.actor

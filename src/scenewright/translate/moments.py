@@ -8,32 +8,46 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 
-from scenewright.translate.actions import EDGE, GOALS, SLOWING, SPEEDING, ActionReader
+from scenewright.translate.actions import EDGE, GOALS, SLOWING, SPEEDING
 from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place
 from scenewright.translate.facts import Condition
+from scenewright.translate.outcomes import OutcomeReader
 
 INSTANT = ("brake", "accelerate", "yield")
 TELLING = ("be", "sit", "drive", "approach", "lane_follow", "turn", "pull_out", "leave", "wait", "go")
 
 
 @dataclass(slots=True)
-class MomentReader(ActionReader):
+class MomentReader(OutcomeReader):
     """Collects the conditions of the trigger."""
 
     @staticmethod
     def _settle(events: list[Event]) -> None:
         """Let "with both driving west" tell; let "the ego is 30 m from it when the hero brakes" be the condition."""
+        accompanied = False
         for event in events:
             placed = any(isinstance(place.target, str) or place.amount for place in event.places)
             tells = event.verb in ("be", "drive", "lane_follow", "turn", "pull_out", "leave") and not (
                 placed or event.speed or event.ttc
             )
-            if "with" in event.links and event.mode == "when" and tells:
-                event.mode = "main"
+            accompanied = "with" in event.links or (accompanied and event.links == ["and"])
+            if accompanied and event.mode == "when" and tells:
+                event.mode = "main"  # "with the van in front and the ego behind it"
         acts = [e for e in events if e.mode == "when" and e.actor == HERO_ID and e.verb in INSTANT and not e.places]
         acts = acts or [e for e in events if e.mode == "when" and e.actor == HERO_ID and e.verb in ("brake", "stop")]
         conditions = [event for event in events if event.mode == "when"]
         states = [e for e in events if e.mode == "main" and (e.places or e.ttc) and e.verb in ("be", "sit", "ttc")]
+        every = [e for e in conditions if (e.places or e.ttc) and e.verb in ("be", "sit", "ttc")]
+        if acts and events[0] is acts[0] and len(every) + 1 == len(events) > 2 and acts[0].begins:
+            acts[0].mode = "main"
+            return
+        if acts and len(conditions) == 1 and events[0] is acts[0] and acts[0].verb in INSTANT:
+            rest = events[1:]
+            if rest and all(each in states and not each.initial for each in rest) and not acts[0].to_speed:
+                for event in rest:
+                    event.mode = "when"  # "When the hero starts to brake, it is 30 m from the conflict point"
+                acts[0].mode = "main"
+            return
         if not acts or conditions[0] is not acts[0] or events.index(acts[0]) == 0:
             return
         before = [e for e in events[: events.index(acts[0])] if not e.wanted or e.places]
@@ -49,6 +63,7 @@ class MomentReader(ActionReader):
 
     def _one_moment(self, events: list[Event]) -> None:
         """Refuse "When A, the hero goes when B": two moments in one sentence."""
+        self._later_moments(events)
         groups, inside = 0, False
         for event in events:
             condition = event.mode == "when" and not self._is_marker(event)
@@ -59,6 +74,17 @@ class MomentReader(ActionReader):
                     raise self._refuse("there is a second trigger", event.span, "one trigger", "join them with 'and'")
             elif acts:
                 inside = False
+
+    def _later_moments(self, events: list[Event]) -> None:
+        """Let "stops ... and moves on once the ego has passed" be bound by the ego, and no second trigger."""
+        slowed = bool(self.facts.phases)
+        for before, event in pairwise(events):
+            slowed |= before.mode == "main" and before.actor == HERO_ID and before.verb in SLOWING
+            goes = before.mode == "main" and before.actor == HERO_ID and before.verb in (*SPEEDING, *GOALS, "keep")
+            bound = event.mode == "when" and event.actor == EGO_ID and event.verb in GOALS and event.links == ["when"]
+            triggered = bool(self.facts.trigger) or any(e.mode == "when" for e in events[: events.index(event)])
+            if slowed and goes and bound and triggered and not event.places and not event.negated:
+                event.mode = "after"
 
     def _join_conditions(self, events: list[Event]) -> None:
         """Let "the hero is 20 m behind the conflict point when the ego is ..." tell of one moment."""
@@ -75,12 +101,22 @@ class MomentReader(ActionReader):
                 continue
             if following is not None and following.links == ["when"] and (event.places or event.speed or event.ttc):
                 event.mode = "when"
+            elif self._said_in_passing(event, following, conditions):
+                event.mode = "when"  # "When the ego is there, the hero, 30 m from the conflict point, brakes"
             elif event.places:
                 raise self._refuse(
                     "it is not clear whether this holds at the start or at the trigger",
                     event.span,
                     "'initially', or the words inside the 'when' clause",
                 )
+
+    @staticmethod
+    def _said_in_passing(event: Event, following: Event | None, conditions: list[Event]) -> bool:
+        """Whether a place of the vehicle that then acts is told between its name and its verb, once the moment is."""
+        elsewhere = any(each.actor == event.actor and each.places for each in conditions)
+        acts = following is not None and following.resumed and following.verb in (*SLOWING, *SPEEDING)
+        acts = acts and following is not None and following.actor == event.actor
+        return acts and event.actor == HERO_ID and not elsewhere and len(event.places) == 1 and not event.speed
 
     @staticmethod
     def _give_subjects(events: list[Event]) -> None:
@@ -140,6 +176,19 @@ class MomentReader(ActionReader):
                     "such as 'the ego is 12 m behind the stop line'",
                 )
             self._tell_route(event)
+        self._one_place_each(conditions[-1])
+
+    def _one_place_each(self, last: Event) -> None:
+        """Refuse a moment at which one vehicle has two places and the other has none: one of them is the other's."""
+        placed = [each for each in self.facts.trigger if each.place is not None]
+        marks = {each.actor: [e for e in placed if e.actor == each.actor] for each in placed}
+        if len(marks) == 1 and len(placed) > 1 and all(isinstance(e.place and e.place.target, str) for e in placed):
+            raise self._refuse(
+                "one vehicle is said to be at two places, and the other at none",
+                last.span,
+                "one place for each vehicle",
+                "name the vehicle that each distance is of",
+            )
 
     def _conditions_of(self, event: Event) -> list[Condition]:
         actor = event.actor
@@ -182,6 +231,8 @@ class MomentReader(ActionReader):
             return True
         if event.verb == "go":
             return reacts or not (event.direction or event.headings or event.areas)
+        if event.gerund and event.verb in ("turn", "pull_out") and not self.facts.phases and self._acts_after(event):
+            return False  # "a coupe in the driveway, turning right, brakes when ..."
         later = bool(self.facts.phases) and bool({"then", "then_label"} & set(event.links))
         if event.verb in ("turn", "pull_out"):
             return (reacts and not self._told_before(event)) or later
@@ -191,8 +242,20 @@ class MomentReader(ActionReader):
         if event.verb in ("lane_follow", "drive"):
             return turned and (event.speed is not None) and (later or event.begins or reacts)
         if event.verb == "wait":
-            return bool(self.facts.phases) or (reacts and bool(event.places) and not event.gerund)
+            return bool(self.facts.phases) or (reacts and not event.gerund and self._comes_to_wait(event))
         return False
+
+    def _acts_after(self, event: Event) -> bool:
+        """Whether the same vehicle brakes, stops or yields right after this, in the same sentence."""
+        at = next(index for index, each in enumerate(self.sentence) if each is event)
+        following = self.sentence[at + 1] if at + 1 < len(self.sentence) else None
+        return following is not None and following.actor == event.actor and following.verb in SLOWING
+
+    def _comes_to_wait(self, event: Event) -> bool:
+        """Whether "waits" is what the hero does at its moment, and no state that it is in all along."""
+        before = self.sentence[: self.sentence.index(event)]
+        reaction = any(each.mode == "when" for each in before) and not event.areas
+        return bool(event.places) or (reaction and "that" not in event.links)
 
     def _told_before(self, event: Event) -> bool:
         """Whether this is told on the way to a "when" clause that has a reaction of its own after it."""

@@ -13,6 +13,8 @@ from scenewright.translate.events import SAY_IT_ALONE
 from scenewright.translate.references import NounPhrase, Referents
 from scenewright.translate.tokens import Token
 
+_ONES = {"left_turner": "turns_left", "right_turner": "turns_right", "front_one": "lead", "rear_one": "rear"}
+
 
 @dataclass(slots=True)
 class NounPhrases:
@@ -24,9 +26,11 @@ class NounPhrases:
     refs: Referents
     last_landmark: str | None = None
     last_area: str | None = None
+    last_into: str | None = None  # the last one that a vehicle goes into
     last_named: tuple[int, int] | None = None  # an actor, and the position after its name
     subject: int | None = None
     assumptions: list[str] = field(default_factory=list)
+    onsets: list[tuple[tuple[str, ...], Span]] = field(default_factory=list)  # kinds of phase that a deed named can be
     described: list[tuple[str, int, Span]] = field(
         default_factory=list
     )  # ("oncoming", actor, span), ("W", actor, span)
@@ -66,12 +70,14 @@ class NounPhrases:
         if phrase is None or phrase.kind == "pronoun":
             return phrase
         phrase = self._named_again(phrase)
+        if self.tokens[phrase.end].text.lower() in ("itself", "himself", "herself"):  # "while the van itself is ..."
+            phrase = replace(phrase, end=phrase.end + 1)
         where = self.tag(phrase.end, "relation")
         alone = self.tokens[phrase.end].text.lower() in ("ahead", "in front", "behind") if where else False
         if where == "ahead" and not alone and phrase.kind == "noun":
             phrase = self._ahead_of(phrase)
         after = self.tokens[phrase.end + 1].tags.keys() if alone else set()
-        finite = bool(after & {"be", "auxiliary", "genitive", "negation"}) or (
+        finite = bool(after & {"be", "auxiliary", "genitive", "negation", "falls"}) or (
             "verb" in after and not self.tokens[phrase.end + 1].forms & {"ing"}
         )
         before = self.tokens[at - 1].tags.keys() if at else set()
@@ -117,6 +123,8 @@ class NounPhrases:
 
     def _plain_noun_phrase(self, at: int) -> NounPhrase | None:
         start, adjectives, heading = at, set[str](), None
+        if self.tag(at, "latter") is not None:
+            return NounPhrase(at + 1, "latter", None, "definite", adjectives, None, self.span(start, at + 1))
         determiner = self.tag(at, "determiner")
         at += determiner is not None
         while True:
@@ -136,9 +144,15 @@ class NounPhrases:
                 end = at + 1 + (noun is not None)
                 last = words[-1] if words[-1] in ("car", "vehicle", "actor", "agent") else None
                 return NounPhrase(end, kind, noun or last, determiner, adjectives, heading, self.span(start, end))
+        if self.tag(at, "latter") and determiner == "definite" and self.last_named is not None:
+            return NounPhrase(
+                at + 1, self.tag(at, "latter") or "", None, determiner, adjectives, None, self.span(start, at + 1)
+            )
         noun = self.tag(at, "noun")
         if noun is None:
-            return None
+            return self._lead_alone(start, at, determiner, adjectives, heading)
+        if noun in _ONES:
+            adjectives.add(_ONES[noun])
         if self.tag(at + 1, "noun") in ("driver", "motorist"):  # "the pickup driver"
             at += 1
         if determiner == "our":
@@ -149,6 +163,16 @@ class NounPhrases:
                 return replace(inner, span=self.span(start, inner.end))
         return NounPhrase(at + 1, "noun", noun, determiner, adjectives, heading, self.span(start, at + 1))
 
+    def _lead_alone(
+        self, start: int, at: int, determiner: str | None, adjectives: set[str], heading: str | None
+    ) -> NounPhrase | None:
+        """Read "the lead brakes" and "ego and lead": the lead vehicle."""
+        last = self.tokens[at - 1].text.lower() if at > start else ""
+        after = self.tokens[at].tags.keys() & {"colon", "be", "auxiliary", "genitive", "comma", "end", "preposition"}
+        if last != "lead" or not (after or self.tokens[at].forms & {"s"} or "link" in self.tokens[at].tags):
+            return None
+        return NounPhrase(at, "noun", "vehicle", determiner, adjectives, heading, self.span(start, at))
+
     def _is_noun_here(self, at: int) -> bool:
         """Whether a word that can be an adjective ("the target", "the target vehicle") names the actor itself."""
         names = {"ego", "hero", "noun"}
@@ -158,12 +182,17 @@ class NounPhrases:
 
     def resolve(self, phrase: NounPhrase) -> int:
         """Say who `phrase` is, and keep what its adjectives say."""
+        known = set(self.refs.nouns)
         actor = self._who(phrase)
         self.last_named = actor, phrase.end
+        if phrase.noun in ("left_turner", "right_turner"):
+            self.refs.nouns.setdefault(actor, set()).add(phrase.noun)
         self.described += [
             (each, actor, phrase.span)
             for each in sorted(phrase.adjectives & {"lead", "oncoming", "rear", "turns_left", "turns_right"})
         ]
+        if "standing" in phrase.adjectives and (phrase.determiner == "indefinite" or actor not in known):
+            self.described.append(("standing", actor, phrase.span))
         if phrase.heading is not None:
             self.described.append((phrase.heading, actor, phrase.span))
         return actor
@@ -172,6 +201,8 @@ class NounPhrases:
         mentioned = {"ego": 0, "hero": 1}.get(phrase.kind) in self.refs.nouns
         if (phrase.kind == "ego" and phrase.determiner == "another") or (phrase.determiner == "another" and mentioned):
             raise self.refuse("there is more than one such vehicle here", phrase.span, "the ego and one other vehicle")
+        if phrase.kind in ("latter", "former"):
+            return self._one_of_two(phrase)
         if phrase.kind == "ego":
             return self.refs.ego(phrase.noun)
         if phrase.kind == "hero":
@@ -180,7 +211,28 @@ class NounPhrases:
             if self.subject is None:
                 raise self.refuse("it is not clear who this is", phrase.span, "the ego or the hero", "name the vehicle")
             return self.subject
+        if phrase.kind == "noun" and self._is_the_ego(phrase):
+            return self.refs.ego(phrase.noun)
         return self.refs.by_noun(phrase.noun or "", phrase.determiner, phrase.adjectives, phrase.span)
+
+    def _is_the_ego(self, phrase: NounPhrase) -> bool:
+        """Whether "the left-turner" is the ego: "The left-turner is the SUT", or it was called so before."""
+        if phrase.determiner in ("indefinite", "another", None):
+            return False
+        if phrase.noun not in _ONES and (1 in self.refs.nouns or 0 in self.refs.nouns):
+            return False
+        mine, theirs = (self.refs.nouns.get(actor, set()) for actor in (0, 1))
+        if phrase.noun in mine and phrase.noun not in theirs:
+            return True
+        named = self._plain_noun_phrase(phrase.end + 1) if self.tag(phrase.end, "be") else None
+        return named is not None and named.kind == "ego"
+
+    def _one_of_two(self, phrase: NounPhrase) -> int:
+        """Say who "the latter" is: the vehicle named last, where both have been named."""
+        if len(self.refs.nouns) < 2 or self.last_named is None:
+            raise self.refuse("it is not clear who this is", phrase.span, "the ego or the hero", "name the vehicle")
+        last = self.last_named[0]
+        return last if phrase.kind == "latter" else 1 - last
 
     def possessor(self, at: int) -> tuple[int, int] | None:
         """Read "its" or "the ego's"; return the actor and the position after it."""

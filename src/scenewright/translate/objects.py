@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scenewright.translate.events import HERO_ID, Place
+from scenewright.translate.events import HERO_ID, Place, Relation
 from scenewright.translate.openings import OpeningReader
 from scenewright.translate.references import NounPhrase
 
@@ -42,7 +42,9 @@ class ObjectReader(OpeningReader):
     def _place_subject(self) -> bool:
         """Read "the stop line is 12 m ahead of the ego"."""
         found = self.phrases.landmark(self.at)
-        if found is None or self.phrases.tag(found[1], "be") is None or found[2] is not None:
+        if found is None or found[2] is not None:
+            return False
+        if self.phrases.tag(found[1], "be") is None and self.phrases.verb(found[1], "sit") is None:
             return False
         place = self.phrases.place(found[1] + 1)
         if place is None:
@@ -53,13 +55,27 @@ class ObjectReader(OpeningReader):
             return False
         start = self.at
         self._check_subject_used()
-        self._set_subject(place[0].target, self.phrases.span(start, place[1]))
-        event = self._open("be", start)
         landmark = "turn_start" if found[0] == "mouth" else found[0]
-        event.places.append(Place("before", landmark, place[0].amount, place[0].span, vague=found[3]))
-        self.at = place[1]
-        self._grow()
+        for each, end in [place, *self._ahead_of_another(place)]:
+            assert isinstance(each.target, int)
+            self._set_subject(each.target, self.phrases.span(start, end))
+            self.at = start
+            event = self._open("be", start)
+            event.places.append(Place("before", landmark, each.amount, each.span, vague=found[3]))
+            self.at, self.links = end, ["and"]
+            self._grow()
+        self.links = []
         return True
+
+    def _ahead_of_another(self, first: tuple[Place, int]) -> list[tuple[Place, int]]:
+        """Read "... and 30 m ahead of the hero" after "the conflict point is 15 m ahead of the ego"."""
+        at = first[1]
+        if self.phrases.tag(at, "link") != "and" or self.phrases.tokens[at + 1].quantity is None:
+            return []
+        second = self._away_for(at + 1) or self.phrases.place(at + 1)
+        if second is None or not isinstance(second[0].target, int) or second[0].target == first[0].target:
+            return []
+        return [second] if second[0].relation in ("ahead", "from") else []
 
     def _away_for(self, at: int) -> tuple[Place, int] | None:
         """Read "12 m away for the ego"."""
@@ -92,16 +108,34 @@ class ObjectReader(OpeningReader):
         event = self.current
         if event is None or event.verb != "be" or phrase.kind != "noun" or event.actor is None or event.places:
             return False
-        if phrase.determiner != "definite" or "lead" not in phrase.adjectives:
+        if phrase.determiner != "definite" or not phrase.adjectives & {"lead", "rear"}:
             return False
-        event.places.append(Place("ahead", 1 - event.actor, None, phrase.span))
+        relation: Relation = "ahead" if "lead" in phrase.adjectives else "behind"
+        event.places.append(Place(relation, 1 - event.actor, None, phrase.span))
+        self.at = phrase.end
+        self._grow()
+        return True
+
+    def _is_named(self, phrase: NounPhrase) -> bool:
+        """Read "the left-turner is the SUT", "the SUT is the left-turner", "the ego is a left-turner"."""
+        event = self.current
+        if event is None or event.verb != "be" or event.actor is None or self.links or event.places:
+            return False
+        turner = phrase.noun in ("left_turner", "right_turner")
+        if turner and phrase.kind == "noun" and event.direction is None:
+            event.verb, event.wanted = "turn", True
+            event.direction = (phrase.noun or "").removesuffix("_turner")
+            self.phrases.refs.nouns.setdefault(event.actor, set()).add(phrase.noun or "")
+        elif phrase.kind not in ("ego", "hero") or self.phrases.resolve(phrase) != event.actor:
+            return False
+        self.phrases.last_named = event.actor, phrase.end
         self.at = phrase.end
         self._grow()
         return True
 
     def _object(self, phrase: NounPhrase) -> bool:
         """Read an actor as an object or predicate: "yields to the ego", "follows the hero", "is an oncoming car"."""
-        if self._is_lead(phrase):
+        if self._is_lead(phrase) or self._is_named(phrase):
             return True
         event = self.current
         if event is not None and event.verb == "be" and phrase.kind == "noun" and phrase.determiner == "indefinite":

@@ -16,17 +16,21 @@ from scenewright.program.expressions import Number, ParameterRef, walk
 from scenewright.program.printer import print_expression
 from scenewright.program.structure import Role, read_structure
 from scenewright.program.types import Program
+from scenewright.roads import find_conflict
 from scenewright.translate.assemble import Assembler
 from scenewright.translate.clauses import ClauseReader
 from scenewright.translate.commentary import denied, without_commentary
 from scenewright.translate.confidence import basis_of
 from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, Event
 from scenewright.translate.facts import Facts
+from scenewright.translate.geometry import is_remark
+from scenewright.translate.headlines import untold
 from scenewright.translate.interpret import Interpreter
 from scenewright.translate.itineraries import Itineraries, choose_routes, default_map
 from scenewright.translate.layout import lay_out
 from scenewright.translate.phrases import Phrases
 from scenewright.translate.references import Referents
+from scenewright.translate.rewording import reworded
 from scenewright.translate.tokens import Token, refuse_unknown, tokenise
 
 _ROLES = {
@@ -102,7 +106,7 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     >>> [actor.route.headings for actor in translate_offline(text).program.actors]
     [('S', 'W'), ('W',)]
     """
-    tokens, comments = without_commentary(tokenise(text, name))
+    tokens, comments = without_commentary(reworded(tokenise(text, name)))
     tokens, titles = lay_out(tokens)
     refuse_unknown(tokens, text, name)
     referents = Referents(text, name)
@@ -119,6 +123,7 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     events = ClauseReader(phrases).read()
     facts = Interpreter(text, name).run(events, phrases.described)
     _complete(facts, text, name)
+    _deeds_done(facts, phrases, text, name)
     chosen_map = road_map if road_map is not None else default_map()
     routes = choose_routes(facts, chosen_map, text, name)
     for stretch, span in skipped:
@@ -129,6 +134,22 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
                 found=" ".join(span.excerpt(text).split()),
                 expected=f"what fits {routes.ego} or {routes.hero}",
                 fix="say in a sentence of its own who does this",
+            )
+        if word := untold(stretch, _deeds(facts)):
+            raise TranslationError(
+                f"'{word.text}' was stepped over as a title, but it is not told again",
+                place=Place(name, text, span),
+                found=" ".join(span.excerpt(text).split()),
+                expected="a sentence that says when the hero does this",
+                fix="tell it in a sentence of its own",
+            )
+        if is_remark(stretch) and find_conflict(routes.ego, routes.hero) is None:
+            raise TranslationError(
+                "it is said that the ways of the two vehicles meet, but they do not",
+                place=Place(name, text, span),
+                found=" ".join(span.excerpt(text).split()),
+                expected=f"what fits {routes.ego} and {routes.hero}",
+                fix="check the turns and the directions of travel",
             )
     assembler = Assembler(facts, routes, text, name)
     program = assembler.program(chosen_map.name)
@@ -161,6 +182,12 @@ def _rated(reading: Reading, assumptions: tuple[str, ...]) -> Reading:
     return replace(reading, confidence=found.value, basis=found.meaning)
 
 
+def _deeds(facts: Facts) -> set[str]:
+    """Return what the hero is told to do: "dec" (slow down), "stop", "go"."""
+    deeds = {"go" if phase.kind in ("acc", "go", "turn") else "dec" for phase in facts.phases}
+    return deeds | ({"stop"} if any(phase.to_stop for phase in facts.phases) else set())
+
+
 def _complete(facts: Facts, text: str, name: str) -> None:
     place = Place(name, text, Span(0, len(text)))
     for actor in (EGO_ID, HERO_ID):
@@ -191,6 +218,19 @@ def _complete(facts: Facts, text: str, name: str) -> None:
             expected=slowing[0].events[0].span.excerpt(text),
             fix="say one of them",
         )
+
+
+def _deeds_done(facts: Facts, phrases: Phrases, text: str, name: str) -> None:
+    """Refuse "its braking begins when ..." where the hero does not brake."""
+    for kinds, span in phrases.onsets:
+        if not any(phase.kind in kinds for phase in facts.phases):
+            raise TranslationError(
+                "something begins here that the hero is not said to do",
+                place=Place(name, text, span),
+                found=span.excerpt(text),
+                expected="the beginning of what the hero does",
+                fix="say in a sentence what the hero does",
+            )
 
 
 def _all_amounts_used(program: Program, tokens: list[Token], text: str, name: str) -> None:

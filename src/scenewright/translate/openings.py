@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scenewright.translate.events import Event, Place
+from scenewright.translate.events import Area, Event, Place
 from scenewright.translate.frames import FrameReader
 
 
@@ -22,7 +22,7 @@ class OpeningReader(FrameReader):
         after = self._there_is(self.at)
         if after is None:
             return False
-        at = after
+        at = after + (self.phrases.tag(after, "adverb") == "filler")
         measured = self.phrases.measured(at)
         if (
             self.phrases.tokens[at].quantity is not None or (measured and measured[0] != "speed")
@@ -59,6 +59,49 @@ class OpeningReader(FrameReader):
                 self._grow()
         return True
 
+    def _nominal_turn(self) -> bool:
+        """Read "Unprotected left turn out of the driveway by the AV against a westbound van"."""
+        if self.current is not None or self.subject_span is not None or self.links or self.label or self.fronted:
+            return False
+        start = self.at
+        at = self.phrases.skip_determiner(start)
+        while self.phrases.tag(at, "actor_adjective") == "plain":
+            at += 1
+        direction = self.phrases.tag(at, "direction")
+        if direction not in ("left", "right"):
+            return False
+        at += 1 + (self.phrases.tag(at + 1, "event_noun") == "turn")
+        areas: list[Area] = []
+        actor: int | None = None
+        while "end" not in self.phrases.tokens[at].tags:
+            token = self.phrases.tokens[at]
+            if (area := self.phrases.area(at)) is not None and area[0].lane_of is None:
+                areas.append(area[0])
+                at = area[1]
+            elif actor is None and token.text.lower() in ("by", "of", "for"):
+                phrase = self.phrases.noun_phrase(at + 1)
+                if phrase is None or phrase.kind == "pronoun":
+                    return False
+                actor, at = self.phrases.resolve(phrase), phrase.end
+            else:
+                break
+        if actor is None:
+            return False
+        against = self.phrases.tokens[at].text.lower() in ("against", "versus", "vs", "before", "with")
+        other = self.phrases.noun_phrase(at + 1) if against else None
+        if not self.phrases.tokens[at].tags.keys() & {"end", "comma"} and (other is None or other.kind == "pronoun"):
+            return False
+        self._set_subject(actor, self.phrases.span(start, at))
+        event = self._open("turn", start)
+        event.wanted, event.direction, event.areas = True, direction, areas
+        self.at = at
+        self._grow()
+        if other is not None:
+            self.at += 1
+            self._take_subject(other)
+            self._open("be", self.at - 1)
+        return True
+
     def _intention(self) -> bool:
         """Read "the ego's intent is to ..."."""
         owner = self.phrases.possessor(self.at)
@@ -69,6 +112,15 @@ class OpeningReader(FrameReader):
             self._check_subject_used()
             self._set_subject(owner[0], self.phrases.span(self.at, owner[1] + 1))  # "the ego's position is 12 m before"
             self.current, self.at = None, owner[1] + 1
+            if self.phrases.tag(owner[1], "aspect") == "start":
+                self.flags.add("initial")
+            return True
+        noted = owner is not None and self.phrases.tag(owner[1] + 1, "colon") is not None
+        if owner and noted and (self.phrases.tag(owner[1], "aspect") or self.phrases.tag(owner[1], "intent_noun")):
+            self._check_subject_used()
+            self._set_subject(owner[0], self.phrases.span(self.at, owner[1] + 1))  # "The ego's route: eastbound, left"
+            self.links.append("comma")
+            self.current, self.at = None, owner[1] + 2
             return True
         if owner and self.phrases.tag(owner[1], "intent_noun") and (self.phrases.tag(owner[1] + 1, "be") or is_to):
             return self._intent(owner[0], owner[1] + 2)

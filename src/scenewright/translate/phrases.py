@@ -14,6 +14,7 @@ from scenewright.translate.references import NounPhrase
 from scenewright.translate.tokens import Quantity
 
 OPPOSITE = {"N": "S", "S": "N", "E": "W", "W": "E"}
+_SPOTS = ("point", "position", "spot", "location", "mark")
 MEASURE_DIMENSION = {
     "length": "length",
     "time": "time",
@@ -50,6 +51,8 @@ class Phrases(NounPhrases):
                 wanted = "driveway" if name == "stop_line" else "road"
                 end = after + 1 if self.tag(after, "area") == wanted and whose is None else end
             return name, end, whose, False
+        if self.tag(at, "mouth") and self.tag(at - 1, "possessive") and self.last_area is not None:
+            return "mouth", at + 1, None, False  # "goes down the driveway and turns right at its end"
         if self.tag(at, "mouth"):
             after = self.skip_determiner(at + 1 + (self.tag(at + 1, "preposition") == "of"))
             after += self.tag(after, "side") is not None
@@ -58,7 +61,7 @@ class Phrases(NounPhrases):
             return None
         at += self.tag(at, "side") is not None or self.tag(at, "same") is not None
         if self.tag(at, "area") == "driveway":
-            end = at + 1
+            end, self.last_area = at + 1, "driveway"
             if self.tag(end, "mouth"):
                 return "mouth", end + 1, whose, False
             return "turn", end, whose, True
@@ -77,7 +80,8 @@ class Phrases(NounPhrases):
                 self.tag(at + 1, "preposition") == "at" or self.tag(at + 1, "relation") == "ahead"
             ):
                 at += 1
-        relation, at = self._relation(at, amount is not None)
+        arrives = amount is not None and amount.dimension == "time" and self.tag(at, "preposition") == "at"
+        relation, at = ("from", at + 1) if arrives else self._relation(at, amount is not None)
         if relation is None:
             return None
         if just:
@@ -86,23 +90,34 @@ class Phrases(NounPhrases):
 
     def _amount(self, at: int) -> tuple[int, Quantity | None]:
         """Step over "at a distance of about" to a length or a time."""
-        if self.tag(at, "preposition") in ("at", "with", "in", "on"):
+        out = self.tokens[at].text.lower() == "from" and self._is_point(at + 1)
+        if self.tag(at, "preposition") in ("at", "with", "in", "on") or out:
             at += 1
+            at += self._is_point(at)
+            at += self.tag(at, "determiner") == "definite" and self.tokens[at + 1].quantity is not None
+            at += self.tag(at, "adverb") == "filler" and self.tokens[at].text.lower().split()[-1] in _SPOTS
             if self.tag(at, "measure") in ("time", "length") and self.tokens[at + 1].quantity is not None:
                 return at + 2, self.tokens[at + 1].quantity  # "at TTA 3 s to the stop line"
         elif self.tag(at, "preposition") == "to" and self.tokens[at + 1].quantity is not None:
             at += 1  # "and the van [comes] to 8 m from the stop line"
         if (measured := self.measured(at)) is not None and measured[0] in ("length", "time", "headway"):
             return measured[2], measured[1]
+        at += self.tag(at, "determiner") == "definite" and self.tag(at + 2, "mark_noun") is not None
         at = self.skip_hedges(at)
         quantity = self.tokens[at].quantity if at < len(self.tokens) else None
         if quantity is None or quantity.dimension not in ("length", "time"):
             return at, None
         return at + 1, quantity
 
+    def _is_point(self, at: int) -> bool:
+        """Whether "a point" stands in front of an amount: "at a point 30 m before the stop line"."""
+        named = self.tag(at, "adverb") == "filler" and self.tokens[at].text.lower().startswith(("a ", "the "))
+        return named and self.tokens[at + 1].quantity is not None
+
     def measured(self, at: int) -> tuple[str, Quantity, int] | None:
         """Read "a rate of 3 m/s^2", "a distance of 12 m": measure, amount, position after it."""
         at = self.skip_hedges(self.skip_determiner(at)) if self.tag(at, "adverb") != "just" else at
+        at += self.tag(at, "starting") is not None and self.tag(at + 1, "measure") is not None
         measure = self.tag(at, "measure")
         if measure is None or self.tag(at + 1, "preposition") != "of":
             return None
@@ -133,6 +148,7 @@ class Phrases(NounPhrases):
             return "from", at + 2  # "3 s to reach the stop line"
         if reaching and self.tag(at, "relation") == "before" and "ing" in self.tokens[at + 1].forms:
             return "before", at + 2  # "5 m before reaching the conflict point"
+        at = self._after_mark(at) if has_amount else at
         relation = self.tag(at, "relation")
         if relation:
             at += 1
@@ -145,6 +161,12 @@ class Phrases(NounPhrases):
                 return "from", at + 1
             return None, at
         preposition = self.tag(at, "preposition")
+        second = not has_amount and self.tokens[at].text.lower() == "second" and self.tag(at - 1, "be") is not None
+        if second and self.tokens[at + 1].tags.keys() & {"end", "comma", "colon"}:
+            return "behind", at + 1  # "our vehicle is second:"
+        timed = has_amount and preposition == "at" and self.tag(at - 2, "preposition") == "of"
+        if timed and self.tokens[at - 1].tags.get("quantity") == "time":
+            return "from", at + 1  # "a time to arrival of 9 s at the conflict point"
         if (has_amount and preposition in ("to", "of")) or (has_amount and self.tag(at, "link") == "to"):
             return "from", at + 1
         if has_amount and preposition == "out" and self.tokens[at].text.lower() == "from":
@@ -152,6 +174,10 @@ class Phrases(NounPhrases):
         if not has_amount and preposition in ("at", "on") and not self.tokens[at].text.lower().startswith("along"):
             return "at", at + 1
         return None, at
+
+    def _after_mark(self, at: int) -> int:
+        """Step over "mark" in "the 24 m mark before the conflict point"."""
+        return at + 1 if self.tag(at, "mark_noun") and self.tag(at + 1, "relation") else at
 
     def _place_target(
         self, start: int, at: int, relation: Relation, amount: Quantity | None
@@ -163,7 +189,7 @@ class Phrases(NounPhrases):
             if amount is None and relation not in ("at", "just_before"):
                 return None
             if name == "mouth":
-                name = "turn_start"
+                name, vague = "turn", True
             return Place(relation, name, amount, self.span(start, end), whose, vague), end
         if relation in ("at", "just_before"):
             return None
@@ -171,7 +197,8 @@ class Phrases(NounPhrases):
         if phrase is None:
             if amount is not None and relation in ("ahead", "behind") and self.subject is not None:
                 return Place(relation, 1 - self.subject, amount, self.span(start, at)), at  # "12 m ahead"
-            alone = self.tokens[at - 1].text.lower() in ("ahead", "in front", "behind")
+            words = self.tokens[at - 1].text.lower()
+            alone = words in ("second", "ahead", "in front", "behind") or not words.endswith(("of", "behind", "ahead"))
             if alone and amount is None and self.subject is not None and self._ends_here(at):  # "is ahead at 8 m/s"
                 return Place(relation, 1 - self.subject, None, self.span(start, at)), at
             return None
@@ -186,7 +213,7 @@ class Phrases(NounPhrases):
 
     def _ends_here(self, at: int) -> bool:
         tags = self.tokens[at].tags.keys()
-        return bool(tags & {"end", "comma", "preposition", "link"}) and self.tag(at, "preposition") != "of"
+        return bool(tags & {"end", "comma", "colon", "preposition", "link"}) and self.tag(at, "preposition") != "of"
 
     def _pronoun_target(
         self, start: int, phrase: NounPhrase, relation: Relation, amount: Quantity | None
@@ -211,6 +238,8 @@ class Phrases(NounPhrases):
         found = self.area_noun(at + 1, roles[preposition])
         if found is None and preposition == "into" and self.tag(at + 1, "pronoun") and self.last_area is not None:
             span = self.span(at, at + 2)
+            if self.last_into not in (None, self.last_area):
+                raise self.refuse("it is not clear what this refers to", span, "the road or the driveway", "name it")
             self.assume(f"'{span.excerpt(self.text)}' is the {self.last_area}")
             return Area("into", cast("AreaKind", self.last_area), span), at + 2
         if found is None:
@@ -220,6 +249,8 @@ class Phrases(NounPhrases):
             area = replace(area, role="towards")
         if preposition == "at" and area.kind == "lane":
             return None
+        if area.role == "into" and area.kind != "lane":
+            self.last_into = area.kind
         return area, end
 
     def area_noun(self, at: int, role: str) -> tuple[Area, int] | None:
@@ -240,7 +271,7 @@ class Phrases(NounPhrases):
                 side = self.tag(at, "side")
             elif self.tag(at, "actor_adjective") == "oncoming":
                 oncoming = True
-            elif self.tag(at, "area_adjective") or self.tag(at, "actor_adjective") == "plain":
+            elif self.tag(at, "area_adjective") or self.tag(at, "actor_adjective") == "plain" or self._straight(at):
                 pass
             elif self.tag(at, "same") and whose is None and self.subject is not None:
                 whose = 1 - self.subject
@@ -270,6 +301,9 @@ class Phrases(NounPhrases):
             phrase = self.noun_phrase(end + 1)
             if phrase is not None and phrase.kind != "pronoun":  # "across the path of the ego"
                 whose, end = self.resolve(phrase), phrase.end
+        road = self.skip_determiner(end + 1)
+        if kind == "lane" and self.tag(end, "preposition") in ("of", "on") and self.tag(road, "area") == "road":
+            end = road + 1  # "the westbound lane of the road"
         wanted_by = None
         if kind == "lane" and (wanted := self._wanted_lane(end)):
             wanted_by, end = wanted
@@ -283,6 +317,10 @@ class Phrases(NounPhrases):
         span = self.span(start, end)
         known_role, known_kind = cast("AreaRole", role), cast("AreaKind", kind)
         return Area(known_role, known_kind, span, heading, side, whose, oncoming, wanted_by), end
+
+    def _straight(self, at: int) -> bool:
+        """Whether "straight" only describes a road: "on a straight road"."""
+        return self.tag(at, "direction") == "straight" and self.tag(at + 1, "area") is not None
 
     def _wanted_lane(self, at: int) -> tuple[int, int] | None:
         """Read "that the ego wants to turn into"; return who wants it and the position after it."""

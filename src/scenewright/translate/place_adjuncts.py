@@ -7,8 +7,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from scenewright.translate.events import Area, Place
+from scenewright.translate.events import Area, Event, Place
+from scenewright.translate.reader import TURNS
 from scenewright.translate.sides import SideReader
+from scenewright.translate.tokens import Quantity
 
 
 @dataclass(slots=True)
@@ -33,7 +35,7 @@ class PlaceAdjunctReader(SideReader):
         if amount is None or amount.dimension not in ("length", "time"):
             return False
         after = self.phrases.tokens[self.at + 1].tags
-        ends = "end" in after or "comma" in after or after.get("link") == "and"
+        ends = bool(after.keys() & {"end", "comma", "colon"}) or after.get("link") == "and"
         shared = (self._place_before() or self._place_after(self.at + 1)) if ends else None
         if shared is None or not isinstance(shared.target, str) or shared.of_whom is not None:
             return False
@@ -63,7 +65,7 @@ class PlaceAdjunctReader(SideReader):
         at += self.phrases.tag(at, "comma") is not None
         at += self.phrases.tag(at, "link") == "and"
         phrase = self.phrases.noun_phrase(at)
-        if phrase is None or phrase.kind == "pronoun":
+        if phrase is None or (phrase.kind == "pronoun" and self.phrases.tag(phrase.end, "be") is None):
             return None
         at = phrase.end + (self.phrases.tag(phrase.end, "be") is not None)
         found = self.phrases.place(at) if self.phrases.tokens[at].quantity is not None else None
@@ -71,6 +73,9 @@ class PlaceAdjunctReader(SideReader):
 
     def _stop_adjunct(self) -> bool:
         end = self._stop_noun_at(self.at)
+        bare = self.at + 1 if self.links == ["comma"] and self.subject_span is None and self._tag("stop_noun") else None
+        if end is None and bare is not None and self.phrases.tokens[bare].tags.keys() & {"end", "comma"}:
+            end, self.links = bare, []  # "brakes, 0.5 g, full stop"
         if end is None or self.current is None or self.current.verb not in ("brake", "stop"):
             return False
         self.current.to_stop = True
@@ -79,16 +84,22 @@ class PlaceAdjunctReader(SideReader):
         return True
 
     def _place_adjunct(self) -> bool:
-        passing = self.current is not None and self.current.verb in ("pass", "complete")
+        passing = self.current is not None and self.current.verb in ("pass", "complete", "reach", "enter")
         if passing and self._tag("link") == "before" and self.phrases.tokens[self.at].quantity is None:
             return False
+        turns = self.current is not None and self.current.verb in TURNS and self.current.direction is None
+        if turns and self.phrases.tokens[self.at].text.lower() == "right":
+            return False  # "turns right at the junction"
         found = self.phrases.place(self.at)
         if found is None:
             return False
         place, end = found
+        if self.links[-2:] == ["and", "comma"] and self.subject_span is None:
+            return self._place_of_next(place, end)
         host = self._host()
         if host is None:
             return False
+        host.initial |= self._starts_with(self.at + 1)
         if (
             second := self._respective(end)
         ) is not None:  # "... from the conflict point and the stop line respectively"
@@ -108,6 +119,22 @@ class PlaceAdjunctReader(SideReader):
         self._grow()
         return True
 
+    def _place_of_next(self, place: Place, end: int) -> bool:
+        """Read "drives east and, at the junction, turns left": the place of the turn that follows."""
+        at_junction = place.relation == "at" and place.target in ("intersection", "turn", "turn_start")
+        turns = (
+            self.phrases.tag(end, "comma") is not None and self.phrases.verb(end + 1, "turn", "pull_out") is not None
+        )
+        if not at_junction or not turns:
+            return False
+        self.links.pop()
+        self.at = end + 1
+        return True
+
+    def _starts_with(self, at: int) -> bool:
+        """Whether an amount is said to be the one at the start: "an initial distance of 30 m"."""
+        return self.phrases.tag(self.phrases.skip_determiner(at), "starting") is not None
+
     def _respective(self, at: int) -> tuple[str, int] | None:
         """Read "and the stop line(,) respectively" after the first of two places; the second one and what follows."""
         if self.phrases.tag(at, "link") != "and":
@@ -120,11 +147,33 @@ class PlaceAdjunctReader(SideReader):
             return None
         return found[0], end + 1
 
+    def _shared_arrival(self, event: Event, amount: Quantity) -> bool:
+        """Read "... would reach the stop line in 3 s and the hero the conflict point in 4 s" without a verb."""
+        before = self.events[-2] if len(self.events) > 1 else None
+        if before is None or before.sentence != event.sentence or amount.dimension != "time" or event.verb != "be":
+            return False
+        arrives = any(place.amount is not None and place.amount.dimension == "time" for place in before.places)
+        return arrives and self._arrives_in(event, amount)
+
+    def _arrives_in(self, event: Event, amount: Quantity) -> bool:
+        place = event.places[-1] if len(event.places) == 1 else None
+        if place is None or place.relation != "at" or place.amount is not None:
+            return False
+        span = self.phrases.span(self.at, self.at + 2)
+        event.places[-1] = replace(place, relation="from", amount=amount, span=place.span.union(span))
+        self.at += 2
+        self._grow()
+        return True
+
     def _reached_in(self) -> bool:
         """Read "will reach the stop line in 3 s" as a time to arrival."""
         event, amount = self.current, self.phrases.tokens[self.at + 1].quantity
         if event is None or self.links or self.phrases.tokens[self.at].text.lower() != "in" or amount is None:
             return False
+        if self._shared_arrival(event, amount):
+            return True
+        if event.verb == "be" and len(event.places) == 1 and event.places[0].relation == "at":
+            return amount.dimension == "time" and self._arrives_in(event, amount)  # "will be at the stop line in 3 s"
         if event.verb != "reach" or event.landmark is None or amount.dimension != "time" or event.places:
             return False
         event.places.append(Place("from", event.landmark, amount, self.phrases.span(self.at, self.at + 2)))

@@ -9,9 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from scenewright.errors import Span, TranslationError
-from scenewright.translate.events import Event
+from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place
 from scenewright.translate.phrases import Phrases
 from scenewright.translate.references import NounPhrase
+from scenewright.translate.tokens import Token
 
 MOVES = ("pass", "reach", "enter", "leave", "approach")
 TURNS = ("turn", "pull_out")
@@ -38,7 +39,9 @@ class ReaderState:
     last_kind: str | None = None  # what was measured last
     pronouns: int = 0  # as subjects in this sentence
     reduced: Event | None = None  # "a truck waiting on the driveway", before its finite verb
+    interrupted: tuple[int, Span] | None = None  # "the hero, once it is 12 m from it, ..." before its verb
     pending_heading: tuple[str, Span] | None = None
+    place_first: Place | None = None  # "at the conflict point it is doing 40 mph"
     events: list[Event] = field(default_factory=list)
 
     def _stuck(self) -> TranslationError:
@@ -108,6 +111,8 @@ class ReaderState:
     def _open(self, verb: str, start: int) -> Event:
         """Begin a new event for the current subject with the links and flags gathered so far."""
         self._after_an_insertion(start)
+        self._back_to_interrupted(start)
+        self._back_to_who_acts(verb)
         resumes = self._resumes(verb, start)
         tokens = self.phrases.tokens
         span = tokens[start].span
@@ -127,6 +132,10 @@ class ReaderState:
             event.headings.append(self.pending_heading)
             self.pending_heading = None
         event.resumed = resumes
+        event.notes += ["modal"] if "modal" in self.flags else []
+        if self.place_first is not None:
+            event.places.append(self.place_first)
+            event.span, self.place_first = event.span.union(self.place_first.span), None
         if self.subject_span is not None and not self.flags and self._describes(verb, start):
             self.reduced = event
         self.links, self.flags, self.subject_span, self.opening = [], set(), None, None
@@ -137,6 +146,10 @@ class ReaderState:
     def _after_an_insertion(self, start: int) -> None:
         """Let "it waits and, after the ego has passed, drives on" go on with who waits."""
         inserted, token = self.current, self.phrases.tokens[start]
+        if inserted is not None and self.subject_span is None and self._leaves_a_bound(inserted, token):
+            self._set_subject(HERO_ID, None)
+            self.links.append("back")
+            return
         if inserted is None or self.subject_span is not None or self.links != ["comma"] or "s" not in token.forms:
             return
         if "and" not in inserted.links or not {"after", "when", "before"} & set(inserted.links):
@@ -146,6 +159,59 @@ class ReaderState:
         ]
         if main and main[-1].actor is not None and main[-1].actor != inserted.actor:
             self._set_subject(main[-1].actor, None)
+
+    def _back_to_interrupted(self, start: int) -> None:
+        """Let "the hero, once it is 12 m from it, brakes" go on with the hero."""
+        token = self.phrases.tokens[start]
+        finite = bool(token.forms & {"s", "ed"} or token.tags.keys() & {"be"} or self.flags)
+        if self.interrupted is None or self.subject_span is not None or self.links != ["comma"] or not finite:
+            return
+        actor, self.interrupted = self.interrupted[0], None
+        self._set_subject(actor, None)
+
+    def _back_to_who_acts(self, verb: str) -> None:
+        """Let "brakes when the ego is 12 m from it, and stops" go on with who brakes: nobody tells the ego to stop."""
+        if self.subject != 0 or self.subject_span is not None or verb not in ("brake", "stop", "accelerate", "yield"):
+            return
+        here = [e for e in self.events if e.sentence == self.sentence]
+        main = [e for e in here if not {"after", "when", "before", "until", "that", "with"} & set(e.links)]
+        told = self.current is not None and bool(here) and here[-1].actor == 0 and here[-1].verb == "be"
+        if told and "and" in self.links and main and main[0] is here[0] and main[0].actor == 1:
+            self._set_subject(1, None)
+
+    def _leaves_a_bound(self, inserted: Event, token: Token) -> bool:
+        """Whether the main clause goes on: "it goes after the ego has passed, and drives through the point"."""
+        here = [event for event in self.events if event.sentence == self.sentence and event.actor is not None]
+        bounds = {"when", "until", "before", "after"}
+        begun = here[0] if here else inserted
+        if begun.actor != HERO_ID or bounds & set(begun.links) or inserted.actor != EGO_ID:
+            return False
+        if "comma" not in self.links and not self._acts_after_a_state(inserted, token):
+            return False
+        finite = ("s" in token.forms and "verb" in token.tags) or "modal" in self.flags
+        finite = finite or ("base" in token.forms and "then_label" in begun.links)
+        acting = ("complete", "stop", "come", "brake", "let", "accelerate", "pass", "yield", "wait", "reach")
+        finite = finite or (
+            "ing" in token.forms and token.tags.get("verb") in acting and self.links == ["comma"]
+        )  # "stops when the ego is 12 m from it, coming to rest 5 m before ..."
+        if {*bounds, "that"} & set(self.links) or not finite or not any(bounds & set(event.links) for event in here):
+            return False
+        bounded = next(at for at, event in enumerate(here) if bounds & set(event.links))
+        return all(event.actor == EGO_ID for event in here[bounded:])
+
+    def _acts_after_a_state(self, inserted: Event, token: Token) -> bool:
+        """Whether "and completes its turn" after "when the ego is 48 m from it" goes on with who acts."""
+        if self.links != ["and"] or inserted.verb not in ("be", "sit") or not inserted.places:
+            return False
+        verb = token.tags.get("verb")
+        if verb in ("complete", "accelerate", "go", "stop", "brake", "yield"):
+            return True
+        at = self.phrases.tokens.index(token)
+        compared = False
+        while not self.phrases.tokens[at].tags.keys() & {"end", "comma"}:
+            compared |= self.phrases.tag(at, "link") in ("before", "after")
+            at += 1
+        return compared and verb in ("pass", "reach", "enter")
 
     def _describes(self, verb: str, start: int) -> bool:
         """Whether a subject is only described so far: "the truck waiting on the driveway", "the ego, westbound,"."""
@@ -190,7 +256,11 @@ class ReaderState:
                 return None  # "At 10 m/s, the car ...": not said of the vehicle of the sentence before
             return self._open("be", self.at)
         # "is on the road and 30 m behind the stop line": without a subject of its own it still belongs to the same verb
+        afresh = "and" in self.links and "initial" in self.flags  # "drives west and is initially 8 s from it"
         self.links = [link for link in self.links if link not in ("comma", "and")]
+        if afresh and not self.links:
+            self.links = ["and"]
+            return self._open("be", self.at)
         return self.current if not self.links else self._open("be", self.at)
 
     def _says_respectively(self, at: int) -> bool:

@@ -16,7 +16,7 @@ class NounPhrase:
     """An actor as it was written; `Phrases.resolve` says who it is."""
 
     end: int
-    kind: str  # ego, hero, noun or pronoun
+    kind: str  # ego, hero, noun, latter or pronoun
     noun: str | None
     determiner: str | None
     adjectives: set[str]

@@ -107,7 +107,8 @@ def model_named(translator: str, settings: TranslatorSettings) -> Model:
 
 def is_program(text: str) -> bool:
     """Whether `text` is meant as a program rather than as a description: some line begins an actor."""
-    return any(line.strip().lower().startswith(("actor 0", "actor 1", "scenario ")) for line in text.splitlines())
+    begins = ("actor 0", "actor 1", 'scenario "')
+    return any(line.strip().lower().startswith(begins) for line in text.splitlines())
 
 
 def text_of(source: str) -> tuple[str, str]:

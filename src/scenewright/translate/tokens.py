@@ -22,17 +22,20 @@ from scenewright.units import UNITS, Dimension, Unit, unit_of_name
 _PARAMETER = r"[A-Za-z][A-Za-z0-9]*(?:\\?_[A-Za-z0-9]+)+"
 _RAW = re.compile(
     rf"""(?P<ie>\b(?:i\.e\.|e\.g\.),?)
+    |(?P<zero>\b(?:[Aa]t\s+)?[tT]\s*=\s*0(?:\.0)?(?:\s*s(?:ec)?)?(?![\w.]))
     |(?P<braced>\{{\s*{_PARAMETER}\s*\}})
     |(?P<parameter>{_PARAMETER})
     |(?P<number>(?<![\w.])[+\-−]?(?:\d+(?:,\d+)*(?:\.\d+)?|\.\d+)(?:/\d+)?)
+    |(?P<instant>\bt_?[01]\b|\bt\s*=\s*(?:t_?)?0(?:\s*s)?\b|\bv_?0\b|\bv\(0\))
     |(?P<word>[^\W\d_]+?n['’]t\b|['’](?:ll|re|ve|d)\b|[^\W\d_]+)
     |(?P<genitive>['’]s\b|(?<=s)['’](?=\s))
     |(?P<title>(?:(?<=\n)|^)[ \t]*\#+[^\n]*(?:\n|$))
     |(?P<mark>\*\*+|`+|__+)
     |(?P<stop>(?:[.;!?]+|…)(?=\s|$|["')\]])|\n[ \t]*(?:[-*•–—](?!\*)|\d+[.)]|\(?\w[.)])[ \t]+|\n[ \t]*\n\s*)
-    |(?P<label>:)
+    |(?P<label>:|-{{1,2}}>|=>|→|⇒)
     |(?P<comma>[,()\[\]"“”/]|(?<=\s)[-–—](?=\s)|[–—])
     |(?P<compare>[<>≤≥]=?|±|={{1,2}}|~|≈)
+    |(?P<both>&(?=\s))
     |(?P<joiner>[-‐‑'’])
     |(?P<space>\s+)
     |(?P<other>.)""",
@@ -127,6 +130,10 @@ def _cut(text: str) -> list[_Raw]:
             if any(position in breaks for position in range(match.start(), match.end())):
                 raw.append(_Raw("stop", match.group(), Span(*match.span())))
             continue
+        if kind == "instant":  # "t=0", "t_1", "v0": words of their own
+            word = re.sub(r".*=.*", "t0", match.group(), flags=re.DOTALL)
+            raw.append(_Raw("word", re.sub(r"\W|_", "", word).lower(), Span(*match.span())))
+            continue
         raw.append(_Raw(kind, match.group(), Span(*match.span())))
     return raw
 
@@ -162,6 +169,12 @@ def _next(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
         tag = {"stop": "end", "comma": "comma", "label": "colon", "genitive": "genitive"}[raw.kind]
         tokens.append(Token(raw.text, raw.span, {tag: raw.text.strip()}))
         return index + 1
+    if raw.kind == "zero":
+        tokens.append(Token(raw.text, raw.span, {"adverb": "initially"}))
+        return index + 1
+    if raw.kind == "both":
+        tokens.append(Token("and", raw.span, {"link": "and"}))
+        return index + 1
     if raw.kind == "ie":
         tokens.append(Token(raw.text, raw.span, {"comma": ","}))
         return index + 1
@@ -193,6 +206,9 @@ def _words(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
         tokens.append(Token(first.text, first.span, {"unknown": first.text}))
         return index + 1
     length, tags, forms = tagger.lexicon.lookup(words, 0)
+    fresh = not tokens or bool(tokens[-1].tags.keys() & {"end", "colon"})
+    if tags.get("comment") == "sentence" and len(tags) == 1 and not fresh:  # "the car on the road is westbound"
+        length, tags, forms = tagger.lexicon.lookup(words[: length - 1], 0)
     if length < 2 and (after := _number_in_words(tagger, index, words, ends, tokens)):
         return after
     if not length:

@@ -59,6 +59,12 @@ class VerbGroupReader(AdjunctReader):
             return True
         if verb in ("begin", "want", "make", "complete", "use") and self._turn_noun(verb):
             return True
+        turned = any(event.verb == "turn" and event.actor == self.subject for event in self.events)
+        if verb == "complete" and turned and self.phrases.tokens[self.at + 1].text.lower() == "it":
+            self._open("complete", self.at)  # "starts its turn and has completed it before ..."
+            self.at += 2
+            self._grow()
+            return True
         if verb == "complete" and self.phrases.verb(self.at + 1, "turn") and "ing" in following.forms:
             self._open("complete", self.at)  # "finishes turning"
             self.at += 2
@@ -68,12 +74,52 @@ class VerbGroupReader(AdjunctReader):
             self.at = after
             self._grow()
             return True
-        if verb == "begin" and self.current is None and not self.flags - {"initial", "be", "modal"}:
+        if verb == "want" and not going and self.phrases.tag(self.at + 1, "link") != "to" and self._wanted_area():
+            return True
+        described = (
+            self.current is not None and set(self.links) <= {"comma", "and"} and self._state_follows(self.at + 1)
+        )
+        if verb == "begin" and "determiner" in following.tags and self.phrases.tag(self.at + 2, "frame_noun"):
+            place = self.phrases.place(self.at + 3)  # "begins the test 45 m before the stop line"
+            if place is not None and self.current is None:
+                self.flags.add("initial")
+                self._open("be", self.at)
+                self.at += 3
+                return True
+        placed = verb == "begin" and bool(set(self.links) & {"comma", "and"}) and not set(self.links) & {"when", "then"}
+        placed = placed and following.quantity is not None and self.phrases.place(self.at + 1) is not None
+        if (
+            verb == "begin"
+            and (self.current is None or placed or described)
+            and not self.flags - {"initial", "be", "modal"}
+        ):
             self.flags.add("initial")
-            self._open("be", self.at)
+            event = self._open("be", self.at)
+            event.gerund = "ing" in token.forms
             self.at += 1
             return True
         return False
+
+    def _state_follows(self, at: int) -> bool:
+        """Whether a first place or speed follows: "a van, left turn, starts 80 m before the intersection"."""
+        told = ("be", "sit", "drive", "lane_follow", "turn", "pull_out", "leave", "approach", "go")
+        if self.current is None or self.current.verb not in told or "when" in self.current.links:
+            return False
+        at += self.phrases.tag(at, "preposition") in ("at", "with")
+        at = self.phrases.skip_hedges(at)
+        return self.phrases.tokens[at].quantity is not None or self.phrases.measured(at) is not None
+
+    def _wanted_area(self) -> bool:
+        """Read "wants out of the driveway" and "wants the driveway"."""
+        found = self.phrases.area(self.at + 1) or self.phrases.area_noun(self.at + 1, "into")
+        if found is None or found[0].role not in ("from", "into"):
+            return False
+        event = self._open("pull_out" if found[0].role == "from" else "turn", self.at)
+        event.wanted = True
+        event.areas.append(found[0])
+        self.at = found[1]
+        self._grow()
+        return True
 
     def _turn_noun(self, verb: str) -> bool:
         """Read "makes a left turn", "begins its turn", "completes the left turn"."""
@@ -124,7 +170,7 @@ class VerbGroupReader(AdjunctReader):
 
     def _brake_noun(self, start: int, at: int) -> int | None:
         """Read "performs an emergency braking" and "makes an emergency stop"; return the position after it."""
-        at = self.phrases.skip_determiner(at)
+        at = self.phrases.skip_determiner(at) + (self.phrases.tag(at, "possessive") is not None)
         while self.phrases.tag(at, "actor_adjective") == "plain" or self.phrases.tag(at, "adverb") in (
             "hard",
             "gently",
@@ -141,23 +187,3 @@ class VerbGroupReader(AdjunctReader):
         if rate is not None and rate.dimension == "acceleration":
             event.rate = rate  # "performs a 4 m/s^2 braking"
         return at + 1
-
-    def _let(self, start: int) -> bool:
-        """Read "lets the ego go first" as yielding."""
-        phrase = self.phrases.noun_phrase(self.at + 1)
-        if phrase is None:
-            return False
-        particle = self.phrases.tag(phrase.end, "let_particle") is not None
-        if not particle and not self.phrases.verb(phrase.end, "pass", "go", "turn", "pull_out", "complete", "enter"):
-            return False
-        event = self._open("yield", start)
-        pronoun = phrase.kind == "pronoun" and event.actor is not None
-        event.to_actor = 1 - (event.actor or 0) if pronoun else self.phrases.resolve(phrase)
-        event.notes.append("let")
-        self.at = phrase.end + 1
-        if found := self.phrases.landmark(self.at):
-            self.at = found[1]
-        if self._tag("adverb") == "first":
-            self.at += 1
-        self._grow()
-        return True

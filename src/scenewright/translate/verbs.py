@@ -7,15 +7,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scenewright.translate.events import HERO_ID, Event, Place
+from scenewright.translate.deeds import DeedReader
+from scenewright.translate.events import HERO_ID, Area, Event, Place
 from scenewright.translate.reader import MOVES
 from scenewright.translate.references import NounPhrase
 from scenewright.translate.tokens import Token
-from scenewright.translate.verb_groups import VerbGroupReader
+
+_GAPS = frozenset(("gap", "distance", "headway", "spacing"))
 
 
 @dataclass(slots=True)
-class VerbReader(VerbGroupReader):
+class VerbReader(DeedReader):
     """Opens events."""
 
     def _verb(self) -> bool:
@@ -51,6 +53,10 @@ class VerbReader(VerbGroupReader):
             self.links += [] if "comma" in self.links else ["comma"]
             self.at += 1  # "Only after that does the hero drive on"
             return True
+        if token.tags.get("verb") == "make" and (after := self._brake_noun(self.at, self.at + 1)):
+            self.at = after  # "does an emergency braking"
+            self._grow()
+            return True
         if "auxiliary" in token.tags:
             self.flags.add({"have": "perfect"}.get(token.tags["auxiliary"], "modal"))
             self.at += 1
@@ -58,15 +64,30 @@ class VerbReader(VerbGroupReader):
         if ("be" in token.tags or self._contracted_be(token)) and "verb" not in token.tags:
             self.flags.add("be")
             self.at += 1 + (self.pair and self._tag("pair", 1) is not None)  # "are both"
+            self.at += self.phrases.tokens[self.at].text.lower() == "itself"
             if self._tag("ready") and self._tag("link", 1) == "to" and self.phrases.verb(self.at + 2):
                 self.flags.add("wanted")  # "is ready to turn left"
                 self.at += 2
+                return True
+            there = self._tag("link") == "there" and self.phrases.last_landmark is not None
+            if there and (self._tag("link", 1) in ("before", "after") or self._tag("adverb", 1) == "first"):
+                self._open("reach", self.at - 1).landmark = self.phrases.last_landmark  # "is there before the ego"
+                self.at += 1
+                self._grow()
                 return True
             if not (self.phrases.tokens[self.at].tags.keys() & {"verb", "negation", "adverb", "auxiliary"}):
                 self._open("be", self.at - 1)
             return True
         verb = token.tags.get("verb")
         if "falls" in token.tags and self.subject_span is not None and self.phrases.tokens[self.at + 1].quantity:
+            if set(token.text.lower().split()) & _GAPS:
+                event = self._open("be", self.at)  # "the ego has closed the gap to 9 m"
+                amount = self.phrases.tokens[self.at + 1].quantity
+                if amount is None or event.actor is None or amount.dimension not in ("length", "time"):
+                    return False
+                event.places.append(Place("behind", 1 - event.actor, amount, token.span))
+                self.at += 2
+                return True
             self._open("reach", self.at)  # "the ego has closed to 25 m behind the van"
             self.at += 1
             return True
@@ -90,24 +111,6 @@ class VerbReader(VerbGroupReader):
         phrase = self.phrases.noun_phrase(self.at + 1)
         return phrase is not None and "base" in self.phrases.tokens[phrase.end].forms and self.subject_span is None
 
-    def _instead(self) -> bool:
-        """Step over "instead of waiting for the ego": what is done follows."""
-        if self.phrases.tokens[self.at].text.lower() not in ("instead of", "rather than"):
-            return False
-        if self.phrases.verb(self.at + 1, "wait") is None or "ing" not in self.phrases.tokens[self.at + 1].forms:
-            return False
-        end = self.at + 2
-        if self.phrases.tag(end, "preposition") == "for" and (phrase := self.phrases.noun_phrase(end + 1)):
-            end = phrase.end
-        if self.phrases.tag(end, "comma") is None and self.phrases.tag(end, "end") is None:
-            return False
-        span = self.phrases.span(self.at, end)
-        self.phrases.assume(
-            f"'{span.excerpt(self.phrases.text)}' says what it does not do; what it does is said beside it"
-        )
-        self.at = end
-        return True
-
     def _contracted_be(self, token: Token) -> bool:
         if "genitive" not in token.tags or self.at == 0:
             return False
@@ -119,6 +122,8 @@ class VerbReader(VerbGroupReader):
             return self._needs_time()
         after = self.phrases.tokens[self.at + 1]
         if after.quantity is not None or self.phrases.measured(self.at + 1) is not None:
+            if self._starts_with(self.at + 1):
+                self.flags.add("initial")  # "has an initial distance of 30 m to the stop line"
             self._open("be", self.at)
             self.at += 1
             return True
@@ -129,8 +134,14 @@ class VerbReader(VerbGroupReader):
         placed = self.current is not None and self.current.places and self.current.places[-1].amount is None
         if "ing" in token.forms and not self.links and placed and self._turn_to_object():
             self.links.append("that")  # "behind a van doing 12 m/s"
-        if verb == "let":
-            return self._let(start)
+        if verb == "let" or (verb == "leave" and self._let(start)):
+            return verb == "leave" or self._let(start)
+        if verb == "wait" and self._waits_for(start):
+            return True
+        if verb == "do_so":
+            return self._does_so(start)
+        if verb == "react" and self._reacts_with(start):
+            return True
         if verb in ("attitude", "react"):
             return self._attitude(start)
         stopping = self.current is not None and self.current.verb in ("stop", "brake", "yield")
@@ -140,6 +151,8 @@ class VerbReader(VerbGroupReader):
             return True
         if verb == "reach" and token.text.lower().startswith("arriv") and self._tag("preposition", 1) == "out":
             verb = "drive"  # "arrives from the driveway"
+        if verb == "reach" and token.text.lower().startswith("arriv") and self.phrases.heading(self.at + 1):
+            verb = "drive"  # "arrives eastbound", "arrives from the east"
         passive = "be" in self.flags and "ed" in token.forms
         by = self._tag("link", 1) == "by" or self._tag("preposition", 1) == "by"
         if verb in ("follow", "lead") and "ed" in token.forms and by and self.current is not None and not self.flags:
@@ -202,7 +215,8 @@ class VerbReader(VerbGroupReader):
             self.at = end
             return True
         unlinked = self.current is not None and not self.links and self.subject_span is None
-        goes_on = self.reduced is not None
+        goes_on = self.reduced is not None or self._after_a_relative_clause(token)
+        goes_on = goes_on or (self.current is not None and "that" in self.current.links)
         if unlinked and not goes_on and self.current and self.current.verb != "be" and "ing" not in token.forms:
             return False  # two finite verbs without a link: "makes a left go"
         passive = "be" in self.flags and "ed" in token.forms and "ing" not in token.forms
@@ -220,6 +234,12 @@ class VerbReader(VerbGroupReader):
         self._grow()
         return True
 
+    def _after_a_relative_clause(self, token: Token) -> bool:
+        """Whether a finite verb goes on with its subject: "a van that is to turn right drives west"."""
+        here = [event for event in self.events if event.sentence == self.sentence]
+        told = bool(here) and all("that" in event.links or event.links == ["to"] for event in here)
+        return told and here[-1].actor == self.subject and "s" in token.forms and not self.flags
+
     def _attitude(self, start: int) -> bool:
         """Read "sees the AV" and "panics": nothing that can be orchestrated, so it is only noted."""
         event = self._open("attitude", start)
@@ -230,6 +250,9 @@ class VerbReader(VerbGroupReader):
             self.at = phrase.end
         elif event.actor is not None and self.phrases.tag(self.phrases.skip_determiner(self.at), "measure") == "length":
             self.at = self.phrases.skip_determiner(self.at) + 1
+        place = self.phrases.place(self.at) if self.pair else None
+        if place is not None and place[0].relation == "at" and place[0].target in ("intersection", "conflict_point"):
+            self.at = place[1]  # "the two meet at the junction"
         self._grow()
         return True
 
@@ -261,8 +284,12 @@ class VerbReader(VerbGroupReader):
             self._grow()
             return True
         if verb == "come_towards" and phrase is None:
-            self._open("approach", start)
+            event = self._open("approach", start)
             self.at += 1
+            if area := self.phrases.area_noun(self.at, "on"):
+                event.notes.append("towards")
+                self.at = area[1]  # "drives towards the road"
+                self._grow()
             return True
         if phrase is None and verb == "lead" and self.subject is not None and self._ends_clause(self.at + 1):
             event = self._open("drive", start)  # "the hero leads, the ego follows"
@@ -352,6 +379,10 @@ class VerbReader(VerbGroupReader):
             event.verb = "turn"  # "enters the driveway", "enters the main road"
             event.areas.append(area[0])
             return area[1]
+        left = event.verb == "leave" and self.phrases.tokens[at].text.lower() == "it"
+        if left and self.phrases.last_area == "driveway":
+            event.areas.append(Area("from", "driveway", self.phrases.tokens[at].span))
+            return at + 1  # "..., a car leaves it"
         if found is None and event.verb == "pass" and (area := self.phrases.area_noun(at, "across")):
             event.verb = "drive"  # "crosses the ego's path"
             event.areas.append(area[0])

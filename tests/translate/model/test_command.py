@@ -19,6 +19,7 @@ from typer.testing import CliRunner
 from scenewright.cli import translators
 from scenewright.cli.app import app
 from scenewright.program.text import parse_program
+from scenewright.translate.model.prompt import PROMPT_VERSION
 from scenewright.translate.model.settings import Question
 
 QUESTION = {"question": "Which way?", "alternatives": ["straight on", "right"], "default": "straight on", "words": ""}
@@ -44,7 +45,7 @@ def test_translate_tells_readings_what_it_says_and_what_it_took(server: Server) 
         "read back, it says:",
         "The moment that counts: the ego is 12 m before its stop line and the hero is 20 m before the conflict point.",
         "assumed: Which way? Taken: straight on. It could also be: right.",
-        "openai-compatible:tiny, prompt 1 (",
+        f"openai-compatible:tiny, prompt {PROMPT_VERSION} (",
         "1 call, 7000 tokens in and 300 out, as the provider counts",
     ):
         assert words in result.stdout
@@ -98,7 +99,7 @@ def test_strict_offline_refuses_assumptions_but_not_conventions() -> None:
 def test_prompt_is_shown_with_and_without_a_description() -> None:
     result = call("translate", "--show-prompt")
     assert result.exit_code == 0
-    assert result.stdout.startswith("prompt version 2 (")
+    assert result.stdout.startswith(f"prompt version {PROMPT_VERSION} (")
     for words in ("----- system -----", "# 6. The map", "(your description)", "Actor 0 (ego):"):
         assert words in result.stdout
     assert TEXT in call("translate", TEXT, "--show-prompt", "--translator", "openai:x").stdout
@@ -128,7 +129,7 @@ def test_run_is_recorded_replayed_and_noted(server: Server) -> None:
     manifest = json.loads(Path("one/manifest.json").read_text(encoding="utf-8"))
     assert manifest["translator"] == "openai-compatible:tiny"
     (note,) = [note for note in manifest["notes"] if note.startswith("translated by")]
-    assert "with prompt 1 (" in note
+    assert f"with prompt {PROMPT_VERSION} (" in note
     assert "7000 tokens in and 300 out" in note
 
 

@@ -14,6 +14,7 @@ from scenewright.errors import OutputError, ScenewrightError, TranslationError
 from scenewright.roads.load import load_map
 from scenewright.translate.model.exchange import Call, GaveUpError, Message, key_of
 from scenewright.translate.model.files import FilesModel, NoReplyYetError, write_whole
+from scenewright.translate.model.prompt import PROMPT_VERSION
 from scenewright.translate.model.records import Recording, Replayed
 from scenewright.translate.model.settings import DEFAULT_MAX_TOKENS, TranslatorSettings
 from scenewright.translate.model.translation import ModelTranslation
@@ -41,7 +42,7 @@ def test_request_says_all_that_somebody_needs_to_answer(tmp_path: Path) -> None:
     assert caught.value.exit_status == 4
     (request,) = requests_in(tmp_path / "new folder")
     assert request["description"] == TEXT
-    assert (request["attempt"], request["map"], request["prompt_version"]) == (1, "t_intersection", "1")
+    assert (request["attempt"], request["map"], request["prompt_version"]) == (1, "t_intersection", PROMPT_VERSION)
     assert [message["role"] for message in request["messages"]] == ["system", "user"]
     assert TEXT in request["messages"][1]["content"]
     shared = tmp_path / "new folder" / request["instructions_file"]

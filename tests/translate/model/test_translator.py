@@ -11,6 +11,7 @@ from talk import GOOD, PROGRAM, READINGS, TEXT, Said, reply_to
 from scenewright.errors import TranslationError
 from scenewright.program.types import Program
 from scenewright.roads.load import load_map
+from scenewright.translate.model.prompt import PROMPT_VERSION
 from scenewright.translate.model.settings import Question, TranslatorSettings
 from scenewright.translate.model.translation import ModelTranslation, notes_of
 from scenewright.translate.model.translator import translate_with_model
@@ -191,6 +192,6 @@ def test_injection_is_data_between_marks_and_a_reading_of_its_own() -> None:
 
 def test_notes_name_the_translator_the_prompt_and_the_tokens() -> None:
     note = notes_of(translate(Said([GOOD])))[-1]
-    assert note.startswith("translated by said:so with prompt 1 (")
+    assert note.startswith(f"translated by said:so with prompt {PROMPT_VERSION} (")
     assert "1 call, " in note
     assert "estimated from the length of the texts" in note

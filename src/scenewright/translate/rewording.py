@@ -1,0 +1,226 @@
+"""Gives words the class that their neighbours show: "over the lane of the ego", "somebody in a hatchback", "E->N".
+
+What enters: tokens. What leaves: tokens, some with other tags, and without words that only wrap a vehicle. It drops
+nothing that tells of a place, an amount or an action.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from scenewright.errors import Span
+from scenewright.translate.tokens import Token
+
+_SOMEBODY = ("somebody", "someone", "a person", "one person", "some person", "some driver")
+_COMPASS = {"n": "N", "e": "E", "s": "S", "w": "W", "north": "N", "east": "E", "south": "S", "west": "W"}
+_ARROW_LENGTH = 3
+_NOBODY = ("neither", "none", "nobody", "neither of them", "no one")
+_NOBODY_WORDS = frozenset(
+    ["of", "them", "the", "two", "vehicles", "vehicle", "car", "cars", "one", "will", "is", "are", "going", "to",
+     "does", "do", "either", "both", "is to", "are to", "has", "plans"]
+)  # fmt: skip
+
+
+def reworded(tokens: list[Token]) -> list[Token]:
+    """Return the tokens with the classes that their neighbours show."""
+    return _neither(
+        _relative(_headed(_across(_without_somebody(_left_to(_second(_letters(_way_out(_ways(tokens)))))))))
+    )
+
+
+def _letters(tokens: list[Token]) -> list[Token]:
+    """Let a capital W be west, and "the westbound traffic" after "into" a lane."""
+    read = list(tokens)
+    for at, token in enumerate(tokens):
+        before: Mapping[str, str] = tokens[at - 1].tags if at else {}
+        if "unknown" in token.tags and token.text in ("N", "E", "S", "W"):
+            read[at] = replace(token, tags={"heading": token.text})
+        elif token.text.lower() == "through" and _ends(tokens, at + 1) and before.keys() & {"heading", "comma"}:
+            read[at] = replace(token, tags={"direction": "straight"})  # "westbound through."
+        elif token.text.lower() == "traffic" and "heading" in before and _joins(tokens, at - 2):
+            read[at] = replace(token, tags={"area": "lane"})
+    return read
+
+
+def _ends(tokens: list[Token], at: int, *more: str) -> bool:
+    return at >= len(tokens) or bool(tokens[at].tags.keys() & {"end", "comma", *more})
+
+
+def _joins(tokens: list[Token], at: int) -> bool:
+    """Whether "into", "into the" or "joins the" stands at `at` and before."""
+    at -= at >= 0 and "determiner" in tokens[at].tags
+    return at >= 0 and (tokens[at].tags.get("preposition") == "into" or tokens[at].tags.get("verb") == "pull_out")
+
+
+def _neither(tokens: list[Token]) -> list[Token]:
+    """Let "neither of them turns" be "both go straight"."""
+    read: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        alone = (at == 0 or "end" in tokens[at - 1].tags) and at + 1 < len(tokens) and "end" in tokens[at + 1].tags
+        if alone and tokens[at].text.lower() in ("no turns", "no turn", "no turning"):  # "No turns."
+            read.append(Token("both", tokens[at].span, {"pair": "pair"}))
+            read.append(Token(tokens[at].text, tokens[at].span, {"verb": "lane_follow"}, frozenset(("base",))))
+            at += 1
+            continue
+        end = at + 1
+        while end < len(tokens) and tokens[end].text.lower() in _NOBODY_WORDS:
+            end += 1
+        turns = end < len(tokens) and tokens[end].text.lower() in ("turn", "turns", "turning", "turns off")
+        ends = turns and bool(tokens[end + 1].tags.keys() & {"end", "comma", "link"})
+        if tokens[at].text.lower() not in _NOBODY or not ends:
+            read.append(tokens[at])
+            at += 1
+            continue
+        span = tokens[at].span.union(tokens[end].span)
+        read.append(Token("neither", tokens[at].span, {"pair": "pair"}))
+        read.append(Token(_words(tokens[at : end + 1]), span, {"verb": "lane_follow"}, frozenset(("base",))))
+        at = end + 1
+    return read
+
+
+def _words(tokens: list[Token]) -> str:
+    """Return the words of some tokens."""
+    return " ".join(token.text for token in tokens)
+
+
+def _way_out(tokens: list[Token]) -> list[Token]:
+    """Let "are on their way out" be a verb of motion."""
+    read: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        words = [token.text.lower() for token in tokens[at : at + 4]]
+        owned = len(words) > 1 and words[1] in ("its", "their", "the", "his", "her")
+        if not owned or [words[0], *words[2:]] != ["on", "way", "out"] or not _ends(tokens, at + 4, "link"):
+            read.append(tokens[at])
+            at += 1
+            continue
+        span = tokens[at].span.union(tokens[at + 3].span)
+        read.append(Token(" ".join(words), span, {"verb": "pull_out"}, frozenset(("ing",))))
+        at += 4
+    return read
+
+
+def _headed(tokens: list[Token]) -> list[Token]:
+    """Let "Actors:" be a heading and no word for a third vehicle."""
+    read = list(tokens)
+    for at, token in enumerate(tokens[:-1]):
+        begins = at == 0 or "end" in tokens[at - 1].tags
+        noted = begins and token.tags.keys() & {"ego", "hero"} and tokens[at + 1].text == "="
+        if noted and tokens[at + 2].quantity is None:
+            read[at + 1] = replace(tokens[at + 1], tags={"colon": ":"})  # "Ego = westbound"
+        if token.tags.keys() >= {"label", "unsupported"} and "colon" in tokens[at + 1].tags:
+            read[at] = replace(token, tags={key: tag for key, tag in token.tags.items() if key != "unsupported"})
+    return read
+
+
+def _second(tokens: list[Token]) -> list[Token]:
+    """Let "the second vehicle" be a vehicle and no moment."""
+    read: list[Token] = []
+    for at, token in enumerate(tokens):
+        named = at + 1 < len(tokens) and tokens[at + 1].tags.keys() & {"noun", "hero", "actor_adjective"}
+        if token.text.lower() != "the second" or not named:
+            read.append(token)
+            continue
+        middle = token.span.start + len("the")
+        read.append(Token("the", Span(token.span.start, middle), {"determiner": "definite"}))
+        read.append(Token("second", Span(middle + 1, token.span.end), {"actor_adjective": "other"}))
+    return read
+
+
+def _left_to(tokens: list[Token]) -> list[Token]:
+    """Let "turns left to continue east" be a turn, not a distance that is left."""
+    read: list[Token] = []
+    for token in tokens:
+        turns = read and (read[-1].tags.get("verb") in ("turn", "pull_out", "go") or "bound_word" in read[-1].tags)
+        if not turns or token.text.lower() != "left to":
+            read.append(token)
+            continue
+        middle = token.span.start + len("left")
+        read.append(Token("left", Span(token.span.start, middle), {"direction": "left"}))
+        read.append(Token("to", Span(middle + 1, token.span.end), {"link": "to", "preposition": "to"}))
+    return read
+
+
+def _relative(tokens: list[Token]) -> list[Token]:
+    """Let "in the driveway, from which it turns left" be "and it turns left": the place was named."""
+    read: list[Token] = []
+    for at, token in enumerate(tokens):
+        which = (
+            token.text.lower() == "which" and read and read[-1].tags.get("preposition") in ("out", "into", "on", "in")
+        )
+        after = tokens[at + 1].tags.keys() if at + 1 < len(tokens) else set()
+        if which and after & {"pronoun", "ego", "hero", "determiner"}:
+            read[-1] = Token(f"{read[-1].text} which", read[-1].span.union(token.span), {"link": "and"})
+        else:
+            read.append(token)
+    return read
+
+
+def _across(tokens: list[Token]) -> list[Token]:
+    """Let "over" in front of a lane be a preposition and no bound."""
+    read = list(tokens)
+    for at, token in enumerate(tokens[:-2]):
+        owned = tokens[at + 1].tags.keys() & {"determiner", "possessive"}
+        if token.text.lower() != "over" or not owned:
+            continue
+        end = at + 2
+        while tokens[end].tags.keys() & {"heading", "same", "area_adjective", "actor_adjective", "ego", "genitive"}:
+            end += 1
+        if tokens[end].tags.get("area") == "lane":
+            read[at] = replace(token, tags={"preposition": "across"})
+    return read
+
+
+def _without_somebody(tokens: list[Token]) -> list[Token]:
+    """Let "somebody in a hatchback" be the hatchback, and "somebody" alone a driver."""
+    read: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        if tokens[at].text.lower() not in _SOMEBODY:
+            read.append(tokens[at])
+            at += 1
+            continue
+        after = at + 1
+        after += tokens[after].text.lower() in ("who is", "who's", "who", "else")
+        wheel = [token.text.lower() for token in tokens[after : after + 4]]
+        if wheel and wheel[0] in ("in", "driving", "on", "riding", "inside"):
+            at = after + 1
+        elif wheel == ["at", "the", "wheel", "of"]:
+            at = after + 4
+        else:
+            article = Token("a", tokens[at].span, {"determiner": "indefinite"})
+            read += [article, Token("driver", tokens[at].span, {"noun": "driver"})]
+            at += 1
+    return read
+
+
+def _ways(tokens: list[Token]) -> list[Token]:
+    """Let "E->N" be the two headings of a way, as a route is written in a program."""
+    read: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        end = _way_end(tokens, at)
+        if end is None:
+            read.append(tokens[at])
+            at += 1
+            continue
+        way = f"{_COMPASS[tokens[at].text.lower()]} {_COMPASS[tokens[end - 1].text.lower()]}"
+        span = tokens[at].span.union(tokens[end - 1].span)
+        read.append(Token(" ".join(token.text for token in tokens[at:end]), span, {"way": way}))
+        at = end
+    return read
+
+
+def _way_end(tokens: list[Token], at: int) -> int | None:
+    """Return the position after "E -> N" or "E→N", or None."""
+    if tokens[at].text.lower() not in _COMPASS:
+        return None
+    end = at + 1
+    while end < len(tokens) and end - at <= _ARROW_LENGTH and tokens[end].text in ("-", "–", "—", ">", "->", "=>", "→"):
+        end += 1
+    arrow = "".join(token.text for token in tokens[at + 1 : end])
+    if not arrow.endswith((">", "→")) or end >= len(tokens) or tokens[end].text.lower() not in _COMPASS:
+        return None
+    return end + 1
