@@ -54,6 +54,9 @@ EXIT_STATUS: dict[Status, int] = {
 Report = Callable[[str], None]
 Stop = Literal["check", "plan", "end"]
 
+# A hero that came later than this (s) is helped by an ego that starts at less than this share of its first speed.
+_MUCH_TOO_LATE_S, _MUCH_SLOWER = 1.0, 0.5
+
 
 @dataclass(frozen=True, slots=True)
 class Request:
@@ -196,7 +199,7 @@ def _rehearse(
             break
         drive = drive_profile(last.run.trace.actors[world.scene.program.ego.name])
         predictor = Rehearsed(drive, world.predictor)
-        planned = first_plan(world, predictor, drive.state(0.0)[1] if _came_too_late(last) else math.inf)
+        planned = first_plan(world, predictor, _slower_than_mps(last, drive.state(0.0)[1]))
         planned = planned or first_plan(world, predictor)
         if planned is None or planned[2].plan is None:
             break
@@ -207,13 +210,19 @@ def _rehearse(
     return replace(first, takes=last.takes)
 
 
-def _came_too_late(result: Result) -> bool:
-    """Whether all went well but the outcome: an ego that starts slower leaves more time for it."""
+def _slower_than_mps(result: Result, began_mps: float) -> float:
+    """Return how slow the ego has to start in the next take; no matter unless all went well but the outcome.
+
+    An ego that starts slower leaves more time for it; where it was far from enough, much slower.
+    """
     from scenewright.judge.tolerance import LOOSE
 
     assert result.verdict is not None
-    missed = {condition.kind for condition in result.verdict.conditions if not condition.holds_at(LOOSE)}
-    return missed == {"outcome"}
+    missed = [condition for condition in result.verdict.conditions if not condition.holds_at(LOOSE)]
+    if {condition.kind for condition in missed} != {"outcome"}:
+        return math.inf
+    late_s = max(condition.error or 0.0 for condition in missed)
+    return began_mps if late_s < _MUCH_TOO_LATE_S else _MUCH_SLOWER * began_mps
 
 
 def set_up(request: Request, stages: Stages, backend: Backend | None = None) -> tuple[World, Translation | None]:
