@@ -5,6 +5,7 @@ What enters: `Facts`, the two routes, the description. What leaves: a `Program` 
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -34,6 +35,7 @@ from scenewright.translate.tokens import Quantity
 _POSITION: Order = 0
 _SPEED: Order = 1
 _ACCELERATION: Order = 2
+_IN_HASTE = re.compile(r"\b(?:accelerat|dash|dart|rac|rush|shoot|speed|bolt|burst|hurr)", re.IGNORECASE)
 
 
 @dataclass(slots=True)
@@ -247,10 +249,15 @@ class Assembler(ConditionAssembler):
         )
         self._order("t2")
         if turn.to_speed is None:
-            return _sketch("go acc" if turn.goal is not None else "go go")
+            return _sketch("go acc" if turn.goal is not None and self._hurries(turn, placed) else "go go")
         # The speed is that of the drive after the turn: it is reached on the road, not in the curve.
         self._add(Compare("==", State(HERO_ID, _SPEED, Knot("t3")), turn.to_speed.term), turn.events[-1])
         return _sketch("go go acc go")
+
+    def _hurries(self, turn: Phase, placed: bool) -> bool:
+        """Whether a hero that is to complete its turn speeds up: it darts out, or pulls out from before the junction."""
+        out = [event for event in turn.events if event.verb == "pull_out"]
+        return any(placed or _IN_HASTE.search(event.span.excerpt(self.text)) for event in out)
 
     # -- without a trigger ------------------------------------------------------------------------------------------
     def _untriggered(self, phases: list[Phase]) -> Sketch:

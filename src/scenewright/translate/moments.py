@@ -91,6 +91,15 @@ class MomentReader(OutcomeReader):
         conditions = [event for event in events if event.mode == "when" and not self._is_marker(event)]
         if not conditions:
             return
+        for event in events:
+            if self._told_relatively(event):
+                if {"was", "were"} & set(event.span.excerpt(self.text).lower().split()):
+                    raise self._refuse(
+                        "it is not clear whether this was so at the start or is so at the trigger",
+                        event.span,
+                        "'is', or 'was initially'",
+                    )
+                event.mode = "when"
         for event, following in pairwise([*events, None]):
             if event is None:
                 break
@@ -109,6 +118,14 @@ class MomentReader(OutcomeReader):
                     event.span,
                     "'initially', or the words inside the 'when' clause",
                 )
+
+    @staticmethod
+    def _told_relatively(event: Event) -> bool:
+        """Whether "the car, which is 11 m behind it (at that moment), brakes" tells of the moment of its sentence."""
+        amounts = [place for place in event.places if place.amount is not None or isinstance(place.target, str)]
+        states = event.verb in ("be", "sit", "ttc", "drive", "approach") and bool(amounts or event.ttc)
+        plain = event.mode == "main" and not (event.initial or event.negated or event.wanted)
+        return "that" in event.links and states and plain
 
     @staticmethod
     def _said_in_passing(event: Event, following: Event | None, conditions: list[Event]) -> bool:
