@@ -194,6 +194,8 @@ class ActionReader(DescriptionReader):
             last.events.append(event)  # "slows to 2 m/s by the conflict point, and it gets there after the ego"
             last.goal = event.landmark
             return last
+        if last is not None and self._slows_there(event, last):
+            return last
         if last is not None and last.kind in ("acc", "go", "turn"):
             phase = last
         else:
@@ -229,6 +231,23 @@ class ActionReader(DescriptionReader):
             raise self._refuse("two different places to pass are given", event.span)
         phase.goal, phase.goal_event = goal, event
         return phase
+
+    def _slows_there(self, event: Event, last: Phase) -> bool:
+        """Read "decelerates. It arrives at the conflict point with a speed of 15 mph": where it is how slow."""
+        free = last.kind == "dec" and not last.to_stop and last.to_speed is None and last.place is None
+        if not free or event.speed is None or event.verb not in ("pass", "reach") or "to" in event.links:
+            return False
+        places = list(event.places)
+        if event.landmark is not None:
+            places.append(Place("at", event.landmark, None, event.span))
+        if len(places) != 1 or not isinstance(places[0].target, str):
+            return False
+        last.to_speed, event.speed = event.speed, None
+        last.place, last.place_event = places[0], event
+        last.events.append(event)
+        if places[0].relation == "at":
+            last.goal, last.goal_event = places[0].target, event
+        return True
 
     def _set_order_goal(self, phase: Phase, goal: str) -> None:
         """Forget where the hero comes first by default: it is said now ("goes first and completes its turn")."""

@@ -255,7 +255,7 @@ class Assembler(ConditionAssembler):
         return _sketch("go go acc go")
 
     def _hurries(self, turn: Phase, placed: bool) -> bool:
-        """Whether a hero that is to complete its turn speeds up: it darts out, or pulls out from before the junction."""
+        """Whether a hero that is to complete its turn speeds up: it darts out, or pulls out from where it was told to be."""
         out = [event for event in turn.events if event.verb == "pull_out"]
         return any(placed or _IN_HASTE.search(event.span.excerpt(self.text)) for event in out)
 

@@ -15,6 +15,7 @@ from scenewright.translate.onsets import OnsetReader
 from scenewright.translate.references import NounPhrase
 
 _MOST_READERS = 8  # that may read one token after the other without a step on
+_RANKS = ("lead", "rear")
 _UNSUPPORTED_FIX = "leave it out: the offline translator knows two vehicles that drive along their lanes"
 
 
@@ -28,10 +29,24 @@ class ClauseReader(OnsetReader):
         stood = 0
         while self.at < len(self.phrases.tokens):
             before = self.at
+            self.phrases.leader = self._told_ahead()
             if not self._step() or stood > _MOST_READERS:
                 raise self._stuck()
             stood = stood + 1 if self.at == before else 0
         return self.events
+
+    def _told_ahead(self) -> int | None:
+        """Return who was told to be ahead of the other in its lane, where this sentence spoke of the other vehicle."""
+        spoken = any(e.sentence == self.sentence and e.actor not in (None, self.subject) for e in self.events)
+        if self.subject is None or not spoken:
+            return None
+        told = {actor if word == "lead" else 1 - actor for word, actor, _ in self.phrases.described if word in _RANKS}
+        for event in self.events:
+            told |= {event.actor} if event.in_front and event.actor is not None else set()
+            for place in event.places:
+                if isinstance(place.target, int) and event.actor is not None and place.relation in ("ahead", "behind"):
+                    told.add(event.actor if place.relation == "ahead" else place.target)
+        return told.pop() if len(told) == 1 else None
 
     def _refuse_unsupported(self) -> None:
         found = [token for token in self.phrases.tokens if "unsupported" in token.tags or "bound" in token.tags]
@@ -213,9 +228,10 @@ class ClauseReader(OnsetReader):
             return False
         if link == "until" and self.phrases.tag(after, "landmark"):
             return False
-        if word.startswith("by the time") and any(e.sentence == self.sentence for e in self.events):
-            link = "before"  # "is through by the time the ego begins to turn"
+        if word.startswith("by the time"):
             self.links.append("by_then")
+            if any(e.sentence == self.sentence for e in self.events):
+                link = "before"  # "is through by the time the ego begins to turn"
         if link == "only" and self.phrases.tag(after, "link") not in ("when", "after", "then"):
             only_then = self._only_later(after)
             self.at += only_then

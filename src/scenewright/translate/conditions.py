@@ -108,7 +108,8 @@ class ConditionAssembler:
                 "a distance is measured along a vehicle's own way", place.span, f"a place of the {ACTOR_NAMES[actor]}"
             )
         name = place.target
-        if name == "turn_start" and self.routes.of(actor).turn == "straight":
+        of_turn = "turn" in place.span.excerpt(self.text).lower()  # "the start of its turn" is no mouth
+        if name == "turn_start" and self.routes.of(actor).turn == "straight" and not of_turn:
             name = "turn"  # the mouth of the driveway, for somebody who drives past it
         if place.vague:
             self._assume("the driveway as a place is where it meets the road ('turn')")

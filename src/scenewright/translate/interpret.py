@@ -95,6 +95,8 @@ class Interpreter(MomentReader):
             if event.to_actor == event.actor or any(place.target == event.actor for place in event.places):
                 raise self._refuse("a vehicle is no measure of itself", event.span, "the other vehicle")
             self.facts.mentioned.add(event.actor)
+        if self._slow_when_there(events):
+            return
         self._one_moment(events)
         self._join_conditions(events)
         conditions = [e for e in events if e.mode == "when" and not self._is_marker(e)]
@@ -197,7 +199,10 @@ class Interpreter(MomentReader):
             self._tell_route(event)
             self.pending_release.append(event)
             phase = self.facts.phases[-1] if self.facts.phases else None
-            if phase is not None and phase.kind != "dec":
+            if phase is not None and phase.kind == "dec" and phase.goal is not None and phase.goal_event in events:
+                self.pending_release.pop()  # "arrives there at 5 m/s after the ego has passed it"
+                self._set_order(Order(False, self._ego_landmark(event), event))
+            elif phase is not None and phase.kind != "dec":
                 self._apply_release(phase, at_start=phase.goal_event not in events)
         else:
             raise self._refuse("it is not clear what comes after this", event.span)

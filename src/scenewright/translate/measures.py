@@ -123,7 +123,7 @@ class MeasureReader(VerbReader):
             at += 1
         of = self.phrases.tag(at, "preposition") in ("of", "at") and (actor is not None or measured.target is not None)
         if self.phrases.tokens[at].tags.keys() & {"be", "falls", "colon"} or of:
-            at = self.phrases.skip_hedges(at + 1)
+            at = self.phrases.skip_hedges(at + 1 + (self.phrases.tokens[at + 1].text.lower() == "down to"))
         measured.quantity = self.phrases.tokens[at].quantity
         return self._with_amount(measured, at)
 

@@ -91,15 +91,7 @@ class MomentReader(OutcomeReader):
         conditions = [event for event in events if event.mode == "when" and not self._is_marker(event)]
         if not conditions:
             return
-        for event in events:
-            if self._told_relatively(event):
-                if {"was", "were"} & set(event.span.excerpt(self.text).lower().split()):
-                    raise self._refuse(
-                        "it is not clear whether this was so at the start or is so at the trigger",
-                        event.span,
-                        "'is', or 'was initially'",
-                    )
-                event.mode = "when"
+        self._relative_conditions(events)
         for event, following in pairwise([*events, None]):
             if event is None:
                 break
@@ -118,6 +110,17 @@ class MomentReader(OutcomeReader):
                     event.span,
                     "'initially', or the words inside the 'when' clause",
                 )
+
+    def _relative_conditions(self, events: list[Event]) -> None:
+        """Let relative clauses beside a trigger tell of it; refuse those in the past."""
+        for event in filter(self._told_relatively, events):
+            if {"was", "were"} & set(event.span.excerpt(self.text).lower().split()):
+                raise self._refuse(
+                    "it is not clear whether this was so at the start or is so at the trigger",
+                    event.span,
+                    "'is', or 'was initially'",
+                )
+            event.mode = "when"
 
     @staticmethod
     def _told_relatively(event: Event) -> bool:

@@ -29,6 +29,7 @@ class NounPhrases:
     last_into: str | None = None  # the last one that a vehicle goes into
     last_named: tuple[int, int] | None = None  # an actor, and the position after its name
     subject: int | None = None
+    leader: int | None = None  # who was told to be ahead, where a clause before in the sentence speaks of the other one
     assumptions: list[str] = field(default_factory=list)
     onsets: list[tuple[tuple[str, ...], Span]] = field(default_factory=list)  # kinds of phase that a deed named can be
     described: list[tuple[str, int, Span]] = field(

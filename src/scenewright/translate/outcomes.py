@@ -151,6 +151,28 @@ class OutcomeReader(ActionReader):
         phase.events.append(event)
         return True
 
+    def _slow_when_there(self, events: list[Event]) -> bool:
+        """Read "By the time it is 10 m from the conflict point its speed is down to 5 m/s" after it began to brake."""
+        phase = self.facts.phases[-1] if self.facts.phases else None
+        if phase is None or len(events) != 2 or not {"by_then", "when"} <= set(events[0].links):
+            return False
+        there, slow = events
+        free = phase.kind == "dec" and not phase.to_stop and phase.to_speed is None and phase.place is None
+        told = there.actor == slow.actor == HERO_ID and slow.mode == "main" and not (there.negated or slow.negated)
+        speed = slow.speed if slow.verb in ("be", "drive", "go") else slow.to_speed if slow.verb == "brake" else None
+        held = slow.places or slow.rate or slow.areas or slow.duration or there.speed or slow.than_actor is not None
+        if not free or not told or speed is None or held or slow.to_stop or slow.after_actor is not None:
+            return False
+        place = there.places[0] if len(there.places) == 1 and there.verb in ("be", "sit", "reach") else None
+        if place is None and there.verb in ("reach", "pass") and there.landmark is not None and not there.places:
+            place = Place("at", there.landmark, None, there.span)
+        if place is None or not isinstance(place.target, str):
+            return False
+        phase.to_speed, slow.speed, slow.to_speed = speed, None, None
+        phase.place, phase.place_event = place, there
+        phase.events += events
+        return True
+
     def _keeps_its_speed(self) -> None:
         """Let a hero that passes "without speeding up" drive on at will; refuse it where it is said to speed up."""
         steady = self.facts.steady

@@ -221,6 +221,9 @@ class Phrases(NounPhrases):
         """Read "5 m before it" (the last place named) and "ahead of it" (the other vehicle)."""
         span = self.span(start, phrase.end)
         words = span.excerpt(self.text)
+        ahead = {"behind": 1 - self.subject, "ahead": self.subject}.get(relation) if self.subject is not None else None
+        if amount is not None and ahead is not None and ahead == self.leader and self.subject is not None:
+            return Place(relation, 1 - self.subject, amount, span), phrase.end  # "... and the ego is 25 m behind it"
         if relation in ("before", "from") and self.last_landmark and amount is not None:
             self.assume(f"'{words}' is measured from the {self.last_landmark.replace('_', ' ')}")
             return Place(relation, self.last_landmark, amount, span), phrase.end

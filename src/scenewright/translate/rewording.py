@@ -15,6 +15,8 @@ from scenewright.translate.tokens import Token
 _SOMEBODY = ("somebody", "someone", "a person", "one person", "some person", "some driver")
 _COMPASS = {"n": "N", "e": "E", "s": "S", "w": "W", "north": "N", "east": "E", "south": "S", "west": "W"}
 _ARROW_LENGTH = 3
+_TURN_EDGES = {"start": "turn_start", "beginning": "turn_start", "end": "turn_end", "completion": "turn_end"}
+_EDGE_WORDS = 3  # "at the end"
 _NOBODY = ("neither", "none", "nobody", "neither of them", "no one")
 _NOBODY_WORDS = frozenset(
     ["of", "them", "the", "two", "vehicles", "vehicle", "car", "cars", "one", "will", "is", "are", "going", "to",
@@ -25,8 +27,56 @@ _NOBODY_WORDS = frozenset(
 def reworded(tokens: list[Token]) -> list[Token]:
     """Return the tokens with the classes that their neighbours show."""
     return _neither(
-        _relative(_headed(_across(_without_somebody(_left_to(_second(_letters(_way_out(_ways(tokens)))))))))
+        _relative(_headed(_across(_without_somebody(_left_to(_second(_letters(_way_out(_ways(_turns(tokens))))))))))
     )
+
+
+def _turns(tokens: list[Token]) -> list[Token]:
+    """Let "the end of its turn" be a place of its owner, as "its turn_end"."""
+    read: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        if _is_at_turn(tokens, at):
+            read.append(replace(tokens[at], tags={"landmark": "turn"}, forms=frozenset()))
+            at += 1
+            continue
+        words = tokens[at].text.lower().split()
+        place = _TURN_EDGES.get(words[-1]) if words else None
+        end = _turn_of(tokens, at + 1) if place is not None and len(words) <= _EDGE_WORDS else None
+        if place is None or end is None:
+            read.append(tokens[at])
+            at += 1
+            continue
+        if words[0] in ("at", "from"):
+            read.append(Token(words[0], tokens[at].span, {"preposition": {"from": "out"}.get(words[0], "at")}))
+        elif read and "determiner" in read[-1].tags:
+            read.pop()
+        read += tokens[at + 2 : end - 1]
+        read.append(Token(_words(tokens[at:end]), tokens[end - 1].span, {"landmark": place}))
+        at = end
+    return read
+
+
+def _is_at_turn(tokens: list[Token], at: int) -> bool:
+    """Whether "turn" is a place, as in "is at the turn" and "20 m before its turn"."""
+    if tokens[at].tags.get("event_noun") != "turn" or at < _EDGE_WORDS or not _ends(tokens, at + 1, "link"):
+        return False
+    owned = bool(tokens[at - 1].tags.keys() & {"determiner", "possessive"}) and tokens[at - 1].text.lower() != "a"
+    before = tokens[at - 2].tags
+    placed = before.get("preposition") == "at" or (
+        before.get("relation") in ("from", "before") and tokens[at - 3].quantity is not None
+    )
+    return owned and placed
+
+
+def _turn_of(tokens: list[Token], at: int) -> int | None:
+    """Return the position after "of its turn" and "of the van's turn", or None."""
+    if tokens[at].text.lower() != "of":
+        return None
+    at += 1
+    while tokens[at].tags.keys() & {"determiner", "possessive", "ego", "hero", "noun", "genitive"}:
+        at += 1
+    return at + 1 if tokens[at].tags.get("event_noun") == "turn" else None
 
 
 def _letters(tokens: list[Token]) -> list[Token]:
@@ -130,9 +180,14 @@ def _second(tokens: list[Token]) -> list[Token]:
 
 
 def _left_to(tokens: list[Token]) -> list[Token]:
-    """Let "turns left to continue east" be a turn, not a distance that is left."""
+    """Let "turns left to continue east" be a turn, no distance that is left; "straight through the junction" two words."""
     read: list[Token] = []
-    for token in tokens:
+    for at, token in enumerate(tokens):
+        if token.text.lower() == "straight through" and _names_junction(tokens, at + 1):
+            middle = token.span.start + len("straight")
+            read.append(Token("straight", Span(token.span.start, middle), {"direction": "straight"}))
+            read.append(Token("through", Span(middle + 1, token.span.end), {"through": "through"}))
+            continue
         turns = read and (read[-1].tags.get("verb") in ("turn", "pull_out", "go") or "bound_word" in read[-1].tags)
         if not turns or token.text.lower() != "left to":
             read.append(token)
@@ -141,6 +196,11 @@ def _left_to(tokens: list[Token]) -> list[Token]:
         read.append(Token("left", Span(token.span.start, middle), {"direction": "left"}))
         read.append(Token("to", Span(middle + 1, token.span.end), {"link": "to", "preposition": "to"}))
     return read
+
+
+def _names_junction(tokens: list[Token], at: int) -> bool:
+    """Whether "the intersection" stands at `at`."""
+    return tokens[at + ("determiner" in tokens[at].tags)].tags.get("landmark") == "intersection"
 
 
 def _relative(tokens: list[Token]) -> list[Token]:

@@ -209,6 +209,8 @@ class VerbReader(DeedReader):
                 verb, end = "stop", stop
         if verb in ("complete", "exist"):
             return False
+        if verb == "follow" and (behind := self.phrases.place(end)) is not None and behind[0].relation == "behind":
+            verb = "drive"  # "follows behind the ego", "trails 20 m behind it"
         if verb == "follow" and self.subject is not None and self._ends_clause(end):
             event = self._open("drive", start)
             event.places.append(Place("behind", 1 - self.subject, None, self.phrases.tokens[start].span))
