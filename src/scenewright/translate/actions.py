@@ -235,7 +235,7 @@ class ActionReader(DescriptionReader):
     def _slows_there(self, event: Event, last: Phase) -> bool:
         """Read "decelerates. It arrives at the conflict point with a speed of 15 mph": where it is how slow."""
         free = last.kind == "dec" and not last.to_stop and last.to_speed is None and last.place is None
-        if not free or event.speed is None or event.verb not in ("pass", "reach") or "to" in event.links:
+        if not free or event.speed is None or event.verb not in ("pass", "reach") or "then" in event.links:
             return False
         places = list(event.places)
         if event.landmark is not None:

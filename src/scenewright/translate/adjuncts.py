@@ -45,6 +45,10 @@ class AdjunctReader(DirectionReader):
         if emphatic and self.at and self.phrases.tokens[self.at - 1].tags.keys() & {"landmark", "noun", "hero"}:
             self.at += 1  # "the conflict point itself"
             return True
+        announces = self.phrases.tokens[self.at].text.lower() == "as follows" and self.current is not None
+        if announces and not self.links and self._tag("end", 1):
+            self.at += 1  # "gives way to it as follows."
+            return True
         if self.current is None or self.current.verb not in ("drive", "approach", "pull_out") or self.links:
             return False
         word, after = self.phrases.tokens[self.at].text.lower(), self.phrases.tokens[self.at + 1].tags
@@ -216,6 +220,11 @@ class AdjunctReader(DirectionReader):
                 self.at = found[1]  # "continues straight through the T-junction"
                 self._grow()
                 return True
+        ended = self.phrases.tokens[self.at - 1].text.lower().endswith(" through") and on_its_way
+        if ended and (found := self.phrases.landmark(self.at)) and found[0] == "intersection" and found[2] is None:
+            self.at = found[1]  # the verb is "continues straight through"
+            self._grow()
+            return True
         if self._as_far_as():
             return True
         past = self._tag("through") is not None or self._tag("relation") == "past"

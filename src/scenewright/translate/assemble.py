@@ -200,7 +200,24 @@ class Assembler(ConditionAssembler):
         knot = start_knot if at_start and start_knot is not None else hero_knot
         self._add(Compare("<" if hero_first else ">", Elapsed(HERO_ID, knot), Elapsed(EGO_ID, "t2")), event)
 
+    def _slow_and_go_on(self, phases: list[Phase]) -> Sketch | None:
+        """Build the sketch of a hero that slows to a speed and goes on at will, "without stopping", to its goal."""
+        slow, run = phases
+        sped = run.rate is not None or run.to_speed is not None or any(e.verb == "accelerate" for e in run.events)
+        refused = self.facts.not_yielding
+        unstopped = run.kind == "go" or (refused is not None and refused.verb == "stop")
+        at_start = self.facts.order is not None and self.facts.order.at_start
+        if slow.to_speed is None or slow.to_stop or slow.wait is not None or sped or not unstopped or at_start:
+            return None
+        if run.goal is None:
+            return None
+        self._slow(slow, "t2")
+        self._run(run, "t3", "go")
+        return _sketch("go dec go")
+
     def _stop_and_go(self, phases: list[Phase]) -> Sketch:
+        if (sketch := self._slow_and_go_on(phases)) is not None:
+            return sketch
         if phases[0].to_speed is not None:
             raise self._refuse(
                 "the hero slows down but does not stop before it goes", phases[0].events[0].span, "a stop"
@@ -255,7 +272,7 @@ class Assembler(ConditionAssembler):
         return _sketch("go go acc go")
 
     def _hurries(self, turn: Phase, placed: bool) -> bool:
-        """Whether a hero that is to complete its turn speeds up: it darts out, or pulls out from where it was told to be."""
+        """Whether a hero that is to complete its turn speeds up: it darts out, or pulls out from a place given."""
         out = [event for event in turn.events if event.verb == "pull_out"]
         return any(placed or _IN_HASTE.search(event.span.excerpt(self.text)) for event in out)
 

@@ -171,7 +171,7 @@ class Interpreter(MomentReader):
             raise self._refuse("this 'until' could not be understood", event.span, "until it has stopped")
 
     def _check_order_phase(self, event: Event) -> None:
-        if self.facts.phases[-1].kind == "dec":
+        if self.facts.phases[-1].kind == "dec" and self.facts.phases[-1].goal is None:
             raise self._refuse(
                 "a stop cannot be ordered before the ego",
                 event.span,

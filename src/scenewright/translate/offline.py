@@ -209,7 +209,8 @@ def _complete(facts: Facts, text: str, name: str) -> None:
             fix="add for example 'the hero brakes to a stop 5 m behind the conflict point'",
         )
     slowing = [phase for phase in facts.phases if phase.kind == "dec"]
-    if facts.not_yielding is not None and slowing:
+    goes_on = len(facts.phases) > 1 and slowing and slowing[0].to_speed is not None and not slowing[0].to_stop
+    if facts.not_yielding is not None and slowing and not (goes_on and facts.not_yielding.verb == "stop"):
         event = facts.not_yielding
         raise TranslationError(
             "the hero is said to stop and not to stop",

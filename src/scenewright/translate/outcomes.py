@@ -158,7 +158,7 @@ class OutcomeReader(ActionReader):
             return False
         there, slow = events
         free = phase.kind == "dec" and not phase.to_stop and phase.to_speed is None and phase.place is None
-        told = there.actor == slow.actor == HERO_ID and slow.mode == "main" and not (there.negated or slow.negated)
+        told = there.actor == slow.actor == HERO_ID and "and" not in slow.links and not (there.negated or slow.negated)
         speed = slow.speed if slow.verb in ("be", "drive", "go") else slow.to_speed if slow.verb == "brake" else None
         held = slow.places or slow.rate or slow.areas or slow.duration or there.speed or slow.than_actor is not None
         if not free or not told or speed is None or held or slow.to_stop or slow.after_actor is not None:

@@ -16,6 +16,7 @@ _SOMEBODY = ("somebody", "someone", "a person", "one person", "some person", "so
 _COMPASS = {"n": "N", "e": "E", "s": "S", "w": "W", "north": "N", "east": "E", "south": "S", "west": "W"}
 _ARROW_LENGTH = 3
 _TURN_EDGES = {"start": "turn_start", "beginning": "turn_start", "end": "turn_end", "completion": "turn_end"}
+_CARRIES = {"carries": "s", "carry": "base", "carrying": "ing", "carried": "ed", "sees": "s", "seeing": "ing"}
 _EDGE_WORDS = 3  # "at the end"
 _NOBODY = ("neither", "none", "nobody", "neither of them", "no one")
 _NOBODY_WORDS = frozenset(
@@ -27,8 +28,30 @@ _NOBODY_WORDS = frozenset(
 def reworded(tokens: list[Token]) -> list[Token]:
     """Return the tokens with the classes that their neighbours show."""
     return _neither(
-        _relative(_headed(_across(_without_somebody(_left_to(_second(_letters(_way_out(_ways(_turns(tokens))))))))))
+        _relative(
+            _headed(_across(_without_somebody(_left_to(_second(_letters(_way_out(_ways(_turns(_carried(tokens))))))))))
+        )
     )
+
+
+def _carried(tokens: list[Token]) -> list[Token]:
+    """Let "carries the turn through to its end" be "carries through the turn"."""
+    read: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        form = _CARRIES.get(tokens[at].text.lower())
+        owned = at + 3 < len(tokens) and bool(tokens[at + 1].tags.keys() & {"determiner", "possessive"})
+        turn = owned and tokens[at + 2].tags.get("event_noun") == "turn"
+        if form is None or not turn or "through" not in tokens[at + 3].tags:
+            read.append(tokens[at])
+            at += 1
+            continue
+        read.append(Token("carry through", tokens[at].span, {"verb": "complete"}, frozenset((form,))))
+        read += tokens[at + 1 : at + 3]
+        at += 4
+        if [each.text.lower() for each in tokens[at : at + 3]] in (["to", "its", "end"], ["to", "the", "end"]):
+            at += 3
+    return read
 
 
 def _turns(tokens: list[Token]) -> list[Token]:
@@ -180,13 +203,15 @@ def _second(tokens: list[Token]) -> list[Token]:
 
 
 def _left_to(tokens: list[Token]) -> list[Token]:
-    """Let "turns left to continue east" be a turn, no distance that is left; "straight through the junction" two words."""
+    """Let "turns left to continue east" be a turn, no distance left; "to the right at the moment" a side."""
     read: list[Token] = []
     for at, token in enumerate(tokens):
-        if token.text.lower() == "straight through" and _names_junction(tokens, at + 1):
-            middle = token.span.start + len("straight")
-            read.append(Token("straight", Span(token.span.start, middle), {"direction": "straight"}))
-            read.append(Token("through", Span(middle + 1, token.span.end), {"through": "through"}))
+        sided = at > 1 and "determiner" in tokens[at - 1].tags and tokens[at - 2].text.lower() == "to"
+        sided = sided or (at > 0 and tokens[at - 1].tags.get("verb") in ("turn", "pull_out"))
+        if sided and token.text.lower().startswith("right ") and token.tags.get("link") == "when":
+            middle = token.span.start + len("right")
+            read.append(Token("right", Span(token.span.start, middle), {"direction": "right"}))
+            read.append(Token(token.text[len("right ") :], Span(middle + 1, token.span.end), {"link": "when"}))
             continue
         turns = read and (read[-1].tags.get("verb") in ("turn", "pull_out", "go") or "bound_word" in read[-1].tags)
         if not turns or token.text.lower() != "left to":
@@ -196,11 +221,6 @@ def _left_to(tokens: list[Token]) -> list[Token]:
         read.append(Token("left", Span(token.span.start, middle), {"direction": "left"}))
         read.append(Token("to", Span(middle + 1, token.span.end), {"link": "to", "preposition": "to"}))
     return read
-
-
-def _names_junction(tokens: list[Token], at: int) -> bool:
-    """Whether "the intersection" stands at `at`."""
-    return tokens[at + ("determiner" in tokens[at].tags)].tags.get("landmark") == "intersection"
 
 
 def _relative(tokens: list[Token]) -> list[Token]:

@@ -153,6 +153,8 @@ class VerbReader(DeedReader):
             verb = "drive"  # "arrives from the driveway"
         if verb == "reach" and token.text.lower().startswith("arriv") and self.phrases.heading(self.at + 1):
             verb = "drive"  # "arrives eastbound", "arrives from the east"
+        if verb == "pass" and self.phrases.tokens[self.at + 1].text.lower() == "along":
+            verb = "drive"  # "passes along the road"
         passive = "be" in self.flags and "ed" in token.forms
         by = self._tag("link", 1) == "by" or self._tag("preposition", 1) == "by"
         if verb in ("follow", "lead") and "ed" in token.forms and by and self.current is not None and not self.flags:
@@ -199,6 +201,7 @@ class VerbReader(DeedReader):
                     or self.phrases.tag(end, "oncoming_way")
                     or self.phrases.tag(end, "from_side")
                     or self.phrases.tokens[end].text.lower() == "along"
+                    or self.phrases.tag(end, "direction") == "straight"
                     or self._ends_clause(end)
                     or self._from_whose_side(end)
                 ):
