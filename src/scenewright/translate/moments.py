@@ -126,7 +126,8 @@ class MomentReader(OutcomeReader):
     def _told_relatively(event: Event) -> bool:
         """Whether "the car, which is 11 m behind it (at that moment), brakes" tells of the moment of its sentence."""
         amounts = [place for place in event.places if place.amount is not None or isinstance(place.target, str)]
-        states = event.verb in ("be", "sit", "ttc", "drive", "approach") and bool(amounts or event.ttc)
+        fast = event.speed is not None and not (event.areas or event.headings)  # with a way it is told of the start
+        states = event.verb in ("be", "sit", "ttc", "drive", "approach") and bool(amounts or event.ttc or fast)
         plain = event.mode == "main" and not (event.initial or event.negated or event.wanted)
         return "that" in event.links and states and plain
 
