@@ -157,7 +157,7 @@ def test_synchronised_hero_comes_nearer_than_one_on_a_fixed_approach() -> None:
 
 # -- rejection ------------------------------------------------------------------------------------------------------
 def test_rejection_stops_at_its_first_success_and_keeps_it() -> None:
-    result = driven("rejection", text=BRAKES, ego="stop-and-go")
+    result = driven("rejection", text=BRAKES, ego="noisy")
     held = [take.verdict.holds_at(TIGHT) for take in result.takes]
     assert 1 < len(held) <= 20
     assert held == [False] * (len(held) - 1) + [True]

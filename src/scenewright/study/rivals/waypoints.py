@@ -123,4 +123,5 @@ class SteadyFollower:
         left_s = max(_LEAST_TIME_S, waypoint.time_s - view.time_s)
         if 2.0 * left_m < speed * left_s:
             return -min(self.brake_mpss, speed * speed / (2.0 * left_m))
-        return min(self.accel_mpss, 2.0 * (left_m - speed * left_s) / left_s**2)
+        wanted_mpss = 2.0 * (left_m - speed * left_s) / left_s**2
+        return max(-self.brake_mpss, min(self.accel_mpss, wanted_mpss))
