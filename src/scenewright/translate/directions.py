@@ -97,7 +97,7 @@ class DirectionReader(ParenthesisReader):
         host = self.current
         if (
             host is not None
-            and host.verb in ("be", "drive", "go")
+            and host.verb in ("be", "drive", "go", "lane_follow")
             and direction == "straight"
             and self.links == ["comma"]
         ):

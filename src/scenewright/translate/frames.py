@@ -82,6 +82,8 @@ class FrameReader(PairReader):
             return False
         if any(event.sentence == self.sentence for event in self.events):
             return False
+        if self._fronted_start():
+            return True
         if not {"preposition", "from_side", "heading", "oncoming_way"} & self.phrases.tokens[self.at].tags.keys() and (
             self._tag("relation") not in ("ahead", "behind")
         ):
@@ -187,6 +189,52 @@ class FrameReader(PairReader):
         self.subject_span = subject_span
         return True
 
+    def _fronted_start(self) -> bool:
+        """Read "On the road, 110 m before the intersection, the ego travels west": where it is at the start."""
+        at, start = self.at, self.at
+        out = self.phrases.tokens[at].text.lower() == "from"
+        area = None if out else self.phrases.area(at)
+        if area is not None:
+            at = area[1] + (self.phrases.tag(area[1], "comma") is not None)
+        found = self.phrases.place(at + out)
+        if found is None or found[0].amount is None or not isinstance(found[0].target, str):
+            return False
+        if found[0].amount.dimension != "length" or (area is not None and area[0].lane_of is not None):
+            return False
+        end = found[1] + (self.phrases.tag(found[1], "comma") is not None)
+        phrase = self.phrases.noun_phrase(end)
+        if phrase is None or phrase.kind == "pronoun" or not self._only_travels(phrase.end, at_speed=not out):
+            return False
+        if any("when" in event.links or event.mode == "when" for event in self.events):
+            return False
+        self.at = end
+        self._take_subject(phrase)
+        subject_span = self.subject_span
+        event = self._open("be", start)
+        event.initial = True
+        event.places.append(found[0])
+        if area is not None:
+            event.areas.append(area[0])
+        event.span = event.span.union(found[0].span)
+        self.subject_span = subject_span
+        return True
+
+    def _only_travels(self, at: int, *, at_speed: bool) -> bool:
+        """Whether the clause at `at` tells how a vehicle travels, and its sentence of no action and no moment."""
+        first = at + (self.phrases.tokens[at].tags.keys() & {"be"} != set())
+        if self.phrases.verb(first, "drive", "lane_follow", "approach") is None:
+            return False
+        while self.phrases.tag(at, "end") is None:
+            token = self.phrases.tokens[at]
+            told = {None, "drive", "lane_follow", "approach", "turn", "pull_out", "want"}
+            timed = token.tags.get("link") in ("when", "before", "after", "until", "only")
+            if token.tags.get("verb") not in told or timed or token.tags.keys() & {"negation", "colon"}:
+                return False
+            if token.quantity is not None and not (at_speed and token.quantity.dimension == "speed"):
+                return False
+            at += 1
+        return True
+
     def _fronted_side(self) -> bool:
         """Read "From the right, a car ..." and "From the left comes a truck"."""
         start = self.at
@@ -245,8 +293,10 @@ class FrameReader(PairReader):
         other = self.phrases.noun_phrase(self.at + 1)
         if other is None or (other.kind == "pronoun" and self.phrases.subject is None):
             return False
-        lane = self.phrases.area(other.end)  # "ahead of it in the same lane"
-        end = lane[1] if lane is not None and lane[0].kind == "lane" and lane[0].heading is None else other.end
+        lane = self.phrases.area(other.end)  # "ahead of it in the same lane", "ahead of it on the driveway"
+        if lane is not None and (lane[0].role != "on" or lane[0].heading is not None):
+            lane = None
+        end = lane[1] if lane is not None else other.end
         after = end + (self.phrases.tag(end, "comma") is not None)
         inverted = self.phrases.verb(after, "come", "drive") is not None or self.phrases.tag(after, "be") is not None
         phrase = self.phrases.noun_phrase(after + inverted)
@@ -261,6 +311,8 @@ class FrameReader(PairReader):
         event = self._open("be", start)
         place = Place("ahead" if relation == "ahead" else "behind", whose, None, self.phrases.span(start, other.end))
         event.places.append(place)
+        if lane is not None and lane[0].kind != "lane":
+            event.areas.append(lane[0])
         self.subject_span = None if inverted else subject_span
         return True
 

@@ -106,7 +106,8 @@ class OpeningReader(FrameReader):
         """Read "the ego's intent is to ..."."""
         owner = self.phrases.possessor(self.at)
         is_to = owner is not None and self.phrases.tokens[owner[1] + 1].text.lower() in ("is to", "was to")
-        if owner and self.phrases.tag(owner[1], "aspect") and self.phrases.tag(owner[1] + 1, "be"):
+        way = owner is not None and self._way_told(owner[1])
+        if owner and self.phrases.tag(owner[1], "aspect") and self.phrases.tag(owner[1] + 1, "be") and not way:
             if self.phrases.place(owner[1] + 2) is None:
                 return False
             self._check_subject_used()
@@ -132,4 +133,21 @@ class OpeningReader(FrameReader):
         if self.phrases.tag(at, "link") == "to":
             at += 1
         self.at = at
+        if self._way_told(at - 2):
+            at = self.phrases.skip_determiner(at)
+            direction = self.phrases.tag(at, "direction")
+            event = self._open("lane_follow" if direction == "straight" else "turn", self.at)
+            event.wanted, event.direction = True, direction
+            self.at = at + 1 + (direction != "straight")
+            self._grow()
         return True
+
+    def _way_told(self, at: int) -> bool:
+        """Whether "route is straight on" or "route is a left turn" stands at `at`."""
+        if not (self.phrases.tag(at, "intent_noun") and self.phrases.tag(at + 1, "be")):
+            return False
+        after = self.phrases.skip_determiner(at + 2)
+        direction = self.phrases.tag(after, "direction")
+        turns = direction in ("left", "right") and self.phrases.tag(after + 1, "event_noun") == "turn"
+        straight = direction == "straight" and after == at + 2
+        return turns or straight

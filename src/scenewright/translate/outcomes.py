@@ -181,7 +181,10 @@ class OutcomeReader(ActionReader):
         last = self.facts.phases[-1] if self.facts.phases else None
         if last is not None and last.kind == "dec" and len(self.facts.phases) == 1:
             return  # "does not speed up but brakes"
-        sped = last is not None and any(event.verb in ("accelerate", "go") for event in last.events)
+        sped = last is not None and any(
+            event.verb == "accelerate" or (event.verb == "go" and event.span.start > steady.span.start)
+            for event in last.events
+        )
         if (
             last is None
             or last.kind not in ("acc", "go")

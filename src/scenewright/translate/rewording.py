@@ -17,6 +17,7 @@ _COMPASS = {"n": "N", "e": "E", "s": "S", "w": "W", "north": "N", "east": "E", "
 _ARROW_LENGTH = 3
 _TURN_EDGES = {"start": "turn_start", "beginning": "turn_start", "end": "turn_end", "completion": "turn_end"}
 _CARRIES = {"carries": "s", "carry": "base", "carrying": "ing", "carried": "ed", "sees": "s", "seeing": "ing"}
+_GETS = {"gets": "s", "get": "base", "getting": "ing", "got": "ed", "is": "s", "be": "base", "being": "ing"}
 _EDGE_WORDS = 3  # "at the end"
 _NOBODY = ("neither", "none", "nobody", "neither of them", "no one")
 _NOBODY_WORDS = frozenset(
@@ -27,11 +28,69 @@ _NOBODY_WORDS = frozenset(
 
 def reworded(tokens: list[Token]) -> list[Token]:
     """Return the tokens with the classes that their neighbours show."""
+    tokens = _gone_over(_neither_nor(_its_own(tokens)))
     return _neither(
         _relative(
             _headed(_across(_without_somebody(_left_to(_second(_letters(_way_out(_ways(_turns(_carried(tokens))))))))))
         )
     )
+
+
+def _its_own(tokens: list[Token]) -> list[Token]:
+    """Let "completes its turn before the ego starts its own" be "... starts its own turn"."""
+    read: list[Token] = []
+    turn: Token | None = None
+    for at, token in enumerate(tokens):
+        read.append(token)
+        if "end" in token.tags:
+            turn = None
+        elif token.tags.get("event_noun") == "turn":
+            turn = token
+        own = token.text.lower() in ("its own", "their own") and "possessive" in token.tags
+        if own and turn is not None and tokens[at - 1].tags.get("verb") == "begin" and _ends(tokens, at + 1):
+            read.append(replace(turn, span=token.span))
+    return read
+
+
+def _neither_nor(tokens: list[Token]) -> list[Token]:
+    """Let "neither yields nor speeds up" be "does not yield and does not speed up"; so with ", nor does it"."""
+    read: list[Token] = []
+    at = 0
+    denied = False  # a negation that "nor" goes on with
+    while at < len(tokens):
+        token, word = tokens[at], tokens[at].text.lower()
+        denied = (denied or "negation" in token.tags) and "end" not in token.tags
+        verb = at + 1 < len(tokens) and "verb" in tokens[at + 1].tags
+        if word == "neither" and verb:
+            read.append(Token(token.text, token.span, {"negation": "not"}))
+            denied = True
+        elif word == "nor" and denied:
+            inverted = at + 3 < len(tokens) and tokens[at + 1].tags.get("auxiliary") == "do"
+            inverted = inverted and "pronoun" in tokens[at + 2].tags and "verb" in tokens[at + 3].tags
+            if not (verb or inverted):
+                return tokens
+            read.append(Token(token.text, token.span, {"link": "and"}))
+            read.append(Token(token.text, token.span, {"negation": "not"}))
+            at += 2 if inverted else 0
+        else:
+            read.append(token)
+        at += 1
+    return read
+
+
+def _gone_over(tokens: list[Token]) -> list[Token]:
+    """Let "gets over the conflict point" and "is over it before" be "passes": no bound stands there."""
+    read: list[Token] = []
+    for at, token in enumerate(tokens):
+        forms = _GETS.get(tokens[at - 1].text.lower()) if at else None
+        after = at + 1 + ("determiner" in tokens[min(at + 1, len(tokens) - 1)].tags)
+        named = after < len(tokens) and tokens[after].tags.get("landmark") == "conflict_point"
+        if token.text.lower() != "over" or "bound" not in token.tags or forms is None or not named:
+            read.append(token)
+            continue
+        gets = read.pop()
+        read.append(Token(f"{gets.text} over", gets.span.union(token.span), {"verb": "pass"}, frozenset((forms,))))
+    return read
 
 
 def _carried(tokens: list[Token]) -> list[Token]:

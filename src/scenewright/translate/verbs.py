@@ -142,7 +142,8 @@ class VerbReader(DeedReader):
             return self._does_so(start)
         if verb == "react" and self._reacts_with(start):
             return True
-        if verb in ("attitude", "react"):
+        hesitates = verb == "wait" and token.text.lower().startswith("hesitat") and self._tag("colon", 1) is not None
+        if verb in ("attitude", "react") or hesitates:  # "is to hesitate: when ..., it brakes": how is told then
             return self._attitude(start)
         stopping = self.current is not None and self.current.verb in ("stop", "brake", "yield")
         if verb == "leave" and "ing" in token.forms and stopping and self.phrases.tokens[self.at + 1].quantity:
@@ -303,7 +304,7 @@ class VerbReader(DeedReader):
             return True
         if verb == "cut_in_front" and phrase is not None and self.subject is not None:
             return self._cuts(start, phrase)
-        if phrase is None or (phrase.kind == "pronoun" and self.phrases.last_landmark) or self.subject is None:
+        if phrase is None or self.subject is None or self._may_mean_a_place(verb, start, phrase):
             return False
         other = 1 - self.subject if phrase.kind == "pronoun" else self.phrases.resolve(phrase)
         if other == self.subject:
@@ -318,6 +319,14 @@ class VerbReader(DeedReader):
         self.at = phrase.end
         self._grow()
         return True
+
+    def _may_mean_a_place(self, verb: str, start: int, phrase: NounPhrase) -> bool:
+        """Whether "it" can be a place named before; not in "drives ahead of it" and "is in front of it in its lane"."""
+        if phrase.kind != "pronoun" or self.phrases.last_landmark is None:
+            return False
+        lane = self.phrases.area(phrase.end)
+        drives = self.phrases.tokens[start].text.lower().split()[0] not in ("is", "are", "was", "be", "being")
+        return verb != "lead" or not (drives or (lane is not None and lane[0].kind == "lane"))
 
     def _place_to(self, at: int) -> bool:
         """Whether "to 33 m from the conflict point" follows, as in "comes to ..."."""
