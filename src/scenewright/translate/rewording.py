@@ -28,12 +28,27 @@ _NOBODY_WORDS = frozenset(
 
 def reworded(tokens: list[Token]) -> list[Token]:
     """Return the tokens with the classes that their neighbours show."""
-    tokens = _gone_over(_neither_nor(_its_own(tokens)))
+    tokens = _having_started(_gone_over(_neither_nor(_its_own(tokens))))
     return _neither(
         _relative(
             _headed(_across(_without_somebody(_left_to(_second(_letters(_way_out(_ways(_turns(_carried(tokens))))))))))
         )
     )
+
+
+def _having_started(tokens: list[Token]) -> list[Token]:
+    """Let "having started 75 m before the intersection" be "starting 75 m before the intersection"."""
+    read: list[Token] = []
+    for at, token in enumerate(tokens):
+        begun = token.text.lower() in ("started", "begun") and token.tags.get("verb") == "begin"
+        placed = at + 1 < len(tokens) and tokens[at + 1].quantity is not None
+        if not (begun and placed and at and tokens[at - 1].text.lower() == "having"):
+            read.append(token)
+            continue
+        tags = {"verb": "begin", "onset_verb": "x", "onset": "x", "starting": "x"}
+        having = read.pop()
+        read.append(Token("starting", having.span.union(token.span), tags, frozenset(("ing",))))
+    return read
 
 
 def _its_own(tokens: list[Token]) -> list[Token]:
