@@ -186,10 +186,16 @@ def test_synonyms_give_the_same_program(data: st.DataObject) -> None:
 @given(st.sampled_from(TEXTS), st.text(string.ascii_lowercase, min_size=3, max_size=9))
 def test_an_unknown_word_is_never_swallowed(text: str, word: str) -> None:
     assume(word not in load_lexicon().words and correction(word, load_lexicon().words) is None)
+    assume(not word.endswith("ly"))  # taken for an adverb of manner, which is listed: see the test after this one
     for noisy in (f"{text.rstrip(' .')} while a {word} sings.", f"{word} {text}", f"{text} The {word} is late."):
         said = response(noisy)
         if not noisy.startswith(word) or said.startswith("assumed"):
             assert word in said  # in front of a numbered list the number is what comes first
+
+
+def test_an_unknown_adverb_is_listed() -> None:
+    text = "The ego drives west. An oncoming hero turns left. When the ego is 30 m from the conflict point, the hero"
+    assert "quixotically" in response(f"{text} quixotically brakes at 3 m/s^2 to a stop.")
 
 
 def response(text: str) -> str:
