@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from scenarios import NOT_YIELDING, YIELDS, YIELDS_THEN_GOES, limits_of, read_structure
+from scenarios import NOT_YIELDING, YIELDS, YIELDS_THEN_GOES, Example, limits_of, read_structure
 from scenewright.program.types import PieceKind
 from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.haste import Errand
@@ -19,8 +19,8 @@ LIMITS = limits_of(YIELDS.scene())[1]
 HERO = 1
 
 
-def errand_of(case: object) -> Errand | None:
-    scene = case.scene()  # type: ignore[attr-defined]
+def errand_of(case: Example) -> Errand | None:
+    scene = case.scene()
     structure = read_structure(scene.program)
     return Errand.of(scene.program, structure, linear_conditions(scene, structure), scene.program.heroes[0])
 

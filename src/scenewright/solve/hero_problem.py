@@ -103,6 +103,7 @@ class HeroProblem:
         if state is None:
             knots[hero.sketch.knots[0]] = 0
         clearance = self._clearance(hero, state, position)
+        side = hero_side(self.conditions, self.structure, hero.id)
         now: Value | None = start
         for k, stretch in enumerate(stretches):
             duration: Value
@@ -126,7 +127,6 @@ class HeroProblem:
                 kept = clearance.condition(self.situation.ego, float(now), next_position, apart_m)
                 self.problem.require(kept, label)
             if isinstance(now, Fraction) and stretch.approach and stretch.end_knot is None:
-                side = hero_side(self.conditions, self.structure, hero.id)
                 for condition, reason in readiness(
                     self.situation, self.manner, side, hero.id, float(now), next_position, next_speed
                 ):

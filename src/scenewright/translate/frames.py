@@ -235,19 +235,27 @@ class FrameReader(PairReader):
             at += 1
         return True
 
-    def _fronted_side(self) -> bool:
-        """Read "From the right, a car ..." and "From the left comes a truck"."""
-        start = self.at
-        after = start + 1 + (self.phrases.tag(start + 1, "comma") is not None)
+    def _subject_after_front(self) -> tuple[NounPhrase, tuple[Area, int] | None, bool] | None:
+        """Take the subject behind a fronted word, with an area before it and whether its verb comes first."""
+        after = self.at + 1 + (self.phrases.tag(self.at + 1, "comma") is not None)
         area = self.phrases.area(after)
         if area is not None:
             after = area[1] + (self.phrases.tag(area[1], "comma") is not None)
         inverted = self.phrases.verb(after, "come", "drive", "approach") is not None
         phrase = self.phrases.noun_phrase(after + inverted)
         if phrase is None or phrase.kind == "pronoun" or self.phrases.tag(phrase.end, "genitive") is not None:
-            return False
+            return None
         self.at = after + inverted
         self._take_subject(phrase)
+        return phrase, area, inverted
+
+    def _fronted_side(self) -> bool:
+        """Read "From the right, a car ..." and "From the left comes a truck"."""
+        start = self.at
+        found = self._subject_after_front()
+        if found is None:
+            return False
+        phrase, area, inverted = found
         subject_span, end = self.subject_span, self.at
         event = self._open("drive", start)
         self.at = start
@@ -267,16 +275,10 @@ class FrameReader(PairReader):
     def _fronted_way(self) -> bool:
         """Read "From the other direction comes a hero" and "In the opposite direction, a car ..."."""
         start = self.at
-        after = start + 1 + (self.phrases.tag(start + 1, "comma") is not None)
-        area = self.phrases.area(after)
-        if area is not None:
-            after = area[1] + (self.phrases.tag(area[1], "comma") is not None)
-        inverted = self.phrases.verb(after, "come", "drive", "approach") is not None
-        phrase = self.phrases.noun_phrase(after + inverted)
-        if phrase is None or phrase.kind == "pronoun" or self.phrases.tag(phrase.end, "genitive") is not None:
+        found = self._subject_after_front()
+        if found is None:
             return False
-        self.at = after + inverted
-        self._take_subject(phrase)
+        _, area, inverted = found
         if self.subject is None:
             return False
         subject_span = self.subject_span
