@@ -79,7 +79,7 @@ def simulate(
     try:
         while True:
             time_s = round(step * rates.step_s, 9)
-            if steps_a_tick and step and step % steps_a_tick == 0:
+            if steps_a_tick and step and (step % steps_a_tick == 0 or heroes.is_alarmed):
                 heroes.tick(time_s)
                 if progress is not None:
                     progress(time_s)

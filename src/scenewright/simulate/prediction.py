@@ -22,11 +22,33 @@ EgoSample = tuple[float, float, float, float]
 # A driver stops with the bumper at the line, and takes a turn at this lateral acceleration.
 _BUMPER_M = 2.6
 _LATERAL_MPSS = 2.5
+# An acceleration that changes by more than this from one step to the next is another intention, not a twitch.
+_JUMP_MPSS = 1.0
 # Who has gained this much a second over the last second is speeding up on purpose.
 _LATELY_S, _SPEEDS_UP_MPSS = 1.0, 0.6
 _STEP_S, _MOST_STEPS = 0.5, 20
 # Below this share of what people drive there it crawls.
 _CRAWLS = 0.25
+
+
+def since_jump(accels_mpss: Sequence[float]) -> int:
+    """Return how many of the last accelerations (m/s^2), the newest first, came after a jump; all where there is none.
+
+    The ego has changed its mind where it was even before and is even since; one that jitters has not.
+    """
+    for count in range(1, len(accels_mpss)):
+        after, before = accels_mpss[:count], accels_mpss[count:]
+        if max(max(after) - min(after), max(before) - min(before)) > _JUMP_MPSS:
+            continue
+        if min(abs(min(after) - max(before)), abs(max(after) - min(before))) > _JUMP_MPSS:
+            return count
+    return len(accels_mpss)
+
+
+def lately(history: Sequence[EgoSample], for_s: float) -> list[float]:
+    """Return the accelerations (m/s^2) of the last moments, the newest first."""
+    last_s = history[-1][0]
+    return [sample[3] for sample in reversed(history[-12:]) if sample[0] >= last_s - for_s]
 
 
 class Predictor(Protocol):
@@ -121,9 +143,9 @@ class ConstantAcceleration:
         return max(0.0, pull_mpss * (1.0 - (speed_mps / (self.cruise_mps or 1.0)) ** 4))
 
     def recent_acceleration(self, history: Sequence[EgoSample]) -> float:
-        """Return the mean acceleration (m/s^2) of the last moments."""
-        last = history[-1][0]
-        values = [sample[3] for sample in history[-12:] if sample[0] >= last - self.average_s]
+        """Return the mean acceleration (m/s^2) of the last moments, since it last jumped."""
+        values = lately(history, self.average_s)
+        values = values[: since_jump(values)]
         mean = sum(values) / len(values)
         return 0.0 if abs(mean) < 0.02 else max(-9.0, min(5.0, mean))
 

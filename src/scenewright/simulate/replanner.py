@@ -16,7 +16,7 @@ from scenewright.program.structure import Role, Structure, knots_of
 from scenewright.program.types import EGO, Actor
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.following import Leader, foresee_follower
-from scenewright.simulate.prediction import EgoSample, Predictor
+from scenewright.simulate.prediction import EgoSample, Predictor, lately, since_jump
 from scenewright.simulate.triggers import PlannedTrigger, TriggerTimes
 from scenewright.solve.arrival import LinearCondition
 from scenewright.solve.plan import Plan
@@ -26,9 +26,13 @@ from scenewright.solve.situation import HeroState, Situation
 # While much time is left a late or early ego is nothing to act on; the dead band shrinks to almost nothing.
 _DEAD_BAND_S = 0.003
 _DEAD_BAND_SHARE = 0.02
+# By how much (s) a hero may begin too soon or too late.
+_ONSET_S = 0.05
 # In the last half second of a trigger whose moment is free.
 _DEAD_BAND_LAST_S = 0.03
 _SETTLE_S = 0.5
+# How long an ego must have driven evenly for a jump in its acceleration to be a change of mind.
+_EVEN_S = 0.1
 _LATE_MISS, _EARLY_MISS = 0.5, 0.12
 # After so many failures in a row only every so many ticks are tried: the time of a hopeless run is better spent.
 _PATIENT_FAILURES = 20
@@ -104,6 +108,13 @@ class Replanner:
         return attempt
 
     # -- one tick ---------------------------------------------------------------------------------------------------
+    @property
+    def is_alarmed(self) -> bool:
+        """Whether the ego has just changed its mind while a hero can still answer."""
+        if since_jump(lately(self._samples, _EVEN_S)) != 1 or len(self._samples) < 2:
+            return False
+        return any(self._still_reacts(hero, self._samples[-1][0]) for hero in self.scene.program.heroes)
+
     def observe(self, sample: EgoSample) -> None:
         """Take note of the ego's state after a step, and of the knots that it passed in it."""
         previous = self._samples[-1]
@@ -351,8 +362,9 @@ class Replanner:
         if self._times.ego_side(hero) is not None:
             # Within the last half second the hero stays settled for as long as that is good enough.
             miss, tolerance = (_LATE_MISS, _LATE_MISS) if left_s <= _SETTLE_S else (_EARLY_MISS, 0.0)
-            if self.plan.tolerance <= tolerance and self._times.ego_miss(hero, situation.ego, planned) <= miss:
-                return True
+            if off_s <= _ONSET_S and self.plan.tolerance <= tolerance:
+                if self._times.ego_miss(hero, situation.ego, planned) <= miss:
+                    return True
         return self.plan.tolerance == 0.0 and off_s <= _DEAD_BAND_S + _DEAD_BAND_SHARE * left_s
 
     def _outcome_fits(self, hero: Actor, situation: Situation, times: Mapping[str, float]) -> bool:

@@ -151,7 +151,7 @@ class TriggerTimes:
         motion = Profile(chain(time_s, state.s_m, state.speed_mps, [(1.0, 0.0, state.piece)]))
         crossing = both[0].first_time({EGO: prediction, hero.id: motion}, time_s)
         soonest_s = time_s + _SHORTEST_LEAD_S
-        if crossing is not None and crossing < latest_s:
+        if crossing is not None and crossing < max(latest_s, time_s + _NEARLY_S):
             return max(crossing, soonest_s)
         # Between two ticks it may have come sooner than foreseen.
         near = self.joint_miss(hero, prediction, soonest_s, motion) <= _NEAR

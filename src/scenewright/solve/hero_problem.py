@@ -25,12 +25,14 @@ from scenewright.solve.lowering import Lowering, NotYet
 from scenewright.solve.problem import Problem
 from scenewright.solve.readiness import readiness
 from scenewright.solve.situation import HeroState, Situation
+from scenewright.solve.smoothness import Leg, smoothest
 from scenewright.solve.stretches import (
     Division,
     Stretch,
     approach_rates,
     following_piece,
     rate_is_given,
+    shortest_s,
     trigger_speed_mps,
 )
 from scenewright.solve.turns import TurnSpan, keeps_to_turn_speed
@@ -41,11 +43,7 @@ _OUT_OF_SIGHT_S = 60.0
 _START_MARGIN_M = 3.0
 _LONGEST_CLEARANCE_S = 8.0
 _RESERVE = 0.8
-_SHORTEST_S = Fraction(1, 20)
 _OPENING_RANGE_MPS = 1.0
-# How far off its place one may wait: rather short of it.
-_WAITING_ROOM_M = (-0.3, 0.3)
-_OF_TIME_TO_ARRIVAL = Fraction(2, 3)
 _LONGEST_S = Fraction(90)
 
 
@@ -72,6 +70,7 @@ class HeroProblem:
         self.problem = Problem()
         self.asserted: list[Constraint] = []
         self._stretches: dict[int, list[Stretch]] = {}
+        self._led: set[int] = set()  # heroes that have to keep clear of the ego on their way
         self._views: dict[int, MotionView] = {EGO: self._ego_view()}
         self._parameters: dict[str, Value] = dict(scene.parameters)
         for hero in scene.program.heroes:
@@ -103,6 +102,8 @@ class HeroProblem:
         if state is None:
             knots[hero.sketch.knots[0]] = 0
         clearance = self._clearance(hero, state, position)
+        if clearance is not None:
+            self._led.add(hero.id)
         side = hero_side(self.conditions, self.structure, hero.id)
         now: Value | None = start
         for k, stretch in enumerate(stretches):
@@ -110,7 +111,9 @@ class HeroProblem:
             if stretch.duration_s is None:
                 duration = problem.unknown(f"{prefix}d{k}")
                 begun = state is not None and stretch.piece == state.piece
-                shortest = Fraction(0) if begun or stretch.cruise else self._shortest_s(hero, stretch)
+                shortest = Fraction(0)
+                if not begun and not stretch.cruise:
+                    shortest = shortest_s(self.manner, hero, stretch.piece, self.structure.trigger_knot(hero.id), side)
                 problem.bound(duration, shortest, _LONGEST_S, f"{hero.name}'s pieces take some time")
             else:
                 duration = stretch.duration_s
@@ -118,7 +121,7 @@ class HeroProblem:
             next_position = problem.unknown(f"{prefix}x{k + 1}")
             self._add_stretch(hero, stretch, positions[-1], speeds[-1], next_position, next_speed, duration)
             if stretch.place_m is not None:
-                low, high = (pin(stretch.place_m + off_m) for off_m in _WAITING_ROOM_M)
+                low, high = map(pin, stretch.place_m)
                 self.problem.bound(next_position, low, high, f"{hero.name} waits at its place")
             now = now + duration if isinstance(now, Fraction) and isinstance(duration, Fraction) else None
             if clearance is not None and isinstance(now, Fraction) and stretch.approach:
@@ -187,19 +190,6 @@ class HeroProblem:
             and any(self.structure.same_moment(hero.id, moment) == key[1] for moment in condition.moments)
             for condition in self.conditions
         )
-
-    def _shortest_s(self, hero: Actor, stretch: Stretch) -> Fraction:
-        """Return how long a stretch must last at least: long enough to be seen where it is what was asked for."""
-        seen = hero.sketch.pieces[stretch.piece] in (PieceKind.DEC, PieceKind.ACC) and self.manner.settle
-        if not seen:
-            return _SHORTEST_S
-        side = hero_side(self.conditions, self.structure, hero.id)
-        begins = hero.sketch.knots[stretch.piece] == self.structure.trigger_knot(hero.id)
-        if begins and side is not None and side.weights[hero.id][0] and side.weights[hero.id][1]:
-            # Who is half a second from a place and speeds up is there before that.
-            away_s = pin(side.weights[hero.id][1] / side.weights[hero.id][0])
-            return min(pin(self.manner.seen_s), max(_SHORTEST_S, away_s * _OF_TIME_TO_ARRIVAL))
-        return pin(self.manner.seen_s)
 
     def _add_stretch(
         self, hero: Actor, stretch: Stretch, x0: Value, v0: Value, x1: Symbol, v1: Symbol, duration: Value
@@ -387,7 +377,30 @@ class HeroProblem:
             if stretch.end_knot is not None:
                 knots[stretch.end_knot] = now
         start = 0.0 if state is None else state.time_s
-        return Profile(chain(start, position, speed, moves), knots)
+        return Profile(chain(start, position, speed, self._smoothed(hero, position, speed, moves)), knots)
+
+    def _smoothed(
+        self, hero: Actor, s_m: float, speed_mps: float, moves: list[tuple[float, float, int]]
+    ) -> list[tuple[float, float, int]]:
+        """Return the moves with the smoothest way to the trigger, where nothing but its end is asked of that way."""
+        stretches = self._stretches[hero.id]
+        count = next((k + 1 for k, stretch in enumerate(stretches) if stretch.end_knot is not None), 0)
+        way, turn = stretches[:count], TurnSpan.of(self.scene.routes[hero.id])
+        if self.manner.ready or hero.id in self._led or not all(s.approach and s.duration_s for s in way):
+            return moves
+        end_m = Profile(chain(0.0, s_m, speed_mps, moves)).state(sum(duration_s for duration_s, _, _ in moves[:count]))[
+            0
+        ]
+        if any(stretch.waiting for stretch in way) or (turn is not None and s_m < turn.end_m and end_m > turn.start_m):
+            return moves
+        legs = []
+        for stretch, (duration_s, _, _) in zip(way, moves, strict=False):
+            up, down = approach_rates(self.manner, stretch, following_piece(hero, stretch.piece))
+            legs.append(Leg(duration_s, -float(down), float(up)))
+        top_mps = self.manner.top_speeds_mps(self.limits[hero.id])[0]
+        accels = smoothest(legs, speed_mps, top_mps, [accel for _, accel, _ in moves[:count]])
+        smooth = [(duration_s, accel, piece) for (duration_s, _, piece), accel in zip(moves, accels, strict=False)]
+        return [*smooth, *moves[count:]]
 
 
 def _speaks_of_ego(formula: Formula) -> bool:

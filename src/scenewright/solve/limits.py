@@ -59,8 +59,8 @@ class Wait:
     ----------
     speed_up_s, hold_s, brake_s
         What it does on the way to that place, at most.
-    place_m
-        Where it stands: as near as it can and still be fast enough at its trigger.
+    place_m, room_m
+        Where it stands: as near as it can and still be fast enough at its trigger; how far beside that it may be.
     go_s
         How long before its trigger it sets off.
     """
@@ -69,6 +69,7 @@ class Wait:
     hold_s: float
     brake_s: float
     place_m: float
+    room_m: float
     go_s: float
 
 
@@ -82,8 +83,9 @@ class Manner:
         While it works its way to the trigger.
     steps
         Stretches of constant acceleration before the trigger; the last is a settled one where `settle` is set.
-    counter_mpss
-        In a settled stretch: how hard it may do the opposite of what begins at the trigger.
+    counter_mpss, settle_s
+        In a settled stretch: how hard it may do the opposite of what begins at the trigger; how long it is. A little
+        longer than the half second that is asked for: the trigger may come a little sooner than planned.
     wait
         How one waits on its way that would otherwise only creep; None for one that does not.
     dec_mpss, acc_mpss, stop_s
@@ -124,6 +126,7 @@ class Manner:
     outcome_margin_s: float = 0.3
     clear: bool = True
     counter_mpss: float = SETTLED_MPSS
+    settle_s: float = 0.75
     wait: Wait | None = None
     seen_s: float = 0.6
     opening_mps: float | None = None
@@ -148,16 +151,21 @@ COASTING = Manner("steady", 0.02, 0.02, 1, True, (0.7, 6.0), (0.8, 3.5), (0.5, 3
 GENTLE = Manner("gentle", 1.0, 1.2, 2, True, (0.9, 4.0), (1.0, 2.5), (0.6, 1.5), 1.5, True)
 FIRM = Manner("firm", 2.5, 3.0, 3, True, (0.7, 6.0), (0.8, 3.5), (0.5, 3.0), MOVING_MPS, False)
 WHOLE = Manner("whole", ACCEL_MAX_MPSS, 6.0, 5, True, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)
-URGENT = Manner("urgent", ACCEL_MAX_MPSS, 8.0, 4, False, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)
+URGENT = Manner(
+    "urgent", ACCEL_MAX_MPSS, 8.0, 4, False, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False, seen_s=0.35
+)
 # Who is about to brake may still speed up, and the other way round: nothing that was asked for has begun by that.
 COUNTER = replace(WHOLE, counter_mpss=6.0, trigger_speed_mps=0.5)
+# As little time as can just be seen, before the trigger and after it.
+CLOSE = replace(COUNTER, settle_s=0.58, seen_s=0.35)
 
 # Where the hero is to be first, whatever the ego does: it loses no time after its trigger.
 GENTLE_QUICK = replace(GENTLE, dec_mpss=(1.8, 4.0), acc_mpss=(1.0, 3.5), stop_s=(0.5, 0.6), outcome_margin_s=1.5)
 FIRM_QUICK = replace(FIRM, dec_mpss=(2.0, 6.0), acc_mpss=(0.8, 4.0), stop_s=(0.5, 0.6), outcome_margin_s=1.0)
-HASTE = replace(FIRM, dec_mpss=(2.0, 8.0), acc_mpss=(0.8, 4.0), stop_s=(0.5, 0.6), seen_s=0.35)
+HASTE = replace(FIRM, dec_mpss=(2.0, 8.0), acc_mpss=(0.8, 4.0), stop_s=(0.36, 0.5), seen_s=0.35)
 WHOLE_QUICK = replace(WHOLE, dec_mpss=(2.0, 8.0), stop_s=(0.5, 0.6), outcome_margin_s=0.7)
 COUNTER_QUICK = replace(WHOLE_QUICK, counter_mpss=COUNTER.counter_mpss, trigger_speed_mps=COUNTER.trigger_speed_mps)
+CLOSE_QUICK = replace(COUNTER_QUICK, settle_s=CLOSE.settle_s, seen_s=CLOSE.seen_s)
 
 
 def limits_on(route: Route, road_map: RoadMap) -> Limits:

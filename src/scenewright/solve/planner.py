@@ -221,7 +221,7 @@ class Planner:
         allowed = float(trial.tolerance) + _HOPE_SLACK
         for share in _SHIFTS if trial.tolerance else (0,):
             timed = _retimed(situation, trial.tolerance * share)
-            if self._prospects.least_miss(timed, trial.manner) <= allowed:
+            if self._prospects.least_miss(timed, trial.manner, allowed) <= allowed:
                 return timed
         return None
 

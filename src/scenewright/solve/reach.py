@@ -15,13 +15,13 @@ from scenewright.program.structure import Structure
 from scenewright.program.types import Actor, PieceKind, Program
 from scenewright.solve.arrival import TIGHT_LENGTH_M, TIGHT_TIME_S, LinearCondition, hero_side
 from scenewright.solve.haste import Errand
-from scenewright.solve.limits import SETTLED_MPSS, WAIT_BRAKE_MPSS, Limits, Manner, Wait
+from scenewright.solve.limits import ACCEL_MAX_MPSS, SETTLED_MPSS, WAIT_BRAKE_MPSS, Limits, Manner, Wait
 from scenewright.solve.situation import Situation
 from scenewright.solve.stretches import (
-    SETTLE_S,
     approach_rates,
     following_piece,
     rate_is_given,
+    shortest_s,
     timed_approach,
     trigger_speed_mps,
 )
@@ -32,10 +32,13 @@ _WALKING_MPS = 1.5
 # sets off, how fast it is then at its trigger if it may choose (to brake or to speed up), and with how much to spare.
 _CREEPS_MPS, _CREEPS_WHEN_HASTY_MPS = 1.5, 4.0
 _DRIVES_UP_MPS, _DRIVES_UP_MPSS = 5.0, 2.0
-_SETS_OFF_MPS, _FLYING_MPS, _SETS_OFF_MPSS = 1.2, 3.5, 3.5
+_SETS_OFF_MPS, _FLYING_MPS, _SETS_OFF_MPSS, _SETS_OFF_CALMLY_MPSS = 1.2, 3.5, 3.5, 2.0
 _SOMEWHAT_FASTER = 1.1
 _LATE_SLACK_S = 0.01
-_STANDS_MPS, _NEAR_ENOUGH_M, _BRAKES_AT_MOST_MPSS = 0.2, 0.3, 5.0
+_SHORTEST_GO_S = 0.1
+_STANDS_MPS, _BRAKES_AT_MOST_MPSS = 0.2, 5.0
+# How far beside its place one may wait: mostly, and at the last one.
+_ROOM_M, _LEAST_ROOM_M = 0.3, 0.03
 # How finely the authority needed is found, and how much more is given: the solver needs some room.
 _HALVINGS, _AMPLE, _AT_LEAST = 6, 1.15, 0.04
 
@@ -103,13 +106,51 @@ def least_miss(side: LinearCondition, hero: int, approach: Approach, s_m: float,
 
 @dataclass(frozen=True, slots=True)
 class _Task:
-    """What a hero has to do at its trigger: its side of it, and how far behind it a stop has to end (m), if any."""
+    """What a hero has to do at its trigger: its side of it, and where (m) it has to stop by braking there, if any."""
 
     side: LinearCondition
+    hero: int
     piece: int
     knot: str
     following: PieceKind
-    stop_after_m: float | None
+    stop_m: float | None
+
+    def least_mps(self, dec_mpss: tuple[float, float], shortest_s: float, tolerance: float) -> float:
+        """Return the smallest speed at the trigger (m/s) from which it stops there within a range of rates (m/s^2).
+
+        Who is slower would stop too soon even by the gentlest braking; one whose side is a time to arrival is the
+        nearer to its stop the slower it is, and could not stop any more.
+
+        Parameters
+        ----------
+        shortest_s
+            For how long it brakes at least.
+        tolerance
+            By how much the trigger may be off, in tight tolerances.
+        """
+        if self.stop_m is None:
+            return 0.0
+        per_metre, per_speed = self.side.weights[self.hero]
+        gentlest, hardest = dec_mpss
+        rest_m = self.stop_m + self.side.constant / per_metre  # from where it would be at its side if it stood
+        if not per_speed:
+            return math.sqrt(2.0 * gentlest * max(0.0, rest_m - tolerance * TIGHT_LENGTH_M))
+        away_s = per_speed / per_metre + tolerance * TIGHT_TIME_S
+        slowest, _ = _speeds_that_stop(hardest, away_s, rest_m)
+        if away_s > 0.5 * shortest_s:
+            slowest = max(slowest, -rest_m / (away_s - 0.5 * shortest_s))
+        low, high = _speeds_that_stop(gentlest, away_s, rest_m)
+        return high if low < slowest < high else slowest
+
+
+def _speeds_that_stop(rate_mpss: float, away_s: float, rest_m: float) -> tuple[float, float]:
+    """Return the speeds (m/s) at which one brakes at just that rate who has `rest_m` and `away_s` at its speed to go.
+
+    Between them it would have to brake less. Where there is none, both are 0.
+    """
+    half = rate_mpss * away_s
+    square = half * half + 2.0 * rate_mpss * rest_m
+    return (max(0.0, half - math.sqrt(square)), half + math.sqrt(square)) if square >= 0.0 else (0.0, 0.0)
 
 
 # Its side, its id, its way to it, its place (m) and its speed (m/s).
@@ -142,14 +183,14 @@ class Prospects:
             if task is not None:
                 self._tasks[hero.id] = task
 
-    def least_miss(self, situation: Situation, manner: Manner) -> float:
+    def least_miss(self, situation: Situation, manner: Manner, tolerance: float = 0.0) -> float:
         """Return how far off its side some hero must be at the least, in tight tolerances, when it moves so.
 
-        Without end where it then comes too late for what is to come of it.
+        Without end where it then comes too late for what is to come of it. `tolerance` is what it may be off.
         """
         if manner.outcome and self._comes_too_late(situation, manner):
             return math.inf
-        return max((least_miss(*way) for way in self._ways(situation, manner)), default=0.0)
+        return max((least_miss(*way) for way in self._ways(situation, manner, tolerance)), default=0.0)
 
     def _comes_too_late(self, situation: Situation, manner: Manner) -> bool:
         """Whether no hero that moves so can be first where it is to be, with the margin that is asked for."""
@@ -165,7 +206,7 @@ class Prospects:
 
     def versions(self, situation: Situation, manner: Manner, tolerance: float, gently: bool) -> tuple[Manner, ...]:
         """Return how to carry out a manner, best first: waiting where it has the time, gently, with all it allows."""
-        waits = self.waiting(situation, manner)
+        waits = self.waiting(situation, manner, tolerance)
         if manner.ready:
             return self._ready(situation, manner, waits)
         gentled = self.gentled(situation, manner, tolerance) if gently else manner
@@ -177,7 +218,7 @@ class Prospects:
         ways = self._ways(situation, manner)
         if len(ways) != 1 or self._tasks[ways[0][1]].following is not PieceKind.DEC:
             return ()
-        place_m, go_s = self._waiting_place(ways[0], manner)
+        place_m, go_s, _ = self._waiting_places(ways[0], manner, hasty=True)[0]
         ready = replace(manner, waiting_place_m=place_m, sets_off_s=_SOMEWHAT_FASTER * go_s)
         return (ready,) if waits is None else (waits, ready)
 
@@ -187,9 +228,9 @@ class Prospects:
         What is left is a reserve for when the ego drives otherwise than foreseen.
         """
         settled = replace(manner, counter_mpss=min(manner.counter_mpss, SETTLED_MPSS))
-        if settled != manner and self.least_miss(situation, settled) <= tolerance:
+        if settled != manner and self.least_miss(situation, settled, tolerance) <= tolerance:
             manner = settled
-        ways = self._ways(situation, manner)
+        ways = self._ways(situation, manner, tolerance)
         up, down = manner.approach_accel_mpss, manner.approach_brake_mpss
         low, high = 0.0, 1.0
         for _ in range(_HALVINGS):
@@ -204,13 +245,13 @@ class Prospects:
             return manner
         return replace(manner, approach_accel_mpss=share * up, approach_brake_mpss=share * down)
 
-    def waiting(self, situation: Situation, manner: Manner) -> Manner | None:
+    def waiting(self, situation: Situation, manner: Manner, tolerance: float = 0.0) -> Manner | None:
         """Return `manner` with a wait on the way where it would only creep to the trigger; None where it would not.
 
         Who waits can still be early or late; who creeps ever nearer can only be early. One waits as near as it can and
         still be fast enough at its trigger, for the ego may make haste.
         """
-        ways = self._ways(situation, manner)
+        ways = self._ways(situation, manner, tolerance)
         if len(ways) != 1 or manner.natural_speed:
             return None
         side, hero, approach, s_m, speed_mps = ways[0]
@@ -218,36 +259,49 @@ class Prospects:
         creeps_mps = _CREEPS_WHEN_HASTY_MPS if situation.earliest_s else _CREEPS_MPS
         if approach.place_m(side, hero) - s_m > creeps_mps * rest_s:
             return None
-        place_m, go_s = self._waiting_place(ways[0], manner)
-        wait = _drive_up(s_m, speed_mps, place_m, _SOMEWHAT_FASTER * go_s)
-        if wait is None or wait.speed_up_s + wait.hold_s + wait.brake_s + wait.go_s >= rest_s:
-            return None
-        return replace(manner, wait=wait)
+        for place_m, go_s, room_m in self._waiting_places(ways[0], manner, bool(situation.earliest_s)):
+            wait = _drive_up(s_m, speed_mps, place_m, room_m, _SOMEWHAT_FASTER * go_s)
+            if wait is not None and wait.speed_up_s + wait.hold_s + wait.brake_s + wait.go_s < rest_s:
+                return replace(manner, wait=wait)
+        return None
 
-    def _waiting_place(self, way: _Way, manner: Manner) -> tuple[float, float]:
-        """Return the place (m) from which a hero that stands can just be at its side, and how long (s) that takes."""
+    def _waiting_places(self, way: _Way, manner: Manner, hasty: bool) -> list[tuple[float, float, float]]:
+        """Return from where (m) a hero that stands can be at its side, how long (s) that takes, and the room (m) there.
+
+        The best come first. The farther it is, the more it can make up for on its way; the nearer, the sooner it is
+        there where the ego is in haste. The last is for one that can no longer stop before.
+        """
         side, hero, approach, _, _ = way
         brakes = self._tasks[hero].following is PieceKind.DEC
-        speed = max(_SETS_OFF_MPS if brakes else _FLYING_MPS, _SOMEWHAT_FASTER * approach.least_mps)
         per_metre, per_speed = side.weights[hero]
-        go_s, run_m = speed / _SETS_OFF_MPSS, speed * speed / (2.0 * _SETS_OFF_MPSS)
-        if not brakes or manner.counter_mpss < _SETS_OFF_MPSS:
-            settle_s = float(SETTLE_S)
-            go_s, run_m = go_s + settle_s, run_m + speed * settle_s
-        return -(side.constant + per_speed * speed) / per_metre - run_m, go_s
+        roomy_mps = max(_SETS_OFF_MPS if brakes else _FLYING_MPS, _SOMEWHAT_FASTER * approach.least_mps)
+        found = [] if hasty or not brakes else [(roomy_mps, _SETS_OFF_CALMLY_MPSS, _ROOM_M)]
+        found.append((roomy_mps, _SETS_OFF_MPSS, _ROOM_M))
+        if brakes or not per_speed:
+            found.append((approach.least_mps, ACCEL_MAX_MPSS, _LEAST_ROOM_M))
+        places = []
+        for speed, rate, room_m in found:
+            go_s, run_m = speed / rate, speed * speed / (2.0 * rate)
+            if speed and (not brakes or manner.counter_mpss < _SETS_OFF_MPSS):
+                go_s, run_m = go_s + manner.settle_s, run_m + speed * manner.settle_s
+            place_m = -(side.constant + per_speed * speed) / per_metre - run_m
+            places.append((place_m, max(go_s, _SHORTEST_GO_S), room_m))
+        return places
 
-    def _ways(self, situation: Situation, manner: Manner) -> list[_Way]:
+    def _ways(self, situation: Situation, manner: Manner, tolerance: float = 0.0) -> list[_Way]:
         """Return, for every hero with a side of its own and a timed way to it, what `least_miss` takes."""
         found = []
         for hero_id, state in situation.heroes.items():
             task = self._tasks.get(hero_id)
             if task is not None and hero_id in situation.trigger_s and state.piece == task.piece:
-                approach = self._approach(hero_id, task, situation, manner)
+                approach = self._approach(hero_id, task, situation, manner, tolerance)
                 if approach is not None:
                     found.append((task.side, hero_id, approach, state.s_m, state.speed_mps))
         return found
 
-    def _approach(self, hero_id: int, task: _Task, situation: Situation, manner: Manner) -> Approach | None:
+    def _approach(
+        self, hero_id: int, task: _Task, situation: Situation, manner: Manner, tolerance: float
+    ) -> Approach | None:
         """Return the way to the trigger; None where no time is left."""
         rest_s = pin(situation.trigger_s[hero_id]) - pin(situation.time_s)
         stretches = []
@@ -258,28 +312,28 @@ class Prospects:
             return None
         timed = bool(task.side.weights[hero_id][1])
         least = trigger_speed_mps(manner, self._heroes[hero_id], task.piece, timed)
-        if task.stop_after_m is not None:
-            least = max(least, math.sqrt(2.0 * manner.dec_mpss[0] * task.stop_after_m))
+        brakes_s = float(shortest_s(manner, self._heroes[hero_id], task.piece + 1, task.knot, task.side))
+        least = max(least, task.least_mps(manner.dec_mpss, brakes_s, tolerance))
         return Approach(tuple(stretches), manner.top_speeds_mps(self._limits[hero_id])[0], least)
 
 
-def _drive_up(s_m: float, speed_mps: float, place_m: float, go_s: float) -> Wait | None:
+def _drive_up(s_m: float, speed_mps: float, place_m: float, room_m: float, go_s: float) -> Wait | None:
     """Return how one comes to a stand at a place; None where it cannot, or stands too far on already."""
     rest_m = place_m - s_m
-    if speed_mps < _STANDS_MPS and abs(rest_m) <= _NEAR_ENOUGH_M:
-        return Wait(0.0, 0.0, speed_mps / WAIT_BRAKE_MPSS, place_m, go_s)
-    reach_m = rest_m + _NEAR_ENOUGH_M
+    if speed_mps < _STANDS_MPS and abs(rest_m) <= room_m:
+        return Wait(0.0, 0.0, speed_mps / WAIT_BRAKE_MPSS, place_m, room_m, go_s)
+    reach_m = rest_m + room_m
     if speed_mps * speed_mps > 2.0 * _BRAKES_AT_MOST_MPSS * reach_m:
         return None
     if speed_mps * speed_mps >= 2.0 * WAIT_BRAKE_MPSS * rest_m:
-        return Wait(0.0, 0.0, 2.0 * max(rest_m, 0.5 * reach_m) / max(speed_mps, _SLOWEST_MPS), place_m, go_s)
+        return Wait(0.0, 0.0, 2.0 * max(rest_m, 0.5 * reach_m) / max(speed_mps, _SLOWEST_MPS), place_m, room_m, go_s)
     # Up to a peak, on at it, and down again.
     before_m = rest_m + speed_mps**2 / (2 * _DRIVES_UP_MPSS)
     peak = math.sqrt(before_m / (0.5 / _DRIVES_UP_MPSS + 0.5 / WAIT_BRAKE_MPSS))
     peak = max(speed_mps, min(peak, _DRIVES_UP_MPS))
     up_m = (peak * peak - speed_mps * speed_mps) / (2.0 * _DRIVES_UP_MPSS)
     hold_m = max(0.0, rest_m - up_m - peak * peak / (2.0 * WAIT_BRAKE_MPSS))
-    return Wait((peak - speed_mps) / _DRIVES_UP_MPSS, hold_m / peak, peak / WAIT_BRAKE_MPSS, place_m, go_s)
+    return Wait((peak - speed_mps) / _DRIVES_UP_MPSS, hold_m / peak, peak / WAIT_BRAKE_MPSS, place_m, room_m, go_s)
 
 
 def _task_of(
@@ -296,10 +350,9 @@ def _task_of(
     if hero.sketch.pieces[piece] is not PieceKind.GO:
         return None
     following = following_piece(hero, piece)
-    stop_after_m = None
-    if following is PieceKind.DEC and not rate_is_given(program, hero, piece + 1) and not side.weights[hero.id][1]:
+    stop_m = None
+    if following is PieceKind.DEC and not rate_is_given(program, hero, piece + 1):
         stop = next((c for c in alone if c.moments == {(hero.id, knots[piece + 2])} and c.weights[hero.id][0]), None)
         if stop is not None and not stop.weights[hero.id][1]:
-            places = [-c.constant / c.weights[hero.id][0] for c in (side, stop)]
-            stop_after_m = max(0.0, places[1] - places[0])
-    return _Task(side, piece, knot, following, stop_after_m)
+            stop_m = -stop.constant / stop.weights[hero.id][0]
+    return _Task(side, hero.id, piece, knot, following, stop_m)

@@ -18,8 +18,9 @@ from scenewright.solve.limits import BEGINNING_MPSS, COASTING, Limits, Manner, W
 from scenewright.solve.situation import Situation
 
 _WALKING_MPS = 2.0
-# A little longer than the half second that is asked for: the trigger may come a little sooner than planned.
-SETTLE_S = Fraction(3, 4)
+_QUICK_S = Fraction(3, 2)
+_SHORTEST_S = Fraction(1, 20)
+_OF_TIME_TO_ARRIVAL = Fraction(2, 3)
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +33,7 @@ class Stretch:
     approach: bool = False
     settled: bool = False
     waiting: bool = False
-    place_m: float | None = None
+    place_m: tuple[float, float] | None = None
     to_top: bool = False
     cruise: bool = False
 
@@ -108,21 +109,22 @@ class Division:
 def timed_approach(manner: Manner, piece: int, rest_s: Fraction, knot: str) -> list[Stretch]:
     """Divide the time that is left before the trigger into steps, the last one settled where that is asked for."""
     if manner.wait is not None:
-        return _waiting_approach(manner.wait, piece, rest_s, knot)
+        return _waiting_approach(manner.wait, pin(manner.settle_s), piece, rest_s, knot)
     steps, settle = manner.steps, manner.settle
     if rest_s <= 0:
         return []
     if steps == 1 or rest_s < Fraction(1, 5):
         return [Stretch(piece, rest_s, knot, True, settle)]
     if not settle:
-        return _even(piece, rest_s, steps, knot)
-    if rest_s <= SETTLE_S * Fraction(11, 10):
+        return _divided(piece, rest_s, steps, knot)
+    settle_s = pin(manner.settle_s)
+    if rest_s <= settle_s * Fraction(11, 10):
         return [Stretch(piece, rest_s, knot, True, True)]
-    hold_s = max(SETTLE_S, rest_s * Fraction(2, 5)) if steps == 2 else SETTLE_S
-    return [*_even(piece, rest_s - hold_s, steps - 1, None), Stretch(piece, hold_s, knot, True, True)]
+    hold_s = max(settle_s, rest_s * Fraction(2, 5)) if steps == 2 else settle_s
+    return [*_divided(piece, rest_s - hold_s, steps - 1, None), Stretch(piece, hold_s, knot, True, True)]
 
 
-def _waiting_approach(wait: Wait, piece: int, rest_s: Fraction, knot: str) -> list[Stretch]:
+def _waiting_approach(wait: Wait, settle_s: Fraction, piece: int, rest_s: Fraction, knot: str) -> list[Stretch]:
     """Divide the way of one that waits: up to its place, standing there, and off in time."""
     way_s = [pin(duration_s) for duration_s in (wait.speed_up_s, wait.hold_s, wait.brake_s)]
     go_s = pin(wait.go_s)
@@ -131,11 +133,11 @@ def _waiting_approach(wait: Wait, piece: int, rest_s: Fraction, knot: str) -> li
         return []
     found = [Stretch(piece, duration_s, None, True) for duration_s in way_s if duration_s]
     if found:
-        found[-1] = replace(found[-1], waiting=True, place_m=wait.place_m)
+        found[-1] = replace(found[-1], waiting=True, place_m=(wait.place_m - wait.room_m, wait.place_m + wait.room_m))
     found.append(Stretch(piece, stand_s, None, True, waiting=True))
-    if go_s <= SETTLE_S:
+    if go_s <= settle_s:
         return [*found, Stretch(piece, go_s, knot, True, True)]
-    return [*found, *_even(piece, go_s - SETTLE_S, 2, None), Stretch(piece, SETTLE_S, knot, True, True)]
+    return [*found, *_even(piece, go_s - settle_s, 2, None), Stretch(piece, settle_s, knot, True, True)]
 
 
 def following_piece(hero: Actor, piece: int) -> PieceKind:
@@ -163,6 +165,25 @@ def approach_rates(manner: Manner, stretch: Stretch, following: PieceKind) -> tu
     return min(up, early), min(down, early)
 
 
+def shortest_s(
+    manner: Manner, hero: Actor, piece: int, trigger_knot: str | None, side: LinearCondition | None
+) -> Fraction:
+    """Return how long a piece must last at least: long enough to be seen where it is what was asked for.
+
+    Parameters
+    ----------
+    side
+        The hero's side of its trigger, if it has one of its own.
+    """
+    if hero.sketch.pieces[piece] not in (PieceKind.DEC, PieceKind.ACC) or not manner.settle:
+        return _SHORTEST_S
+    if side is not None and hero.sketch.knots[piece] == trigger_knot and all(side.weights[hero.id]):
+        # Who is half a second from a place and speeds up is there before that.
+        away_s = pin(side.weights[hero.id][1] / side.weights[hero.id][0])
+        return min(pin(manner.seen_s), max(_SHORTEST_S, away_s * _OF_TIME_TO_ARRIVAL))
+    return pin(manner.seen_s)
+
+
 def trigger_speed_mps(manner: Manner, hero: Actor, piece: int, timed: bool) -> float:
     """Return the smallest speed (m/s) at the trigger that ends `piece`.
 
@@ -171,6 +192,13 @@ def trigger_speed_mps(manner: Manner, hero: Actor, piece: int, timed: bool) -> f
     """
     waits = following_piece(hero, piece) is PieceKind.ACC and not manner.natural_speed and not timed
     return 0.0 if waits else manner.trigger_speed_mps
+
+
+def _divided(piece: int, rest_s: Fraction, steps: int, knot: str | None) -> list[Stretch]:
+    """Divide evenly, but where that takes long let the first step be a quick one: who has to stop can do it at once."""
+    if steps < 3 or rest_s <= steps * _QUICK_S:
+        return _even(piece, rest_s, steps, knot)
+    return [Stretch(piece, _QUICK_S, None, True), *_even(piece, rest_s - _QUICK_S, steps - 1, knot)]
 
 
 def _even(piece: int, rest_s: Fraction, steps: int, knot: str | None) -> list[Stretch]:

@@ -10,6 +10,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from scenewright.solve.limits import (
+    CLOSE,
+    CLOSE_QUICK,
     COASTING,
     COUNTER,
     COUNTER_QUICK,
@@ -37,17 +39,20 @@ class Trial:
 COAST = (Trial(COASTING), Trial(COASTING, Fraction(1, 2)))
 # Where the ego may make haste: to its place and wait there, or at least never far from it.
 HASTY = (Trial(replace(COUNTER, ready=True)),)
-EXACT = tuple(Trial(manner) for manner in (GENTLE, FIRM, WHOLE, COUNTER))
+EXACT = tuple(Trial(manner) for manner in (GENTLE, FIRM, WHOLE, COUNTER, CLOSE))
 # Where the prediction denies the outcome, the hero does the most it can for it: the ego may still give way.
-_QUICK = tuple(Trial(manner) for manner in (GENTLE_QUICK, FIRM_QUICK, WHOLE_QUICK, COUNTER_QUICK))
+_QUICK = tuple(Trial(manner) for manner in (GENTLE_QUICK, FIRM_QUICK, WHOLE_QUICK, COUNTER_QUICK, CLOSE_QUICK))
 _FOR_OUTCOME = tuple(
     Trial(replace(HASTE, outcome_margin_s=-late_s, clear=False))
     for late_s in (-0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0)
 )
-_WITHOUT_OUTCOME = tuple(Trial(replace(manner, outcome=False)) for manner in (FIRM_QUICK, COUNTER_QUICK, FIRM, COUNTER))
+_WITHOUT_OUTCOME = (
+    *(Trial(replace(manner, outcome=False, acc_mpss=(2.5, 4.0))) for manner in (FIRM_QUICK, COUNTER_QUICK)),
+    *(Trial(replace(manner, outcome=False)) for manner in (FIRM, COUNTER)),
+)
 # How far beyond the least miss that arithmetic gives the solver is asked: as ``factor * miss + rest``.
 _BEYOND = ((1.05, 0.03), (1.3, 0.15), (2.0, 0.6))
-_FREE = replace(COUNTER, outcome=False)
+_FREE = replace(CLOSE, outcome=False)
 _UNSETTLED = replace(URGENT, outcome=False)
 _WORST, _STILL_GOOD = 100.0, 0.45
 _OFF = (
@@ -73,7 +78,7 @@ def relaxed(held: Manner, least: Callable[[Manner], float]) -> tuple[Trial, ...]
     least
         Returns the least miss (tight tolerances) that a manner can have.
     """
-    quick = replace(COUNTER_QUICK, outcome=held.outcome, outcome_margin_s=held.outcome_margin_s, clear=held.clear)
+    quick = replace(CLOSE_QUICK, outcome=held.outcome, outcome_margin_s=held.outcome_margin_s, clear=held.clear)
     ways = (quick, _FREE) if held.outcome else (_FREE,)
     miss = least(_FREE)
     nearest = [_trial(way, factor * miss + rest) for factor, rest in _BEYOND for way in ways]
