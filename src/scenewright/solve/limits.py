@@ -20,7 +20,7 @@ DEFAULT_SPEED_LIMIT_MPS = 50 / 3.6
 _SLOWEST_TOP_MPS = 8.0
 # Slower than this, "begins to brake" cannot be seen and "drives" is not driving.
 MOVING_MPS = 1.0
-STANDSTILL_MIN_S = 0.5
+STANDSTILL_MIN_S = 0.36
 # Who is settled does not accelerate visibly, and half of that at most in the sense of what is to begin.
 SETTLED_MPSS = 0.45
 BEGINNING_MPSS = 0.25
@@ -157,12 +157,12 @@ URGENT = Manner(
 # Who is about to brake may still speed up, and the other way round: nothing that was asked for has begun by that.
 COUNTER = replace(WHOLE, counter_mpss=6.0, trigger_speed_mps=0.5)
 # As little time as can just be seen, before the trigger and after it.
-CLOSE = replace(COUNTER, settle_s=0.58, seen_s=0.35)
+CLOSE = replace(COUNTER, settle_s=0.58, seen_s=0.35, dec_mpss=(0.52, 8.0))
 
 # Where the hero is to be first, whatever the ego does: it loses no time after its trigger.
 GENTLE_QUICK = replace(GENTLE, dec_mpss=(1.8, 4.0), acc_mpss=(1.0, 3.5), stop_s=(0.5, 0.6), outcome_margin_s=1.5)
 FIRM_QUICK = replace(FIRM, dec_mpss=(2.0, 6.0), acc_mpss=(0.8, 4.0), stop_s=(0.5, 0.6), outcome_margin_s=1.0)
-HASTE = replace(FIRM, dec_mpss=(2.0, 8.0), acc_mpss=(0.8, 4.0), stop_s=(0.36, 0.5), seen_s=0.35)
+HASTE = replace(FIRM, dec_mpss=(2.0, 8.0), acc_mpss=(0.8, 4.0), stop_s=(STANDSTILL_MIN_S, 0.5), seen_s=0.35)
 WHOLE_QUICK = replace(WHOLE, dec_mpss=(2.0, 8.0), stop_s=(0.5, 0.6), outcome_margin_s=0.7)
 COUNTER_QUICK = replace(WHOLE_QUICK, counter_mpss=COUNTER.counter_mpss, trigger_speed_mps=COUNTER.trigger_speed_mps)
 CLOSE_QUICK = replace(COUNTER_QUICK, settle_s=CLOSE.settle_s, seen_s=CLOSE.seen_s)
