@@ -206,7 +206,7 @@ class Prospects:
 
     def versions(self, situation: Situation, manner: Manner, tolerance: float, gently: bool) -> tuple[Manner, ...]:
         """Return how to carry out a manner, best first: waiting where it has the time, gently, with all it allows."""
-        waits = self.waiting(situation, manner, tolerance)
+        waits = self.waiting(situation, manner)
         if manner.ready:
             return self._ready(situation, manner, waits)
         gentled = self.gentled(situation, manner, tolerance) if gently else manner
@@ -245,13 +245,13 @@ class Prospects:
             return manner
         return replace(manner, approach_accel_mpss=share * up, approach_brake_mpss=share * down)
 
-    def waiting(self, situation: Situation, manner: Manner, tolerance: float = 0.0) -> Manner | None:
+    def waiting(self, situation: Situation, manner: Manner) -> Manner | None:
         """Return `manner` with a wait on the way where it would only creep to the trigger; None where it would not.
 
         Who waits can still be early or late; who creeps ever nearer can only be early. One waits as near as it can and
         still be fast enough at its trigger, for the ego may make haste.
         """
-        ways = self._ways(situation, manner, tolerance)
+        ways = self._ways(situation, manner)
         if len(ways) != 1 or manner.natural_speed:
             return None
         side, hero, approach, s_m, speed_mps = ways[0]

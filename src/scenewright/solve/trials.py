@@ -79,7 +79,8 @@ def relaxed(held: Manner, least: Callable[[Manner], float]) -> tuple[Trial, ...]
         Returns the least miss (tight tolerances) that a manner can have.
     """
     quick = replace(CLOSE_QUICK, outcome=held.outcome, outcome_margin_s=held.outcome_margin_s, clear=held.clear)
-    ways = (quick, _FREE) if held.outcome else (_FREE,)
+    free = replace(_FREE, acc_mpss=held.acc_mpss)
+    ways = (quick, free) if held.outcome else (free,)
     miss = least(_FREE)
     nearest = [_trial(way, factor * miss + rest) for factor, rest in _BEYOND for way in ways]
     if miss < _STILL_GOOD:
