@@ -24,6 +24,7 @@ from scenewright.simulate.prediction import (
     Predictor,
     RoadAware,
     predictor_called,
+    since_jump,
 )
 
 MAP = load_map("t_intersection")
@@ -63,6 +64,28 @@ def test_constant_acceleration_lasts_for_a_while() -> None:
     assert profile.state(5.0)[:2] == pytest.approx((30.0 + 8.0 + 0.75, 9.5))
     assert profile.state(6.0)[1] == pytest.approx(11.0)
     assert profile.state(9.0)[1] == pytest.approx(11.0)
+
+
+@pytest.mark.parametrize(
+    ("newest_first", "count"),
+    [
+        ([-3.0, 0.4, 0.3, 0.4], 1),  # it has just begun to brake
+        ([-3.0, -2.8, 0.4, 0.3], 2),
+        ([0.4, 0.2, 0.5, 0.3], 4),  # even all the time
+        ([-1.0, 0.2, -0.8, 0.4, -0.9], 5),  # jitter is no change of mind
+        ([1.2], 1),
+    ],
+)
+def test_a_jump_is_a_change_of_mind(newest_first: list[float], count: int) -> None:
+    assert since_jump(newest_first) == count
+
+
+def test_what_was_before_a_jump_tells_nothing_of_what_comes() -> None:
+    past = steadily(50.0, 8.0, 0.3)
+    time_s, s_m, speed_mps, _ = past[-1]
+    braking = [*past, (time_s + 0.02, s_m + 0.16, speed_mps - 0.06, -3.0)]
+    assert ConstantAcceleration().recent_acceleration(braking) == -3.0
+    assert ConstantAcceleration().recent_acceleration(past) == pytest.approx(0.3)
 
 
 def test_acceleration_is_averaged_and_jitter_left_out() -> None:

@@ -13,7 +13,7 @@ from scenewright.motion.profile import Profile, chain
 from scenewright.program.types import PieceKind
 from scenewright.solve.arrival import LinearCondition, linear_conditions
 from scenewright.solve.limits import COUNTER, FIRM, GENTLE, URGENT, WHOLE, Manner
-from scenewright.solve.reach import Approach, Prospects, least_miss
+from scenewright.solve.reach import Approach, Prospects, Task, least_miss
 from scenewright.solve.situation import HeroState, Situation
 from scenewright.solve.stretches import approach_rates, timed_approach
 
@@ -109,3 +109,45 @@ def test_takes_no_more_authority_than_it_needs() -> None:
     gentled = prospects.gentled(situation, URGENT, 0.0)
     assert gentled.approach_accel_mpss < 0.5 * URGENT.approach_accel_mpss
     assert prospects.least_miss(situation, gentled) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("away_s", "stops_m"), [(0.0, 3.0), (0.0, 8.0), (0.0, 40.0), (2.0, 3.0), (2.0, 8.0), (4.0, 3.0), (4.0, 20.0)]
+)
+def test_least_speed_is_the_slowest_from_which_it_stops_in_place(away_s: float, stops_m: float) -> None:
+    side = LinearCondition("c", frozenset({(HERO, "t1")}), -60.0, {HERO: (1.0, away_s)})
+    stop_m = 60.0 - stops_m if away_s else 60.0 + stops_m
+    gentlest, hardest, shortest_s = 0.6, 8.0, 0.35
+    task = Task(side, HERO, 0, "t1", PieceKind.DEC, stop_m)
+    least = task.least_mps((gentlest, hardest), shortest_s, 0.0)
+
+    def stops(speed_mps: float) -> bool:
+        rest_m = stop_m - (60.0 - away_s * speed_mps)
+        if rest_m <= 0.0:
+            return False
+        rate = speed_mps * speed_mps / (2.0 * rest_m)
+        return gentlest <= rate <= hardest and 2.0 * rest_m / speed_mps >= shortest_s
+
+    speeds = [0.01 * k for k in range(1, 4000)]
+    assert least == pytest.approx(next(speed for speed in speeds if stops(speed)), abs=0.011)
+
+
+def test_waits_where_it_can_still_be_fast_enough() -> None:
+    scene = YIELDS.scene()
+    structure = read_structure(scene.program)
+    conditions = linear_conditions(scene, structure)
+    prospects = Prospects(scene.program, structure, limits_of(scene), conditions)
+    side = next(c for c in conditions if set(c.weights) == {HERO} and (HERO, "t1") in c.moments)
+    ego = Profile(chain(0.0, 0.0, 1.0, [(60.0, 0.0, 0)]))
+    place = -side.constant / side.weights[HERO][0]
+    state = HeroState(0.0, place - 30.0, 5.0, 0, {"t0": 0.0}, ego)
+    situation = Situation(0.0, ego, {"t0": 0.0}, {HERO: state}, {HERO: 25.0})
+    found = prospects.waiting(situation, COUNTER)
+    assert found is not None
+    assert found.wait is not None
+    # From a stand there it can be at its side within the time, and no faster than its limits let it be.
+    per_metre, per_speed = side.weights[HERO]
+    speeds = [0.05 * k for k in range(1, 200)]
+    reached = [v for v in speeds if found.wait.place_m + v * v / 8.0 <= -(side.constant + per_speed * v) / per_metre]
+    assert reached
+    assert max(reached) >= 1.0

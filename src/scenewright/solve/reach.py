@@ -105,7 +105,7 @@ def least_miss(side: LinearCondition, hero: int, approach: Approach, s_m: float,
 
 
 @dataclass(frozen=True, slots=True)
-class _Task:
+class Task:
     """What a hero has to do at its trigger: its side of it, and where (m) it has to stop by braking there, if any."""
 
     side: LinearCondition
@@ -175,7 +175,7 @@ class Prospects:
     ) -> None:
         self._heroes = {hero.id: hero for hero in program.heroes}
         self._limits = limits
-        self._tasks: dict[int, _Task] = {}
+        self._tasks: dict[int, Task] = {}
         errands = {hero.id: Errand.of(program, structure, conditions, hero) for hero in program.heroes}
         self._errands = {hero: errand for hero, errand in errands.items() if errand is not None}
         for hero in program.heroes:
@@ -300,7 +300,7 @@ class Prospects:
         return found
 
     def _approach(
-        self, hero_id: int, task: _Task, situation: Situation, manner: Manner, tolerance: float
+        self, hero_id: int, task: Task, situation: Situation, manner: Manner, tolerance: float
     ) -> Approach | None:
         """Return the way to the trigger; None where no time is left."""
         rest_s = pin(situation.trigger_s[hero_id]) - pin(situation.time_s)
@@ -338,7 +338,7 @@ def _drive_up(s_m: float, speed_mps: float, place_m: float, room_m: float, go_s:
 
 def _task_of(
     program: Program, hero: Actor, structure: Structure, conditions: tuple[LinearCondition, ...]
-) -> _Task | None:
+) -> Task | None:
     """Return the task of a hero that drives straight on to a side of its own; None for any other."""
     knots = hero.sketch.knots
     knot = structure.trigger_knot(hero.id)
@@ -355,4 +355,4 @@ def _task_of(
         stop = next((c for c in alone if c.moments == {(hero.id, knots[piece + 2])} and c.weights[hero.id][0]), None)
         if stop is not None and not stop.weights[hero.id][1]:
             stop_m = -stop.constant / stop.weights[hero.id][0]
-    return _Task(side, hero.id, piece, knot, following, stop_m)
+    return Task(side, hero.id, piece, knot, following, stop_m)
