@@ -30,12 +30,18 @@ _NOTABLY_S = 0.12
 
 
 def first_plan(
-    world: World, predictor: Predictor, slower_than_mps: float = math.inf
+    world: World, predictor: Predictor, slower_than_mps: float = math.inf, pace: float = 1.0
 ) -> tuple[Replanner, EgoFirstState, Attempt] | None:
     """Choose the ego's first state and plan from it; where several states may be chosen, the first that plans well.
 
     None where the ego cannot start slower than it must.
+
+    Parameters
+    ----------
+    pace
+        The share of their speed at which heroes come to their triggers.
     """
+    limits = {actor: own if actor == EGO else own.at_pace(pace) for actor, own in world.limits.items()}
     conditions = linear_conditions(world.scene, world.structure)
     best: tuple[Replanner, EgoFirstState, Attempt] | None = None
     for start in chain(ego_starts(world.scene, world.ego, world.limits[EGO], conditions), _solved_start(world)):
@@ -45,7 +51,7 @@ def first_plan(
             break
         if start.speed_mps >= slower_than_mps:
             continue
-        planner = Planner(world.scene, world.structure, world.limits, world.backend, conditions, world.budget_s)
+        planner = Planner(world.scene, world.structure, limits, world.backend, conditions, world.budget_s)
         replanner = Replanner(world.scene, world.structure, planner, predictor, conditions)
         attempt = replanner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
         if best is None or _is_better(world.scene, attempt, best[2]):
@@ -53,6 +59,18 @@ def first_plan(
         if _quality(attempt) >= _GOOD:
             break
     return best
+
+
+def is_timed_by_ego(world: World) -> bool:
+    """Whether a trigger waits for the ego to be some time from a place: one that is still speeding up is there sooner.
+
+    An ego that starts slower then leaves less time for what follows, not more.
+    """
+    triggers = {key for instant in world.structure.triggers.values() for key in instant}
+    return any(
+        EGO in condition.weights and condition.weights[EGO][1] != 0.0 and condition.moments & triggers
+        for condition in linear_conditions(world.scene, world.structure)
+    )
 
 
 def _is_last_hope(world: World, best: tuple[Replanner, EgoFirstState, Attempt] | None) -> bool:

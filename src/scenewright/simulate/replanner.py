@@ -362,9 +362,9 @@ class Replanner:
         if self._times.ego_side(hero) is not None:
             # Within the last half second the hero stays settled for as long as that is good enough.
             miss, tolerance = (_LATE_MISS, _LATE_MISS) if left_s <= _SETTLE_S else (_EARLY_MISS, 0.0)
-            if off_s <= _ONSET_S and self.plan.tolerance <= tolerance:
-                if self._times.ego_miss(hero, situation.ego, planned) <= miss:
-                    return True
+            near = off_s <= _ONSET_S and self._times.ego_miss(hero, situation.ego, planned) <= miss
+            if near and self.plan.tolerance <= tolerance:
+                return True
         return self.plan.tolerance == 0.0 and off_s <= _DEAD_BAND_S + _DEAD_BAND_SHARE * left_s
 
     def _outcome_fits(self, hero: Actor, situation: Situation, times: Mapping[str, float]) -> bool:

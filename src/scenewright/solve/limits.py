@@ -18,6 +18,7 @@ LATERAL_MAX_MPSS = 6.0
 SPEED_OVER_LIMIT = 1.3
 DEFAULT_SPEED_LIMIT_MPS = 50 / 3.6
 _SLOWEST_TOP_MPS = 8.0
+_SLOWEST_PACE_MPS = 4.0
 # Slower than this, "begins to brake" cannot be seen and "drives" is not driving.
 MOVING_MPS = 1.0
 STANDSTILL_MIN_S = 0.36
@@ -49,6 +50,14 @@ class Limits:
     accel_max_mpss: float = ACCEL_MAX_MPSS
     brake_max_mpss: float = BRAKE_MAX_MPSS
     lateral_max_mpss: float = LATERAL_MAX_MPSS
+
+    def at_pace(self, share: float) -> Limits:
+        """Return the same limits for one that comes to its trigger no faster than a share of what it may."""
+        return replace(
+            self,
+            approach_speed_max_mps=max(_SLOWEST_PACE_MPS, share * self.approach_speed_max_mps),
+            natural_approach_speed_mps=max(_SLOWEST_PACE_MPS, share * self.natural_approach_speed_mps),
+        )
 
 
 @dataclass(frozen=True, slots=True)
