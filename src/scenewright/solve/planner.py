@@ -39,6 +39,8 @@ _HASTENINGS, _HASTE_SLACK_S = 4, 0.05
 _HOPE_SLACK = 0.02
 # By how much of what the ego may be off its side the trigger is moved: no more than it takes.
 _SHIFTS = (Fraction(0), Fraction(1, 2), Fraction(1))
+# Where it takes more than this (in tight tolerances), both are a little off rather than one of them too much.
+_LITTLE_OFF = Fraction(1, 2)
 # The largest miss that is searched for, in tight tolerances, and how often the search is halved.
 _FARTHEST, _HALVINGS = 16.0, 7
 # What one question may cost the solver in a re-solve (some 10 ms) and at the start, in its own measure: the answers do
@@ -219,7 +221,8 @@ class Planner:
     def _timed(self, trial: Trial, situation: Situation) -> Situation | None:
         """Return `situation` with the trigger moved no further than is needed; None where arithmetic sees no hope."""
         allowed = float(trial.tolerance) + _HOPE_SLACK
-        for share in _SHIFTS if trial.tolerance else (0,):
+        shifts = _SHIFTS if trial.tolerance <= _LITTLE_OFF else _SHIFTS[-1:]
+        for share in shifts if trial.tolerance else (0,):
             timed = _retimed(situation, trial.tolerance * share)
             if self._prospects.least_miss(timed, trial.manner, allowed) <= allowed:
                 return timed
