@@ -25,7 +25,7 @@ from scenewright.solve.lowering import Lowering, NotYet
 from scenewright.solve.problem import Problem
 from scenewright.solve.readiness import readiness
 from scenewright.solve.situation import HeroState, Situation
-from scenewright.solve.smoothness import Leg, smoothest
+from scenewright.solve.smoothness import smoothed
 from scenewright.solve.stretches import (
     Division,
     Stretch,
@@ -35,7 +35,7 @@ from scenewright.solve.stretches import (
     shortest_s,
     trigger_speed_mps,
 )
-from scenewright.solve.turns import TurnSpan, keeps_to_turn_speed
+from scenewright.solve.turns import TurnSpan, is_slow_in_turn, keeps_to_turn_speed
 from scenewright.solve.views import KnownView, MotionView, SketchedView
 
 # An ego knot that is not in sight is taken to come this much later (s).
@@ -258,7 +258,7 @@ class HeroProblem:
 
     def _bound_speed(self, hero: Actor, speed: Symbol, after: bool = False) -> None:
         limits = self.limits[hero.id]
-        top = self.manner.top_speed_after_mps(limits) if after else self.manner.top_speeds_mps(limits)[0]
+        top = self.manner.top_speed_after_mps(limits) if after else self._top_mps(hero)
         reserved = self.manner.steps <= 3 and self.manner.opening_mps is None
         if hero.id not in self.situation.heroes and reserved and not after:
             # Who starts as fast as it may drive can never catch up with an ego that is early.
@@ -269,11 +269,23 @@ class HeroProblem:
         turn = TurnSpan.of(self.scene.routes[hero.id])
         turn_top = self.manner.top_speeds_mps(self.limits[hero.id])[1]
         top = self.manner.top_speed_after_mps(self.limits[hero.id])
-        if turn is None or turn_top >= top or (stretch.approach and stretch.end_knot is None):
+        if turn is None or turn_top >= top:
+            return
+        if stretch.approach and stretch.end_knot is None:
+            too_fast = isinstance(v0, Fraction) and v0 > pin(turn_top)
+            if not too_fast and self._turns_before_trigger(hero, turn):
+                condition = is_slow_in_turn(turn, turn_top, x0, v0, x1, v1)
+                self.problem.require(condition, f"{hero.name} turns at up to {turn_top:.1f} m/s")
             return
         braking = hero.sketch.pieces[stretch.piece] is PieceKind.DEC
         condition = keeps_to_turn_speed(turn, turn_top, x0, v0, x1, v1, braking)
         self.problem.require(condition, f"{hero.name} turns at up to {turn_top:.1f} m/s")
+
+    def _turns_before_trigger(self, hero: Actor, turn: TurnSpan) -> bool:
+        """Whether the hero's side of its trigger lies beyond the beginning of its turn."""
+        side = hero_side(self.conditions, self.structure, hero.id)
+        per_metre = side.weights[hero.id][0] if side is not None else 0.0
+        return side is not None and per_metre != 0.0 and -side.constant / per_metre > turn.start_m
 
     def _bound_trigger_speed(self, hero: Actor, piece: int, speed: Symbol) -> None:
         least = trigger_speed_mps(self.manner, hero, piece, self._is_timed(hero, piece + 1))
@@ -388,19 +400,15 @@ class HeroProblem:
         way, turn = stretches[:count], TurnSpan.of(self.scene.routes[hero.id])
         if self.manner.ready or hero.id in self._led or not all(s.approach and s.duration_s for s in way):
             return moves
-        end_m = Profile(chain(0.0, s_m, speed_mps, moves)).state(sum(duration_s for duration_s, _, _ in moves[:count]))[
-            0
-        ]
+        rest_s = sum(duration_s for duration_s, _, _ in moves[:count])
+        end_m = Profile(chain(0.0, s_m, speed_mps, moves)).state(rest_s)[0]
         if any(stretch.waiting for stretch in way) or (turn is not None and s_m < turn.end_m and end_m > turn.start_m):
             return moves
-        legs = []
-        for stretch, (duration_s, _, _) in zip(way, moves, strict=False):
-            up, down = approach_rates(self.manner, stretch, following_piece(hero, stretch.piece))
-            legs.append(Leg(duration_s, -float(down), float(up)))
-        top_mps = self.manner.top_speeds_mps(self.limits[hero.id])[0]
-        accels = smoothest(legs, speed_mps, top_mps, [accel for _, accel, _ in moves[:count]])
-        smooth = [(duration_s, accel, piece) for (duration_s, _, piece), accel in zip(moves, accels, strict=False)]
-        return [*smooth, *moves[count:]]
+        rates = (approach_rates(self.manner, stretch, following_piece(hero, stretch.piece)) for stretch in way)
+        return smoothed(moves, [(-float(down), float(up)) for up, down in rates], speed_mps, self._top_mps(hero))
+
+    def _top_mps(self, hero: Actor) -> float:
+        return self.manner.top_speeds_mps(self.limits[hero.id])[0]
 
 
 def _speaks_of_ego(formula: Formula) -> bool:

@@ -23,6 +23,19 @@ class Leg:
     most_mpss: float
 
 
+def smoothed(
+    moves: Sequence[tuple[float, float, int]],
+    bounds_mpss: Sequence[tuple[float, float]],
+    speed_mps: float,
+    top_mps: float,
+) -> list[tuple[float, float, int]]:
+    """Return ``(duration_s, accel_mpss, piece)`` with the first moves, as many as there are bounds, the smoothest."""
+    legs = [Leg(move[0], *bounds) for move, bounds in zip(moves, bounds_mpss, strict=False)]
+    accels = smoothest(legs, speed_mps, top_mps, [accel for _, accel, _ in moves[: len(legs)]])
+    smooth = [(duration_s, accel, piece) for (duration_s, _, piece), accel in zip(moves, accels, strict=False)]
+    return [*smooth, *moves[len(legs) :]]
+
+
 def smoothest(legs: Sequence[Leg], speed_mps: float, top_mps: float, accels_mpss: Sequence[float]) -> list[float]:
     """Return accelerations (m/s^2) with the least sum of squares over time that come as far, and to the same speed.
 

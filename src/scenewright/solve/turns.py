@@ -45,6 +45,13 @@ def keeps_to_turn_speed(
     return disjunction([*outside, within, entering])
 
 
+def is_slow_in_turn(turn: TurnSpan, top_mps: float, x0: Value, v0: Value, x1: Value, v1: Value) -> Condition:
+    """Return a linear condition that is enough for `keeps_to_turn_speed`: at both ends of a stretch that touches it."""
+    start, end, top = pin(turn.start_m), pin(turn.end_m), pin(top_mps)
+    slow = conjunction([compare("<=", v0, top), compare("<=", v1, top)])
+    return disjunction([compare(">=", x0, end), compare("<=", x1, start), slow])
+
+
 def tightest_curvature(route: Route) -> float:
     """Return the largest curvature (1/m) of a route's turn; 0 where it goes straight."""
     turn = TurnSpan.of(route)
