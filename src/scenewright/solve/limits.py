@@ -25,6 +25,7 @@ STANDSTILL_MIN_S = 0.36
 # Who is settled does not accelerate visibly, and half of that at most in the sense of what is to begin.
 SETTLED_MPSS = 0.45
 BEGINNING_MPSS = 0.25
+_ROUNDING_S = 1e-3
 # How one brakes that is to wait on its way.
 WAIT_BRAKE_MPSS = 3.0
 
@@ -80,6 +81,11 @@ class Wait:
     place_m: float
     room_m: float
     go_s: float
+
+    @property
+    def shortest_s(self) -> float:
+        """How long all of it takes without any time to stand, and a little for rounding (s)."""
+        return self.speed_up_s + self.hold_s + self.brake_s + self.go_s + _ROUNDING_S
 
 
 @dataclass(frozen=True, slots=True)

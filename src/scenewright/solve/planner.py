@@ -41,6 +41,8 @@ _HOPE_SLACK = 0.02
 _SHIFTS = (Fraction(0), Fraction(1, 2), Fraction(1))
 # Where it takes more than this (in tight tolerances), both are a little off rather than one of them too much.
 _LITTLE_OFF = Fraction(1, 2)
+# How soon a trigger may come (s).
+_SHORTEST_LEAD_S = 0.02
 # The largest miss that is searched for, in tight tolerances, and how often the search is halved.
 _FARTHEST, _HALVINGS = 16.0, 7
 # What one question may cost the solver in a re-solve (some 10 ms) and at the start, in its own measure: the answers do
@@ -223,7 +225,7 @@ class Planner:
         allowed = float(trial.tolerance) + _HOPE_SLACK
         shifts = _SHIFTS if trial.tolerance <= _LITTLE_OFF else _SHIFTS[-1:]
         for share in shifts if trial.tolerance else (0,):
-            timed = _retimed(situation, trial.tolerance * share)
+            timed = retimed(situation, trial.tolerance * share)
             if self._prospects.least_miss(timed, trial.manner, allowed) <= allowed:
                 return timed
         return None
@@ -312,7 +314,7 @@ def _is_put_off(situation: Situation) -> bool:
     return any(situation.trigger_s[hero] > planned_s + _PUT_OFF_S for hero, planned_s in planned.items())
 
 
-def _retimed(situation: Situation, tolerance: Fraction) -> Situation:
+def retimed(situation: Situation, tolerance: Fraction) -> Situation:
     """Return `situation` with the trigger moved towards where it was planned, as far as the ego may be off its side.
 
     A late ego is met half way: the hero a little off its place, the ego a little off its own.
@@ -324,7 +326,8 @@ def _retimed(situation: Situation, tolerance: Fraction) -> Situation:
     for hero, planned in situation.planned_trigger_s.items():
         now = triggers[hero]
         reach = float(tolerance) * situation.ego_slack_s
-        triggers[hero] = moved = now + max(-reach, min(reach, planned - now))
+        soonest = min(now, situation.time_s + _SHORTEST_LEAD_S)
+        triggers[hero] = moved = max(soonest, now + max(-reach, min(reach, planned - now)))
         ego_knots = {name: moved if time_s == now else time_s for name, time_s in ego_knots.items()}
     return replace(situation, trigger_s=triggers, ego_knots_s=ego_knots)
 

@@ -261,7 +261,7 @@ class Prospects:
             return None
         for place_m, go_s, room_m in self._waiting_places(ways[0], manner, bool(situation.earliest_s)):
             wait = _drive_up(s_m, speed_mps, place_m, room_m, _SOMEWHAT_FASTER * go_s)
-            if wait is not None and wait.speed_up_s + wait.hold_s + wait.brake_s + wait.go_s < rest_s:
+            if wait is not None and wait.shortest_s < rest_s:
                 return replace(manner, wait=wait)
         return None
 

@@ -108,7 +108,7 @@ class Division:
 
 def timed_approach(manner: Manner, piece: int, rest_s: Fraction, knot: str) -> list[Stretch]:
     """Divide the time that is left before the trigger into steps, the last one settled where that is asked for."""
-    if manner.wait is not None:
+    if manner.wait is not None and rest_s > pin(manner.wait.shortest_s):
         return _waiting_approach(manner.wait, pin(manner.settle_s), piece, rest_s, knot)
     steps, settle = manner.steps, manner.settle
     if rest_s <= 0:
@@ -129,8 +129,6 @@ def _waiting_approach(wait: Wait, settle_s: Fraction, piece: int, rest_s: Fracti
     way_s = [pin(duration_s) for duration_s in (wait.speed_up_s, wait.hold_s, wait.brake_s)]
     go_s = pin(wait.go_s)
     stand_s = rest_s - go_s - sum(way_s)
-    if stand_s <= 0:
-        return []
     found = [Stretch(piece, duration_s, None, True) for duration_s in way_s if duration_s]
     if found:
         found[-1] = replace(found[-1], waiting=True, place_m=(wait.place_m - wait.room_m, wait.place_m + wait.room_m))
