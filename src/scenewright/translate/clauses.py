@@ -173,7 +173,8 @@ class ClauseReader(OnsetReader):
 
     def _adverb(self) -> bool:
         adverb = self._tag("adverb")
-        if adverb is None or adverb in ("just", "about", "exact"):
+        at_once = self.phrases.tokens[self.at].text.lower() in ("immediately", "directly") and self._tag("verb", 1)
+        if adverb is None or (adverb in ("just", "about", "exact") and not at_once):
             return False
         if adverb == "initially":
             self._mark_initial()

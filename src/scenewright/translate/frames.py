@@ -301,6 +301,9 @@ class FrameReader(PairReader):
         end = lane[1] if lane is not None else other.end
         after = end + (self.phrases.tag(end, "comma") is not None)
         inverted = self.phrases.verb(after, "come", "drive") is not None or self.phrases.tag(after, "be") is not None
+        there = self._there_is(after) if self.phrases.tag(after, "link") == "there" else None
+        if there is not None:  # "in front of it there is a car"
+            inverted, after = True, there - 1
         phrase = self.phrases.noun_phrase(after + inverted)
         if phrase is None or phrase.kind == "pronoun" or self.phrases.tag(phrase.end, "genitive") is not None:
             return False

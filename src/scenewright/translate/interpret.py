@@ -141,6 +141,10 @@ class Interpreter(MomentReader):
         ):
             self._action(event)  # "stops before accelerating"
             return
+        slows = bool(self.facts.phases) and self.facts.phases[-1].kind == "dec" and not self.facts.phases[-1].to_stop
+        if event.actor == HERO_ID and event.verb == "stop" and slows:
+            self._action(event)  # "slows down before it stops 5 m before the conflict point"
+            return
         if self._slow_by_then(event):
             return
         if event.actor != EGO_ID:

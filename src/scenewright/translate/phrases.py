@@ -146,8 +146,8 @@ class Phrases(NounPhrases):
         reaching = has_amount and self.verb(at + 1, "reach") is not None
         if reaching and (self.tag(at, "link") == "to" or self.tag(at, "preposition") == "to"):
             return "from", at + 2  # "3 s to reach the stop line"
-        if reaching and self.tag(at, "relation") == "before" and "ing" in self.tokens[at + 1].forms:
-            return "before", at + 2  # "5 m before reaching the conflict point"
+        if reaching and self.tag(at, "relation") in ("before", "from") and "ing" in self.tokens[at + 1].forms:
+            return "before", at + 2  # "5 m before reaching the conflict point", "3 s from reaching it"
         at = self._after_mark(at) if has_amount else at
         relation = self.tag(at, "relation")
         if relation:
@@ -202,6 +202,13 @@ class Phrases(NounPhrases):
             if alone and amount is None and self.subject is not None and self._ends_here(at):  # "is ahead at 8 m/s"
                 return Place(relation, 1 - self.subject, None, self.span(start, at)), at
             return None
+        if (
+            phrase.kind == "pronoun"
+            and relation in ("past", "from", "before")
+            and amount is None
+            and self._finite_after(phrase)
+        ):
+            return None  # "after it has stopped, ...", "till it stops", "slows down before it stops"
         if phrase.kind == "pronoun":
             return self._pronoun_target(start, phrase, relation, amount)
         if amount is None and relation not in ("behind", "ahead"):
@@ -210,6 +217,10 @@ class Phrases(NounPhrases):
         if amount is None and by is not None and by.dimension == "length":  # "is ahead of the ego by 15 m"
             return Place(relation, self.resolve(phrase), by, self.span(start, phrase.end + 2)), phrase.end + 2
         return Place(relation, self.resolve(phrase), amount, self.span(start, phrase.end)), phrase.end
+
+    def _finite_after(self, phrase: NounPhrase) -> bool:
+        token = self.tokens[phrase.end]
+        return bool(token.tags.keys() & {"be", "auxiliary"} or token.forms & {"s"})
 
     def _ends_here(self, at: int) -> bool:
         tags = self.tokens[at].tags.keys()
@@ -338,7 +349,8 @@ class Phrases(NounPhrases):
     def heading(self, at: int) -> tuple[str, int, bool] | None:
         """Read a heading: ``travelling westbound``, ``in the westbound direction``; True last for "from the east"."""
         start = at
-        if (self.verb(at, "drive", "go") and "ing" in self.tokens[at].forms) or self.tag(at, "bound_word"):
+        headed = self.tokens[at].text.lower() == "headed"
+        if (self.verb(at, "drive", "go") and "ing" in self.tokens[at].forms) or self.tag(at, "bound_word") or headed:
             at += 1
         came_from = self.tag(at, "preposition") == "out" and self.tokens[at].text.lower() == "from"
         if came_from or self.tag(at, "preposition") in ("to", "in", "on"):

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from scenewright.translate.commentary import tells_way
 from scenewright.translate.deeds import DeedReader
 from scenewright.translate.events import HERO_ID, Area, Event, Place
 from scenewright.translate.reader import MOVES
@@ -42,6 +43,10 @@ class VerbReader(DeedReader):
             self.flags.add("wanted")
             self.links += ["and"] if self.current is not None and not self.links else []
             self.at += 1 + (self._tag("link", 1) == "to")
+            return True
+        if "expected" in token.tags and tells_way(self.phrases.tokens[self.at : self.at + 6]):
+            self.flags.add("wanted")  # "is expected to turn left"
+            self.at += 1
             return True
         ready = "ready" in token.tags and self._tag("link", 1) == "to" and self.phrases.verb(self.at + 2) is not None
         if ready and (self.current is not None or self.subject_span is not None):
@@ -230,8 +235,10 @@ class VerbReader(DeedReader):
             return False
         if self.passive_object is not None and (verb not in MOVES or self.passive_object == "its turn"):
             return False
+        infinitive = self._goes_on_as_wanted(verb, token)
         event = self._open(verb, start)
         event.gerund = "ing" in token.forms
+        event.wanted |= infinitive
         if event.landmark is None and verb in MOVES:
             end = self._object_place(event, end)
         if verb == "stop":
