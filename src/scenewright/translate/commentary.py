@@ -9,6 +9,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 from scenewright.translate.geometry import remark_end
+from scenewright.translate.letters import letter_end
 from scenewright.translate.tokens import Token
 
 _CONTENT = frozenset(("quantity", "bare_number"))
@@ -63,6 +64,8 @@ def _comment_end(tokens: list[Token], at: int, kept: list[Token]) -> int | None:
     """Return where a comment that begins at `at` ends, or None where none does."""
     kind = tokens[at].tags.get("comment")
     fresh = not kept or bool(kept[-1].tags.keys() & {"end", "colon"})
+    if fresh and (ended := letter_end(tokens, at)) is not None:
+        return ended
     if kind is None and fresh:
         kind = _expectation(tokens, at)
     parted = fresh or bool(kept[-1].tags.keys() & {"comma"})

@@ -39,7 +39,7 @@ class FrameReader(PairReader):
         if kind in ("build", "let") and (after := self._frame_noun(self.at + 1)):
             self.at = after
             return True
-        told = kind == "wish" or (kind == "let" and "and" not in self.links)
+        told = kind == "wish" or (kind == "let" and not {"and", "as_if", "to"} & set(self.links))
         phrase = self.phrases.noun_phrase(self.at + 1) if told else None
         named = phrase is not None and (phrase.kind != "pronoun" or self._told_to(phrase))
         if told and phrase is not None and named:
@@ -91,6 +91,8 @@ class FrameReader(PairReader):
         if self._fronted_speed():
             return True
         if (site := self._junction(self.at)) is not None:
+            if not self.events:
+                self.phrases.last_landmark = None  # it sets the scene: "it" in what follows is a vehicle
             self.at = site
             return True
         if self._tag("relation") in ("ahead", "behind") and self._fronted_relation():

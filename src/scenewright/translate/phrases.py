@@ -240,6 +240,10 @@ class Phrases(NounPhrases):
             return Place(relation, self.last_landmark, amount, span), phrase.end
         if relation in ("behind", "ahead") and self.subject is not None and (amount is None or not self.last_landmark):
             return Place(relation, 1 - self.subject, amount, span), phrase.end
+        only = self.last_landmark is None and self.last_area != "driveway"  # no place was named that "it" could be
+        if relation == "from" and only and self.subject is not None and amount is not None:
+            self.assume(f"'{words}' is measured from the other vehicle")
+            return Place(relation, 1 - self.subject, amount, span), phrase.end
         raise self.refuse("it is not clear what this refers to", phrase.span, fix="name the vehicle or the place")
 
     # -- areas and headings -----------------------------------------------------------------------------------------
