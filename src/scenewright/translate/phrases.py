@@ -322,6 +322,8 @@ class Phrases(NounPhrases):
         road = self.skip_determiner(end + 1)
         if kind == "lane" and self.tag(end, "preposition") in ("of", "on") and self.tag(road, "area") == "road":
             end = road + 1  # "the westbound lane of the road"
+        if kind == "lane" and whose is None and (used := self._used_lane(end)):
+            whose, end = used
         wanted_by = None
         if kind == "lane" and (wanted := self._wanted_lane(end)):
             wanted_by, end = wanted
@@ -339,6 +341,19 @@ class Phrases(NounPhrases):
     def _straight(self, at: int) -> bool:
         """Whether "straight" only describes a road: "on a straight road"."""
         return self.tag(at, "direction") == "straight" and self.tag(at + 1, "area") is not None
+
+    def _used_lane(self, at: int) -> tuple[int, int] | None:
+        """Read "that the ego is using" and "which the ego drives in"; return who does and the position after it."""
+        phrase = self.noun_phrase(at + 1) if self.tag(at, "link") == "that" else None
+        if phrase is None or phrase.kind == "pronoun":
+            return None
+        at = phrase.end + (self.tag(phrase.end, "be") is not None)
+        words, into = self.tokens[at].text.lower().split(), self.tag(at + 1, "preposition") in ("in", "on")
+        if self.verb(at, "drive") is None or not (into or words[0].startswith(("us", "occup"))):
+            return None
+        end = at + 1 + into
+        closed = self.tokens[end].tags.keys() & {"end", "comma"} or self.tag(end, "link") == "and"
+        return (self.resolve(phrase), end) if closed else None
 
     def _wanted_lane(self, at: int) -> tuple[int, int] | None:
         """Read "that the ego wants to turn into"; return who wants it and the position after it."""

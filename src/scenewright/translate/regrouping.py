@@ -28,9 +28,26 @@ def regrouped(tokens: list[Token]) -> list[Token]:
         _in_line,
         _nobody_yields,
         _stays_on_it,
+        _that_is_to_say,
     ):
         tokens = regroup(tokens)
     return tokens
+
+
+def _that_is_to_say(tokens: list[Token]) -> list[Token]:
+    """Step over ", which is to say," in front of a place that says again where a turn ends."""
+    read: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        words = " ".join(token.text.lower() for token in tokens[at : at + 3])
+        after = tokens[at + 3].tags if at + 3 < len(tokens) else {}
+        again = words in ("which is to say", "that is to say") and after.get("preposition") == "into"
+        if again and read and "comma" in read[-1].tags:
+            at += 3
+            continue
+        read.append(tokens[at])
+        at += 1
+    return read
 
 
 def _stays_on_it(tokens: list[Token]) -> list[Token]:
