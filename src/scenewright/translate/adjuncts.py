@@ -132,6 +132,15 @@ class AdjunctReader(DirectionReader):
             self.at += 1
             self._grow()
             return True
+        facing = self.phrases.tokens[self.at].text.lower() == "facing"
+        if facing and (faced := self.phrases.area_noun(self.at + 1, "towards")) and faced[0].kind == "road":
+            host = self._host() if faced[0].heading is None else None
+            if host is None:
+                return False
+            host.areas.append(replace(faced[0], role="from", kind="driveway"))  # who faces the road is not on it
+            self.at = faced[1]
+            self._grow()
+            return True
         if area := self.phrases.area(self.at):
             host = self._host()
             if host is None:

@@ -51,8 +51,64 @@ class AnaphoraReader(ObjectReader):
         return True
 
     def _means_the_hero(self, phrase: NounPhrase) -> bool:
-        """Whether "it" after a clause about the ego is the hero: "After the ego has passed, it goes"."""
+        """Whether "it" is the hero: who acts beside the ego, or after a clause about the ego."""
         here = [event for event in self.events if event.sentence == self.sentence]
+        if self._only_the_hero_can(phrase, here) or self._placed_beside_the_ego(phrase, here):
+            return True
+        return self._hero_after_the_ego(phrase, here)
+
+    def _placed_beside_the_ego(self, phrase: NounPhrase, here: list[Event]) -> bool:
+        """Whether "it" is who acts, in "it brakes once the ego is 20 m and it is 12 m from ...": each has one place."""
+        if self.subject != EGO_ID or not here or set(self.links) - {"and", "comma"} or "and" not in self.links:
+            return False
+        acts = here[0].actor == HERO_ID and here[0].verb in ("brake", "accelerate", "stop", "yield", "go")
+        placed = here[-1].actor == EGO_ID and here[-1].explicit and bool(here[-1].places) and len(here) > 1
+        amount = self.phrases.tokens[phrase.end + 1].quantity
+        told = self.phrases.tag(phrase.end, "be") is not None and amount is not None
+        return acts and placed and told and amount is not None and amount.dimension in ("length", "time")
+
+    def _only_the_hero_can(self, phrase: NounPhrase, here: list[Event]) -> bool:
+        """Whether "it" brakes or speeds up after a clause that named both: nobody tells the ego to do so."""
+        if self.subject != EGO_ID or self.pronouns > 2 or not {"comma", "then", "and"} & set(self.links):
+            return False
+        told = [event for event in here if event.actor == HERO_ID and (event.explicit or event.verb == "attitude")]
+        named = len(told) > self.pronouns - 1  # by a name, and not only by another "it"
+        before = self.main_subject == HERO_ID and bool(told) and told[0] is here[0]  # by a name in the sentence before
+        named = named or (before and len(told) == self.pronouns - 1 and self._fits_the_hero(told[0]))
+        if self._at_the_egos_place(phrase.end, here):
+            return False
+        at = phrase.end
+        while self.phrases.tokens[at].tags.keys() & {"auxiliary", "adverb"} or self.phrases.verb(at, "begin"):
+            at += 1 + (self.phrases.tag(at + 1, "link") == "to")
+        token = self.phrases.tokens[at]
+        return named and self.phrases.verb(at, "brake", "accelerate") is not None and bool(token.forms & {"s", "base"})
+
+    def _fits_the_hero(self, placed: Event) -> bool:
+        """Whether "it is 12 m from the stop line" can be the hero's place: it was told to come out of the driveway."""
+        line = any(place.target == "stop_line" for place in placed.places)
+        areas = [area.kind for event in self.events if event.actor == HERO_ID for area in event.areas]
+        return not line or "driveway" in areas
+
+    def _at_the_egos_place(self, at: int, here: list[Event]) -> bool:
+        """Whether it acts at a stop line that only the ego was said to be near: then the ego could be meant."""
+        near = {event.actor for event in here for place in event.places if place.target == "stop_line"}
+        line = False
+        while self.phrases.tag(at, "end") is None:
+            line |= self.phrases.tag(at, "landmark") == "stop_line"
+            at += 1
+        return line and near == {EGO_ID}
+
+    def _acts_beside_asides(self, main: list[Event]) -> bool:
+        """Whether the hero acts, and of the ego an aside of its moment is told: "..., driving west, is 45 m ..."."""
+        acts = [
+            event for event in main if event.actor == HERO_ID and event.verb in ("brake", "accelerate", "stop", "go")
+        ]
+        after = main[main.index(acts[-1]) + 1 :] if acts else []
+        timed = any(e.sentence == self.sentence and "when" in e.links for e in self.events)
+        return timed and bool(after) and all(e.actor == EGO_ID and "that" in e.links for e in after)
+
+    def _hero_after_the_ego(self, phrase: NounPhrase, here: list[Event]) -> bool:
+        """Whether "it" after a clause about the ego is the hero: "After the ego has passed, it goes"."""
         if self.subject != EGO_ID or not here:
             return False
         at = phrase.end

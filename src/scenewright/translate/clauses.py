@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scenewright.translate.anaphora import AnaphoraReader
-from scenewright.translate.events import EGO_ID, HERO_ID, Event
+from scenewright.translate.events import HERO_ID, Event
 from scenewright.translate.modes import resolve_modes
 from scenewright.translate.onsets import OnsetReader
 from scenewright.translate.references import NounPhrase
@@ -120,7 +119,7 @@ class ClauseReader(OnsetReader):
         self._spread()
         main = [e for e in self.events if e.sentence == self.sentence and e.mode == "main" and e.actor is not None]
         if main:
-            self.main_subject = main[-1].actor
+            self.main_subject = HERO_ID if self._acts_beside_asides(main) else main[-1].actor
         self.main_subject = None if both else self.main_subject
         self.subject = self.phrases.subject = self.main_subject
         self.pair, self.reduced, self.pronouns = False, None, 0
@@ -173,7 +172,8 @@ class ClauseReader(OnsetReader):
 
     def _adverb(self) -> bool:
         adverb = self._tag("adverb")
-        if adverb is None or adverb in ("just", "about", "exact"):
+        at_once = self.phrases.tokens[self.at].text.lower() in ("immediately", "directly") and self._tag("verb", 1)
+        if adverb is None or (adverb in ("just", "about", "exact") and not at_once):
             return False
         if adverb == "initially":
             self._mark_initial()
@@ -370,35 +370,6 @@ class ClauseReader(OnsetReader):
         if absolute and not self.links and self._amount_before_comma():
             self.links.append("when")  # "The ego being 30 m from the stop line, the hero brakes"
         return True
-
-    def _means_the_hero(self, phrase: NounPhrase) -> bool:
-        """Whether "it" is the hero: who acts beside the ego, or after a clause about the ego."""
-        here = [event for event in self.events if event.sentence == self.sentence]
-        if self._only_the_hero_can(phrase, here) or self._placed_beside_the_ego(phrase, here):
-            return True
-        return AnaphoraReader._means_the_hero(self, phrase)
-
-    def _placed_beside_the_ego(self, phrase: NounPhrase, here: list[Event]) -> bool:
-        """Whether "it" is who acts, in "it brakes once the ego is 20 m and it is 12 m from ...": each has one place."""
-        if self.subject != EGO_ID or not here or set(self.links) - {"and", "comma"} or "and" not in self.links:
-            return False
-        acts = here[0].actor == HERO_ID and here[0].verb in ("brake", "accelerate", "stop", "yield", "go")
-        placed = here[-1].actor == EGO_ID and here[-1].explicit and bool(here[-1].places) and len(here) > 1
-        amount = self.phrases.tokens[phrase.end + 1].quantity
-        told = self.phrases.tag(phrase.end, "be") is not None and amount is not None
-        return acts and placed and told and amount is not None and amount.dimension in ("length", "time")
-
-    def _only_the_hero_can(self, phrase: NounPhrase, here: list[Event]) -> bool:
-        """Whether "it" brakes or speeds up after a clause that named both: nobody tells the ego to do so."""
-        if self.subject != EGO_ID or self.pronouns > 2 or not {"comma", "then", "and"} & set(self.links):
-            return False
-        told = [event for event in here if event.actor == HERO_ID and (event.explicit or event.verb == "attitude")]
-        named = len(told) > self.pronouns - 1  # by a name, and not only by another "it"
-        at = phrase.end
-        while self.phrases.tokens[at].tags.keys() & {"auxiliary", "adverb"} or self.phrases.verb(at, "begin"):
-            at += 1 + (self.phrases.tag(at + 1, "link") == "to")
-        token = self.phrases.tokens[at]
-        return named and self.phrases.verb(at, "brake", "accelerate") is not None and bool(token.forms & {"s", "base"})
 
     def _clause_follows(self, phrase: NounPhrase) -> bool:
         """Whether a new clause begins without a comma: "when the ego is at the stop line the hero brakes"."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 from scenewright.translate.geometry import remark_end
+from scenewright.translate.letters import letter_end
 from scenewright.translate.tokens import Token
 
 _CONTENT = frozenset(("quantity", "bare_number"))
@@ -63,6 +64,8 @@ def _comment_end(tokens: list[Token], at: int, kept: list[Token]) -> int | None:
     """Return where a comment that begins at `at` ends, or None where none does."""
     kind = tokens[at].tags.get("comment")
     fresh = not kept or bool(kept[-1].tags.keys() & {"end", "colon"})
+    if fresh and (ended := letter_end(tokens, at)) is not None:
+        return ended
     if kind is None and fresh:
         kind = _expectation(tokens, at)
     parted = fresh or bool(kept[-1].tags.keys() & {"comma"})
@@ -85,10 +88,25 @@ def _comment_end(tokens: list[Token], at: int, kept: list[Token]) -> int | None:
     return end
 
 
+def tells_way(words: list[Token]) -> bool:
+    """Whether "is expected to turn left" tells where a vehicle goes, which is no comment on how it should cope."""
+    if len(words) < 3 or words[0].text.lower() not in ("is expected to", "are expected to"):
+        return False
+    verb, after = words[1].tags.get("verb"), words[2]
+    goes_on = after.tags.get("verb") == "lane_follow" or after.tags.get("direction") == "straight"
+    goes_on = goes_on or after.text.lower() in ("to", "on", "in", "along") or words[1].text.endswith(" on")
+    turns = any(token.tags.get("event_noun") == "turn" for token in words[2:])
+    if verb in ("go", "make"):
+        return goes_on if verb == "go" else turns
+    return verb in ("turn", "lane_follow", "pull_out", "drive")
+
+
 def _expectation(tokens: list[Token], at: int) -> str | None:
     """Read "The AV is expected to ..." as a comment: what the ego should do is for its own driving policy to decide."""
     at += tokens[at].tags.get("determiner") is not None
     if "ego" not in tokens[at].tags:
         return None
     at += 1 + ("noun" in tokens[at + 1].tags)
+    if tells_way(tokens[at : at + 6]):
+        return None
     return "sentence" if at < len(tokens) and "expected" in tokens[at].tags else None

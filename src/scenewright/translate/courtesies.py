@@ -47,7 +47,7 @@ class CourtesyReader(VerbGroupReader):
         if phrase is None:
             self._set_subject(1 - (self.subject or 0), self.subject_span)
         event = self._open("yield", start)
-        event.notes.append("let")
+        event.notes += [] if "as_if" in event.links else ["let"]  # "as if to let the ego go first" lets nobody go
         if phrase is None:
             event.to_actor = 1 - (event.actor or 0)
         elif phrase.kind == "pronoun" and event.actor is not None:

@@ -194,7 +194,7 @@ class DescriptionReader:
                 if each.actor == actor
                 and each.verb in ("turn", "pull_out", "leave")
                 and not (
-                    "that" in each.links and each.verb == "turn" and "that" not in event.links
+                    "that" in each.links and each.verb == "turn" and "that" not in event.links and not event.wanted
                 )  # "a van that is to turn right drives west"
             ]
             if (

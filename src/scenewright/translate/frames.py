@@ -39,7 +39,7 @@ class FrameReader(PairReader):
         if kind in ("build", "let") and (after := self._frame_noun(self.at + 1)):
             self.at = after
             return True
-        told = kind == "wish" or (kind == "let" and "and" not in self.links)
+        told = kind == "wish" or (kind == "let" and not {"and", "as_if", "to"} & set(self.links))
         phrase = self.phrases.noun_phrase(self.at + 1) if told else None
         named = phrase is not None and (phrase.kind != "pronoun" or self._told_to(phrase))
         if told and phrase is not None and named:
@@ -91,6 +91,8 @@ class FrameReader(PairReader):
         if self._fronted_speed():
             return True
         if (site := self._junction(self.at)) is not None:
+            if not self.events:
+                self.phrases.last_landmark = None  # it sets the scene: "it" in what follows is a vehicle
             self.at = site
             return True
         if self._tag("relation") in ("ahead", "behind") and self._fronted_relation():
@@ -301,6 +303,9 @@ class FrameReader(PairReader):
         end = lane[1] if lane is not None else other.end
         after = end + (self.phrases.tag(end, "comma") is not None)
         inverted = self.phrases.verb(after, "come", "drive") is not None or self.phrases.tag(after, "be") is not None
+        there = self._there_is(after) if self.phrases.tag(after, "link") == "there" else None
+        if there is not None:  # "in front of it there is a car"
+            inverted, after = True, there - 1
         phrase = self.phrases.noun_phrase(after + inverted)
         if phrase is None or phrase.kind == "pronoun" or self.phrases.tag(phrase.end, "genitive") is not None:
             return False

@@ -72,6 +72,8 @@ def summary_end(tokens: list[Token], at: int) -> int | None:
 def untold(stretch: list[Token], deeds: set[str]) -> Token | None:
     """Return the word of a skipped line for a deed that is not among `deeds`: "dec", "stop" or "go"."""
     for token in stretch:
+        if "nobody_yields" in token.tags and "dec" in deeds:
+            return token
         deed = _DEEDS.get(token.tags.get("verb", ""))
         if deed is not None and token.forms & {"s", "ed"} and deed not in deeds:
             return token

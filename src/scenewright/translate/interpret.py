@@ -137,9 +137,13 @@ class Interpreter(MomentReader):
             event.actor == HERO_ID
             and event.verb in (*SPEEDING, *GOALS)
             and self.facts.phases
-            and not (event.explicit or event.resumed)
+            and (not (event.explicit or event.resumed) or self._waits_before(event))
         ):
             self._action(event)  # "stops before accelerating"
+            return
+        slows = bool(self.facts.phases) and self.facts.phases[-1].kind == "dec" and not self.facts.phases[-1].to_stop
+        if event.actor == HERO_ID and event.verb == "stop" and slows:
+            self._action(event)  # "slows down before it stops 5 m before the conflict point"
             return
         if self._slow_by_then(event):
             return
@@ -159,6 +163,12 @@ class Interpreter(MomentReader):
             return
         self._check_order_phase(event)
         self._set_order(Order(True, self._ego_landmark(event), event))
+
+    def _waits_before(self, event: Event) -> bool:
+        """Whether "it waits for 2 s before it accelerates" tells in order what the hero does."""
+        waits = self.sentence[0]
+        waited = waits.verb == "wait" and waits.mode == "main" and waits.duration is not None
+        return waited and waits.actor == HERO_ID and self.sentence[1] is event and self.facts.phases[-1].kind == "dec"
 
     def _until(self, event: Event) -> None:
         if self._slow_until(event):

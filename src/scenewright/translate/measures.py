@@ -42,7 +42,7 @@ class MeasureReader(VerbReader):
         at, link = self.at, None
         if self.phrases.tag(at, "preposition") in ("at", "with") or self.phrases.tokens[at].text.lower() == "with":
             late = self.current is not None and not self.links
-            if late and not self._gap_after_deed(at + 1):
+            if (late and not self._gap_after_deed(at + 1)) or self._first_distance():
                 return False
             at, link = at + 1, "when"
         again = "and" in self.links and set(self.links) <= {"and", "comma"} and self.measured_last == len(self.events)

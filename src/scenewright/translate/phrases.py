@@ -146,8 +146,8 @@ class Phrases(NounPhrases):
         reaching = has_amount and self.verb(at + 1, "reach") is not None
         if reaching and (self.tag(at, "link") == "to" or self.tag(at, "preposition") == "to"):
             return "from", at + 2  # "3 s to reach the stop line"
-        if reaching and self.tag(at, "relation") == "before" and "ing" in self.tokens[at + 1].forms:
-            return "before", at + 2  # "5 m before reaching the conflict point"
+        if reaching and self.tag(at, "relation") in ("before", "from") and "ing" in self.tokens[at + 1].forms:
+            return "before", at + 2  # "5 m before reaching the conflict point", "3 s from reaching it"
         at = self._after_mark(at) if has_amount else at
         relation = self.tag(at, "relation")
         if relation:
@@ -202,6 +202,13 @@ class Phrases(NounPhrases):
             if alone and amount is None and self.subject is not None and self._ends_here(at):  # "is ahead at 8 m/s"
                 return Place(relation, 1 - self.subject, None, self.span(start, at)), at
             return None
+        if (
+            phrase.kind == "pronoun"
+            and relation in ("past", "from", "before")
+            and amount is None
+            and self._finite_after(phrase)
+        ):
+            return None  # "after it has stopped, ...", "till it stops", "slows down before it stops"
         if phrase.kind == "pronoun":
             return self._pronoun_target(start, phrase, relation, amount)
         if amount is None and relation not in ("behind", "ahead"):
@@ -210,6 +217,10 @@ class Phrases(NounPhrases):
         if amount is None and by is not None and by.dimension == "length":  # "is ahead of the ego by 15 m"
             return Place(relation, self.resolve(phrase), by, self.span(start, phrase.end + 2)), phrase.end + 2
         return Place(relation, self.resolve(phrase), amount, self.span(start, phrase.end)), phrase.end
+
+    def _finite_after(self, phrase: NounPhrase) -> bool:
+        token = self.tokens[phrase.end]
+        return bool(token.tags.keys() & {"be", "auxiliary"} or token.forms & {"s"})
 
     def _ends_here(self, at: int) -> bool:
         tags = self.tokens[at].tags.keys()
@@ -228,6 +239,10 @@ class Phrases(NounPhrases):
             self.assume(f"'{words}' is measured from the {self.last_landmark.replace('_', ' ')}")
             return Place(relation, self.last_landmark, amount, span), phrase.end
         if relation in ("behind", "ahead") and self.subject is not None and (amount is None or not self.last_landmark):
+            return Place(relation, 1 - self.subject, amount, span), phrase.end
+        only = self.last_landmark is None and self.last_area != "driveway"  # no place was named that "it" could be
+        if relation == "from" and only and self.subject is not None and amount is not None:
+            self.assume(f"'{words}' is measured from the other vehicle")
             return Place(relation, 1 - self.subject, amount, span), phrase.end
         raise self.refuse("it is not clear what this refers to", phrase.span, fix="name the vehicle or the place")
 
@@ -307,6 +322,8 @@ class Phrases(NounPhrases):
         road = self.skip_determiner(end + 1)
         if kind == "lane" and self.tag(end, "preposition") in ("of", "on") and self.tag(road, "area") == "road":
             end = road + 1  # "the westbound lane of the road"
+        if kind == "lane" and whose is None and (used := self._used_lane(end)):
+            whose, end = used
         wanted_by = None
         if kind == "lane" and (wanted := self._wanted_lane(end)):
             wanted_by, end = wanted
@@ -325,6 +342,19 @@ class Phrases(NounPhrases):
         """Whether "straight" only describes a road: "on a straight road"."""
         return self.tag(at, "direction") == "straight" and self.tag(at + 1, "area") is not None
 
+    def _used_lane(self, at: int) -> tuple[int, int] | None:
+        """Read "that the ego is using" and "which the ego drives in"; return who does and the position after it."""
+        phrase = self.noun_phrase(at + 1) if self.tag(at, "link") == "that" else None
+        if phrase is None or phrase.kind == "pronoun":
+            return None
+        at = phrase.end + (self.tag(phrase.end, "be") is not None)
+        words, into = self.tokens[at].text.lower().split(), self.tag(at + 1, "preposition") in ("in", "on")
+        if self.verb(at, "drive") is None or not (into or words[0].startswith(("us", "occup"))):
+            return None
+        end = at + 1 + into
+        closed = self.tokens[end].tags.keys() & {"end", "comma"} or self.tag(end, "link") == "and"
+        return (self.resolve(phrase), end) if closed else None
+
     def _wanted_lane(self, at: int) -> tuple[int, int] | None:
         """Read "that the ego wants to turn into"; return who wants it and the position after it."""
         phrase = self.noun_phrase(at + 1)
@@ -338,7 +368,8 @@ class Phrases(NounPhrases):
     def heading(self, at: int) -> tuple[str, int, bool] | None:
         """Read a heading: ``travelling westbound``, ``in the westbound direction``; True last for "from the east"."""
         start = at
-        if (self.verb(at, "drive", "go") and "ing" in self.tokens[at].forms) or self.tag(at, "bound_word"):
+        headed = self.tokens[at].text.lower() == "headed"
+        if (self.verb(at, "drive", "go") and "ing" in self.tokens[at].forms) or self.tag(at, "bound_word") or headed:
             at += 1
         came_from = self.tag(at, "preposition") == "out" and self.tokens[at].text.lower() == "from"
         if came_from or self.tag(at, "preposition") in ("to", "in", "on"):

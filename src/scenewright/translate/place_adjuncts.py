@@ -12,6 +12,8 @@ from scenewright.translate.reader import TURNS
 from scenewright.translate.sides import SideReader
 from scenewright.translate.tokens import Quantity
 
+_DOES = ("brake", "stop", "accelerate", "yield", "go", "wait", "pass", "reach", "complete", "react")
+
 
 @dataclass(slots=True)
 class PlaceAdjunctReader(SideReader):
@@ -129,6 +131,30 @@ class PlaceAdjunctReader(SideReader):
             return False
         self.links.pop()
         self.at = end + 1
+        return True
+
+    def _first_distance(self) -> bool:
+        """Whether ", at a distance of 30 m from it" tells of the start: nothing acts in its sentence."""
+        told = ("be", "sit", "drive", "lane_follow", "approach")
+        if self.current is None or self.current.verb not in told or self.links != ["comma"] or self.subject_span:
+            return False
+        found = self.phrases.place(self.at) if self._tag("preposition") == "at" else None
+        if found is None or not isinstance(found[0].target, str) or not self._only_tells(found[1]):
+            return False
+        closes = self.phrases.tokens[found[1]].tags.keys() & {"end", "comma", "link"}
+        here = [event for event in self.events if event.sentence == self.sentence]
+        return bool(closes) and all(event.verb in (*told, "turn") and "when" not in event.links for event in here)
+
+    def _only_tells(self, at: int) -> bool:
+        """Whether the rest of the sentence has no action and no moment: "... and will turn left onto the road"."""
+        while self.phrases.tag(at, "end") is None:
+            area = self.phrases.area(at + 1) or self.phrases.area_noun(at + 1, "on")
+            goes_on = self.phrases.verb(at, "go") is not None and area is not None  # "continues on the road"
+            goes_on = goes_on or "ing" in self.phrases.tokens[at].forms  # "the road going east"
+            timed = self.phrases.tag(at, "link") in ("when", "then", "until", "before", "after")
+            if timed or (self.phrases.verb(at, *_DOES) and not goes_on):
+                return False
+            at += 1
         return True
 
     def _starts_with(self, at: int) -> bool:

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from scenewright.errors import Span
+from scenewright.translate.regrouping import regrouped
 from scenewright.translate.tokens import Token
 
 _SOMEBODY = ("somebody", "someone", "a person", "one person", "some person", "some driver")
@@ -28,6 +29,7 @@ _NOBODY_WORDS = frozenset(
 
 def reworded(tokens: list[Token]) -> list[Token]:
     """Return the tokens with the classes that their neighbours show."""
+    tokens = regrouped(tokens)
     tokens = _having_started(_gone_over(_neither_nor(_its_own(tokens))))
     return _neither(
         _relative(

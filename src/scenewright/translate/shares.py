@@ -121,6 +121,8 @@ class ShareReader(MeasureReader):
                 at = self._next_share(at)
         if shares[0].actor == shares[1].actor or shares[0].amount.dimension != shares[1].amount.dimension:
             return None
+        if (told := self._tails(at, shares)) is not None:
+            return told
         tail = self._tail(at)
         first = shares[0].aim if all(share.dealt for share in shares) else None
         shared = head or tail or shares[1].aim or first
@@ -278,6 +280,27 @@ class ShareReader(MeasureReader):
         name = "turn_start" if found[0] == "mouth" else found[0]
         kept = cast(Relation, relation) if relation in _KEPT else "from"
         return Aim(name, kept, found[1], found[2])
+
+    def _tails(self, at: int, shares: list[Share]) -> tuple[list[Share], int] | None:
+        """Read ", measured to the stop line for the ego and to the conflict point for the van"."""
+        if any(share.aim is not None for share in shares):
+            return None
+        at += self.phrases.tag(at, "comma") is not None
+        while self.phrases.tag(at, "measured_word"):
+            at += 1
+        aims: dict[int, Aim] = {}
+        for _ in shares:
+            aim = self._aim(at)
+            named = (
+                self._share_actor(aim.end + 1) if aim and self.phrases.tag(aim.end, "preposition") == "for" else None
+            )
+            if aim is None or named is None or aim.of_whom is not None:
+                return None
+            aims[named[0]] = aim
+            end, at = named[1], self._next_share(named[1])
+        if len(aims) != len(shares):
+            return None
+        return [replace(share, aim=aims[share.actor]) for share in shares], end
 
     def _tail(self, at: int) -> Aim | None:
         """Read ", each measured to the conflict point"."""

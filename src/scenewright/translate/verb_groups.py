@@ -31,6 +31,14 @@ class VerbGroupReader(AdjunctReader):
             self.flags.add("modal")  # "has to turn left"
             self.at += 1
             return True
+        if (after := self._goes_on_to(verb, token)) is not None:
+            self.flags.add("modal")  # "proceeds to brake", "will continue following its lane"
+            self.at = after
+            return True
+        if to_verb and "be" in self.flags and token.text.lower() == "going":
+            self.flags.add("wanted")  # "is also going to turn left"
+            self.at += 2
+            return True
         reacts = verb == "react" and self._tag("link", 1) == "by" and "ing" in self.phrases.tokens[self.at + 2].forms
         if reacts or (verb == "react" and "ing" in following.forms):
             self.flags.add("modal")  # "reacts by braking", "ends up standing"
@@ -99,6 +107,23 @@ class VerbGroupReader(AdjunctReader):
             self.at += 1
             return True
         return False
+
+    def _goes_on_as_wanted(self, verb: str, token: Token) -> bool:
+        """Whether "travel" goes on with what is wanted: "a car that is to turn left onto the road and travel east"."""
+        turn = self.current is not None and self.current.verb in ("turn", "pull_out")
+        turn = turn and self.current is not None and (self.current.wanted or "modal" in self.current.notes)
+        plain = verb == "drive" and self.links == ["and"] and self.subject_span is None and not self.flags
+        return turn and plain and "base" in token.forms and "s" not in token.forms
+
+    def _goes_on_to(self, verb: str, token: Token) -> int | None:
+        """Return the position of the verb that "proceeds to" and "continues" only lead over to; None where none is."""
+        if verb != "go" or not token.text.lower().startswith(("proceed", "go on", "goes on", "continu")):
+            return None
+        at = self.at + 1
+        if "ing" in self.phrases.tokens[at].forms:
+            return at if self.phrases.verb(at, "lane_follow") else None
+        led = self.phrases.verb(at + 1, "brake", "stop", "accelerate", "turn", "lane_follow")
+        return at + 1 if self.phrases.tag(at, "link") == "to" and led else None
 
     def _state_follows(self, at: int) -> bool:
         """Whether a first place or speed follows: "a van, left turn, starts 80 m before the intersection"."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from scenewright.translate.commentary import tells_way
 from scenewright.translate.deeds import DeedReader
 from scenewright.translate.events import HERO_ID, Area, Event, Place
 from scenewright.translate.reader import MOVES
@@ -42,6 +43,10 @@ class VerbReader(DeedReader):
             self.flags.add("wanted")
             self.links += ["and"] if self.current is not None and not self.links else []
             self.at += 1 + (self._tag("link", 1) == "to")
+            return True
+        if "expected" in token.tags and tells_way(self.phrases.tokens[self.at : self.at + 6]):
+            self.flags.add("wanted")  # "is expected to turn left"
+            self.at += 1
             return True
         ready = "ready" in token.tags and self._tag("link", 1) == "to" and self.phrases.verb(self.at + 2) is not None
         if ready and (self.current is not None or self.subject_span is not None):
@@ -158,6 +163,8 @@ class VerbReader(DeedReader):
             verb = "drive"  # "passes along the road"
         passive = "be" in self.flags and "ed" in token.forms
         by = self._tag("link", 1) == "by" or self._tag("preposition", 1) == "by"
+        if verb == "yield" and passive and by and self._given_way(start):
+            return True
         if verb in ("follow", "lead") and "ed" in token.forms and by and self.current is not None and not self.flags:
             self.links = [link for link in self.links if link != "comma"]
             return self._led(verb, start)  # "is westbound, followed by the ego"
@@ -215,7 +222,7 @@ class VerbReader(DeedReader):
             return False
         if verb == "follow" and (behind := self.phrases.place(end)) is not None and behind[0].relation == "behind":
             verb = "drive"  # "follows behind the ego", "trails 20 m behind it"
-        if verb == "follow" and self.subject is not None and self._ends_clause(end):
+        if verb == "follow" and self.subject is not None and (self._ends_clause(end) or self._held_at(end)):
             event = self._open("drive", start)
             event.places.append(Place("behind", 1 - self.subject, None, self.phrases.tokens[start].span))
             self.at = end
@@ -230,8 +237,10 @@ class VerbReader(DeedReader):
             return False
         if self.passive_object is not None and (verb not in MOVES or self.passive_object == "its turn"):
             return False
+        infinitive = self._goes_on_as_wanted(verb, token)
         event = self._open(verb, start)
         event.gerund = "ing" in token.forms
+        event.wanted |= infinitive
         if event.landmark is None and verb in MOVES:
             end = self._object_place(event, end)
         if verb == "stop":
@@ -239,6 +248,24 @@ class VerbReader(DeedReader):
         self.at = end
         self._grow()
         return True
+
+    def _held_at(self, at: int) -> bool:
+        """Whether "at a headway of 2 s" stands after "follows": there is only one vehicle to follow."""
+        held = self.phrases.tag(at, "preposition") in ("at", "with") or self.phrases.tokens[at].text.lower() == "with"
+        measured = self.phrases.measured(at + 1) if held else None
+        kept = measured is not None and measured[0] in ("headway", "length")
+        return kept and measured is not None and self.phrases.tag(measured[2], "relation") is None
+
+    def _given_way(self, start: int) -> bool:
+        """Read "is not given priority by a car": the car does (not) yield to the vehicle of the clause."""
+        phrase = self.phrases.noun_phrase(start + 2)
+        if phrase is None or phrase.kind == "pronoun" or self.subject is None or self.subject == HERO_ID:
+            return False
+        whom = self.subject
+        self._set_subject(self.phrases.resolve(phrase), phrase.span)
+        event = self._open("yield", start)
+        event.to_actor, self.at = whom, phrase.end
+        return event.actor != whom
 
     def _after_a_relative_clause(self, token: Token) -> bool:
         """Whether a finite verb goes on with its subject: "a van that is to turn right drives west"."""
