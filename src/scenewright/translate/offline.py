@@ -23,6 +23,7 @@ from scenewright.translate.commentary import denied, without_commentary
 from scenewright.translate.confidence import basis_of
 from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, Event
 from scenewright.translate.facts import Facts
+from scenewright.translate.fronting import unfronted
 from scenewright.translate.geometry import is_remark
 from scenewright.translate.headlines import untold
 from scenewright.translate.interpret import Interpreter
@@ -106,7 +107,7 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     >>> [actor.route.headings for actor in translate_offline(text).program.actors]
     [('S', 'W'), ('W',)]
     """
-    tokens, comments = without_commentary(reworded(tokenise(text, name)))
+    tokens, comments = without_commentary(unfronted(reworded(tokenise(text, name))))
     tokens, titles = lay_out(tokens)
     refuse_unknown(tokens, text, name)
     referents = Referents(text, name)
