@@ -39,7 +39,7 @@ class FrameReader(PairReader):
         if kind in ("build", "let") and (after := self._frame_noun(self.at + 1)):
             self.at = after
             return True
-        told = kind == "wish" or (kind == "let" and "and" not in self.links)
+        told = kind == "wish" or (kind == "let" and not {"and", "as_if"} & set(self.links))
         phrase = self.phrases.noun_phrase(self.at + 1) if told else None
         named = phrase is not None and (phrase.kind != "pronoun" or self._told_to(phrase))
         if told and phrase is not None and named:
@@ -295,7 +295,8 @@ class FrameReader(PairReader):
         other = self.phrases.noun_phrase(self.at + 1)
         if other is None or (other.kind == "pronoun" and self.phrases.subject is None):
             return False
-        lane = self.phrases.area(other.end)  # "ahead of it in the same lane", "ahead of it on the driveway"
+        begin = other.end + (self.phrases.tag(other.end, "comma") is not None)
+        lane = self.phrases.area(begin)  # "ahead of it in the same lane", "ahead of it, on the driveway,"
         if lane is not None and (lane[0].role != "on" or lane[0].heading is not None):
             lane = None
         end = lane[1] if lane is not None else other.end

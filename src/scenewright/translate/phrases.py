@@ -227,6 +227,9 @@ class Phrases(NounPhrases):
         if relation in ("before", "from") and self.last_landmark and amount is not None:
             self.assume(f"'{words}' is measured from the {self.last_landmark.replace('_', ' ')}")
             return Place(relation, self.last_landmark, amount, span), phrase.end
+        spoken_of = self.subject is not None and self.leader == 1 - self.subject and not self.last_landmark
+        if relation == "from" and amount is not None and spoken_of and self.subject is not None:
+            return Place("from", 1 - self.subject, amount, span), phrase.end  # "... as soon as the ego is 10 m from it"
         if relation in ("behind", "ahead") and self.subject is not None and (amount is None or not self.last_landmark):
             return Place(relation, 1 - self.subject, amount, span), phrase.end
         raise self.refuse("it is not clear what this refers to", phrase.span, fix="name the vehicle or the place")

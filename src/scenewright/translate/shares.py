@@ -125,7 +125,8 @@ class ShareReader(MeasureReader):
         first = shares[0].aim if all(share.dealt for share in shares) else None
         shared = head or tail or shares[1].aim or first
         own = shares[0].aim is not None and shares[1].aim is not None
-        if shared is None or (not own and (shared.target == "stop_line" or shared.of_whom is not None)):
+        apart = shared is not None and (shared.target == "stop_line" or shared.of_whom is not None)
+        if shared is None or (not own and apart and not self._both_in_driveway()):
             return None  # each vehicle has a stop line of its own, or none
         if not (head or order or any(share.dealt for share in shares)) and (own or not plain):
             return None  # "the ego is 12 m from the stop line and ...": read clause by clause
@@ -188,6 +189,7 @@ class ShareReader(MeasureReader):
             return None
         actor, at = named
         at += self.phrases.tag(at, "comma") is not None and self.phrases.tokens[at].text != "("
+        at += self.phrases.tag(at, "measure") in ("length", "time") and self.phrases.tokens[at + 1].quantity is not None
         at += bool(self.phrases.tokens[at].tags.keys() & {"be"}) or self.phrases.tag(at, "auxiliary") == "have"
         at += self.phrases.tag(at, "preposition") == "at"
         amount = self._share_amount(at)

@@ -46,6 +46,7 @@ _LABELLED_LINE = re.compile(r"\n(?=[ \t]*[A-Za-z][A-Za-z ]{0,30}:)")
 _GOES_ON = re.compile(
     r"(?:[,:(]|\b(?:the|a|an|of|to|and|or|is|its|from|with|when|before|behind|at|on))$", re.IGNORECASE
 )
+_HAS_OR_IS = frozenset(["to", "held", "found", "tested", "evaluated", "forced", "expected", "placed", "being"])
 _UNIT_END = r"(?![A-Za-z0-9²^/*])"
 
 
@@ -109,7 +110,7 @@ def tokenise(text: str, name: str) -> list[Token]:
             fix='for example: "Ego is on the driveway exit and wants to turn right. ..."',
         )
     tagger = _Tagger(text, name, load_lexicon())
-    tagger.raw = [_corrected(raw, tagger.lexicon) for raw in _cut(text)]
+    tagger.raw = _spelled_out([_corrected(raw, tagger.lexicon) for raw in _cut(text)], tagger.lexicon)
     tokens: list[Token] = []
     index = 0
     while index < len(tagger.raw):
@@ -157,6 +158,23 @@ def _corrected(raw: _Raw, lexicon: Lexicon) -> _Raw:
         return raw
     better = correction(word, lexicon.words)
     return _Raw(raw.kind, better, raw.span, raw.text) if better else raw
+
+
+def _spelled_out(raws: list[_Raw], lexicon: Lexicon) -> list[_Raw]:
+    """Let "it's about to" be "it is about to", where a known phrase begins with "is", and "let's" be one word."""
+    read: list[_Raw] = []
+    for index, raw in enumerate(raws):
+        before = read[-1] if read and read[-1].kind == "word" else None
+        following = [each.text.lower() for each in raws[index + 1 : index + 6] if each.kind == "word"]
+        if raw.kind != "genitive" or before is None or not following:
+            read.append(raw)
+        elif before.text.lower() == "let":
+            read[-1] = _Raw("word", f"{before.text}'s", before.span.union(raw.span))
+        elif following[0] not in _HAS_OR_IS and lexicon.lookup(["is", *following], 0)[0] > 1:
+            read.append(_Raw("word", "is", raw.span))
+        else:
+            read.append(raw)
+    return read
 
 
 def _next(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
