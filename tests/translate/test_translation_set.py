@@ -66,3 +66,11 @@ def test_actions_in_other_words_are_read_right() -> None:
     outcomes = {row["id"]: (outcome(row), "refused" if "refuse" in row else "right") for row in texts}
     assert {identifier: each for identifier, each in outcomes.items() if each[0] != each[1]} == {}
     assert len(outcomes) == len(texts)
+
+
+@pytest.mark.parametrize("name", sorted(each.name for each in FOLDER.iterdir() if each.name.startswith("widened_")))
+def test_constructions_and_what_is_close_to_them(name: str) -> None:
+    texts = rows(name)
+    outcomes = {row["id"]: (outcome(row), "refused" if "refuse" in row else "right") for row in texts}
+    assert {identifier: each for identifier, each in outcomes.items() if each[0] != each[1]} == {}
+    assert len(outcomes) == len(texts)

@@ -296,12 +296,18 @@ class FrameReader(PairReader):
         if other is None or (other.kind == "pronoun" and self.phrases.subject is None):
             return False
         begin = other.end + (self.phrases.tag(other.end, "comma") is not None)
+        spoken_of = self.phrases.subject
+        if other.kind in ("ego", "hero"):
+            self.phrases.subject = self.phrases.resolve(other)  # "ahead of the ego, in its lane, ..."
         lane = self.phrases.area(begin)  # "ahead of it in the same lane", "ahead of it, on the driveway,"
+        self.phrases.subject = spoken_of
         if lane is not None and (lane[0].role != "on" or lane[0].heading is not None):
             lane = None
         end = lane[1] if lane is not None else other.end
         after = end + (self.phrases.tag(end, "comma") is not None)
         inverted = self.phrases.verb(after, "come", "drive") is not None or self.phrases.tag(after, "be") is not None
+        if self.phrases.tag(after, "link") == "there" and (be := self._there_is(after)) is not None:
+            after, inverted = be - 1, True  # "In front of the ego, there is a van"
         phrase = self.phrases.noun_phrase(after + inverted)
         if phrase is None or phrase.kind == "pronoun" or self.phrases.tag(phrase.end, "genitive") is not None:
             return False

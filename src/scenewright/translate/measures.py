@@ -295,7 +295,9 @@ class MeasureReader(VerbReader):
         if preposition in ("of", "out", "for") and measured.actor is None and self._whose(measured, at + 1):
             return True
         aims = (
-            preposition in ("to", "at", "out", "with") or relation is not None or self.phrases.tag(at, "link") == "to"
+            preposition in ("to", "at", "out", "with")
+            or relation is not None
+            or self.phrases.tag(at, "link") in ("to", "until")
         )
         return aims and measured.target is None and self._to_what(measured, at, relation)
 

@@ -184,19 +184,31 @@ def _value(text: str) -> Fraction | None:
 
 
 def _respectively(tokens: list[Token]) -> list[Token]:
-    """Let "are 30 m and 26 m respectively from the conflict point" be "... from the conflict point respectively"."""
+    """Let "are 30 m and 26 m, respectively, from the conflict point" be "... from the conflict point respectively"."""
     read = list(tokens)
     for at, token in enumerate(tokens[:-1]):
-        between = at > 2 and tokens[at - 1].quantity is not None and tokens[at - 2].tags.get("link") == "and"
-        if "respectively" not in token.tags or not between or "relation" not in tokens[at + 1].tags:
+        if "respectively" not in token.tags:
             continue
-        end = at + 1
+        start, after = _parted(tokens, at)
+        amounts = after if tokens[after].quantity is not None else start - 3
+        dealt = amounts >= 0 and tokens[amounts].quantity is not None and tokens[amounts + 2].quantity is not None
+        place = amounts + 3 if amounts == after else after
+        if not dealt or tokens[amounts + 1].tags.get("link") != "and" or "relation" not in tokens[place].tags:
+            continue
+        end = place
         while not tokens[end].tags.keys() & {"comma", "end", "colon"}:
             end += 1
-        if any(each.quantity is not None or "verb" in each.tags for each in tokens[at + 1 : end]):
+        if any(each.quantity is not None or "verb" in each.tags for each in tokens[place:end]):
             continue
-        read[at:end] = [*tokens[at + 1 : end], token]
+        read[start:end] = [*tokens[after:end], token]
+        return [*read[: start + end - after + 1], *_respectively(tokens[end:])]
     return read
+
+
+def _parted(tokens: list[Token], at: int) -> tuple[int, int]:
+    """Return the stretch of "respectively" with the commas around it."""
+    between = "comma" in tokens[at - 1].tags and "comma" in tokens[at + 1].tags
+    return (at - 1, at + 2) if at and between else (at, at + 1)
 
 
 def _turn_completed(tokens: list[Token]) -> list[Token]:

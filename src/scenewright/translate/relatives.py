@@ -15,12 +15,13 @@ from scenewright.translate.tokens import Token
 _NAMES = frozenset(("ego", "hero", "noun"))
 _NAMED = frozenset(("ego", "hero", "noun", "determiner", "actor_adjective", "heading"))
 _SPEEDS = ("initial speeds", "starting speeds", "start speeds", "the initial speeds", "the starting speeds", "speeds")
-_PLACED = ("relation", "preposition")
+_BEGUN = ("initial", "start")
+_TO = ("to", "from")
 
 
 def related(tokens: list[Token]) -> list[Token]:
     """Return the tokens with what is told beside a vehicle in clauses."""
-    return _speeds(_speed_too(_whose(_which_starts(_with_starting(tokens)))))
+    return _speeds(_speed_too(_whose_place(_whose(_which_starts(_with_starting(tokens))))))
 
 
 def _which_starts(tokens: list[Token]) -> list[Token]:
@@ -59,6 +60,47 @@ def _whose(tokens: list[Token]) -> list[Token]:
         read += [*tokens[at + 1 : measure + 1], Token("of", tokens[measure + 1].span, {"preposition": "of"})]
         at = measure + 2
     return read
+
+
+def _whose_place(tokens: list[Token]) -> list[Token]:
+    """Let "whose initial distance to the intersection is 80 m" be "which is initially 80 m from the intersection"."""
+    read: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        end = _place_of_whose(tokens, at) if tokens[at].text.lower() == "whose" else None
+        if end is None:
+            read.append(tokens[at])
+            at += 1
+            continue
+        stretch = tokens[at:end]
+        be = next(each for each in stretch if "be" in each.tags)
+        to = next(index for index, each in enumerate(stretch) if each.text.lower() in _TO)
+        place = stretch[to + 1 : stretch.index(be)]
+        begun = "starting" in stretch[1].tags or stretch[1].text.lower().startswith(("initial ", "start"))
+        read.append(Token("which", stretch[0].span, {"link": "that"}))
+        read.append(be)
+        initially = Token("initially", stretch[1].span, {"adverb": "initially"})
+        read += [initially] if begun else [each for each in stretch if each.tags.get("adverb") == "initially"]
+        read.append(stretch[-1])
+        read.append(Token("from", stretch[to].span, {"relation": "from", "preposition": "out"}))
+        read += place
+        at = end
+    return read
+
+
+def _place_of_whose(tokens: list[Token], at: int) -> int | None:
+    """Return the position after "whose initial distance to the intersection is 80 m", or None."""
+    if not _names_before(tokens, at):
+        return None
+    at += 1 + ("starting" in tokens[at + 1].tags)
+    if tokens[at].tags.get("measure") not in ("length", "time") or tokens[at + 1].text.lower() not in _TO:
+        return None
+    at += 2 + bool(tokens[at + 2].tags.keys() & {"determiner", "possessive"})
+    if "landmark" not in tokens[at].tags or "be" not in tokens[at + 1].tags:
+        return None
+    at += 2 + (tokens[at + 2].tags.get("adverb") == "initially")
+    amount = tokens[at].quantity
+    return at + 1 if amount is not None and amount.dimension in ("length", "time") else None
 
 
 def _names_before(tokens: list[Token], at: int) -> bool:
@@ -123,31 +165,71 @@ def _dealt_speeds(tokens: list[Token], at: int) -> tuple[list[Token], int] | Non
     """Read "Initial speeds are A for X and B for Y": the sentences, and the position after it."""
     start = at
     at += "determiner" in tokens[at].tags
-    at += "starting" in tokens[at].tags
-    if tokens[at].text.lower() not in _SPEEDS or not tokens[at + 1].tags.keys() & {"be", "colon"}:
+    begun = "starting" in tokens[at].tags
+    at += begun
+    said = tokens[at].text.lower()
+    if said not in _SPEEDS and not (tokens[at].tags.get("measure") == "speed" and (begun or said.startswith(_BEGUN))):
         return None
-    at += 2
-    shares: list[tuple[Token, list[Token]]] = []
-    while len(shares) < 2:
-        amount, name = tokens[at], at + 2
-        if amount.quantity is None or amount.quantity.dimension != "speed":
-            return None
-        if tokens[at + 1].text.lower() not in ("for", "of"):
-            return None
-        end = name
-        while tokens[end].tags.keys() & _NAMED:
-            end += 1
-        if not any(each.tags.keys() & _NAMES for each in tokens[name:end]):
-            return None
-        shares.append((amount, tokens[name:end]))
-        at = end + (len(shares) < 2 and ("comma" in tokens[end].tags or tokens[end].tags.get("link") == "and"))
-    if "end" not in tokens[at].tags:
+    found = _names_then_speeds(tokens, at + 1) or _speeds_for_names(tokens, at + 1)
+    if found is None or "end" not in tokens[found[1]].tags:
         return None
+    shares, at = found
     front = Span(tokens[start].span.start, tokens[start].span.start)
     told: list[Token] = []
     for amount, named in shares:
+        told += [Token(".", front, {"end": "."})] if told else []
         told += [Token("initially", front, {"adverb": "initially"}), Token(",", front, {"comma": ","}), *named]
         told += [Token("drives", front, {"verb": "drive"}, frozenset(("s",)))]
         told += [Token("at", amount.span, {"preposition": "at"}), amount]
-        told += [Token(".", Span(amount.span.end, amount.span.end), {"end": "."})] if len(told) < 10 else []
-    return told[:-1] if "end" in told[-1].tags else told, at
+    return told, at
+
+
+def _speeds_for_names(tokens: list[Token], at: int) -> tuple[list[tuple[Token, list[Token]]], int] | None:
+    """Read "are 50 km/h for the ego and 40 km/h for the hero"."""
+    if not tokens[at].tags.keys() & {"be", "colon"}:
+        return None
+    at += 1
+    shares: list[tuple[Token, list[Token]]] = []
+    while len(shares) < 2:
+        amount = tokens[at]
+        if not _is_speed(amount) or tokens[at + 1].text.lower() not in ("for", "of"):
+            return None
+        end = _name_end(tokens, at + 2)
+        if end is None:
+            return None
+        shares.append((amount, tokens[at + 2 : end]))
+        at = end + (len(shares) < 2 and _is_joint(tokens[end]))
+    return shares, at
+
+
+def _names_then_speeds(tokens: list[Token], at: int) -> tuple[list[tuple[Token, list[Token]]], int] | None:
+    """Read "of the ego and the hero are 50 km/h and 40 km/h"."""
+    if tokens[at].text.lower() not in ("of", "for"):
+        return None
+    first = _name_end(tokens, at + 1)
+    second = _name_end(tokens, first + 1) if first is not None and _is_joint(tokens[first]) else None
+    if first is None or second is None or "be" not in tokens[second].tags or len(tokens) < second + 5:
+        return None
+    one, joint, two = tokens[second + 1 : second + 4]
+    if not (_is_speed(one) and _is_joint(joint) and _is_speed(two)):
+        return None
+    end = second + 4
+    end += "comma" in tokens[end].tags and "respectively" in tokens[end + 1].tags
+    end += "respectively" in tokens[end].tags
+    return [(one, tokens[at + 1 : first]), (two, tokens[first + 1 : second])], end
+
+
+def _is_speed(token: Token) -> bool:
+    return token.quantity is not None and token.quantity.dimension == "speed"
+
+
+def _is_joint(token: Token) -> bool:
+    return "comma" in token.tags or token.tags.get("link") == "and"
+
+
+def _name_end(tokens: list[Token], at: int) -> int | None:
+    """Return the position after "the hero", "a red van"; None where no vehicle is named."""
+    end = at
+    while tokens[end].tags.keys() & _NAMED:
+        end += 1
+    return end if any(each.tags.keys() & _NAMES for each in tokens[at:end]) else None

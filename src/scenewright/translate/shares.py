@@ -46,6 +46,8 @@ class ShareReader(MeasureReader):
         """Read "at 2 s for the ego and 2.8 s for the hero, both with respect to the conflict point"."""
         at, told = self.at, "when" in self.links or self.label == "when"
         deals = self.phrases.tag(at, "preposition") in ("at", "with") or self.phrases.tokens[at].text.lower() == "with"
+        begun = at + (self.phrases.tag(at, "determiner") is not None)
+        at = begun if self.phrases.tag(begun, "starting") is not None else at  # "The initial distances ... are"
         starts = "initial" in self.flags or self.phrases.tag(at, "starting") is not None
         if not (told or deals or starts) or self.subject_span is not None:
             return False

@@ -55,6 +55,8 @@ def _that_is_when(tokens: list[Token]) -> list[Token]:
             read.append(tokens[at])
             at += 1
             continue
+        if read[-1].tags.get("link") == "and":
+            read.pop()
         if read[-1].tags.keys() & {"end", "colon"}:
             read[-1] = replace(read[-1], tags={"comma": ","})
         if "frame" in read[start].tags:  # "Say the ego is 4 s from it: that's when ..."
@@ -69,12 +71,13 @@ def _moment_before(tokens: list[Token], at: int, read: list[Token]) -> int | Non
     """Return where the sentence begins that "that's when" points back to: one that tells amounts and no deed."""
     told = at + 2 < len(tokens) and bool(tokens[at + 1].tags.keys() & {"be", "genitive"})
     told = told and tokens[at + 2].tags.get("link") == "when"
-    if not told or not read or not read[-1].tags.keys() & {"end", "colon", "comma"}:
+    joined = bool(read) and read[-1].tags.get("link") == "and"
+    if not told or not read or not (joined or read[-1].tags.keys() & {"end", "colon", "comma"}):
         return None
-    start = len(read) - 1
+    start = len(read) - 1 - joined
     while start > 0 and "end" not in read[start - 1].tags:
         start -= 1
-    before = read[start:-1]
+    before = read[start : len(read) - 1 - joined]
     amounts = [token for token in before if token.quantity is not None]
     linked = any(token.tags.get("link") in ("when", "before", "after", "until", "then") for token in before)
     acts = any(token.tags.get("verb") in _ACTS for token in before) or any("label" in token.tags for token in before)
@@ -88,7 +91,10 @@ def _just_does(tokens: list[Token]) -> list[Token]:
     for at, token in enumerate(tokens[:-1]):
         after = tokens[at + 1]
         verb = "verb" in after.tags and bool(after.forms & {"ing", "s", "base"}) and "event_noun" not in after.tags
+        relation = after.tags.get("relation") in ("ahead", "behind") and begins(tokens, at)
         if token.text.lower() in ("just", "simply", "merely") and verb:
+            continue
+        if token.tags.get("adverb") == "just" and relation:  # "Directly in front of the ego drives a van"
             continue
         read.append(token)
     return [*read, tokens[-1]]
@@ -152,6 +158,8 @@ def _turn_in_front(tokens: list[Token], at: int) -> int | None:
         return None
     end = at + 1 + ("determiner" in tokens[at + 1].tags)
     turn = tokens[end].tags.get("direction") in ("left", "right") and "event_noun" in tokens[end + 1].tags
+    turns = end == at + 1 and tokens[end].tags.get("verb") == "turn" and "ing" in tokens[end].forms
+    turn = turn or (turns and tokens[end + 1].tags.get("direction") in ("left", "right"))  # "By turning left,"
     comma = turn and "comma" in tokens[end + 2].tags and _name_end(tokens, end + 3) is not None
     return end + 2 if comma else None
 
