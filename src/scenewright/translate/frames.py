@@ -147,10 +147,12 @@ class FrameReader(PairReader):
             return False
         after = phrase.end + (self.phrases.tag(phrase.end, "adverb") is not None)
         token = self.phrases.tokens[after]
-        if not (token.tags.keys() & {"be", "auxiliary"} or token.forms & {"s"}):
+        verbless = relation and (bool(token.tags.keys() & {"end", "comma"}) or self.phrases.area(after) is not None)
+        if not (verbless or token.tags.keys() & {"be", "auxiliary"} or token.forms & {"s"}):
             return False
         links, self.links = self.links, []
         if relation and self._fronted_relation():
+            self.subject_span = None if verbless else self.subject_span  # ", and in front of it a van."
             return True
         if not relation and area is not None:
             self.at = at

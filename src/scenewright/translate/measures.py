@@ -279,6 +279,9 @@ class MeasureReader(VerbReader):
                     return False
             elif self._whose_or_what(measured, at):
                 continue
+            elif bare and self.phrases.tag(at, "landmark") and measured.target is None:  # "ego TTA conflict point 4 s"
+                if not self._to_what(measured, at - 1, None):
+                    return False
             elif bare and measured.actor is None and self._whose(measured, at):  # "TTA ego 4 s", "gap ego to hero"
                 to = self.phrases.tag(measured.end, "preposition") == "to" or (
                     self.phrases.tag(measured.end, "link") in ("to", "and")

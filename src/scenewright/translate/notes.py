@@ -22,12 +22,14 @@ _NAMED = frozenset((*_NAMES, "determiner", "actor_adjective", "heading", "geniti
 _ARROWS = ("->", "-->", "=>", "→", "⇒")
 _DEEDS = ("brake", "stop", "yield", "accelerate", "go", "pass", "complete", "keep", "turn", "come")
 _DONE = ("completed", "finished", "done", "complete")
+_TURNS = {"RT": "right", "LT": "left"}
 _AFTER_OUT = ("comma", "end", "colon")
 
 
 def noted(tokens: list[Token]) -> list[Token]:
     """Return the tokens with notes as sentences."""
-    return _turn_completed(_respectively(_same_unit(_arrows(_through(_turned_out(_drives_in(_leads(tokens))))))))
+    tokens = _turned_out(_drives_in(_leads(_stop_noted(_abbreviated(tokens)))))
+    return _turn_completed(_respectively(_same_unit(_arrows(_through(tokens)))))
 
 
 def begins(tokens: list[Token], at: int) -> bool:
@@ -40,6 +42,39 @@ def sentence_end(tokens: list[Token], at: int) -> int:
     while "end" not in tokens[at].tags:
         at += 1
     return at
+
+
+def _abbreviated(tokens: list[Token]) -> list[Token]:
+    """Let "RT" and "LT" in capitals be turns and "@" be "at", as in tickets."""
+    read: list[Token] = []
+    for token in tokens:
+        direction = _TURNS.get(token.text) if "unknown" in token.tags else None
+        if direction is not None:
+            read.append(replace(token, tags={"direction": direction}))
+            read.append(replace(token, tags={"event_noun": "turn", "verb": "turn"}, forms=frozenset(("base",))))
+        elif token.text == "@":
+            read.append(replace(token, text="at", tags={"preposition": "at"}))
+        else:
+            read.append(token)
+    return read
+
+
+def _stop_noted(tokens: list[Token]) -> list[Token]:
+    """Let "Hero: full stop 2 m before it" and "Reaction: full stop" be "stops", and ", no stop" be "does not stop"."""
+    read: list[Token] = []
+    for at, token in enumerate(tokens):
+        noun = "stop_noun" in token.tags and "end" not in token.tags and at > 1
+        headed = noun and "colon" in tokens[at - 1].tags and tokens[at - 1].text == ":"
+        if headed and tokens[at - 2].tags.keys() & {"hero", "noun"}:
+            read.append(replace(token, tags={"verb": "stop"}, forms=frozenset(("s",))))
+        elif headed and tokens[at - 2].tags.get("label") == "main":
+            read.append(replace(token, tags={"verb": "stop"}, forms=frozenset(("base",))))
+        elif noun and tokens[at - 1].text.lower() == "no" and "comma" in tokens[at - 2].tags:
+            read[-1] = replace(tokens[at - 1], tags={"negation": "not"})
+            read.append(replace(token, tags={"verb": "stop"}, forms=frozenset(("s",))))
+        else:
+            read.append(token)
+    return read
 
 
 def _leads(tokens: list[Token]) -> list[Token]:
@@ -154,7 +189,10 @@ def _same_unit(tokens: list[Token]) -> list[Token]:
         if "end" in token.tags:
             last = None
         last = token if token.quantity is not None else last
-        named = at > 0 and bool(tokens[at - 1].tags.keys() & _NAMES)
+        back = at - 1
+        while back > 0 and tokens[back].text.lower() in ("has", "got", "has got"):
+            back -= 1
+        named = back >= 0 and bool(tokens[back].tags.keys() & _NAMES)
         closes = bool(tokens[at + 1].tags.keys() & {"comma", "end", "colon"})
         if "bare_number" not in token.tags or last is None or last.quantity is None or not (named and closes):
             continue

@@ -171,9 +171,16 @@ class Phrases(NounPhrases):
             return "from", at + 1
         if has_amount and preposition == "out" and self.tokens[at].text.lower() == "from":
             return "from", at + 1
+        as_far_as = self.tag(at, "as_far_as") is not None or self.tag(at, "link") == "until"
+        if has_amount and as_far_as and self._names_a_landmark(at + 1):
+            return "from", at + 1  # "has 12 m until the stop line", "has 12 m up to it"
         if not has_amount and preposition in ("at", "on") and not self.tokens[at].text.lower().startswith("along"):
             return "at", at + 1
         return None, at
+
+    def _names_a_landmark(self, at: int) -> bool:
+        at += bool(self.tokens[at].tags.keys() & {"determiner", "possessive"})
+        return self.tag(at, "landmark") is not None
 
     def _after_mark(self, at: int) -> int:
         """Step over "mark" in "the 24 m mark before the conflict point"."""

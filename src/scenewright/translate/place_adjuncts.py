@@ -49,6 +49,9 @@ class PlaceAdjunctReader(SideReader):
         if host is None or host.verb not in ("be", "sit"):
             return False
         host.places.append(replace(shared, amount=amount, span=amount.span))
+        if end > self.at + 1:
+            words = self.phrases.span(self.at, end).excerpt(self.phrases.text)
+            self.phrases.assume(f"'{words}' is measured from the {shared.target.replace('_', ' ')}")
         self.at = end
         self._grow()
         return True
@@ -107,11 +110,12 @@ class PlaceAdjunctReader(SideReader):
         return True
 
     def _closes_at(self, at: int) -> bool:
-        """Whether a note ends at `at`, or goes on with how far from where: "full stop 5 m short of it"."""
+        """Whether a note ends at `at`, or goes on with where: "full stop 5 m short of it", "standstill at the line"."""
         amount = self.phrases.tokens[at].quantity
         placed = (
             amount is not None and amount.dimension == "length" and self.phrases.tag(at + 1, "relation") is not None
         )
+        placed = placed or (self.phrases.tag(at, "preposition") == "at" and self.phrases.place(at) is not None)
         return placed or bool(self.phrases.tokens[at].tags.keys() & {"end", "comma"})
 
     def _place_adjunct(self) -> bool:

@@ -57,7 +57,8 @@ class ShareReader(MeasureReader):
         at += deals
         bracket = self.phrases.tokens[at].text == "("
         kept = self._remembered()
-        found = self._listed(at + bracket, plain=deals or bracket or self.label == "when")
+        noted = deals or bracket or self.label == "when" or self._says_at(at)
+        found = self._listed(at + bracket, plain=noted)
         if found is None or (bracket and self.phrases.tokens[found[1]].text != ")"):
             self._recall(kept)
             return False
@@ -136,6 +137,12 @@ class ShareReader(MeasureReader):
             return None
         ended = tail.end if tail else at
         return [replace(share, aim=share.aim or shared) for share in shares], ended
+
+    def _says_at(self, at: int) -> bool:
+        """Whether a vehicle stands at an amount without a verb: "once ego at 40 m and van at 12 m to it"."""
+        phrase = self.phrases.noun_phrase(at)
+        named = phrase is not None and phrase.kind != "pronoun" and self.phrases.tag(phrase.end, "preposition") == "at"
+        return phrase is not None and named and self.phrases.tokens[phrase.end + 1].quantity is not None
 
     def _share_head(self, at: int) -> tuple[Aim | None, int, list[int]]:
         """Read "their distances to the conflict point are" and "the distances of the ego and the hero to it are"."""
