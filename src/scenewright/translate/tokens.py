@@ -22,6 +22,7 @@ from scenewright.units import UNITS, Dimension, Unit, unit_of_name
 _PARAMETER = r"[A-Za-z][A-Za-z0-9]*(?:\\?_[A-Za-z0-9]+)+"
 _RAW = re.compile(
     rf"""(?P<ie>\b(?:i\.e\.|e\.g\.),?)
+    |(?P<wrt>\b[wW]\.?r\.?t\b\.?)
     |(?P<zero>\b(?:[Aa]t\s+)?[tT]\s*=\s*0(?:\.0)?(?:\s*s(?:ec)?)?(?![\w.]))
     |(?P<braced>\{{\s*{_PARAMETER}\s*\}})
     |(?P<parameter>{_PARAMETER})
@@ -206,6 +207,9 @@ def _next(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
         return index + 1
     if raw.kind == "both":
         tokens.append(Token("and", raw.span, {"link": "and"}))
+        return index + 1
+    if raw.kind == "wrt":
+        tokens.append(Token(raw.text, raw.span, {"preposition": "to"}))
         return index + 1
     if raw.kind == "ie":
         tokens.append(Token(raw.text, raw.span, {"comma": ","}))
