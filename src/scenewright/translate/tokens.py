@@ -14,6 +14,7 @@ from fractions import Fraction
 
 from scenewright.errors import Place, Span, TranslationError
 from scenewright.program.expressions import Number, ParameterRef
+from scenewright.translate.contractions import short_verb
 from scenewright.translate.lexicon import Lexicon, load_lexicon
 from scenewright.translate.numerals import number_in_words, tail
 from scenewright.translate.spelling import correction, suggestions
@@ -47,10 +48,6 @@ _LABELLED_LINE = re.compile(r"\n(?=[ \t]*[A-Za-z][A-Za-z ]{0,30}:)")
 _GOES_ON = re.compile(
     r"(?:[,:(]|\b(?:the|a|an|of|to|and|or|is|its|from|with|when|before|behind|at|on))$", re.IGNORECASE
 )
-_HAS_OR_IS = frozenset(["to", "held", "found", "tested", "evaluated", "forced", "expected", "placed", "being"])
-_PRONOUNS = frozenset(["it", "he", "she", "there", "who", "what", "that", "here", "which"])
-_AFTER_IS = frozenset(["not", "there", "still", "already", "at"])
-_AFTER_HAS = frozenset(["gone", "passed", "come", "got", "reached", "been", "cleared", "crossed", "begun", "left"])
 _UNIT_END = r"(?![A-Za-z0-9²^/*])"
 
 
@@ -174,22 +171,11 @@ def _spelled_out(raws: list[_Raw], lexicon: Lexicon) -> list[_Raw]:
             read.append(raw)
         elif before.text.lower() == "let":
             read[-1] = _Raw("word", f"{before.text}'s", before.span.union(raw.span))
-        elif short := _short_verb(before.text.lower(), following, lexicon):
+        elif short := short_verb(before.text.lower(), following, lexicon):
             read.append(_Raw("word", short, raw.span))
         else:
             read.append(raw)
     return read
-
-
-def _short_verb(before: str, following: list[str], lexicon: Lexicon) -> str | None:
-    """Return what "'s" stands for where it is certain: "it's not", "the ego's about to", "it's gone past"."""
-    if following[0] in _AFTER_HAS and (before in _PRONOUNS or following[0] != "left"):
-        return "has"
-    participle = "ed" in lexicon.forms.get((following[0],), ())
-    if (before in _PRONOUNS and not participle) or following[0] in _AFTER_IS:
-        return "is"
-    known = lexicon.lookup(["is", *following], 0)[0] > 1
-    return "is" if known and following[0] not in _HAS_OR_IS else None
 
 
 def _next(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
