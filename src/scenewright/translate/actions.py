@@ -349,7 +349,8 @@ class ActionReader(DescriptionReader):
         ):
             raise self._refuse("two different orders are asked for", order.event.span)
         self.facts.order = self.facts.order or order
-        if order.hero_first and any("let" in event.notes for phase in self.facts.phases for event in phase.events):
+        told = [event for phase in self.facts.phases for event in phase.events if "as_if" not in event.links]
+        if order.hero_first and any("let" in event.notes for event in told):
             raise self._refuse("the hero lets the ego go and also comes first", order.event.span)
         who = "the hero comes first" if order.hero_first else "the ego comes first"
         self._note(order.event, f"{who}; the ego's moment is {order.ego_landmark.replace('_', ' ')}")

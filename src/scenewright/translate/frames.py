@@ -149,10 +149,12 @@ class FrameReader(PairReader):
             return False
         after = phrase.end + (self.phrases.tag(phrase.end, "adverb") is not None)
         token = self.phrases.tokens[after]
-        if not (token.tags.keys() & {"be", "auxiliary"} or token.forms & {"s"}):
+        verbless = relation and (bool(token.tags.keys() & {"end", "comma"}) or self.phrases.area(after) is not None)
+        if not (verbless or token.tags.keys() & {"be", "auxiliary"} or token.forms & {"s"}):
             return False
         links, self.links = self.links, []
         if relation and self._fronted_relation():
+            self.subject_span = None if verbless else self.subject_span  # ", and in front of it a van."
             return True
         if not relation and area is not None:
             self.at = at
@@ -297,7 +299,12 @@ class FrameReader(PairReader):
         other = self.phrases.noun_phrase(self.at + 1)
         if other is None or (other.kind == "pronoun" and self.phrases.subject is None):
             return False
-        lane = self.phrases.area(other.end)  # "ahead of it in the same lane", "ahead of it on the driveway"
+        begin = other.end + (self.phrases.tag(other.end, "comma") is not None)
+        spoken_of = self.phrases.subject
+        if other.kind in ("ego", "hero"):
+            self.phrases.subject = self.phrases.resolve(other)  # "ahead of the ego, in its lane, ..."
+        lane = self.phrases.area(begin)  # "ahead of it in the same lane", "ahead of it, on the driveway,"
+        self.phrases.subject = spoken_of
         if lane is not None and (lane[0].role != "on" or lane[0].heading is not None):
             lane = None
         end = lane[1] if lane is not None else other.end

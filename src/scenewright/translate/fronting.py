@@ -10,7 +10,7 @@ from scenewright.translate.tokens import Token
 
 _DRIVES = ("drive", "go", "lane_follow", "come", "approach")
 _OF_A_WAY = frozenset(
-    ("heading", "preposition", "determiner", "area", "area_adjective", "direction", "adverb", "oncoming_way", "from_side")
+    ("heading", "preposition", "determiner", "area", "area_adjective", "direction", "adverb", "oncoming_way")
 )  # fmt: skip
 _OF_A_VEHICLE = frozenset(("determiner", "actor_adjective", "ego", "hero", "noun"))
 

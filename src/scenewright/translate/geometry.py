@@ -37,6 +37,12 @@ _PHRASES = (
     "finish in the same", "are on a collision course", "get in each other's way", "are the same", "become one",
 )  # fmt: skip
 _WILL = ("will", "would", "do", "are going to", "are about to", "are to", "must", "can", "may", "are", "have to")
+_CONFLICTS = frozenset(
+    f"{article}{kind} {noun}"
+    for article in ("", "a ", "the ")
+    for kind in ("merging", "merge", "crossing", "crossing-path", "crossing path", "path", "turning", "lane")
+    for noun in ("conflict", "conflicts")
+)
 _REST = frozenset(
     ["each", "other", "one", "another", "at", "in", "on", "the", "into", "a", "single", "same", "lane", "lanes",
      "road", "driveway", "there", "point", "conflict", "intersection", "junction", "of", "eventually", "and",
@@ -53,6 +59,8 @@ def remark_end(tokens: list[Token], at: int) -> int | None:
             return None
         end += 1
     words = " ".join(token.text.lower().replace("’", "'") for token in tokens[at:end])
+    if words in _CONFLICTS:
+        return end
     rest = _without_ways(_after(words, _OPENERS))
     if rest is None:
         return None

@@ -21,6 +21,8 @@ _SAYS = frozenset(
     ("pair", "ego", "hero", "pronoun", "be", "auxiliary", "negation", "quantity", "bound", "key", "there")
 )
 
+_LEAD = frozenset(["lead", "leading", "vehicle", "car"])
+_SLOWS = frozenset(["deceleration", "decelerating", "braking", "slowing", "stopping"])
 _DEEDS = {"brake": "dec", "stop": "stop", "yield": "dec", "accelerate": "go", "go": "go", "pass": "go", "turn": "go"}
 _DEEDS |= {"pull_out": "go", "complete": "go", "keep": "go", "wait": "stop", "not_yield": "go", "beat": "go"}
 
@@ -38,6 +40,8 @@ def headline_end(tokens: list[Token], at: int) -> int | None:
     colon = "colon" in tokens[end].tags
     if colon and all("label" in token.tags for token in line):
         return None
+    if colon and _lead_slows(line):
+        return end
     if not (_names_a_test(line) or (colon and _misjudges(line))) or any(_says(token) for token in line):
         return None
     if any("link" in token.tags for token in line[:1]) or (at > 0 and not colon):
@@ -83,6 +87,12 @@ def untold(stretch: list[Token], deeds: set[str]) -> Token | None:
 def _names_a_test(line: list[Token]) -> bool:
     words = [word for token in line for word in token.text.lower().replace("-", " ").split()]
     return any(word in _NAMES for word in words)
+
+
+def _lead_slows(line: list[Token]) -> bool:
+    """Whether a line names the test in which a lead vehicle brakes: "Lead-vehicle deceleration"."""
+    words = {word for token in line for word in token.text.lower().replace("-", " ").split()}
+    return bool(words & _SLOWS) and bool(words & _LEAD) and words <= _SLOWS | _LEAD
 
 
 def _misjudges(line: list[Token]) -> bool:

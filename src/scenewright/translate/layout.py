@@ -225,17 +225,18 @@ def _is_bullet(token: Token) -> bool:
 
 
 def _bare_heading(laid: list[Token]) -> str | None:
-    """Say "actor" where the line before a list names a vehicle and nothing else."""
+    """Say "actor" where the line before a list names a vehicle and nothing else, and what a heading alone on it is."""
     line: list[Token] = []
     for token in reversed(laid):
         if "end" in token.tags:
             break
         line.append(token)
     whose = line and all(token.tags.keys() & _WHOSE for token in line)
-    if not whose:
+    label = line[0].tags.get("label") if len(line) == 1 else None
+    if not whose and label is None:
         return None
     laid.append(replace(laid[-1], text=":", tags={"colon": ":"}, span=Span(laid[-1].span.end, laid[-1].span.end)))
-    return "actor"
+    return label or "actor"
 
 
 def _heading_before(laid: list[Token]) -> str | None:
@@ -257,10 +258,12 @@ def _heading_before(laid: list[Token]) -> str | None:
 def _heading_at(tokens: list[Token], at: int) -> bool:
     """Whether a line that begins here has a colon after its first words."""
     for token in tokens[at : at + 5]:
-        if "colon" in token.tags:
-            return True
         line = tokens[at : tokens.index(token)]
+        if "colon" in token.tags:  # "initial distance to the intersection: 110 m" heads nothing
+            return not (any("measure" in each.tags for each in line) and "quantity" in tokens[at + len(line) + 1].tags)
         if _is_bullet(token) and line and all(each.tags.keys() & _WHOSE for each in line):
+            return True
+        if _is_bullet(token) and len(line) == 1 and "label" in line[0].tags:
             return True
         if "end" in token.tags or token.quantity is not None:
             return False

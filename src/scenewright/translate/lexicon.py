@@ -16,7 +16,7 @@ from itertools import product
 
 from scenewright.translate.numerals import WORDS
 
-FILES = ("lexicon.toml", "lexicon_routes.toml", "lexicon_triggers.toml")
+FILES = ("lexicon.toml", "lexicon_routes.toml", "lexicon_triggers.toml", "lexicon_spoken.toml")
 VOWELS = "aeiou"
 SLOT = "~"
 SLOT_WORDS = (("the",), ("its",), ("his",), ("her",), ("their",), ())

@@ -279,6 +279,9 @@ class MeasureReader(VerbReader):
                     return False
             elif self._whose_or_what(measured, at):
                 continue
+            elif bare and self.phrases.tag(at, "landmark") and measured.target is None:  # "ego TTA conflict point 4 s"
+                if not self._to_what(measured, at - 1, None):
+                    return False
             elif bare and measured.actor is None and self._whose(measured, at):  # "TTA ego 4 s", "gap ego to hero"
                 to = self.phrases.tag(measured.end, "preposition") == "to" or (
                     self.phrases.tag(measured.end, "link") in ("to", "and")
@@ -295,7 +298,9 @@ class MeasureReader(VerbReader):
         if preposition in ("of", "out", "for") and measured.actor is None and self._whose(measured, at + 1):
             return True
         aims = (
-            preposition in ("to", "at", "out", "with") or relation is not None or self.phrases.tag(at, "link") == "to"
+            preposition in ("to", "at", "out", "with")
+            or relation is not None
+            or self.phrases.tag(at, "link") in ("to", "until")
         )
         return aims and measured.target is None and self._to_what(measured, at, relation)
 

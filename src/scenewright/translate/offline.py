@@ -29,9 +29,12 @@ from scenewright.translate.headlines import untold
 from scenewright.translate.interpret import Interpreter
 from scenewright.translate.itineraries import Itineraries, choose_routes, default_map
 from scenewright.translate.layout import lay_out
+from scenewright.translate.notes import noted
 from scenewright.translate.phrases import Phrases
 from scenewright.translate.references import Referents
+from scenewright.translate.relatives import related
 from scenewright.translate.rewording import reworded
+from scenewright.translate.speech import spoken
 from scenewright.translate.tokens import Token, refuse_unknown, tokenise
 
 _ROLES = {
@@ -107,7 +110,8 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     >>> [actor.route.headings for actor in translate_offline(text).program.actors]
     [('S', 'W'), ('W',)]
     """
-    tokens, comments = without_commentary(unfronted(reworded(tokenise(text, name))))
+    tokens = unfronted(reworded(related(spoken(noted(tokenise(text, name))))))
+    tokens, comments = without_commentary(tokens)
     tokens, titles = lay_out(tokens)
     refuse_unknown(tokens, text, name)
     referents = Referents(text, name)
@@ -119,6 +123,8 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     for token in tokens:
         if "guess" in token.tags:
             phrases.assume(f"'{token.text}' is taken for a description that changes nothing")
+        if "unit_before" in token.tags:
+            phrases.assume(f"'{token.text}' has the unit of the amount before it")
         for written, read in token.slips:
             phrases.assume(f"'{written}' is read as '{read}'")
     events = ClauseReader(phrases).read()

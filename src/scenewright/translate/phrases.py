@@ -171,9 +171,16 @@ class Phrases(NounPhrases):
             return "from", at + 1
         if has_amount and preposition == "out" and self.tokens[at].text.lower() == "from":
             return "from", at + 1
+        as_far_as = self.tag(at, "as_far_as") is not None or self.tag(at, "link") == "until"
+        if has_amount and as_far_as and self._names_a_landmark(at + 1):
+            return "from", at + 1  # "has 12 m until the stop line", "has 12 m up to it"
         if not has_amount and preposition in ("at", "on") and not self.tokens[at].text.lower().startswith("along"):
             return "at", at + 1
         return None, at
+
+    def _names_a_landmark(self, at: int) -> bool:
+        at += bool(self.tokens[at].tags.keys() & {"determiner", "possessive"})
+        return self.tag(at, "landmark") is not None
 
     def _after_mark(self, at: int) -> int:
         """Step over "mark" in "the 24 m mark before the conflict point"."""
@@ -238,6 +245,9 @@ class Phrases(NounPhrases):
         if relation in ("before", "from") and self.last_landmark and amount is not None:
             self.assume(f"'{words}' is measured from the {self.last_landmark.replace('_', ' ')}")
             return Place(relation, self.last_landmark, amount, span), phrase.end
+        spoken_of = self.subject is not None and self.leader == 1 - self.subject and not self.last_landmark
+        if relation == "from" and amount is not None and spoken_of and self.subject is not None:
+            return Place("from", 1 - self.subject, amount, span), phrase.end  # "... as soon as the ego is 10 m from it"
         if relation in ("behind", "ahead") and self.subject is not None and (amount is None or not self.last_landmark):
             return Place(relation, 1 - self.subject, amount, span), phrase.end
         only = self.last_landmark is None and self.last_area != "driveway"  # no place was named that "it" could be

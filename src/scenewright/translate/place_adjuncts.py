@@ -36,14 +36,14 @@ class PlaceAdjunctReader(SideReader):
         amount = self.phrases.tokens[self.at].quantity
         if amount is None or amount.dimension not in ("length", "time"):
             return False
-        after = self.phrases.tokens[self.at + 1].tags
+        end = self.at + 1 + self._is_away(self.at + 1)
+        after = self.phrases.tokens[end].tags
         ends = bool(after.keys() & {"end", "comma", "colon"}) or after.get("link") == "and"
-        shared = (self._place_before() or self._place_after(self.at + 1)) if ends else None
+        shared = (self._place_before() or self._place_after(end)) if ends else None
         if shared is None or not isinstance(shared.target, str) or shared.of_whom is not None:
             return False
-        if shared.target == "stop_line" and not self._says_respectively(
-            self.at
-        ):  # each vehicle has its own, or none: nothing that two can share
+        own_line = shared.target == "stop_line" and not self._both_in_driveway()
+        if own_line and not self._says_respectively(self.at):  # each has its own, or none: nothing that two can share
             return False
         if shared.amount is None or shared.amount.dimension != amount.dimension:
             return False
@@ -51,16 +51,42 @@ class PlaceAdjunctReader(SideReader):
         if host is None or host.verb not in ("be", "sit"):
             return False
         host.places.append(replace(shared, amount=amount, span=amount.span))
-        self.at += 1
+        if end > self.at + 1:
+            words = self.phrases.span(self.at, end).excerpt(self.phrases.text)
+            self.phrases.assume(f"'{words}' is measured from the {shared.target.replace('_', ' ')}")
+        self.at = end
         self._grow()
         return True
 
+    def _is_away(self, at: int) -> bool:
+        """Whether "away" or "out" stands behind an amount whose place was named: "... and the van's 25 m away"."""
+        return self.phrases.tokens[at].text.lower() in ("away", "out", "off")
+
+    def _both_in_driveway(self) -> bool:
+        """Whether both were told to be in the driveway, or to come out of it: they have one stop line."""
+        told: set[int | None] = set()
+        for event in self.events:
+            into = event.verb in TURNS
+            if any(a.kind == "driveway" and (a.role == "from" or (a.role == "on" and not into)) for a in event.areas):
+                told |= {0, 1} if event.both else {event.actor}
+        return {0, 1} <= told
+
     def _place_before(self) -> Place | None:
         """Return the place that the vehicle before is compared with: "the ego is 35 m from it and the hero 20 m"."""
-        last = self.events[-1] if self.events else None
-        if last is None or last.sentence != self.sentence or self.subject_span is None or last.actor == self.subject:
+        told = self.events
+        if self.current is not None and told and told[-1] is self.current and self._is_bare(self.current):
+            told = told[:-1]  # "... and the hero is 20 m away"
+        last = told[-1] if told else None
+        opened = self.subject_span is None and told is self.events
+        if last is None or last.sentence != self.sentence or opened or last.actor == self.subject:
             return None
         return last.places[0] if last.verb in ("be", "sit") and len(last.places) == 1 else None
+
+    def _is_bare(self, event: Event) -> bool:
+        """Whether nothing but "the hero is" has been read of an event."""
+        return (
+            event.verb == "be" and event.explicit and not (event.places or event.areas or event.headings or self.links)
+        )
 
     def _place_after(self, at: int) -> Place | None:
         """Return the place that follows for the other vehicle: "... 35 m and the hero 20 m from it"."""
@@ -76,14 +102,23 @@ class PlaceAdjunctReader(SideReader):
     def _stop_adjunct(self) -> bool:
         end = self._stop_noun_at(self.at)
         bare = self.at + 1 if self.links == ["comma"] and self.subject_span is None and self._tag("stop_noun") else None
-        if end is None and bare is not None and self.phrases.tokens[bare].tags.keys() & {"end", "comma"}:
-            end, self.links = bare, []  # "brakes, 0.5 g, full stop"
+        if end is None and bare is not None and self._closes_at(bare):
+            end, self.links = bare, []  # "brakes, 0.5 g, full stop", "brakes, full stop 5 m short of it"
         if end is None or self.current is None or self.current.verb not in ("brake", "stop"):
             return False
         self.current.to_stop = True
         self.at = end
         self._grow()
         return True
+
+    def _closes_at(self, at: int) -> bool:
+        """Whether a note ends at `at`, or goes on with where: "full stop 5 m short of it", "standstill at the line"."""
+        amount = self.phrases.tokens[at].quantity
+        placed = (
+            amount is not None and amount.dimension == "length" and self.phrases.tag(at + 1, "relation") is not None
+        )
+        placed = placed or (self.phrases.tag(at, "preposition") == "at" and self.phrases.place(at) is not None)
+        return placed or bool(self.phrases.tokens[at].tags.keys() & {"end", "comma"})
 
     def _place_adjunct(self) -> bool:
         passing = self.current is not None and self.current.verb in ("pass", "complete", "reach", "enter")

@@ -46,6 +46,8 @@ class ShareReader(MeasureReader):
         """Read "at 2 s for the ego and 2.8 s for the hero, both with respect to the conflict point"."""
         at, told = self.at, "when" in self.links or self.label == "when"
         deals = self.phrases.tag(at, "preposition") in ("at", "with") or self.phrases.tokens[at].text.lower() == "with"
+        begun = at + (self.phrases.tag(at, "determiner") is not None)
+        at = begun if self.phrases.tag(begun, "starting") is not None else at  # "The initial distances ... are"
         starts = "initial" in self.flags or self.phrases.tag(at, "starting") is not None
         if not (told or deals or starts) or self.subject_span is not None:
             return False
@@ -55,7 +57,8 @@ class ShareReader(MeasureReader):
         at += deals
         bracket = self.phrases.tokens[at].text == "("
         kept = self._remembered()
-        found = self._listed(at + bracket, plain=deals or bracket or self.label == "when")
+        noted = deals or bracket or self.label == "when" or self._says_at(at)
+        found = self._listed(at + bracket, plain=noted)
         if found is None or (bracket and self.phrases.tokens[found[1]].text != ")"):
             self._recall(kept)
             return False
@@ -127,7 +130,8 @@ class ShareReader(MeasureReader):
         first = shares[0].aim if all(share.dealt for share in shares) else None
         shared = head or tail or shares[1].aim or first
         own = shares[0].aim is not None and shares[1].aim is not None
-        if shared is None or (not own and (shared.target == "stop_line" or shared.of_whom is not None)):
+        apart = shared is not None and (shared.target == "stop_line" or shared.of_whom is not None)
+        if shared is None or (not own and apart and not self._both_in_driveway()):
             return None  # each vehicle has a stop line of its own, or none
         if not (head or order or any(share.dealt for share in shares)) and (own or not plain):
             return None  # "the ego is 12 m from the stop line and ...": read clause by clause
@@ -135,6 +139,12 @@ class ShareReader(MeasureReader):
             return None
         ended = tail.end if tail else at
         return [replace(share, aim=share.aim or shared) for share in shares], ended
+
+    def _says_at(self, at: int) -> bool:
+        """Whether a vehicle stands at an amount without a verb: "once ego at 40 m and van at 12 m to it"."""
+        phrase = self.phrases.noun_phrase(at)
+        named = phrase is not None and phrase.kind != "pronoun" and self.phrases.tag(phrase.end, "preposition") == "at"
+        return phrase is not None and named and self.phrases.tokens[phrase.end + 1].quantity is not None
 
     def _share_head(self, at: int) -> tuple[Aim | None, int, list[int]]:
         """Read "their distances to the conflict point are" and "the distances of the ego and the hero to it are"."""
@@ -190,6 +200,7 @@ class ShareReader(MeasureReader):
             return None
         actor, at = named
         at += self.phrases.tag(at, "comma") is not None and self.phrases.tokens[at].text != "("
+        at += self.phrases.tag(at, "measure") in ("length", "time") and self.phrases.tokens[at + 1].quantity is not None
         at += bool(self.phrases.tokens[at].tags.keys() & {"be"}) or self.phrases.tag(at, "auxiliary") == "have"
         at += self.phrases.tag(at, "preposition") == "at"
         amount = self._share_amount(at)

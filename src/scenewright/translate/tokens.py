@@ -14,6 +14,7 @@ from fractions import Fraction
 
 from scenewright.errors import Place, Span, TranslationError
 from scenewright.program.expressions import Number, ParameterRef
+from scenewright.translate.contractions import short_verb
 from scenewright.translate.lexicon import Lexicon, load_lexicon
 from scenewright.translate.numerals import number_in_words, tail
 from scenewright.translate.spelling import correction, suggestions
@@ -22,6 +23,7 @@ from scenewright.units import UNITS, Dimension, Unit, unit_of_name
 _PARAMETER = r"[A-Za-z][A-Za-z0-9]*(?:\\?_[A-Za-z0-9]+)+"
 _RAW = re.compile(
     rf"""(?P<ie>\b(?:i\.e\.|e\.g\.),?)
+    |(?P<wrt>\b[wW]\.?r\.?t\b\.?)
     |(?P<zero>\b(?:[Aa]t\s+)?[tT]\s*=\s*0(?:\.0)?(?:\s*s(?:ec)?)?(?![\w.]))
     |(?P<braced>\{{\s*{_PARAMETER}\s*\}})
     |(?P<parameter>{_PARAMETER})
@@ -109,7 +111,7 @@ def tokenise(text: str, name: str) -> list[Token]:
             fix='for example: "Ego is on the driveway exit and wants to turn right. ..."',
         )
     tagger = _Tagger(text, name, load_lexicon())
-    tagger.raw = [_corrected(raw, tagger.lexicon) for raw in _cut(text)]
+    tagger.raw = _spelled_out([_corrected(raw, tagger.lexicon) for raw in _cut(text)], tagger.lexicon)
     tokens: list[Token] = []
     index = 0
     while index < len(tagger.raw):
@@ -159,6 +161,23 @@ def _corrected(raw: _Raw, lexicon: Lexicon) -> _Raw:
     return _Raw(raw.kind, better, raw.span, raw.text) if better else raw
 
 
+def _spelled_out(raws: list[_Raw], lexicon: Lexicon) -> list[_Raw]:
+    """Let "it's about to" be "it is about to", where a known phrase begins with "is", and "let's" be one word."""
+    read: list[_Raw] = []
+    for index, raw in enumerate(raws):
+        before = read[-1] if read and read[-1].kind == "word" else None
+        following = [each.text.lower() for each in raws[index + 1 : index + 6] if each.kind == "word"]
+        if raw.kind != "genitive" or before is None or not following:
+            read.append(raw)
+        elif before.text.lower() == "let":
+            read[-1] = _Raw("word", f"{before.text}'s", before.span.union(raw.span))
+        elif short := short_verb(before.text.lower(), following, lexicon):
+            read.append(_Raw("word", short, raw.span))
+        else:
+            read.append(raw)
+    return read
+
+
 def _next(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
     raw = tagger.raw[index]
     if raw.kind in ("number", "braced", "parameter"):
@@ -174,6 +193,9 @@ def _next(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
         return index + 1
     if raw.kind == "both":
         tokens.append(Token("and", raw.span, {"link": "and"}))
+        return index + 1
+    if raw.kind == "wrt":
+        tokens.append(Token(raw.text, raw.span, {"preposition": "to"}))
         return index + 1
     if raw.kind == "ie":
         tokens.append(Token(raw.text, raw.span, {"comma": ","}))

@@ -75,7 +75,9 @@ class VerbReader(DeedReader):
                 self.at += 2
                 return True
             there = self._tag("link") == "there" and self.phrases.last_landmark is not None
-            if there and (self._tag("link", 1) in ("before", "after") or self._tag("adverb", 1) == "first"):
+            ordered = self._tag("link", 1) in ("before", "after") or self._tag("adverb", 1) == "first"
+            ordered = ordered or (self.links[-1:] == ["before"] and self._tag("end", 1) is not None)
+            if there and ordered:
                 self._open("reach", self.at - 1).landmark = self.phrases.last_landmark  # "is there before the ego"
                 self.at += 1
                 self._grow()

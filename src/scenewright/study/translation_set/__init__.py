@@ -11,7 +11,8 @@ the text of a program (as in a `.scene` file) that means the same, or ``refuse``
 - ``refusals.toml``: texts to be refused;
 - ``fresh_*.toml``: one part of a description each (who drives where, when the hero acts, what it does), in the many
   constructions that texts by others showed to be missing;
-- ``widened_prose.toml``: whole descriptions in plain prose and in letters: states and intents, pronouns, passives.
+- ``widened_*.toml``: a few short texts for each construction that was added later, with what is close to it and is to
+  be refused.
 
 No translator reads these files. The offline translator was widened with the mistakes made on them in mind, so its score
 on them is a regression figure; a figure for new texts comes from texts that were not there when it was widened.
