@@ -16,7 +16,8 @@ _NAMES = frozenset(("ego", "hero", "noun"))
 _NAMED = frozenset(("ego", "hero", "noun", "determiner", "actor_adjective", "heading"))
 _SPEEDS = ("initial speeds", "starting speeds", "start speeds", "the initial speeds", "the starting speeds", "speeds")
 _BEGUN = ("initial", "start")
-_TO = ("to", "from")
+_TO = ("to", "from", "at", "until")
+_OF_A_PLACE = frozenset(("preposition", "determiner", "area", "area_adjective"))
 
 
 def related(tokens: list[Token]) -> list[Token]:
@@ -104,11 +105,11 @@ def _place_of_whose(tokens: list[Token], at: int) -> int | None:
 
 
 def _names_before(tokens: list[Token], at: int) -> bool:
-    """Whether a vehicle stands right before a position, with or without a comma."""
-    before = tokens[max(0, at - 2) : at]
-    return bool(before) and bool(
-        before[-1].tags.keys() & _NAMES or ("comma" in before[-1].tags and before[0].tags.keys() & _NAMES)
-    )
+    """Whether a vehicle stands right before a position, with or without a comma, or with where it is between."""
+    end = at - (at > 0 and "comma" in tokens[at - 1].tags)
+    while end > 1 and tokens[end - 1].tags.keys() & _OF_A_PLACE and not tokens[end - 1].tags.keys() & _NAMES:
+        end -= 1
+    return end > 0 and bool(tokens[end - 1].tags.keys() & _NAMES)
 
 
 def _with_starting(tokens: list[Token]) -> list[Token]:
