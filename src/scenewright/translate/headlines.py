@@ -15,7 +15,8 @@ _NAMES = frozenset(
      "evaluation", "assessment", "version", "encounter", "conflict", "story", "mover", "dilemma", "decision",
      "benchmark", "challenge", "probe", "run", "situation", "problem", "task", "use-case", "family", "suite",
      "catalogue", "catalog", "entry", "nr", "no", "id", "ref", "versus", "vs", "vs.", "interaction", "event",
-     "opponent", "opponents", "this", "again", "study-case", "theme", "topic"]
+     "opponent", "opponents", "this", "again", "study-case", "theme", "topic", "ticket",
+     "issue", "bug", "request"]
 )  # fmt: skip
 _SAYS = frozenset(
     ("pair", "ego", "hero", "pronoun", "be", "auxiliary", "negation", "quantity", "bound", "key", "there")
