@@ -204,11 +204,12 @@ def _rehearse(
         predictor = Rehearsed(drive, world.predictor)
         pace = _SLOW_PACE if take > 2 and not _missed_only_outcome(last) else 1.0
         slower_than_mps = math.inf if is_timed_by_ego(world) else _slower_than_mps(last, drive.state(0.0)[1])
-        planned = first_plan(world, predictor, slower_than_mps, pace)
-        if planned is None or planned[2].plan is None:
-            planned = first_plan(world, predictor)
-        if planned is None or planned[2].plan is None:
-            break
+        for wanted in dict.fromkeys([(slower_than_mps, pace), (math.inf, 1.0)]):
+            planned = first_plan(world, predictor, *wanted)
+            if planned is not None and planned[2].plan is not None:
+                break
+        else:
+            break  # nothing to drive, however the take begins
         last = replace(first, take=take, takes=last.takes, hindsight=None)
         _drive(request, last, world, planned, stages, progress)
         if last.status == "success":

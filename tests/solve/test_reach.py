@@ -23,6 +23,15 @@ PLACED = LinearCondition("c", frozenset({(HERO, "t1")}), -40.0, {HERO: (1.0, 0.0
 stretches = st.lists(st.tuples(st.floats(0.1, 2.0), st.floats(0.0, 4.0), st.floats(0.0, 6.0)), min_size=1, max_size=5)
 
 
+def yielding() -> tuple[Prospects, LinearCondition]:
+    """Return the prospects of a hero that is to yield, and its side of the trigger."""
+    scene = YIELDS.scene()
+    structure = read_structure(scene.program)
+    conditions = linear_conditions(scene, structure)
+    side = next(c for c in conditions if set(c.weights) == {HERO} and (HERO, "t1") in c.moments)
+    return Prospects(scene.program, structure, limits_of(scene), conditions), side
+
+
 @given(
     ways=stretches,
     shares=st.lists(st.floats(0.0, 1.0), min_size=5, max_size=5),
@@ -72,11 +81,7 @@ def test_the_last_half_second_is_settled_however_little_is_left(manner: Manner, 
 
 
 def test_who_has_long_to_go_a_short_way_stands_and_waits() -> None:
-    scene = YIELDS.scene()
-    structure = read_structure(scene.program)
-    conditions = linear_conditions(scene, structure)
-    prospects = Prospects(scene.program, structure, limits_of(scene), conditions)
-    side = next(c for c in conditions if set(c.weights) == {HERO} and (HERO, "t1") in c.moments)
+    prospects, side = yielding()
     place = -(side.constant + side.weights[HERO][1] * 5.0) / side.weights[HERO][0]
     ego = Profile(chain(0.0, 0.0, 1.0, [(60.0, 0.0, 0)]))
     for ahead_m, trigger_s, waits in ((14.0, 12.0, True), (40.0, 6.0, False)):
@@ -97,11 +102,7 @@ def test_who_has_long_to_go_a_short_way_stands_and_waits() -> None:
 
 
 def test_takes_no_more_authority_than_it_needs() -> None:
-    scene = YIELDS.scene()
-    structure = read_structure(scene.program)
-    conditions = linear_conditions(scene, structure)
-    prospects = Prospects(scene.program, structure, limits_of(scene), conditions)
-    side = next(c for c in conditions if set(c.weights) == {HERO} and (HERO, "t1") in c.moments)
+    prospects, side = yielding()
     place = -(side.constant + side.weights[HERO][1] * 8.0) / side.weights[HERO][0]
     ego = Profile(chain(0.0, 0.0, 8.0, [(60.0, 0.0, 0)]))
     state = HeroState(0.0, place - 34.0, 8.0, 0, {"t0": 0.0}, ego)  # 2 m behind where it should be
@@ -133,11 +134,7 @@ def test_least_speed_is_the_slowest_from_which_it_stops_in_place(away_s: float, 
 
 
 def test_waits_where_it_can_still_be_fast_enough() -> None:
-    scene = YIELDS.scene()
-    structure = read_structure(scene.program)
-    conditions = linear_conditions(scene, structure)
-    prospects = Prospects(scene.program, structure, limits_of(scene), conditions)
-    side = next(c for c in conditions if set(c.weights) == {HERO} and (HERO, "t1") in c.moments)
+    prospects, side = yielding()
     ego = Profile(chain(0.0, 0.0, 1.0, [(60.0, 0.0, 0)]))
     place = -side.constant / side.weights[HERO][0]
     state = HeroState(0.0, place - 30.0, 5.0, 0, {"t0": 0.0}, ego)

@@ -36,13 +36,15 @@ def since_jump(accels_mpss: Sequence[float]) -> int:
 
     The ego has changed its mind where it was even before and is even since; one that jitters has not.
     """
-    for count in range(1, len(accels_mpss)):
-        after, before = accels_mpss[:count], accels_mpss[count:]
-        if max(max(after) - min(after), max(before) - min(before)) > _JUMP_MPSS:
-            continue
-        if min(abs(min(after) - max(before)), abs(max(after) - min(before))) > _JUMP_MPSS:
-            return count
-    return len(accels_mpss)
+    return next((k for k in range(1, len(accels_mpss)) if jumped(accels_mpss, k)), len(accels_mpss))
+
+
+def jumped(accels_mpss: Sequence[float], count: int = 1) -> bool:
+    """Whether the last `count` of some accelerations (m/s^2), the newest first, came after a jump."""
+    after, before = accels_mpss[:count], accels_mpss[count:]
+    if not before or max(max(after) - min(after), max(before) - min(before)) > _JUMP_MPSS:
+        return False
+    return min(abs(min(after) - max(before)), abs(max(after) - min(before))) > _JUMP_MPSS
 
 
 def lately(history: Sequence[EgoSample], for_s: float) -> list[float]:

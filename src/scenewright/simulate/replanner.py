@@ -16,7 +16,7 @@ from scenewright.program.structure import Role, Structure, knots_of
 from scenewright.program.types import EGO, Actor
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.following import Leader, foresee_follower
-from scenewright.simulate.prediction import EgoSample, Predictor, lately, since_jump
+from scenewright.simulate.prediction import EgoSample, Predictor, jumped, lately
 from scenewright.simulate.triggers import PlannedTrigger, TriggerTimes
 from scenewright.solve.arrival import LinearCondition
 from scenewright.solve.plan import Plan
@@ -111,7 +111,7 @@ class Replanner:
     @property
     def is_alarmed(self) -> bool:
         """Whether the ego has just changed its mind while a hero can still answer."""
-        if since_jump(lately(self._samples, _EVEN_S)) != 1 or len(self._samples) < 2:
+        if not jumped(lately(self._samples, _EVEN_S)):
             return False
         return any(self._still_reacts(hero, self._samples[-1][0]) for hero in self.scene.program.heroes)
 

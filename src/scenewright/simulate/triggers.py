@@ -17,14 +17,13 @@ from scenewright.simulate.prediction import ConstantSpeed, Predictor
 from scenewright.solve.arrival import TIGHT_LENGTH_M, LinearCondition, tight_of
 from scenewright.solve.clearance import Clearance
 from scenewright.solve.lags import Lag
-from scenewright.solve.situation import HeroState
+from scenewright.solve.situation import SHORTEST_LEAD_S, HeroState
 
 _LONGEST_SLACK_S = 1.0
 _FAR_S = 40.0
 # An ego that makes haste does so like this (m/s^2, from m/s), from these shares of the time left; what is worth it.
 _HASTE_MPSS, _SETS_OFF_MPS, _HASTE_SHARES = 1.5, 0.4, (0.0, 0.25, 0.5, 0.75, 1.0)
 _HASTE_HORIZON_S, _NOTABLY_EARLIER_S = 12.0, 0.25
-_SHORTEST_LEAD_S = 0.02
 _FIRST_TRIGGERS_S = (2.5, 3.5, 4.5, 6.0, 8.0, 10.0, 13.0, 16.0, 2.0, 1.5, 1.0, 20.0, 25.0)
 # Whom the ego follows is answered: the sooner the trigger comes, the better it is foreseen.
 _FIRST_TRIGGERS_WHEN_FOLLOWED_S = (1.5, 2.0, *_FIRST_TRIGGERS_S)
@@ -117,7 +116,7 @@ class TriggerTimes:
         arrival = condition.first_time({EGO: prediction}, time_s)
         if arrival is None and self._is_behind(condition, prediction.state(time_s)):
             arrival = time_s
-        return time_s + _FAR_S if arrival is None else max(arrival, time_s + _SHORTEST_LEAD_S)
+        return time_s + _FAR_S if arrival is None else max(arrival, time_s + SHORTEST_LEAD_S)
 
     def _lagged_s(self, lag: Lag, time_s: float, prediction: Profile, ego_knots_s: Mapping[str, float]) -> float:
         """Return when a trigger comes that is told by the time since the ego was somewhere."""
@@ -125,7 +124,7 @@ class TriggerTimes:
         if since_s is None:
             there = next((c for c in self.ego_alone() if (EGO, lag.knot) in c.moments), None)
             since_s = time_s + _FAR_S if there is None else self._ego_arrival_s(there, time_s, prediction)
-        return max(since_s + lag.after_s, time_s + _SHORTEST_LEAD_S)
+        return max(since_s + lag.after_s, time_s + SHORTEST_LEAD_S)
 
     def _joint_instants(self, hero: Actor, time_s: float, prediction: Profile, planned: PlannedTrigger) -> list[float]:
         """Return instants to try where both decide: when the plan as it is meets the condition, then around it."""
@@ -133,9 +132,9 @@ class TriggerTimes:
         for condition in self._conditions_of(hero):
             crossing = condition.first_time({EGO: prediction, hero.id: planned.approach}, time_s)
             if crossing is not None and crossing < planned.time_s + 5.0:
-                result.append(max(crossing, time_s + _SHORTEST_LEAD_S))
+                result.append(max(crossing, time_s + SHORTEST_LEAD_S))
         shifted = (planned.time_s + shift for shift in _RETRY_TRIGGERS_S)
-        return [*result, *(instant for instant in shifted if instant > time_s + _SHORTEST_LEAD_S)]
+        return [*result, *(instant for instant in shifted if instant > time_s + SHORTEST_LEAD_S)]
 
     def coasting_s(
         self, hero: Actor, prediction: Profile, state: HeroState, planned: PlannedTrigger, latest_s: float
@@ -150,7 +149,7 @@ class TriggerTimes:
         time_s = state.time_s
         motion = Profile(chain(time_s, state.s_m, state.speed_mps, [(1.0, 0.0, state.piece)]))
         crossing = both[0].first_time({EGO: prediction, hero.id: motion}, time_s)
-        soonest_s = time_s + _SHORTEST_LEAD_S
+        soonest_s = time_s + SHORTEST_LEAD_S
         if crossing is not None and crossing < max(latest_s, time_s + _NEARLY_S):
             return max(crossing, soonest_s)
         # Between two ticks it may have come sooner than foreseen.

@@ -71,6 +71,7 @@ class HeroProblem:
         self.asserted: list[Constraint] = []
         self._stretches: dict[int, list[Stretch]] = {}
         self._led: set[int] = set()  # heroes that have to keep clear of the ego on their way
+        self._turning: set[int] = set()  # heroes whose side of the trigger lies beyond the beginning of their turn
         self._views: dict[int, MotionView] = {EGO: self._ego_view()}
         self._parameters: dict[str, Value] = dict(scene.parameters)
         for hero in scene.program.heroes:
@@ -105,6 +106,8 @@ class HeroProblem:
         if clearance is not None:
             self._led.add(hero.id)
         side = hero_side(self.conditions, self.structure, hero.id)
+        if _turns_before_trigger(TurnSpan.of(self.scene.routes[hero.id]), side, hero.id):
+            self._turning.add(hero.id)
         now: Value | None = start
         for k, stretch in enumerate(stretches):
             duration: Value
@@ -273,19 +276,13 @@ class HeroProblem:
             return
         if stretch.approach and stretch.end_knot is None:
             too_fast = isinstance(v0, Fraction) and v0 > pin(turn_top)
-            if not too_fast and self._turns_before_trigger(hero, turn):
+            if not too_fast and hero.id in self._turning:
                 condition = is_slow_in_turn(turn, turn_top, x0, v0, x1, v1)
                 self.problem.require(condition, f"{hero.name} turns at up to {turn_top:.1f} m/s")
             return
         braking = hero.sketch.pieces[stretch.piece] is PieceKind.DEC
         condition = keeps_to_turn_speed(turn, turn_top, x0, v0, x1, v1, braking)
         self.problem.require(condition, f"{hero.name} turns at up to {turn_top:.1f} m/s")
-
-    def _turns_before_trigger(self, hero: Actor, turn: TurnSpan) -> bool:
-        """Whether the hero's side of its trigger lies beyond the beginning of its turn."""
-        side = hero_side(self.conditions, self.structure, hero.id)
-        per_metre = side.weights[hero.id][0] if side is not None else 0.0
-        return side is not None and per_metre != 0.0 and -side.constant / per_metre > turn.start_m
 
     def _bound_trigger_speed(self, hero: Actor, piece: int, speed: Symbol) -> None:
         least = trigger_speed_mps(self.manner, hero, piece, self._is_timed(hero, piece + 1))
@@ -400,15 +397,23 @@ class HeroProblem:
         way, turn = stretches[:count], TurnSpan.of(self.scene.routes[hero.id])
         if self.manner.ready or hero.id in self._led or not all(s.approach and s.duration_s for s in way):
             return moves
-        rest_s = sum(duration_s for duration_s, _, _ in moves[:count])
-        end_m = Profile(chain(0.0, s_m, speed_mps, moves)).state(rest_s)[0]
-        if any(stretch.waiting for stretch in way) or (turn is not None and s_m < turn.end_m and end_m > turn.start_m):
+        if any(stretch.waiting for stretch in way):
             return moves
+        if turn is not None and s_m < turn.end_m:
+            rest_s = sum(duration_s for duration_s, _, _ in moves[:count])
+            if Profile(chain(0.0, s_m, speed_mps, moves)).state(rest_s)[0] > turn.start_m:
+                return moves
         rates = (approach_rates(self.manner, stretch, following_piece(hero, stretch.piece)) for stretch in way)
         return smoothed(moves, [(-float(down), float(up)) for up, down in rates], speed_mps, self._top_mps(hero))
 
     def _top_mps(self, hero: Actor) -> float:
         return self.manner.top_speeds_mps(self.limits[hero.id])[0]
+
+
+def _turns_before_trigger(turn: TurnSpan | None, side: LinearCondition | None, hero: int) -> bool:
+    if turn is None or side is None or not side.weights[hero][0]:
+        return False
+    return -side.constant / side.weights[hero][0] > turn.start_m
 
 
 def _speaks_of_ego(formula: Formula) -> bool:

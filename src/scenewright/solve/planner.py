@@ -29,7 +29,7 @@ from scenewright.solve.lowering import TIGHT, compared_dimension
 from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.solve.problem import Backend, Satisfiable, Unknown
 from scenewright.solve.reach import Prospects
-from scenewright.solve.situation import Situation
+from scenewright.solve.situation import SHORTEST_LEAD_S, Situation
 from scenewright.solve.trials import COAST, EXACT, HASTY, Trial, first_trials, off, opening, relaxed, trials
 
 _TRIES_A_TICK = 5
@@ -41,8 +41,6 @@ _HOPE_SLACK = 0.02
 _SHIFTS = (Fraction(0), Fraction(1, 2), Fraction(1))
 # Where it takes more than this (in tight tolerances), both are a little off rather than one of them too much.
 _LITTLE_OFF = Fraction(1, 2)
-# How soon a trigger may come (s).
-_SHORTEST_LEAD_S = 0.02
 # The largest miss that is searched for, in tight tolerances, and how often the search is halved.
 _FARTHEST, _HALVINGS = 16.0, 7
 # What one question may cost the solver in a re-solve (some 10 ms) and at the start, in its own measure: the answers do
@@ -326,7 +324,7 @@ def retimed(situation: Situation, tolerance: Fraction) -> Situation:
     for hero, planned in situation.planned_trigger_s.items():
         now = triggers[hero]
         reach = float(tolerance) * situation.ego_slack_s
-        soonest = min(now, situation.time_s + _SHORTEST_LEAD_S)
+        soonest = min(now, situation.time_s + SHORTEST_LEAD_S)
         triggers[hero] = moved = max(soonest, now + max(-reach, min(reach, planned - now)))
         ego_knots = {name: moved if time_s == now else time_s for name, time_s in ego_knots.items()}
     return replace(situation, trigger_s=triggers, ego_knots_s=ego_knots)

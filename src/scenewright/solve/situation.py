@@ -10,6 +10,9 @@ from dataclasses import dataclass, field
 
 from scenewright.motion.profile import Profile
 
+# How soon a trigger may come (s): nobody can tell what begins sooner from what has begun.
+SHORTEST_LEAD_S = 0.02
+
 
 @dataclass(frozen=True, slots=True)
 class HeroState:

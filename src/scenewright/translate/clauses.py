@@ -256,8 +256,8 @@ class ClauseReader(OnsetReader):
                 return False
         if link == "that" and self.current is None and self.subject_span is None:
             return False
-        if link == "that":
-            self._turn_to_object()
+        if link == "that" and not self._turn_to_object():
+            self._check_who_is_meant()
         self.links.append(link)
         self.at = after
         if link == "then" and self.phrases.noun_phrase(after) is None:

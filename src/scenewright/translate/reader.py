@@ -228,6 +228,17 @@ class ReaderState:
         self._set_subject(named[0], None)
         return True
 
+    def _check_who_is_meant(self) -> None:
+        """Refuse "the ego follows a car on the driveway, which is 20 m from it": either may be there."""
+        named, token = self.phrases.last_named, self.phrases.tokens[self.at]
+        if token.text.lower() not in ("which", "who") or named is None or self.current is None:
+            return
+        between = self.phrases.tokens[named[1] : self.at]
+        if named[0] != self.subject and between and not any("end" in each.tags for each in between):
+            message = f"it is not clear whether '{token.text}' is the ego or the hero"
+            fix = "say it in a sentence of its own"
+            raise self.phrases.refuse(message, token.span, "one vehicle that it can be", fix)
+
     def _resumes(self, verb: str, start: int) -> bool:
         """Let a finite verb go on with the subject that was described, as after "which": "..., turns left"."""
         reduced, token = self.reduced, self.phrases.tokens[start]

@@ -7,6 +7,7 @@ It adds no amount and drops none; what it is not sure of it leaves as it was, to
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 from scenewright.errors import Span
 from scenewright.translate.notes import begins, sentence_end
@@ -17,7 +18,6 @@ _NAMED = frozenset(("ego", "hero", "noun", "determiner", "actor_adjective", "hea
 _SPEEDS = ("initial speeds", "starting speeds", "start speeds", "the initial speeds", "the starting speeds", "speeds")
 _BEGUN = ("initial", "start")
 _TO = ("to", "from", "at", "until")
-_OF_A_PLACE = frozenset(("preposition", "determiner", "area", "area_adjective"))
 
 
 def related(tokens: list[Token]) -> list[Token]:
@@ -53,7 +53,7 @@ def _whose(tokens: list[Token]) -> list[Token]:
         told = tokens[at].text.lower() == "whose" and measure + 2 < len(tokens)
         told = told and tokens[measure].tags.get("measure") == "speed" and "be" in tokens[measure + 1].tags
         amount = tokens[measure + 2].quantity if told else None
-        if amount is None or amount.dimension != "speed" or not _names_before(tokens, at):
+        if amount is None or amount.dimension != "speed" or not _names_one_before(tokens, at):
             read.append(tokens[at])
             at += 1
             continue
@@ -91,7 +91,7 @@ def _whose_place(tokens: list[Token]) -> list[Token]:
 
 def _place_of_whose(tokens: list[Token], at: int) -> int | None:
     """Return the position after "whose initial distance to the intersection is 80 m", or None."""
-    if not _names_before(tokens, at):
+    if not _names_before(tokens, at) and not _names_one_before(tokens, at):
         return None
     at += 1 + ("starting" in tokens[at + 1].tags)
     if tokens[at].tags.get("measure") not in ("length", "time") or tokens[at + 1].text.lower() not in _TO:
@@ -105,11 +105,19 @@ def _place_of_whose(tokens: list[Token], at: int) -> int | None:
 
 
 def _names_before(tokens: list[Token], at: int) -> bool:
-    """Whether a vehicle stands right before a position, with or without a comma, or with where it is between."""
+    """Whether a vehicle stands right before a position, with or without a comma."""
     end = at - (at > 0 and "comma" in tokens[at - 1].tags)
-    while end > 1 and tokens[end - 1].tags.keys() & _OF_A_PLACE and not tokens[end - 1].tags.keys() & _NAMES:
-        end -= 1
     return end > 0 and bool(tokens[end - 1].tags.keys() & _NAMES)
+
+
+def _names_one_before(tokens: list[Token], at: int) -> bool:
+    """Whether the sentence has named one vehicle so far and nothing else that could own: "A car on the road, whose"."""
+    names = at
+    while names and not begins(tokens, names):
+        names -= 1
+    told = [bool(token.tags.keys() & _NAMES) for token in tokens[names:at]]
+    others = any(token.tags.keys() & {"pronoun", "possessive", "pair"} for token in tokens[names:at])
+    return not others and sum(now and not before for before, now in pairwise([False, *told])) == 1
 
 
 def _with_starting(tokens: list[Token]) -> list[Token]:

@@ -318,10 +318,9 @@ class VerbReader(DeedReader):
                 event.to_actor, self.at = self.phrases.resolve(phrase), phrase.end
             self._grow()
             return True
-        if verb == "come_towards" and (phrase is None or self._may_mean_a_place(verb, start, phrase)):
+        if verb == "come_towards" and phrase is None:
             event = self._open("approach", start)
-            # "it" may be a place or the other vehicle: which way it comes is told by its route, or asked for.
-            self.at = phrase.end if phrase is not None else self.at + 1
+            self.at += 1
             if area := self.phrases.area_noun(self.at, "on"):
                 event.notes.append("towards")
                 self.at = area[1]  # "drives towards the road"
