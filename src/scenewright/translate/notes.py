@@ -29,7 +29,7 @@ _AFTER_OUT = ("comma", "end", "colon")
 def noted(tokens: list[Token]) -> list[Token]:
     """Return the tokens with notes as sentences."""
     tokens = _turned_out(_drives_in(_leads(_stop_noted(_abbreviated(tokens)))))
-    return _turn_completed(_respectively(_same_unit(_arrows(_through(tokens)))))
+    return _turn_completed(_respectively(same_unit(_arrows(_through(tokens)))))
 
 
 def begins(tokens: list[Token], at: int) -> bool:
@@ -181,7 +181,7 @@ def _is_condition(tokens: list[Token]) -> bool:
     return fits and not (told or deeds or linked)
 
 
-def _same_unit(tokens: list[Token]) -> list[Token]:
+def same_unit(tokens: list[Token]) -> list[Token]:
     """Let "the ego has five seconds left to it and the hero four" be "... and the hero four seconds"."""
     read = list(tokens)
     last: Token | None = None

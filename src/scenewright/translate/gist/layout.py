@@ -1,0 +1,51 @@
+"""Cuts a text into tokens with an end after each line of notes, tables and lists, but not where prose is only wrapped.
+
+What enters: the text. What leaves: tokens. Lines are ends where they are short or begin with a label; the bars of a table
+part clauses; names joined by underscores that are no parameters are read as words.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from scenewright.errors import Span
+from scenewright.translate.notes import same_unit
+from scenewright.translate.tokens import Token, tokenise
+from scenewright.units import unit_of_name
+
+_KEY = re.compile(r"\b[A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)+\b")
+_WRAPPED_AT = 70
+
+
+def laid_out(text: str, name: str) -> list[Token]:
+    """Return the tokens of a text, with its lines and bars as ends and commas."""
+    tokens = tokenise(_plain(text), name)
+    tokens = [_bar(token) for token in tokens]
+    return same_unit(_with_lines(tokens, text))
+
+
+def _plain(text: str) -> str:
+    """Return the text with keys such as "ego_route" as words; every character keeps its place."""
+    spaced = _KEY.sub(lambda found: found.group() if unit_of_name(found.group()) else found.group().replace("_", " "), text)
+    return re.sub(r"-{2,}", lambda found: " " * len(found.group()), spaced) if "|" in text else spaced
+
+
+def _bar(token: Token) -> Token:
+    return replace(token, tags={"comma": "|"}) if token.text == "|" else token
+
+
+def _with_lines(tokens: list[Token], text: str) -> list[Token]:
+    lines = text.strip().split("\n")
+    wrapped = len(lines) > 1 and all(len(line) >= _WRAPPED_AT for line in lines[:-1])
+    if wrapped or len(lines) < 2:
+        return tokens
+    read: list[Token] = []
+    for token in tokens:
+        if read and "end" not in read[-1].tags and "end" not in token.tags:
+            between = text[read[-1].span.end : token.span.start]
+            if "\n" in between:
+                at = read[-1].span.end + between.index("\n")
+                read.append(Token("\n", Span(at, at + 1), {"end": "\n"}))
+        read.append(token)
+    return read
