@@ -1,6 +1,7 @@
 """Reads what the hero does, and the moments of the ego that it is held against.
 
-What enters: tokens, names, clauses. What leaves: `Deed`s in their order, and the denials that were understood.
+What enters: words with clauses. What leaves: `Deed`s in their order, who does not turn, and the denials that were
+understood. Which of them belong to the story is decided by `story`.
 """
 
 from __future__ import annotations
@@ -9,20 +10,47 @@ from dataclasses import dataclass, field, replace
 
 from scenewright.errors import Span
 from scenewright.translate.events import EGO_ID, HERO_ID
-from scenewright.translate.gist.clauses import NEGATIVES, Clause
-from scenewright.translate.gist.names import Names
-from scenewright.translate.tokens import Token
+from scenewright.translate.gist.clauses import BOUNDS, NEGATIVES
+from scenewright.translate.gist.words import Clause, Words
 
-STRONG = {"brake": "brake", "stop": "stop", "accelerate": "accelerate", "pass": "pass", "complete": "complete", "reach": "pass"}
-WEAK = {"go": "go", "keep": "keep", "wait": "wait", "drive": "go", "turn": "turn", "pull_out": "turn", "sit": "wait", "let": "let", "enter": "pass"}
-YIELDS = {"yield": "yield", "not_yield": "not_yield"}
-_TURN_WORDS = frozenset(("turn", "pull_out"))
+_DEEDS = {
+    "brake": "brake",
+    "stop": "stop",
+    "accelerate": "accelerate",
+    "pass": "pass",
+    "reach": "pass",
+    "complete": "complete",
+    "yield": "yield",
+    "not_yield": "not_yield",
+}
+# What a vehicle may as well be about to do, or do before anything happens.
+_MOVES = {
+    "go": "go",
+    "drive": "go",
+    "keep": "keep",
+    "wait": "wait",
+    "sit": "wait",
+    "turn": "turn",
+    "pull_out": "turn",
+    "let": "let",
+    "enter": "pass",
+}
+_TURNS = ("turn", "pull_out")
+_WAITS = frozenset(("yield", "wait", "stop", "brake", "let"))
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Deed:
-    """One thing that the hero does, or a moment of the ego: ``brake``, ``stop``, ``wait``, ``accelerate``, ``go``, ``keep``,
-    ``pass``, ``complete``, ``turn``, ``yield``, ``not_yield``, ``before``, ``after``."""
+    """One thing that a vehicle does, or a moment of the ego.
+
+    Attributes
+    ----------
+    kind
+        ``brake``, ``stop``, ``wait``, ``accelerate``, ``go``, ``keep`` (its speed), ``pass``, ``complete`` (its turn),
+        ``turn``, ``yield``, ``not_yield``, ``let``; of the ego ``before``, ``after``, ``let_reach``.
+    landmark
+        What is passed; ``same`` for "before the ego does".
+    """
 
     kind: str
     at: int
@@ -34,203 +62,191 @@ class Deed:
 
 @dataclass(slots=True)
 class DeedReader:
-    """Collects deeds clause by clause."""
+    """Collects deeds clause by clause.
 
-    tokens: list[Token]
-    names: Names
-    clauses: list[Clause]
+    Attributes
+    ----------
+    straight
+        Who "does not turn", and where that stands.
+    """
+
+    words: Words
     deeds: list[Deed] = field(default_factory=list)
-    straight: list[tuple[int | None, Span]] = field(default_factory=list)  # "does not turn"
-    denied: set[int] = field(default_factory=set)  # negations that were understood
-    used: set[int] = field(default_factory=set)
+    straight: list[tuple[int, int]] = field(default_factory=list)
 
     def read(self) -> None:
         """Read every clause."""
-        for clause in self.clauses:
+        for clause in self.words.clauses:
             if clause.aside:
-                self.denied |= {at for at in range(clause.start, clause.end) if "negation" in self.tokens[at].tags}
-                continue
-            bound = clause.link in ("before", "after", "until") or self._releases(clause)
-            if bound and self._ego_moment(clause):
-                continue
-            self._clause(clause)
-
-    def _releases(self, clause: Clause) -> bool:
-        """Whether "once the ego has completed its turn" is a moment of the ego that the hero waits for."""
-        inside = self.tokens[clause.start : clause.end]
-        perfect = any(each.tags.get("auxiliary") == "have" for each in inside)
-        told = any("quantity" in each.tags for each in inside)
-        done = any(each.tags.get("verb") in ("complete", "pass") for each in inside)
-        return clause.link == "when" and clause.subject == EGO_ID and perfect and done and not told
+                self.words.used |= set(clause.inside)
+            elif not ((clause.link in BOUNDS or self._releases(clause)) and self._ego_moment(clause)):
+                self._clause(clause)
 
     def _clause(self, clause: Clause) -> None:
-        negated: int | None = None
+        negation: int | None = None
         wanted = False
-        for at in range(clause.start, clause.end):
-            token = self.tokens[at]
-            tags = token.tags
-            if "negation" in tags or token.text.lower() in ("no", "shall not", "must not", "should not", "cannot") or token.text.lower() in NEGATIVES:
-                negated = at
+        for at in clause.inside:
+            tags = self.words.tags(at)
+            if "negation" in tags or self.words.word(at) in NEGATIVES:
+                negation = at
                 continue
-            verb = tags.get("verb")
-            if verb in ("want", "need") or "wanting" in tags or "ready" in tags or "intent_noun" in tags:
-                wanted = True
-            if "stop_noun" in tags and "verb" not in tags and negated is None:
-                self._add("stop", at, clause)
-            if verb is None and tags.get("event_noun") == "brake":
-                verb = "brake"
-            over = tags.get("bound") and token.text.lower() == "over" or tags.get("relation") == "past"
-            if over and verb is None and clause.subject == HERO_ID and at and "quantity" not in self.tokens[at - 1].tags:
-                if self._landmark(at, clause) == "conflict_point":
-                    self._add("pass", at, clause)
-            if "through" in tags and verb is None and self._landmark(at, clause) and clause.subject == HERO_ID:
-                self._add("pass", at, clause)
-            if "landmark" in tags and at and self.tokens[at - 1].tags.get("verb") == "approach":
-                self.used.add(at)
+            wanted |= tags.get("verb") in ("want", "need") or self.words.has([at], "wanting", "ready", "intent_noun")
+            self._without_verb(at, clause, negation)
+            verb = tags.get("verb") or ("brake" if tags.get("event_noun") == "brake" else None)
             if verb is None or "heading" in tags:
                 continue
-            if negated is not None:
+            if negation is not None:
                 if self._denied(verb, at, clause):
-                    self.denied.add(negated)
-                    negated = None
-                continue
-            if verb in _TURN_WORDS and wanted:
-                continue
-            if verb == "let" and clause.subject == HERO_ID and self._lets(at, clause):
+                    self.words.used.add(negation)
+                    negation = None
+            elif verb == "let" and clause.subject == HERO_ID and self._lets(at, clause):
                 return
-            if at + 1 in self.names.actors and ("actor_adjective" in tags or "ing" in token.forms):
-                continue  # "a slow car", "the entering driver"
-            if verb == "go" and at + 2 < clause.end and self.tokens[at + 1].text.lower() == "to" and "verb" in self.tokens[at + 2].tags:
-                continue
-            if wanted and verb in WEAK:
-                continue
-            if verb == "come":
-                continue
-            if verb in _TURN_WORDS and self._is_noun(at):
-                continue
-            if verb in ("go", "drive", "keep") and self._tells_way(at, clause):
-                continue
-            if verb == "reach" and at and self.tokens[at - 1].text.lower() in ("to", "from", "before") and any(
-                "quantity" in self.tokens[b].tags for b in range(max(clause.start, at - 4), at)
-            ):
-                continue  # "needs 3 s to reach the stop line"
-            if verb == "reach" and (clause.subject == EGO_ID or self._landmark(at, clause) is None):
-                continue
-            if verb in STRONG:
-                self._add(STRONG[verb], at, clause)
-            elif verb in WEAK:
-                self._add(WEAK[verb], at, clause)
-            elif verb in YIELDS:
-                self._add(YIELDS[verb], at, clause)
+            elif verb in _DEEDS and not self._only_describes(verb, at, clause):
+                self._add(_DEEDS[verb], at, clause)
+            elif verb in _MOVES and not wanted and not self._only_describes(verb, at, clause):
+                self._add(_MOVES[verb], at, clause)
+
+    def _without_verb(self, at: int, clause: Clause, negation: int | None) -> None:
+        """Read "to a full stop", "speed zero", "over the conflict point", "through it"."""
+        tags = self.words.tags(at)
+        if "stop_noun" in tags and "verb" not in tags and negation is None:
+            self._add("stop", at, clause)
+        over = self.words.word(at) == "over" or tags.get("relation") == "past"
+        across = over and "quantity" not in self.words.tags(at - 1)
+        if (across or "through" in tags) and "verb" not in tags and clause.subject == HERO_ID:
+            if self._landmark(at, clause) == "conflict_point":
+                self._add("pass", at, clause)
+        if "landmark" in tags and self.words.tag(at - 1, "verb") == "approach":
+            self.words.used.add(at)
+
+    def _only_describes(self, verb: str, at: int, clause: Clause) -> bool:
+        """Whether a verb tells no deed here: "a slow car", "goes west", "needs 3 s to reach the line", "its turn"."""
+        token, words = self.words.tokens[at], self.words
+        if at + 1 in words.names.actors and ("actor_adjective" in token.tags or "ing" in token.forms):
+            return True
+        if verb in _TURNS and self._is_noun(at):
+            return True
+        if verb in ("go", "drive", "keep") and (self._tells_way(at, clause) or self._leads_on(at, clause)):
+            return True
+        if verb == "reach":
+            state = clause.subject == EGO_ID or self._landmark(at, clause) is None
+            amount = words.has(range(max(clause.start, at - 4), at), "quantity")
+            return state or (amount and words.word(at - 1) in ("to", "from", "before"))
+        return False
+
+    def _leads_on(self, at: int, clause: Clause) -> bool:
+        """Whether this is "proceeds to slow down"."""
+        return self.words.word(at + 1) == "to" and at + 2 < clause.end and "verb" in self.words.tags(at + 2)
 
     def _is_noun(self, at: int) -> bool:
         """Whether this is "the turn", of which another verb tells more: "completes its turn"."""
-        before = self.tokens[at - 1].tags if at else {}
-        if not before.keys() & {"determiner", "possessive", "direction", "genitive"} or "verb" in before:
-            return False
-        return not any(self.tokens[b].tags.get("verb") == "begin" for b in range(max(0, at - 4), at))
+        before = self.words.tags(at - 1)
+        named = before.keys() & {"determiner", "possessive", "direction", "genitive"} and "verb" not in before
+        return bool(named) and "begin" not in self.words.verbs(range(at - 4, at))
 
     def _tells_way(self, at: int, clause: Clause) -> bool:
-        """Whether "goes" tells a way and no deed: "goes west", "keeps straight on"."""
         for ahead in range(at + 1, min(at + 5, clause.end)):
-            tags = self.tokens[ahead].tags
-            if tags.keys() & {"heading", "direction"} or tags.get("area") in ("road", "driveway"):
+            if self.words.has([ahead], "heading", "direction") or self.words.tag(ahead, "area") in ("road", "driveway"):
                 return True
-            if "quantity" in tags or "landmark" in tags:
+            if self.words.has([ahead], "quantity", "landmark"):
                 return False
         return False
 
     def _add(self, kind: str, at: int, clause: Clause) -> None:
-        self.used.add(at)
         actor = clause.subject if clause.subject is not None else HERO_ID
-        if at + 1 < clause.end and self.tokens[at + 1].tags.get("preposition") == "of":
-            named = next((each for each in range(at + 2, min(at + 5, clause.end)) if each in self.names.actors), None)
-            actor = self.names.actors[named] if named is not None else actor
-        self.deeds.append(Deed(kind, at, clause, self.tokens[at].span, self._landmark(at, clause), actor))
+        if at + 1 < clause.end and self.words.tag(at + 1, "preposition") == "of":
+            named = self.words.named(range(at + 2, min(at + 5, clause.end)))  # "the braking of the ego"
+            actor = named if named is not None else actor
+        self.words.used.add(at)
+        span = self.words.tokens[at].span
+        self.deeds.append(Deed(kind, at, clause, span, self._landmark(at, clause), actor))
 
     def _landmark(self, at: int, clause: Clause) -> str | None:
+        """Return what a deed is done to: the place after it, or before it in "the point is passed by the van"."""
         for ahead in range(at + 1, clause.end):
-            tags = self.tokens[ahead].tags
-            if "landmark" in tags:
-                self.used.add(ahead)
-                return tags["landmark"]
-            if "back_reference" in tags or "mark_noun" in tags:
-                for back in range(at, -1, -1):
-                    if "landmark" in self.tokens[back].tags:
-                        return self.tokens[back].tags["landmark"]
-            if "quantity" in tags:
+            if "landmark" in self.words.tags(ahead):
+                return self._use(ahead)
+            if self.words.has([ahead], "back_reference", "mark_noun"):
+                back = self.words.landmark_before(at + 1)
+                return self.words.tags(back)["landmark"] if back is not None else None
+            if "quantity" in self.words.tags(ahead):
                 return None
-        if any("be" in self.tokens[back].tags for back in range(clause.start, at)):
-            for back in range(clause.start, at):
-                if "landmark" in self.tokens[back].tags:
-                    self.used.add(back)
-                    return self.tokens[back].tags["landmark"]
-        return None
+        before = range(clause.start, at)
+        back = self.words.where(before, "landmark") if self.words.has(before, "be") else None
+        return self._use(back) if back is not None else None
 
+    def _use(self, at: int) -> str:
+        self.words.used.add(at)
+        return self.words.tags(at)["landmark"]
+
+    # -- denials ------------------------------------------------------------------------------------------------------
     def _denied(self, verb: str, at: int, clause: Clause) -> bool:
         """Read "does not turn", "does not yield", "without speeding up", "does not set off until"."""
-        span = self.tokens[at].span
-        if verb == "attitude" or any("quantity" in self.tokens[each].tags for each in range(at, clause.end)):
+        if verb == "attitude" or self.words.has(range(at, clause.end), "quantity"):
             return False
-        if verb in _TURN_WORDS and (clause.subject is not None or clause.both):
-            self.straight += [(actor, span) for actor in ((EGO_ID, HERO_ID) if clause.both else (clause.subject,))]
+        actors = [EGO_ID, HERO_ID] if clause.both else [clause.subject]
+        if verb in _TURNS and None not in actors:
+            self.straight += [(actor, at) for actor in actors if actor is not None]
             return True
         if clause.subject == EGO_ID:
             return False
-        if verb in ("yield", "wait", "stop", "brake", "let"):
+        if verb in _WAITS:
             self._add("not_yield", at, clause)
             return True
-        if verb in ("drive", "go") and any(
-            c.link in ("until", "before") and c.sentence == clause.sentence and c.start > clause.start and self._perfect(c)
-            for c in self.clauses
-        ):
-            self._add("wait", at, clause)
-            return True  # "does not set off until"
-        if verb in ("drive", "go") and any(deed.kind in ("wait", "stop") for deed in self.deeds[-2:]):
-            return True  # "sat there, not moving"
+        if verb in ("drive", "go"):
+            return self._stays(at, clause)
         if verb == "accelerate":
             self._add("keep", at, clause)
             return True
         return False
 
+    def _stays(self, at: int, clause: Clause) -> bool:
+        """Whether the hero "does not set off until ...", or "sat there, not moving"."""
+        later = [each for each in self.words.sentence(clause) if each.start > clause.start]
+        if any(each.link == "until" or (each.link == "before" and self._is_perfect(each)) for each in later):
+            self._add("wait", at, clause)
+            return True
+        return any(deed.kind in ("wait", "stop") for deed in self.deeds[-2:])
+
+    # -- moments of the ego -------------------------------------------------------------------------------------------
+    def _is_perfect(self, clause: Clause) -> bool:
+        return self.words.where(clause.inside, "auxiliary", "have") is not None
+
+    def _releases(self, clause: Clause) -> bool:
+        """Whether "once the ego has completed its turn" is a moment of the ego that the hero waits for."""
+        done = self.words.verbs(clause.inside) & {"complete", "pass"}
+        told = self.words.has(clause.inside, "quantity")
+        of_ego = clause.link == "when" and clause.subject == EGO_ID
+        return of_ego and self._is_perfect(clause) and bool(done) and not told
+
     def _lets(self, at: int, clause: Clause) -> bool:
         """Read "lets the ego complete its turn" as what the hero waits for."""
-        if not any(self.names.actors.get(each) == EGO_ID for each in range(at + 1, clause.end)):
+        rest = range(at + 1, clause.end)
+        if not any(self.words.names.actors.get(each) == EGO_ID for each in rest):
             return False
-        rest = replace(clause, start=at + 1, link="let", subject=EGO_ID, named=True)
-        verbs = [self.tokens[each].tags.get("verb") for each in range(at + 1, clause.end)]
-        if not set(verbs) & {"complete", "pass", "turn", "pull_out"}:
+        if not self.words.verbs(rest) & {"complete", "pass", "turn", "pull_out"}:
             self._add("yield", at, clause)
             return True
-        return self._ego_moment(rest)
-
-    def _perfect(self, clause: Clause) -> bool:
-        return clause.link == "until" or any(
-            self.tokens[at].tags.get("auxiliary") == "have" for at in range(clause.start, clause.end)
-        )
+        return self._ego_moment(replace(clause, start=at + 1, link="let", subject=EGO_ID, named=True))
 
     def _ego_moment(self, clause: Clause) -> bool:
         """Read "before the ego begins to turn", "until it has passed the conflict point", "before us"."""
-        hero_does = [at for at in range(clause.start, clause.end) if self.tokens[at].tags.get("verb") in ("brake", "stop", "accelerate", "wait")]
-        named = clause.named and clause.subject == EGO_ID
-        if not named and (hero_does or clause.subject != EGO_ID):
+        verbs = self.words.verbs(clause.inside)
+        if clause.subject != EGO_ID or (not clause.named and verbs & {"brake", "stop", "accelerate", "wait"}):
             return False
-        verbs = [self.tokens[at].tags.get("verb") for at in range(clause.start, clause.end)]
-        nouns = [self.tokens[at].tags.get("event_noun") for at in range(clause.start, clause.end)]
-        marks = [self.tokens[at].tags["landmark"] for at in range(clause.start, clause.end) if "landmark" in self.tokens[at].tags]
-        last = any("back_reference" in self.tokens[at].tags or "mark_noun" in self.tokens[at].tags for at in range(clause.start, clause.end))
-        if "complete" in verbs:
-            landmark = "turn_end"
-        elif set(verbs) & {"pass", "reach", "enter"} or (marks and "turn" not in verbs):
-            landmark = marks[0] if marks else "conflict_point"
-        elif set(verbs) & _TURN_WORDS or "turn" in nouns or "begin" in verbs:
-            perfect = any("auxiliary" in self.tokens[at].tags and self.tokens[at].tags["auxiliary"] == "have" for at in range(clause.start, clause.end))
-            landmark = "turn_end" if perfect and "begin" not in verbs else "turn_start"
-        else:
-            landmark = "same" if not last else "conflict_point"
-        if landmark in ("intersection", "junction_start") and not marks:
-            landmark = "conflict_point"
         kind = {"before": "before", "let": "let_reach"}.get(clause.link, "after")
-        self.used |= set(range(clause.start - 1, clause.end))
-        self.deeds.append(Deed(kind, clause.start, clause, clause.span(self.tokens), landmark, EGO_ID))
+        self.words.used |= set(range(clause.start - 1, clause.end))
+        span = self.words.span(clause)
+        self.deeds.append(Deed(kind, clause.start, clause, span, self._ego_place(clause, verbs), EGO_ID))
         return True
+
+    def _ego_place(self, clause: Clause, verbs: set[str]) -> str:
+        mark = self.words.where(clause.inside, "landmark")
+        if "complete" in verbs:
+            return "turn_end"
+        turns = verbs & {"turn", "pull_out", "begin"} or self.words.where(clause.inside, "event_noun", "turn") is not None
+        if verbs & {"pass", "reach", "enter"} or (mark is not None and "turn" not in verbs):
+            return self.words.tags(mark)["landmark"] if mark is not None else "conflict_point"
+        if turns:
+            return "turn_end" if self._is_perfect(clause) and "begin" not in verbs else "turn_start"
+        return "conflict_point" if self.words.has(clause.inside, "back_reference", "mark_noun") else "same"

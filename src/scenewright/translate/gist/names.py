@@ -1,98 +1,132 @@
 """Finds who is spoken of: every word that stands for the ego or for the hero.
 
-What enters: tokens. What leaves: the actor of each naming token. A vehicle that is not the ego is the hero; where more
-than one other vehicle is spoken of, `several` says so.
+What enters: tokens. What leaves: `Names`. A vehicle, or its driver, that is not the ego is the hero.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 from scenewright.translate.events import EGO_ID, HERO_ID
+from scenewright.translate.gist.words import Names
+from scenewright.translate.lexicon import load_lexicon
 from scenewright.translate.tokens import Token
 
-_GENERIC = frozenset(("car", "vehicle", "driver", "motorist", "actor", "agent", "one", "traffic_one"))
-_RELATIVE = {"front_one": "lead", "rear_one": "rear", "left_turner": "left", "right_turner": "right", "through_one": "straight"}
-PERSONS = frozenset(
+FIRST_PERSON = frozenset(("i", "me", "we", "us", "myself", "ourselves", "mine", "ours"))
+PERSONAL = frozenset(("he", "she", "him", "himself", "herself", "hers"))
+_PERSONS = frozenset(
     "man woman uncle aunt grandmother grandma grandfather grandpa granny neighbour neighbor somebody someone guy lady "
     "gentleman fellow stranger owner father mother commuter courier chap bloke kid teenager trucker operator".split()
 )
-_MASCULINE = frozenset(("he", "she", "him", "himself", "herself", "hers"))
-FIRST_PERSON = frozenset(("i", "me", "we", "us", "myself", "ourselves", "mine", "ours"))
-
-
-@dataclass(slots=True)
-class Names:
-    """Who each token stands for.
-
-    Attributes
-    ----------
-    actors
-        Actor by index of the naming token.
-    pronouns
-        Indices of "it", "its", "he", ... that have yet to be resolved.
-    both
-        Indices of words for both vehicles.
-    kinds
-        Kinds of vehicle that the hero is called.
-    """
-
-    actors: dict[int, int] = field(default_factory=dict)
-    pronouns: set[int] = field(default_factory=set)
-    both: set[int] = field(default_factory=set)
-    spoken: bool = False  # the ego is only "I" or "we", so that "it" is the other one
-    relative: dict[int, str] = field(default_factory=dict)
-    kinds: set[str] = field(default_factory=set)
-
-    @property
-    def several(self) -> bool:
-        """Whether more than one other vehicle is spoken of."""
-        return len(self.kinds) > 1
+# Kinds of vehicle that can be any vehicle, and names that say how a vehicle lies to the other or what it does.
+_GENERIC = frozenset(("car", "vehicle", "driver", "motorist", "actor", "agent", "traffic_one"))
+_RELATIVE = {
+    "front_one": "lead",
+    "rear_one": "rear",
+    "left_turner": "left",
+    "right_turner": "right",
+    "through_one": "straight",
+}
+_NAMED = frozenset(("ego", "hero", "noun"))
 
 
 def find_names(tokens: list[Token]) -> Names:
     """Return who the tokens stand for."""
     names = Names()
-    ego_kinds = _ego_kinds(tokens)
-    ego_marks = _ego_marks(tokens)
+    kinds, marks = _ego_kinds(tokens), _ego_marks(tokens)
+    speaker = _speaker(tokens)
+    unknown = _unknown_vehicle(tokens)
     for at, token in enumerate(tokens):
         word = token.text.lower()
         if word == "subject" and at + 1 < len(tokens) and "colon" in tokens[at + 1].tags:
-            continue
-        if "ego" in token.tags or word in FIRST_PERSON:
+            continue  # of a letter
+        if word in FIRST_PERSON:
+            names.actors[at] = speaker
+        elif "ego" in token.tags:
             names.actors[at] = EGO_ID
-        elif "pair" in token.tags and "measured_word" not in token.tags or word in ("both", "they", "each"):
-            partitive = at > 1 and tokens[at - 1].tags.get("preposition") == "of" and "negation" not in tokens[at - 2].tags
-            partitive = partitive and tokens[at - 2].text.lower() != "neither"
-            if not partitive and not _both_and(tokens, at):
+        elif word in ("both", "they", "each") or ("pair" in token.tags and "measured_word" not in token.tags):
+            if not _one_of_them(tokens, at) and not _both_and(tokens, at):
                 names.both.add(at)
-        elif "latter" in token.tags or word in _MASCULINE or "pronoun" in token.tags or "possessive" in token.tags:
+        elif word in PERSONAL or token.tags.keys() & {"latter", "pronoun", "possessive"}:
             names.pronouns.add(at)
-        elif "hero" in token.tags and not _is_adjective(tokens, at):
-            names.actors[at] = HERO_ID
-        elif "noun" in token.tags:
-            kind = token.tags["noun"]
-            marked = at and tokens[at - 1].text.lower() in ego_marks
-            if token.slips:
-                continue
-            tested = [each.text.lower() for each in tokens[at + 1 : at + 3]] == ["under", "test"]
-            if tested or _owned(tokens, at) or kind in ego_kinds or marked:
-                names.actors[at] = EGO_ID
-                if kind in _RELATIVE:
-                    names.relative[at] = _RELATIVE[kind]
-                continue
-            names.actors[at] = HERO_ID
-            if kind in _RELATIVE and kind not in ego_kinds:
-                names.relative[at] = _RELATIVE[kind]
-            elif kind not in _GENERIC:
-                names.kinds.add(kind)
-        elif word in PERSONS:
-            names.actors[at] = HERO_ID
-        elif token.tags.get("actor_adjective") in ("lead", "oncoming") and _alone(tokens, at):
+        elif "noun" in token.tags and not token.slips and not _is_last_one(tokens, at):
+            _name_vehicle(tokens, at, names, kinds, marks)
+        elif word in _PERSONS or word == unknown or _is_hero(tokens, at):
             names.actors[at] = HERO_ID
     egos = [tokens[at].text.lower() for at, actor in names.actors.items() if actor == EGO_ID]
-    names.spoken = bool(egos) and all(each in FIRST_PERSON or each.startswith("our") for each in egos)
+    names.spoken = bool(egos) and all(each in FIRST_PERSON for each in egos)
+    names.guessed = unknown
     return names
+
+
+def _speaker(tokens: list[Token]) -> int:
+    """Return who "I" am: the ego, or whoever drives "the target car" that I say I am in."""
+    for at, token in enumerate(tokens):
+        if token.text.lower() != "i":
+            continue
+        for ahead in range(at + 1, min(at + 7, len(tokens))):
+            tags = tokens[ahead].tags
+            if tags.keys() & {"end", "comma", "ego"}:
+                break
+            drives = any(each.tags.get("verb") == "drive" or each.text.lower() == "in" for each in tokens[at + 1 : ahead])
+            if drives and tags.keys() & {"hero", "noun"} and not _is_tested(tokens, ahead):
+                return HERO_ID
+    return EGO_ID
+
+
+def _unknown_vehicle(tokens: list[Token]) -> str | None:
+    """Return a word that is not known but can only be the other vehicle: "a dustcart ... the dustcart brakes"."""
+    if any("hero" in t.tags or ("noun" in t.tags and t.tags["noun"] not in _RELATIVE) for t in tokens):
+        return None
+    articles: dict[str, set[str]] = {}
+    for at, token in enumerate(tokens[:-1]):
+        if "unknown" not in token.tags or "unknown" in tokens[at + 1].tags or not token.text.isalpha():
+            continue
+        back = at - 1
+        while back >= 0 and tokens[back].tags.keys() & {"unknown", "actor_adjective", "heading"}:
+            back -= 1
+        article = tokens[back].tags.get("determiner") if back >= 0 else None
+        acts = tokens[at + 1].tags.keys() & {"verb", "be", "auxiliary", "quantity", "preposition", "comma", "link"}
+        if article in ("definite", "indefinite") and acts:
+            articles.setdefault(token.text.lower(), set()).add(article)
+    found = [word for word, seen in articles.items() if seen == {"definite", "indefinite"}]
+    return found[0] if len(found) == 1 else None
+
+
+def _name_vehicle(tokens: list[Token], at: int, names: Names, ego_kinds: set[str], ego_marks: set[str]) -> None:
+    kind = tokens[at].tags["noun"]
+    marked = at > 0 and tokens[at - 1].text.lower() in ego_marks
+    ego = marked or kind in ego_kinds or _is_tested(tokens, at) or _is_ours(tokens, at)
+    names.actors[at] = EGO_ID if ego else HERO_ID
+    if kind in _RELATIVE:
+        names.relative[at] = _RELATIVE[kind]
+    elif not ego and kind not in _GENERIC:
+        names.kinds.add(kind)
+    if not ego and _is_third(tokens, at):
+        names.kinds |= {"hero", kind}
+
+
+def _is_third(tokens: list[Token], at: int) -> bool:
+    """Whether a vehicle comes in after the hero was named as such: "the hero ... A tractor pulls out behind the hero"."""
+    back = at - 1
+    while back > 0 and tokens[back].tags.keys() & {"actor_adjective", "heading", "unknown"}:
+        back -= 1
+    if back < 1 or tokens[back].tags.get("determiner") not in ("indefinite", "another"):
+        return False
+    if tokens[back - 1].tags.keys() & {"be", "comma", "colon"} or tokens[at + 1].tags.keys() & {"comma"}:
+        return False  # "the hero, a truck,", "Hero: a truck"
+    return any("hero" in each.tags and not each.tags.keys() & {"actor_adjective"} for each in tokens[:back])
+
+
+def _is_last_one(tokens: list[Token], at: int) -> bool:
+    """Whether this is "Last one for today" and no vehicle."""
+    relative = tokens[at].tags["noun"] in _RELATIVE and tokens[at].text.lower().endswith("one")
+    return relative and (at == 0 or not tokens[at - 1].tags.keys() & {"determiner", "colon", "comma", "link"})
+
+
+def _one_of_them(tokens: list[Token], at: int) -> bool:
+    """Whether only one is meant: "the second of the two"; "neither of them" means both."""
+    if at < 2 or tokens[at - 1].tags.get("preposition") != "of":
+        return False
+    return "negation" not in tokens[at - 2].tags and tokens[at - 2].text.lower() != "neither"
 
 
 def _both_and(tokens: list[Token], at: int) -> bool:
@@ -100,26 +134,30 @@ def _both_and(tokens: list[Token], at: int) -> bool:
     ahead = at + 1
     while ahead < len(tokens) and tokens[ahead].tags.keys() & {"determiner", "actor_adjective"}:
         ahead += 1
-    return tokens[at].text.lower() == "both" and ahead < len(tokens) and bool(tokens[ahead].tags.keys() & {"ego", "hero", "noun"})
+    named = ahead < len(tokens) and bool(tokens[ahead].tags.keys() & _NAMED)
+    return tokens[at].text.lower() == "both" and named
 
 
-def _alone(tokens: list[Token], at: int) -> bool:
-    """Whether "lead" or "oncoming" stands for the vehicle itself: "oncoming 40 m before the conflict point"."""
+def _is_hero(tokens: list[Token], at: int) -> bool:
+    """Whether a word names the hero: "the POV", "other" alone, "oncoming" in "oncoming 40 m before it"."""
+    tags = tokens[at].tags
     following = tokens[at + 1] if at + 1 < len(tokens) else None
-    if following is None or at and tokens[at - 1].tags.keys() & {"be", "adverb", "auxiliary"}:
+    if "hero" in tags:
+        describes = following is not None and bool(following.tags.keys() & {"noun", "actor_adjective", "hero"})
+        return not ("actor_adjective" in tags and describes)
+    if tags.get("actor_adjective") not in ("lead", "oncoming") or following is None:
         return False
-    return bool(following.tags.keys() & {"quantity", "be"}) or (
-        "verb" in following.tags and "s" in following.forms
-    ) or following.text.lower() == "down to"
+    if at and tokens[at - 1].tags.keys() & {"be", "adverb", "auxiliary"}:
+        return False
+    acts = "verb" in following.tags and "s" in following.forms
+    return acts or bool(following.tags.keys() & {"quantity", "be"}) or following.text.lower() == "down to"
 
 
-def _is_adjective(tokens: list[Token], at: int) -> bool:
-    """Whether "other" or "target" only tells which car: "the other car"."""
-    following = tokens[at + 1].tags if at + 1 < len(tokens) else {}
-    return "actor_adjective" in tokens[at].tags and bool(following.keys() & {"noun", "actor_adjective", "hero"})
+def _is_tested(tokens: list[Token], at: int) -> bool:
+    return [each.text.lower() for each in tokens[at + 1 : at + 3]] == ["under", "test"]
 
 
-def _owned(tokens: list[Token], at: int) -> bool:
+def _is_ours(tokens: list[Token], at: int) -> bool:
     """Whether this is "our car" or "my shuttle"; "my uncle's lorry" is not."""
     back = at - 1
     while back >= 0 and tokens[back].tags.keys() & {"actor_adjective", "unknown"}:
@@ -128,41 +166,40 @@ def _owned(tokens: list[Token], at: int) -> bool:
 
 
 def _ego_kinds(tokens: list[Token]) -> set[str]:
-    """Return the kinds of vehicle that the ego is also called: "the taxi, our ego," and "the ego is a shuttle"."""
-    from scenewright.translate.lexicon import load_lexicon
-
-    kinds: set[str] = set()
+    """Return the kinds of vehicle that the ego is called too: "the taxi, our ego,", "the ego is the rear one"."""
     entries = load_lexicon().entries
+    kinds: set[str] = set()
     for at, token in enumerate(tokens):
-        last = token.text.lower().split()[-1:] if "ego" in token.tags else []
-        if last and (kind := entries.get(tuple(last), {}).get("noun")) and kind not in (*_GENERIC, *_RELATIVE):
-            kinds.add(kind)
-        tested = [each.text.lower() for each in tokens[at + 1 : at + 3]] == ["under", "test"]
-        if tested and "noun" in token.tags and token.tags["noun"] not in _GENERIC:
-            kinds.add(token.tags["noun"])
-        if "noun" not in token.tags or token.tags["noun"] in _GENERIC:
+        if "ego" in token.tags:
+            last = token.text.lower().split()[-1]
+            kinds |= {entries.get((last,), {}).get("noun", "")} - {*_GENERIC, *_RELATIVE, ""}
+        kind = token.tags.get("noun")
+        if kind is None or kind in _GENERIC:
             continue
-        before = at - 1
-        while before > 0 and tokens[before].tags.keys() & {"determiner"}:
-            before -= 1
-        if token.tags["noun"] in _RELATIVE and before > 0 and "be" in tokens[before].tags and "ego" in tokens[before - 1].tags:
-            kinds.add(token.tags["noun"])
-        after = at + 1
-        linked = tokens[after].tags.keys() & {"comma", "be"} if after < len(tokens) else ()
-        if linked and after + 2 < len(tokens):
-            after += 1
-            after += bool(tokens[after].tags.keys() & {"determiner"})
-            if after < len(tokens) and "ego" in tokens[after].tags:
-                ends = tokens[after + 1].tags.keys() & {"comma", "end"} if after + 1 < len(tokens) else True
-                if ends or "be" in tokens[at + 1].tags:
-                    kinds.add(token.tags["noun"])
+        if _is_tested(tokens, at) or _is_called(tokens, at) or (kind in _RELATIVE and _ego_is(tokens, at)):
+            kinds.add(kind)
     return kinds
+
+
+def _is_called(tokens: list[Token], at: int) -> bool:
+    """Whether a vehicle is said to be the ego: "the one behind is the ego", "the taxi, our ego,"."""
+    if at + 2 >= len(tokens) or not tokens[at + 1].tags.keys() & {"comma", "be"}:
+        return False
+    ahead = at + 2 + ("determiner" in tokens[at + 2].tags)
+    if ahead >= len(tokens) or "ego" not in tokens[ahead].tags:
+        return False
+    closes = ahead + 1 >= len(tokens) or bool(tokens[ahead + 1].tags.keys() & {"comma", "end"})
+    return closes or "be" in tokens[at + 1].tags
+
+
+def _ego_is(tokens: list[Token], at: int) -> bool:
+    back = at - 1
+    while back > 0 and "determiner" in tokens[back].tags:
+        back -= 1
+    return back > 0 and "be" in tokens[back].tags and "ego" in tokens[back - 1].tags
 
 
 def _ego_marks(tokens: list[Token]) -> set[str]:
     """Return what sets the ego apart: "robot" in "the robot car under test"."""
-    found = set()
-    for at, token in enumerate(tokens):
-        if at and "ego" in token.tags and "unknown" in tokens[at - 1].tags:
-            found.add(tokens[at - 1].text.lower())
-    return found
+    pairs = zip(tokens, tokens[1:], strict=False)
+    return {mark.text.lower() for mark, named in pairs if "ego" in named.tags and "unknown" in mark.tags}

@@ -1,321 +1,321 @@
 """Reads where each vehicle comes from and goes: headings, turns, areas, and how the two lie to each other.
 
-What enters: tokens, names, clauses and a map. What leaves: wishes and relations, as `facts` holds them, and the words about
-ways that no vehicle could be found for.
+What enters: words with clauses. What leaves: `Way`s, each of one vehicle or of none ("Eastbound tailing case."), and lane
+relations as `facts` holds them. Which routes fit is asked in `wishes`.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Literal
 
 from scenewright.errors import Span
-from scenewright.roads import RoadMap, Route, all_routes
 from scenewright.translate.events import EGO_ID, HERO_ID, Event
-from scenewright.translate.facts import LaneRelation, Said, WishKey
-from scenewright.translate.gist.clauses import Clause
-from scenewright.translate.gist.names import Names
+from scenewright.translate.facts import LaneRelation
+from scenewright.translate.gist.words import Clause, Words
 from scenewright.translate.itineraries import OPPOSITE
-from scenewright.translate.tokens import Token
 
-_INTO = frozenset(("into",))
-_FROM = frozenset(("out",))
-_LEAVING = frozenset(("leave", "pull_out"))
-_VEHICLE = frozenset(("noun", "hero", "ego", "actor_adjective"))
+Key = Literal["heading", "turn", "origin_kind", "destination_kind"]
+_BESIDE = frozenset(("determiner", "possessive", "actor_adjective", "preposition", "unknown", "heading", "direction"))
+_AREA_WORDS = frozenset(("determiner", "possessive", "area_adjective", "same", "side", "adverb", "unknown"))
+_LEAVING = ("leave", "pull_out")
+_CROSSING = frozenset(("turn", "pull_out", "cut_in_front", "pass"))
+_TURN_AFTER = ("go", "pull_out", "drive", "make", "come", "want")
+_BEFORE_TURN = frozenset(
+    ("determiner", "possessive", "comma", "colon", "end", "link", "area", "heading", "preposition", "wanting", "unknown")
+    + ("be", "ready", "bound_word")
+)
+_AFTER_TURN = frozenset(
+    ("end", "comma", "heading", "preposition", "link", "event_noun", "verb", "area", "unknown", "colon", "adverb")
+    + ("relation", "pair", "auxiliary", "be", "negation", "side_noun")
+)
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Way:
-    """One word about a way, and of whom it is said."""
+    """One word about a way, where it stands, and of whom it is said."""
 
-    key: str  # heading, turn, origin_kind, destination_kind
+    key: Key
     value: str
+    at: int
     span: Span
     actor: int | None
 
 
 @dataclass(slots=True)
 class WayReader:
-    """Collects what is said about ways."""
+    """Collects what is said about ways.
 
-    tokens: list[Token]
-    names: Names
-    clauses: list[Clause]
+    Attributes
+    ----------
+    titles
+        Ways of no vehicle, which one of them must fit: "Eastbound tailing case."
+    alike
+        Whose way is like the other's: "makes the same turn".
+    """
+
+    words: Words
     ways: list[Way] = field(default_factory=list)
+    titles: list[Way] = field(default_factory=list)
     relations: list[LaneRelation] = field(default_factory=list)
-    strays: list[Span] = field(default_factory=list)
-    titles: list[Way] = field(default_factory=list)  # told of no vehicle: "Eastbound tailing case."
-    alike: list[tuple[int, Span]] = field(default_factory=list)  # "the same turn": whose is like the other's
+    alike: list[tuple[int, int]] = field(default_factory=list)
 
     def read(self) -> None:
-        """Read every clause."""
-        for clause in self.clauses:
-            for at in range(clause.start, clause.end):
-                if not clause.aside:
-                    self._word(at, clause)
-        for at, said in self.names.relative.items():
-            actor = self.names.actors[at]
-            self._told_by_name(said, actor, self.tokens[at].span)
-        for at, token in enumerate(self.tokens):
-            adjective = token.tags.get("actor_adjective")
-            if adjective in ("lead", "rear", "oncoming", "turns_left", "turns_right"):
-                self._adjective(at, adjective)
+        """Read every clause, and what names and adjectives say."""
+        for clause in self.words.clauses:
+            for at in clause.inside if not clause.aside else ():
+                self._word(at, clause)
+        for at, said in self.words.names.relative.items():
+            self._by_name(said, self.words.names.actors[at], at)
+        for at in range(len(self.words.tokens)):
+            said = self.words.tag(at, "actor_adjective") or ""
+            if said in ("lead", "rear", "oncoming", "turns_left", "turns_right"):
+                self._adjective(at, said)
 
     def _word(self, at: int, clause: Clause) -> None:
-        token = self.tokens[at]
-        tags = token.tags
+        tags = self.words.tags(at)
+        verb, area = tags.get("verb"), tags.get("area")
         if "heading" in tags:
-            value = tags["heading"]
-            back = at - 1
-            while back >= 0 and "determiner" in self.tokens[back].tags:
-                back -= 1
-            lane = at + 1 < len(self.tokens) and self.tokens[at + 1].tags.keys() & {"area", "noun", "hero"}
-            if back >= 0 and self.tokens[back].text.lower() == "from" and not lane:
-                value = OPPOSITE[value]
-            self._say("heading", value, token.span, self._whose(at, clause), clause)
+            self._heading(at, clause)
         elif "direction" in tags:
             self._direction(at, clause)
-        elif tags.get("pronoun") == "it" and at and self._driveway_before(at):
-            before = self.tokens[at - 1].tags
-            if before.get("preposition") == "into" or before.get("verb") == "enter":
-                self._say("destination_kind", "driveway", token.span, clause.subject, clause)
-            elif before.get("verb") == "leave" or "out of" in self.tokens[at - 1].text.lower() or before.get("preposition") == "out" and "relation" not in before:
-                self._say("origin_kind", "driveway", token.span, clause.subject, clause)
-        elif tags.get("verb") == "lane_follow":
-            self._say("turn", "straight", token.span, clause.subject, clause)
-        elif tags.get("area") == "lane":
+        elif tags.get("pronoun") == "it" and self._driveway_before(at):
+            self._into_it(at, clause)
+        elif verb == "lane_follow":
+            self._say("turn", "straight", at, clause.subject, clause)
+        elif area == "lane":
             self._lane(at, clause)
-        elif "area" in tags and "verb" in tags and not (at and self.tokens[at - 1].tags.keys() & {"determiner", "preposition", "possessive"}):
-            return  # "I drive", no drive
-        elif tags.get("area") in ("driveway", "road"):
-            self._area(at, clause)
+        elif area is not None and (verb is None or self.words.has([at - 1], "determiner", "preposition", "possessive")):
+            self._area(at, clause)  # "I drive" is no drive
         elif "from_side" in tags:
-            self._relate(tags["from_side"].replace("on_", "from_"), self._whose(at, clause), token.span)
+            self._relate(tags["from_side"].replace("on_", "from_"), self._whose(at, clause), at)
         elif "oncoming_way" in tags:
-            self._relate("oncoming", self._whose(at, clause), token.span)
+            self._relate("oncoming", self._whose(at, clause), at)
         elif tags.get("relation") in ("ahead", "behind"):
             self._in_line(at, clause)
-        elif tags.get("verb") in ("follow", "lead") and "actor_adjective" not in tags and clause.subject is not None:
-            others = self.tokens[at + 1 : at + 4]
-            if not any(i in self.names.actors or i in self.names.pronouns for i in range(at + 1, at + 1 + len(others))):
-                return
-            ahead = clause.subject if tags["verb"] == "lead" else 1 - clause.subject
-            self._relate("lead" if ahead == HERO_ID else "ego_leads", ahead, token.span)
-        elif "same" in tags or token.text.lower() == "likewise":
-            following = self.tokens[at + 1 : at + 3]
-            if any(each.tags.get("event_noun") == "turn" or each.text.lower() in ("way", "thing", "direction") or each.tags.keys() & {"direction_noun", "intent_noun", "wanting"} for each in following):
-                if clause.subject is not None:
-                    self.alike.append((clause.subject, token.span))
+        elif verb in ("follow", "lead") and "actor_adjective" not in tags and clause.subject is not None:
+            self._follows(at, clause, verb)
+        elif "same" in tags or self.words.word(at) == "likewise":
+            self._same(at, clause)
 
-    def _driveway_before(self, at: int) -> bool:
-        """Whether the driveway was the area named last: "comes out of it"."""
-        back = next((b for b in range(at - 1, -1, -1) if "area" in self.tokens[b].tags), None)
-        return back is not None and self.tokens[back].tags["area"] == "driveway"
+    # -- headings and turns -------------------------------------------------------------------------------------------
+    def _heading(self, at: int, clause: Clause) -> None:
+        value, back = self.words.tags(at)["heading"], at - 1
+        while "determiner" in self.words.tags(back):
+            back -= 1
+        lane = self.words.has([at + 1], "area", "noun", "hero")
+        if self.words.word(back) == "from" and not lane:
+            value = OPPOSITE[value]  # who comes from the east drives west
+        self._say("heading", value, at, self._whose(at, clause), clause)
 
     def _direction(self, at: int, clause: Clause) -> None:
-        token, value = self.tokens[at], self.tokens[at].tags["direction"]
-        before = self.tokens[at - 1].tags if at else {}
-        after = self.tokens[at + 1].tags if at + 1 < len(self.tokens) else {}
+        value, before, after = self.words.tags(at)["direction"], self.words.tags(at - 1), self.words.tags(at + 1)
         if value != "straight":
-            if after.get("relation") in ("ahead", "behind"):
-                return  # "right in front of me"
-            if "genitive" in before and "link" in after or token.text.lower() == "right" and after.get("preposition") == "of":
-                return  # "right of way"
-            if "genitive" in before and at > 1 and at - 2 in self.names.actors:
-                self._relate(f"from_{value}", clause.subject, token.span)
+            if self._is_no_turn(at):
                 return
-            if at - 1 in self.names.actors and after.keys() & {"end", "comma", "link"} and "relation" not in after:
-                self._say("turn", value, token.span, self.names.actors[at - 1], clause)  # "the ego turns right, the car left"
+            if "genitive" in before and at - 2 in self.words.names.actors:
+                self._relate(f"from_{value}", clause.subject, at)  # "from the ego's left"
                 return
-            if token.tags.get("adverb") == "just" and after.get("preposition") == "at":
-                return  # "stops right at the stop line"
-            if "quantity" in before or ("left_over" in token.tags and after.get("preposition") == "to" and "link" not in before and "verb" not in before):
-                return  # "30 m left to the stop line"
-            turns = "turn" in (after.get("verb"), after.get("event_noun"), before.get("verb"), before.get("event_noun"))
-            if token.tags.get("adverb") == "just" and after.keys() & {"relation"} and before.keys() & {"noun", "hero", "ego"}:
-                return  # "right in front of me"
-            turns = turns or "unknown" in before or before.get("verb") in ("go", "pull_out", "drive", "make", "come", "want") or before.get("preposition") == "to"
-            turns = turns or before.keys() & {"determiner", "possessive", "comma", "colon", "end", "link", "area", "heading", "preposition"} or not before or "wanting" in before
-            free = not after or after.keys() & {"end", "comma", "heading", "preposition", "link", "event_noun", "verb", "area", "unknown", "colon", "adverb", "relation", "pair", "auxiliary", "be", "negation", "side_noun"}
-            if token.tags.get("adverb") == "just" and after.keys() & {"relation", "link"} and not turns:
+            closes = after.keys() & {"end", "comma", "link"}
+            if at - 1 in self.words.names.actors and closes:  # "the ego turns right, the car left"
+                self._say("turn", value, at, self.words.names.actors[at - 1], clause)
                 return
-            if not turns or not free:
-                self.strays.append(token.span)
+            if not self._is_turn(at):
+                raise self.words.refuse("it is not clear who turns here", self.words.tokens[at].span)
+        owner = clause.subject
+        if "noun" in after and "verb" not in before:
+            owner = self.words.names.actors.get(at + 1, owner)
+        self._say("turn", value, at, owner, clause)
+
+    def _is_no_turn(self, at: int) -> bool:
+        """Whether this is "right in front of", "right of way", "right at the line", "30 m left to it", "left to go"."""
+        before, after = self.words.tags(at - 1), self.words.tags(at + 1)
+        just = self.words.tag(at, "adverb") == "just"
+        left_over = "left_over" in self.words.tags(at)
+        if after.get("relation") in ("ahead", "behind") or (just and after.get("preposition") in ("of", "at")):
+            return True
+        if "genitive" in before and "link" in after:
+            return True
+        if just and before.get("verb") in ("brake", "stop", "come"):
+            return True  # "slows right down"
+        if just and "relation" in after and before.keys() & {"noun", "hero", "ego"}:
+            return True
+        measured = self.words.where(range(at - 4, at), "quantity") is not None
+        if "quantity" in before or (left_over and measured and before.keys() & {"landmark", "back_reference"}):
+            return True
+        return left_over and after.get("preposition") == "to" and not before.keys() & {"link", "verb"}
+
+    def _is_turn(self, at: int) -> bool:
+        before, after = self.words.tags(at - 1), self.words.tags(at + 1)
+        near = (after.get("verb"), after.get("event_noun"), before.get("verb"), before.get("event_noun"))
+        turns = "turn" in near or before.get("verb") in _TURN_AFTER or not before
+        return (turns or bool(before.keys() & _BEFORE_TURN)) and (not after or bool(after.keys() & _AFTER_TURN))
+
+    def _same(self, at: int, clause: Clause) -> None:
+        """Read "makes the same turn", "heading the same way", "with the same intention"."""
+        for ahead in (at + 1, at + 2):
+            alike = self.words.tag(ahead, "event_noun") == "turn" or self.words.word(ahead) in ("way", "thing", "direction")
+            if clause.subject is not None and (alike or self.words.has([ahead], "direction_noun", "intent_noun", "wanting")):
+                self.alike.append((clause.subject, at))
                 return
-        if after.keys() & {"noun"} and "verb" not in before:
-            self._say("turn", value, token.span, self.names.actors.get(at + 1, clause.subject), clause)
-            return
-        self._say("turn", value, token.span, clause.subject, clause)
+
+    # -- areas --------------------------------------------------------------------------------------------------------
+    def _driveway_before(self, at: int) -> bool:
+        """Whether the driveway was the area named last: "comes out of it"."""
+        back = self.words.where(range(at - 1, -1, -1), "area")
+        return back is not None and self.words.tags(back)["area"] == "driveway"
+
+    def _into_it(self, at: int, clause: Clause) -> None:
+        before = self.words.tags(at - 1)
+        if before.get("preposition") == "into" or before.get("verb") == "enter":
+            self._say("destination_kind", "driveway", at, clause.subject, clause)
+        out = before.get("preposition") == "out" and "relation" not in before
+        if out or before.get("verb") == "leave" or "out of" in self.words.word(at - 1):
+            self._say("origin_kind", "driveway", at, clause.subject, clause)
 
     def _area(self, at: int, clause: Clause) -> None:
-        kind = self.tokens[at].tags["area"]
-        role, back = None, at - 1
-        while back >= 0 and self.tokens[back].tags.keys() & {"determiner", "possessive", "area_adjective", "same", "side", "our", "adverb", "unknown"} and (
-            "determiner" in self.tokens[back].tags or not self.tokens[back].tags.keys() & {"verb", "preposition", "link"}
-        ):
+        kind, role = self.words.tags(at)["area"], self._role(at, clause)
+        if role == "past":
+            if kind == "driveway" and clause.subject is not None and clause.link not in ("before", "after", "until"):
+                self._say("turn", "straight", at, clause.subject, clause)
+        elif role is not None and (clause.subject is not None or clause.both):
+            if kind == "driveway":
+                self._say("destination_kind" if role == "into" else "origin_kind", "driveway", at, clause.subject, clause)
+            elif role == "into":
+                self._say("origin_kind", "driveway", at, clause.subject, clause)
+            elif role == "on":
+                self._say("origin_kind", "road", at, clause.subject, clause)
+
+    def _role(self, at: int, clause: Clause) -> str | None:
+        """Return how a vehicle is to do with an area: "into", "from", "on", "past"; None where it is only spoken of."""
+        back = at - 1
+        while self.words.tags(back).keys() & _AREA_WORDS:
+            if "determiner" not in self.words.tags(back) and self.words.has([back], "verb", "preposition", "link"):
+                break
             back -= 1
-        tags = self.tokens[back].tags if back >= 0 else {}
-        word = self.tokens[back].text.lower() if back >= 0 else ""
-        verb = tags.get("verb")
-        if tags.get("preposition") == "into" or verb in ("enter", "want") or word in ("for", "onto", "into"):
-            role = "into"
-        elif tags.get("preposition") == "out" or verb in _LEAVING or word in ("from", "down") or "out of" in word:
-            role = "from"
-        elif tags.get("relation") == "past" or verb == "pass":
-            if clause.subject is not None and kind == "driveway" and clause.link not in ("before", "after", "until"):
-                self._say("turn", "straight", self.tokens[at].span, clause.subject, clause)
-            return
-        elif tags.get("preposition") == "of" and back and self.tokens[back - 1].tags.keys() & {"mouth", "landmark"}:
-            role = "on"  # "at the end of the driveway"
-        elif tags.get("relation") is not None or tags.get("preposition") in ("of", "to", "at", "between"):
-            if verb is None and tags.get("preposition") == "to" and "link" in tags and kind == "driveway":
-                return
-            return
-        elif tags.get("preposition") in ("on", "in", "with") or not tags or tags.keys() & {"comma", "end", "colon"}:
-            role = None if back > clause.start and "unknown" in self.tokens[back - 1].tags and (back - 1) not in self.names.actors else "on"
-        passive = any("be" in t.tags for t in self.tokens[at : clause.end])
-        verbs = {t.tags.get("verb") for t in self.tokens[at : clause.end]}
-        if role == "on" and passive and verbs & {"enter", "leave"}:
-            role = "into" if "enter" in verbs else "from"  # "the driveway is entered by a van"
-        if role is None:
-            return
-        subject = clause.subject
-        if subject is None and not clause.both:
-            return  # only a place that is spoken of
-        span = self.tokens[at].span
-        if kind == "driveway":
-            key = "destination_kind" if role == "into" else "origin_kind"
-            self._say(key, "driveway", span, subject, clause)
-        elif role == "into":
-            self._say("origin_kind", "driveway", span, subject, clause)
-        elif role == "on":
-            self._say("origin_kind", "road", span, subject, clause)
+        tags, word = self.words.tags(back), self.words.word(back)
+        verb, preposition = tags.get("verb"), tags.get("preposition")
+        before = self.words.verbs(range(max(clause.start, back - 2), back))
+        turned = self.words.has(range(clause.start, back), "direction") or "turn" in before
+        if preposition == "into" or verb in ("enter", "want") or word in ("for", "onto"):
+            return "into"
+        if preposition in ("on", "in") and (before & {"enter"} or (turned and self.words.tag(at, "area") == "road")):
+            return "into"  # "enters in the driveway", "turns left on the road"
+        if preposition == "out" or verb in _LEAVING or word in ("from", "down") or "out of" in word:
+            return "from"
+        if preposition == "by" and self.words.verbs(clause.inside) & {"leave"}:
+            return "from"  # "leave by the driveway"
+        if tags.get("relation") == "past" or verb == "pass":
+            return "past"
+        if preposition == "of" and self.words.has([back - 1], "mouth", "landmark"):
+            return "on"  # "at the end of the driveway"
+        begins = back < clause.start or bool(tags.keys() & {"comma", "end", "colon"})
+        if "relation" in tags or not (preposition in ("on", "in", "with") or begins):
+            return None
+        if back > clause.start and "unknown" in self.words.tags(back - 1) and back - 1 not in self.words.names.actors:
+            return None  # "lives up that driveway"
+        verbs = self.words.verbs(range(at, clause.end))
+        if self.words.has(range(at, clause.end), "be") and verbs & {"enter", "leave"}:
+            return "into" if "enter" in verbs else "from"  # "the driveway is entered by a van"
+        return "on"
 
     def _lane(self, at: int, clause: Clause) -> None:
         """Read "into the ego's lane" and "into the lane that the ego is using"."""
-        around = [i for i in range(max(0, at - 3), min(at + 4, len(self.tokens))) if self.names.actors.get(i) == EGO_ID]
-        into = any(self.tokens[b].tags.get("preposition") == "into" for b in range(max(0, at - 4), at))
-        if around and into and clause.subject == HERO_ID:
-            self._relate("lane_destination", HERO_ID, self.tokens[at].span)
+        around = self.words.named(i for i in range(at - 3, at + 4) if self.words.names.actors.get(i) == EGO_ID)
+        into = self.words.where(range(at - 4, at), "preposition", "into")
+        if around is not None and into is not None and clause.subject == HERO_ID:
+            self._relate("lane_destination", HERO_ID, at)
 
+    # -- behind each other --------------------------------------------------------------------------------------------
     def _whose(self, at: int, clause: Clause) -> int | None:
         """Return whose an adjective is: "the eastbound car"; else whom the clause is about."""
-        ahead = at + 1
-        while ahead < len(self.tokens) and self.tokens[ahead].tags.keys() & {"actor_adjective", "direction", "unknown"} and ahead not in self.names.actors:
-            ahead += 1
-        if ahead in self.names.actors and self.tokens[ahead].tags.keys() & _VEHICLE:
-            return self.names.actors[ahead]
+        ahead = self.words.skip(at + 1, frozenset(("actor_adjective", "direction", "unknown")))
+        if self.words.has([ahead], "noun", "hero", "ego", "actor_adjective"):
+            return self.words.names.actors.get(ahead, clause.subject)
         return clause.subject
+
+    def _follows(self, at: int, clause: Clause, verb: str) -> None:
+        near = range(at + 1, at + 4)
+        road = "pronoun" in self.words.tags(at + 1) and self._road_before(at)
+        if verb == "follow" and road:  # "is on the road and follows it"
+            self._say("turn", "straight", at, clause.subject, clause)
+        elif clause.subject is not None and any(
+            i in self.words.names.actors or i in self.words.names.pronouns for i in near
+        ):
+            ahead = clause.subject if verb == "lead" else 1 - clause.subject
+            self._relate("lead" if ahead == HERO_ID else "ego_leads", ahead, at)
+
+    def _road_before(self, at: int) -> bool:
+        back = self.words.where(range(at - 1, -1, -1), "area")
+        between = range(back + 1, at) if back is not None else range(0)
+        named = self.words.named(between)
+        return back is not None and self.words.tags(back)["area"] == "road" and named is None
 
     def _in_line(self, at: int, clause: Clause) -> None:
         """Read "in front of the ego": who is ahead, where both are in one lane."""
-        if at and "quantity" in self.tokens[at - 1].tags:
-            return
-        if any("unknown" in self.tokens[b].tags and b not in self.names.actors for b in range(max(clause.start, at - 2), at)):
-            return  # "sneaks in ahead of us"
-        if any(self.tokens[b].tags.get("verb") in ("turn", "pull_out", "cut_in_front", "pass") for b in range(clause.start, at)):
-            return
-        value = self.tokens[at].tags["relation"]
-        ahead = at + 1
-        while ahead < len(self.tokens) and self.tokens[ahead].tags.keys() & {"determiner", "possessive", "actor_adjective", "preposition", "unknown"} and ahead not in self.names.actors and ahead not in self.names.pronouns:
-            ahead += 1
-        other = self.names.actors.get(ahead)
-        mine = clause.subject
-        if at == clause.start and ahead in self.names.pronouns and ahead == clause.end - 1:  # "and, behind it, the ego"
-            following = next((c for c in self.clauses if c.start > clause.start and c.sentence == clause.sentence), None)
-            mine = following.subject if following is not None and following.named else mine
-        for back in range(at - 1, max(clause.start - 1, at - 4), -1):
-            if back in self.names.actors:
-                mine = self.names.actors[back]
-                break
-        if other is None and ahead in self.names.pronouns and mine is not None:
+        names, value = self.words.names, self.words.tags(at)["relation"]
+        crosses = self.words.verbs(range(clause.start, at)) & _CROSSING
+        strange = any(
+            "unknown" in self.words.tags(back) and back not in names.actors
+            for back in range(max(clause.start, at - 2), at)
+        )
+        if "quantity" in self.words.tags(at - 1) or crosses or strange:
+            return  # "sneaks in ahead of us" tells no order in a lane
+        ahead = self.words.skip(at + 1, _BESIDE)
+        other, mine = names.actors.get(ahead), clause.subject
+        if other is not None and not self.words.word(at).endswith((" of", "behind", "ahead")):
+            other, mine = 1 - other, other  # "in front the hero, at the rear the ego"
+        if at == clause.start and ahead in names.pronouns and ahead == clause.end - 1:
+            following = next((c for c in self.words.sentence(clause) if c.start > clause.start), None)
+            mine = following.subject if following is not None and following.named else mine  # "and, behind it, the ego"
+        near = self.words.named(range(at - 1, max(clause.start - 1, at - 4), -1))
+        mine = near if near is not None else mine
+        ends = self.words.has([ahead], "end", "comma", "link") or ahead >= len(self.words.tokens)
+        if other is None and mine is not None and (ahead in names.pronouns or ends):
             other = 1 - mine
-        if other is None and (ahead >= len(self.tokens) or self.tokens[ahead].tags.keys() & {"end", "comma", "link"}) and mine is not None:
-            other = 1 - mine
-        if other is None:
-            return
-        front = 1 - other if value == "ahead" else other
-        self._relate("lead" if front == HERO_ID else "ego_leads", front, self.tokens[at].span)
+        if other is not None:
+            front = 1 - other if value == "ahead" else other
+            self._relate("lead" if front == HERO_ID else "ego_leads", front, at)
 
-    def _told_by_name(self, said: str, actor: int, span: Span) -> None:
-        if said == "lead":
-            self._relate("lead" if actor == HERO_ID else "ego_leads", actor, span)
-        elif said == "rear":
-            self._relate("ego_leads" if actor == HERO_ID else "lead", 1 - actor, span)
+    def _by_name(self, said: str, actor: int, at: int) -> None:
+        """Read "the one in front", "the left turner", "the lead car"."""
+        if said in ("lead", "rear"):
+            front = actor if said == "lead" else 1 - actor
+            self._relate("lead" if front == HERO_ID else "ego_leads", front, at)
         else:
-            self.ways.append(Way("turn", said, span, actor))
+            self.ways.append(Way("turn", said, at, self.words.tokens[at].span, actor))
 
     def _adjective(self, at: int, said: str) -> None:
-        ahead = at + 1
-        while ahead < len(self.tokens) and self.tokens[ahead].tags.keys() & {"actor_adjective", "heading", "unknown", "direction"} and ahead not in self.names.actors:
-            ahead += 1
-        actor = self.names.actors.get(at, self.names.actors.get(ahead))
+        ahead = self.words.skip(at + 1, frozenset(("actor_adjective", "heading", "unknown", "direction")))
+        actor = self.words.names.actors.get(at, self.words.names.actors.get(ahead))
         if actor is None:
-            clause = next((each for each in self.clauses if each.start <= at < each.end), None)
-            actor = clause.subject if clause is not None else None
+            actor = next((each.subject for each in self.words.clauses if at in each.inside), None)
         if actor is None:
             return
         if said == "oncoming":
-            self._relate("oncoming", actor, self.tokens[at].span)
-        elif said in ("lead", "rear"):
-            self._told_by_name(said, actor, self.tokens[at].span)
+            self._relate("oncoming", actor, at)
         else:
-            self.ways.append(Way("turn", said.removeprefix("turns_"), self.tokens[at].span, actor))
+            self._by_name(said.removeprefix("turns_"), actor, at)
 
-    def _say(self, key: str, value: str, span: Span, actor: int | None, clause: Clause) -> None:
-        if actor is None and not clause.both:
-            inside = [c for c in self.clauses if c.sentence == clause.sentence]
-            named = any(at in self.names.actors or at in self.names.pronouns for c in inside for at in range(c.start, c.end))
-            if not named or not any(at < clause.end for at in self.names.actors):
-                self.titles.append(Way(key, value, span, None))
-                return
-        if clause.both and not clause.named:
-            self.ways += [Way(key, value, span, EGO_ID), Way(key, value, span, HERO_ID)]
+    # -- what was found -----------------------------------------------------------------------------------------------
+    def _say(self, key: Key, value: str, at: int, actor: int | None, clause: Clause) -> None:
+        span = self.words.tokens[at].span
+        if clause.pair or (clause.both and not clause.named):
+            self.ways += [Way(key, value, at, span, EGO_ID), Way(key, value, at, span, HERO_ID)]
+        elif actor is None and self._is_title(clause):
+            self.titles.append(Way(key, value, at, span, None))
+        elif actor is None:
+            raise self.words.refuse("it is not clear whose way this is", span)
         else:
-            self.ways.append(Way(key, value, span, actor))
+            self.ways.append(Way(key, value, at, span, actor))
 
-    def _relate(self, kind: str, actor: int | None, span: Span) -> None:
+    def _is_title(self, clause: Clause) -> bool:
+        """Whether nobody is named in the sentence, or nobody was so far."""
+        names = self.words.names
+        named = {*names.actors, *names.pronouns}
+        inside = any(at in named for each in self.words.sentence(clause) for at in each.inside)
+        return not inside or not any(at < clause.end for at in names.actors)
+
+    def _relate(self, kind: str, actor: int | None, at: int) -> None:
         if actor is not None:
-            self.relations.append(LaneRelation(kind, actor, Event("be", actor, span, -1)))
-
-    # -- wishes -------------------------------------------------------------------------------------------------------
-    def wishes(self, road_map: RoadMap) -> dict[int, dict[WishKey, Said]]:
-        """Return what each vehicle wants, with headings told apart by what fits the map."""
-        found: dict[int, dict[WishKey, Said]] = {EGO_ID: {}, HERO_ID: {}}
-        told = {actor: [way for way in self.ways if way.actor == actor] for actor in found}
-        for actor, span in self.alike:
-            if not any(way.key == "turn" for way in told[actor]):
-                told[actor] += [Way(w.key, w.value, span, actor) for w in told[1 - actor] if w.key != "heading" or True]
-        for actor, ways in told.items():
-            options = [route for route in all_routes(road_map) if all(_fits(route, way) for way in ways)]
-            for way in ways:
-                key = _wish_key(way, options)
-                said = Said(way.value, Event("be", actor, way.span, -1))
-                if key in found[actor] and found[actor][key].value != way.value:
-                    found[actor][key] = said  # refused later: two values fit no route
-                    options = []
-                found[actor][key] = found[actor].get(key, said)
-            if ways and not options:
-                raise _Clash(actor, ways)
-        return found
-
-
-class _Clash(Exception):
-    """Raised where what is said about one vehicle fits no route."""
-
-    def __init__(self, actor: int, ways: list[Way]) -> None:
-        super().__init__(actor)
-        self.actor, self.ways = actor, ways
-
-
-def _fits(route: Route, way: Way) -> bool:
-    if way.key == "heading":
-        return way.value in route.headings
-    return bool(getattr(route, way.key) == way.value)
-
-
-def _wish_key(way: Way, options: list[Route]) -> WishKey:
-    if way.key != "heading":
-        return way.key  # type: ignore[return-value]
-    last = options and all(route.headings[-1] == way.value for route in options)
-    first = options and all(route.headings[0] == way.value for route in options)
-    return "destination_heading" if last and not first else "origin_heading"
+            self.relations.append(LaneRelation(kind, actor, Event("be", actor, self.words.tokens[at].span, -1)))

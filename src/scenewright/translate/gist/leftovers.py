@@ -1,0 +1,146 @@
+"""Refuses what this reader must not step over: what cannot be orchestrated, denials, bounds, words without a part.
+
+What enters: words, before and after they were read. What leaves: nothing, or a refusal that names the words. Words that are
+not known may be set aside; words that tell a fact may not.
+"""
+
+from __future__ import annotations
+
+import re
+
+from scenewright.errors import Span
+from scenewright.translate.events import HERO_ID
+from scenewright.translate.gist.clauses import BOUNDS
+from scenewright.translate.gist.deeds import Deed
+from scenewright.translate.gist.words import Clause, Words
+
+# Limits that hold for a while, and what did not or will not happen: no reader of facts can tell what follows.
+_DANGERS = frozenset(
+    "exceed exceeds exceeded exceeding higher lower maximum minimum max min limit limited cap capped would "
+    "prediction predicts predicted supposedly allegedly hypothetically".split()
+)
+_EDGE_OF_TURN = re.compile(r"\b(?:start|beginning|end) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b", re.IGNORECASE)
+_COUNTED = re.compile(r"(?:[A-Za-z]-|#|\[|\b(?:run|test|no\.?|case|phase|step|item|day|version|v)\s?)$", re.IGNORECASE)
+_UNREAL = re.compile(r"(?:^|[.;!?]\s+|,\s+)(?:had|were) (?:the|it|a|an)\b|\bif \w+(?: \w+)? (?:were|had)\b", re.IGNORECASE)
+_DEEDS = frozenset(("brake", "stop", "accelerate", "pass", "complete", "yield", "not_yield", "turn", "pull_out")) | {
+    "wait",
+    "reach",
+    "enter",
+}
+
+
+def refuse_dangers(words: Words) -> None:
+    """Refuse what cannot be orchestrated, before anything is read."""
+    for pattern, message in (
+        (_EDGE_OF_TURN, "a place within a turn is not read here"),
+        (_UNREAL, "what did not happen is not read here"),
+    ):
+        if found := pattern.search(words.text):
+            raise words.refuse(message, Span(*found.span()))
+    for at, token in enumerate(words.tokens):
+        if token.text.lower() in _DANGERS and words.tag(at + 1, "verb") != "want":
+            raise words.refuse(f"'{token.text}' was not understood", token.span)
+        if "unsupported" in token.tags and not _is_harmless(words, at):
+            raise words.refuse(f"'{token.text}' cannot be orchestrated", token.span)
+        if "bare_number" in token.tags and not _only_counts(words, at):
+            raise words.refuse(f"'{token.text}' has no unit", token.span)
+
+
+def refuse_strangers(words: Words) -> None:
+    """Refuse a text in which somebody does something of whom it is not known who it is."""
+    if len(words.names.kinds) > 1:
+        raise words.refuse("more than one other vehicle is spoken of")
+    for clause in words.clauses:
+        acts = words.verbs(clause.inside) & _DEEDS or words.has(clause.inside, "quantity")
+        if clause.aside and acts:
+            raise words.refuse("it is not clear who does this", words.span(clause))
+
+
+def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> None:
+    """Refuse a text in which a word that tells a fact had no part."""
+    for at, token in enumerate(words.tokens):
+        if at in words.used:
+            continue
+        clause = next((each for each in words.clauses if at in each.inside), None)
+        following = next((each for each in words.clauses if each.start == at + 1), None)
+        lost = "negation" in token.tags or "respectively" in token.tags
+        if token.tags.get("landmark") in ("stop_line", "conflict_point"):
+            before = clause is not None and clause.sentence < trigger_sentence
+            quiet = clause is not None and not words.has(clause.inside, "quantity")
+            lost = not (before and quiet) and not _is_defined(words, at)  # "pulls up to the stop line" before anything
+        elif following is not None and following.link in BOUNDS:
+            lost = not _repeats(words, following, deeds, trigger_sentence)
+        elif "unknown" in token.tags and clause is not None:
+            lost = _is_strange_condition(words, at, clause)
+        if lost:
+            raise words.refuse(f"'{token.text}' has no part in what was understood", token.span)
+
+
+def _repeats(words: Words, clause: Clause, deeds: list[Deed], trigger_sentence: int) -> bool:
+    """Whether "until it has come to a stop" only repeats what the hero does, or a way is told: "before it turns"."""
+    own = [deed for deed in deeds if deed.clause is clause]
+    again = bool(own) and all(deed.kind in ("stop", "brake", "wait") and deed.actor == HERO_ID for deed in own)
+    way = clause.subject == HERO_ID and clause.sentence < trigger_sentence and not words.has(clause.inside, "quantity")
+    return way or (clause.link in ("until", "after") and again)
+
+
+def _is_strange_condition(words: Words, at: int, clause: Clause) -> bool:
+    """Whether something that is not known may be what the hero waits for: "when the ego, 30 m from it, honks"."""
+    asked = next((each for each in words.sentence(clause) if each.link == "when"), None)
+    if asked is None or clause.start < asked.start:
+        return False
+    earlier = [each for each in words.sentence(clause) if asked.start <= each.start <= clause.start]
+    acted = any(each.subject == HERO_ID and words.verbs(each.inside) & _DEEDS for each in earlier)
+    word = words.word(at)
+    alone = not words.has([at + 1], "noun", "hero", "ego", "landmark", "area", "unknown")
+    return not acted and alone and len(word) > 3 and word.endswith("s")
+
+
+def _is_harmless(words: Words, at: int) -> bool:
+    """Whether "crashes" or "traffic" only speaks of the world: "a frequent precursor of crashes"."""
+    token, before, after = words.tokens[at], words.tags(at - 1), words.tags(at + 1)
+    if token.slips:
+        return True  # "worries" is no slip of "lorries"
+    if words.word(at - 1) == "no":
+        words.used.add(at - 1)
+        return True  # "there are no pedestrians"
+    if token.text.lower() == "traffic":
+        return bool(before.keys() & {"heading", "direction", "actor_adjective"})
+    if (not before or "end" in before) and after.keys() & {"colon", "end"}:
+        return True  # "Actors:"
+    kind = token.tags["unsupported"]
+    if kind in ("collisions", "alternatives and chance"):
+        return _is_remark(words, at, kind)
+    return kind == "more than one other actor" and before.get("bare_number", "").lower() == "two"
+
+
+def _is_remark(words: Words, at: int, kind: str) -> bool:
+    """Whether a sentence speaks of the test: "you might expect"; or "either" only stresses a denial."""
+    first = next((i + 1 for i in range(at - 1, -1, -1) if "end" in words.tags(i)), 0)
+    last = next((i for i in range(at, len(words.tokens)) if "end" in words.tags(i)), len(words.tokens))
+    if words.word(first) == "you" or (words.word(at) == "either" and words.has([at + 1], "end", "comma")):
+        return True
+    return kind == "collisions" and not words.has(range(first, last), "quantity", "ego")
+
+
+def _only_counts(words: Words, at: int) -> bool:
+    """Whether a number only counts sentences ("REQ-2:", "4.1 The POV ..."), or is "one" of the vehicles."""
+    word = words.word(at)
+    if word.isalpha():
+        return word == "two" or (word == "one" and "unsupported" not in words.tags(at + 1))
+    if _COUNTED.search(words.text[: words.tokens[at].span.start]):
+        return True
+    back = at - 1
+    while words.has([back], "unknown", "numbered", "bare_number", "label") and "end" not in words.tags(back):
+        back -= 1
+    return back < 0 or "end" in words.tags(back)
+
+
+def _is_defined(words: Words, at: int) -> bool:
+    """Whether a landmark only says what a shorter name of it means: "CP (conflict point)"."""
+    for near in range(at - 4, at + 5):
+        same = near != at and words.tag(near, "landmark") == words.tags(at)["landmark"]
+        between = range(min(near, at) + 1, max(near, at))
+        if same and not words.has(between, "quantity", "verb", "end", "ego", "hero"):
+            return True
+    return False

@@ -1,0 +1,202 @@
+"""Decides for each amount at which moment it holds: at the start, at the trigger, or of a deed.
+
+What enters: words, amounts, deeds. What leaves: the moment of every amount. Nothing is guessed: what no word decides is
+refused, but for amounts told before the trigger is, which hold at the start.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from scenewright.translate.events import EGO_ID, HERO_ID
+from scenewright.translate.gist.amounts import Measured
+from scenewright.translate.gist.deeds import Deed
+from scenewright.translate.gist.words import Clause, Words
+
+Moment = Literal["start", "trigger", "deed", "open"]
+UNCLEAR = "it is not clear at which moment this holds"
+_STATE = ("verb", "be", "auxiliary")
+# Bounds that name the moment itself where something comes near: "as soon as it is within 20 m".
+_LIMITS = ("within", "less than", "closer than", "nearer than", "under", "below", "no more than")
+_PAST = ("was", "were", "had")
+_FAR = 12
+
+
+@dataclass(slots=True)
+class MomentReader:
+    """Tells the moments of one text's amounts."""
+
+    words: Words
+    measured: list[Measured]
+    deeds: list[Deed]
+    moments: dict[int, Moment] = field(default_factory=dict)  # by where the amount stands
+
+    def read(self) -> dict[int, Moment]:
+        """Return the moment of each amount.
+
+        Raises
+        ------
+        TranslationError
+            Where it is not clear, or where there are two triggers or none.
+        """
+        for made in self.measured:
+            self.moments[made.at] = self._moment(made)
+            if self.moments[made.at] == "trigger" and self._of_no_one(made):
+                raise self.words.refuse("it is not clear whose amount this is", made.span)
+        first = min((made.at for made in self.of("trigger")), default=None)
+        first = first if first is not None else self._told_before()
+        for made in self.of("open"):
+            if first is None or made.at > first:
+                raise self.words.refuse(UNCLEAR, made.span, "'at the start', 'when' or 'as soon as'")
+            self.moments[made.at] = "start"
+        if first is None:
+            raise self.words.refuse("there is no trigger: it is not said when the hero reacts", None, "'when ...'")
+        self._bounds()
+        return self.moments
+
+    def of(self, moment: Moment) -> list[Measured]:
+        """Return the amounts that hold at a moment."""
+        return [made for made in self.measured if self.moments[made.at] == moment]
+
+    def _bounds(self) -> None:
+        """Refuse "at least 2 s"."""
+        for made in self.measured:
+            at = self.words.where(range(made.at - 2, made.at), "bound")
+            limit = at is not None and self.words.word(at) in _LIMITS and self.moments[made.at] == "trigger"
+            if at is not None and not limit and self.words.word(at) != "up to":
+                raise self.words.refuse("this is a bound, not a value", made.span)
+
+    # -- one amount ---------------------------------------------------------------------------------------------------
+    def _moment(self, made: Measured) -> Moment:
+        clause = made.clause
+        slowed = any(each.kind == "speed" and each.target and each.clause is clause for each in self.measured)
+        if made.kind in ("rate", "duration") or (made.kind == "place" and slowed) or self._of_stop(made):
+            return "deed"
+        if self._at_start(made):
+            if clause.link == "when" or "trigger" in clause.labels:
+                raise self.words.refuse("this is told of the start and of the trigger", made.span)
+            return "start"
+        if made.kind == "speed":
+            return "deed" if made.target or self._after_trigger(clause) else "start"
+        asked = "trigger" in clause.labels or self._is_asked(clause)
+        past = any(self.words.word(at) in _PAST for at in range(clause.start, made.at))
+        if asked and clause.link == "that" and past:
+            raise self.words.refuse(UNCLEAR, made.span)
+        if clause.link == "moment" and made.kind == "place":
+            return "trigger"
+        if asked:
+            self._check_one_moment(made)
+            return "trigger"
+        return "trigger" if made.kind in ("gap", "ttc") or self._deed_beside(clause) else "open"
+
+    def _of_stop(self, made: Measured) -> bool:
+        """Whether a place is where the hero comes to rest."""
+        clause = made.clause
+        if made.actor == EGO_ID or made.kind != "place" or clause.link == "when":
+            return False
+        own = [deed for deed in self.deeds if deed.clause is clause and deed.actor == HERO_ID]
+        if any(deed.kind in ("stop", "wait") for deed in own):
+            return True
+        brakes = [deed for deed in own if deed.kind == "brake"]
+        if brakes and not self.begins(brakes[0]):
+            message = "it is not clear whether the hero begins to brake there or comes to rest there"
+            raise self.words.refuse(message, made.span)
+        at = self.words.clauses.index(clause)  # "target stopped, 15 ft before the conflict point"
+        before = self.words.clauses[at - 1] if at else clause
+        goes_on = before.sentence == clause.sentence and not clause.named
+        verbless = not self.words.has(range(clause.start, made.at), "verb", "be")
+        return goes_on and verbless and any(deed.clause is before and deed.kind == "stop" for deed in self.deeds)
+
+    def begins(self, deed: Deed) -> bool:
+        """Whether a deed is said to begin: "begins to brake"."""
+        return "begin" in self.words.verbs(range(deed.clause.start, deed.at))
+
+    def _at_start(self, made: Measured) -> bool:
+        """Whether an amount is told of the start: "at first", "begins 40 m before", "its initial distance"."""
+        clause, words = made.clause, self.words
+        if "start" in clause.labels or words.has(clause.inside, "starting"):
+            return True
+        if words.where(clause.inside, "adverb", "initially") is not None:
+            return True
+        for at in range(max(clause.start, made.at - 5), made.at):
+            if words.tag(at, "verb") == "begin" and not words.verbs(range(at + 1, made.at)):
+                return True
+        if "initial" in words.span(clause).excerpt(words.text).lower():
+            return True
+        at = words.clauses.index(clause)
+        before = words.clauses[at - 1] if at else None
+        if before is None or before.sentence != clause.sentence:
+            return False
+        alone = all(words.tag(i, "adverb") == "initially" or "determiner" in words.tags(i) for i in before.inside)
+        verbless = not words.has(range(clause.start, made.at), "verb", "be")
+        earlier = any(each.clause is before and self.moments.get(each.at) == "start" for each in self.measured)
+        return alone or (earlier and verbless and clause.named and clause.link in ("and", "main"))
+
+    def _is_asked(self, clause: Clause) -> bool:
+        """Whether the sentence tells a condition: "when", "trigger"."""
+        sentence = self.words.sentence(clause)
+        labels = any(self.words.where(each.inside, "label", "when") is not None for each in sentence)
+        return labels or any(each.link == "when" for each in sentence)
+
+    def _check_one_moment(self, made: Measured) -> None:
+        clause = made.clause
+        first = next((each for each in self.words.clauses if each.link == "when" and self._has_amount(each)), None)
+        if "trigger" in clause.labels:
+            return
+        if first is not None and clause.sentence != first.sentence:
+            raise self.words.refuse("there is a second moment", made.span)
+        before = [each for each in self.words.sentence(clause) if each.start <= clause.start]
+        follows = any(
+            each.link == "when" or self.words.where(each.inside, "label", "when") is not None for each in before
+        )
+        if clause.link == "main" and not self.words.has(clause.inside, *_STATE) and not follows:
+            raise self.words.refuse(UNCLEAR, made.span)
+
+    def _has_amount(self, clause: Clause) -> bool:
+        following = [each for each in self.words.sentence(clause) if each.start >= clause.start][:3]
+        return any(self.words.has(each.inside, "quantity") for each in following)
+
+    def _deed_beside(self, clause: Clause) -> bool:
+        """Whether the hero does something in the same sentence: "with the ego 12 m from the line, the van brakes"."""
+        kinds = ("brake", "stop", "accelerate")
+        own = [deed for deed in self.deeds if deed.actor == HERO_ID and deed.kind in kinds]
+        return any(deed.clause.sentence == clause.sentence for deed in own)
+
+    def _after_trigger(self, clause: Clause) -> bool:
+        known = [made for made in self.measured if self.moments.get(made.at) == "trigger"]
+        return any(made.clause.start <= clause.start for made in known)
+
+    def _of_no_one(self, made: Measured) -> bool:
+        """Whether no vehicle was named in the sentence near an amount: "At 30 m from it, it begins to brake"."""
+        clause = made.clause
+        told = clause.named or clause.both or {"trigger", "who"} & set(clause.labels)
+        if told or clause.link != "main" or made.kind != "place" or self.words.has(clause.inside, *_STATE):
+            return False
+        first = self.words.sentence(clause)[0].start
+        return self.words.named(range(first, made.at + _FAR + 1)) is None
+
+    # -- triggers without a "when" ------------------------------------------------------------------------------------
+    def _told_before(self) -> int | None:
+        """Read "The ego gets to 12 m before the line. At that moment the hero brakes", and return where that begins."""
+        then = next((each for each in self.words.clauses if each.link == "moment"), None)
+        if then is None:
+            return self._told_before_a_colon()
+        latest = {made.actor: made for made in self.of("open") if made.at < then.start}
+        return self._set_trigger(list(latest.values()))
+
+    def _told_before_a_colon(self) -> int | None:
+        """Read "Ego 45 m from the conflict point: the car sets off" and "Cond: ego 12 m, van 30 m from it"."""
+        opens = self.of("open")
+        if len({made.clause.sentence for made in opens}) != 1:
+            return None
+        colons = [each for each in self.words.sentence(opens[0].clause) if each.link == "colon"]
+        after = any(each.start > opens[-1].at for each in colons)
+        before = any(each.start <= opens[0].at for each in colons)
+        both = {made.actor for made in opens} >= {EGO_ID, HERO_ID}
+        return self._set_trigger(opens) if after or (before and both) else None
+
+    def _set_trigger(self, amounts: list[Measured]) -> int | None:
+        for made in amounts:
+            self.moments[made.at] = "trigger"
+        return min((made.at for made in amounts), default=None)

@@ -1,0 +1,90 @@
+"""Finds whose an amount is: the vehicle named last before it, by its measure, or after it.
+
+What enters: words with clauses, and where an amount stands. What leaves: an actor.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from scenewright.translate.gist.subjects import is_object
+from scenewright.translate.gist.words import Clause, Words
+
+_MEASURES = ("length", "time", "ttc", "headway")
+
+
+class Owned(Protocol):
+    """What has a place in the text and belongs to a vehicle."""
+
+    kind: str
+    at: int
+    actor: int | None
+
+
+def measure_of(words: Words, at: int) -> str | None:
+    """Return what a word measures: "distance", "times to arrival"; also "that" in "and that from the van to the line"."""
+    if words.word(at) == "that" and words.tag(at + 1, "preposition") in ("out", "of"):
+        return "length"
+    return words.tag(at, "measure") or words.tag(at, "measures")
+
+
+def measure_word(words: Words, at: int, clause: Clause) -> str | None:
+    """Return the measure that an amount is told by, if one stands before it in its clause."""
+    for back in range(at - 1, clause.start - 1, -1):
+        if (found := measure_of(words, back)) in _MEASURES:
+            return found
+        if "quantity" in words.tags(back):
+            return None
+    return None
+
+
+def owner_of(words: Words, at: int, clause: Clause) -> int | None:
+    """Return whose the amount at `at` is: by its measure, who was named last before it, or whom the clause is about."""
+    told = _by_measure(words, at, clause)
+    if told is not None:
+        return told
+    for back in range(at - 1, clause.start - 1, -1):
+        if back in words.names.actors and not is_object(words, back):
+            return words.names.actors[back]
+        if "quantity" in words.tags(back):
+            break
+    return _between(words, at, clause)
+
+
+def _by_measure(words: Words, at: int, clause: Clause) -> int | None:
+    """Return whose a measure is: "the time to arrival of the hero", "the ego's distance", "ego TTA"."""
+    for back in range(at - 1, clause.start - 1, -1):
+        if "quantity" in words.tags(back):
+            return None
+        if measure_of(words, back) is None:
+            continue
+        after = words.named(range(back + 1, at))
+        return after if after is not None else words.named(range(back - 1, max(-1, back - 3), -1))
+    return None
+
+
+def _between(words: Words, at: int, clause: Clause) -> int | None:
+    """Return whose "40 m between the ego and the conflict point" are, else whom the clause is about."""
+    following = next((i for i in range(at + 1, clause.end) if "quantity" in words.tags(i)), clause.end)
+    for mark in (*range(at, following), *range(clause.start, at)):
+        if words.tag(mark, "preposition") == "between":
+            named = words.named(range(mark + 1, mark + 5))
+            if named is not None:
+                return named
+    return clause.subject
+
+
+def told_for(words: Words, made: Owned, at: int) -> None:
+    """Read "3 s for the ego and 2 s for the van" and "25 m (ego)": whose it is stands after it."""
+    if words.word(made.at + 1) == "(" and words.word(made.at + 3) == ")" and made.at + 2 in words.names.actors:
+        made.actor = words.names.actors[made.at + 2]
+        return
+    for ahead in range(made.at + 1, min(len(words.tokens), max(at, made.at + 1) + 4)):
+        preposition = words.tag(ahead, "preposition")
+        if words.has([ahead], "quantity", "end"):
+            return
+        to = preposition == "to" and made.kind == "open"
+        if preposition == "for" or to or (preposition == "of" and ahead <= made.at + 2):
+            named = words.named(range(ahead + 1, ahead + 5))
+            made.actor = named if named is not None else made.actor
+            return

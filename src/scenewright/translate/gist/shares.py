@@ -1,0 +1,84 @@
+"""Lets amounts share what is told once: "the ego 40 m and the hero 20 m from the conflict point".
+
+What enters: amounts as `amounts` read them. What leaves: the same, with places and owners filled in.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from scenewright.translate.gist.amounts import Measured
+from scenewright.translate.gist.owners import told_for
+from scenewright.translate.gist.words import Words
+
+
+def share(words: Words, found: list[Measured]) -> None:
+    """Fill in what one amount says for another."""
+    _back_references(words, found)
+    _respectively(words, found)
+    _same_place(words, found)
+    _in_order(words, found)
+
+
+def _back_references(words: Words, found: list[Measured]) -> None:
+    """Let "that point" be the landmark named last."""
+    for made in found:
+        back = words.landmark_before(made.at) if made.landmark == "last" else None
+        if back is not None:
+            made.landmark = words.tags(back)["landmark"]
+            words.used.add(back)
+
+
+def _respectively(words: Words, found: list[Measured]) -> None:
+    """Read "15 m and 6 m away from the conflict point and the stop line, respectively"."""
+    for at in range(len(words.tokens)):
+        if "respectively" not in words.tags(at):
+            continue
+        first = next((i + 1 for i in range(at - 1, -1, -1) if "end" in words.tags(i)), 0)
+        own = [made for made in found if first <= made.at < at and made.quantity is not None][-2:]
+        marks = [i for i in range(own[-1].at, at) if "landmark" in words.tags(i)] if len(own) == 2 else []
+        if len(marks) == 2:
+            for made, mark in zip(own, marks, strict=True):
+                made.kind, made.landmark, made.vague = "place", words.tags(mark)["landmark"], False
+        if marks:
+            words.used |= {at, *marks}
+
+
+def _same_place(words: Words, found: list[Measured]) -> None:
+    """Let one place be that of two amounts next to each other, the one before it or the one after."""
+    for first, second in pairwise(found):
+        if first.kind == "open" and _alike(first, second) and second.kind == "place":
+            _take_place(first, second)
+    for first, second in pairwise(found):
+        if second.kind == "open" and _alike(first, second) and first.kind == "place" and None not in (
+            first.actor,
+            second.actor,
+        ):
+            told_for(words, second, second.at + 1)
+            if first.actor != second.actor:
+                _take_place(second, first)
+
+
+def _alike(first: Measured, second: Measured) -> bool:
+    if first.quantity is None or second.quantity is None or first.clause.sentence != second.clause.sentence:
+        return False
+    return first.quantity.dimension == second.quantity.dimension
+
+
+def _take_place(made: Measured, other: Measured) -> None:
+    made.kind, made.landmark, made.relation, made.vague = "place", other.landmark, other.relation, other.vague
+
+
+def _in_order(words: Words, found: list[Measured]) -> None:
+    """Let "the ego and the hero are 12 m and 30 m from it" tell of each in order."""
+    actors = words.names.actors
+    for clause in words.clauses:
+        own = [made for made in found if made.clause is clause and made.kind == "place" and made.quantity is not None]
+        if len(own) < 2 or own[0].landmark != own[1].landmark:
+            continue
+        first = words.sentence(clause)[0].start
+        named = [at for at in range(first, own[0].at) if at in actors][-2:]
+        between = any(at in actors for at in range(own[0].at, own[1].at))
+        if len(named) == 2 and not between and actors[named[0]] != actors[named[1]]:
+            own[0].actor, own[1].actor = actors[named[0]], actors[named[1]]
+            words.used |= {i for i in range(own[1].at, own[1].at + 9) if "respectively" in words.tags(i)}

@@ -1,0 +1,284 @@
+"""Puts what was found together to one story: what holds at the start and at the trigger, what the hero does, who is first.
+
+What enters: words, amounts with their moments, deeds. What leaves: `Facts`, as the strict reader makes them, and an event
+for each fact, which says where it stands.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+
+from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place
+from scenewright.translate.facts import Condition, Facts, Order, Phase
+from scenewright.translate.gist.amounts import Measured
+from scenewright.translate.gist.clauses import BOUNDS
+from scenewright.translate.gist.deeds import Deed
+from scenewright.translate.gist.moments import MomentReader
+from scenewright.translate.gist.words import Words
+
+_SLOWS = ("brake", "stop")
+_GOES = ("accelerate", "pass", "complete", "keep", "go")
+_MOVES = (*_SLOWS, "accelerate")
+# What the ego may do of itself: nobody tells it to, and it changes nothing of what is orchestrated.
+_EGO_MAY = ("before", "after", "let_reach", "wait", "go", "turn", "let", "keep", "yield")
+_STANDS = re.compile(r"\b(?:stand|stood|stationary|stopped|standstill|still|rest|idl)", re.IGNORECASE)
+
+
+@dataclass(slots=True)
+class StoryTeller:
+    """Makes facts of what was found."""
+
+    words: Words
+    moments: MomentReader
+    deeds: list[Deed]
+    facts: Facts = field(default_factory=Facts)
+    events: list[Event] = field(default_factory=list)
+
+    @property
+    def trigger_sentence(self) -> int:
+        """The sentence in which the trigger is told."""
+        return min(made.clause.sentence for made in self.moments.of("trigger"))
+
+    def tell(self) -> Facts:
+        """Return the facts.
+
+        Raises
+        ------
+        TranslationError
+            Where they contradict each other, or make no whole story.
+        """
+        for made in (*self.moments.of("start"), *self.moments.of("trigger")):
+            self._state(made)
+        for deed in self.deeds:
+            if deed.actor == EGO_ID and deed.kind not in _EGO_MAY:
+                message = "the ego cannot be told what to do: the driving policy under test drives it"
+                raise self.words.refuse(message, deed.span)
+        self._standing()
+        told = [deed for deed in self.deeds if deed.actor == HERO_ID and self._counts(deed)]
+        self._check(told)
+        slows = [deed for deed in told if deed.kind in _SLOWS]
+        goes = [deed for deed in told if deed.kind in _GOES]
+        denies = [deed for deed in told if deed.kind == "not_yield"]
+        if slows:
+            self._slow(slows, waits=any(deed.kind == "wait" for deed in told))
+        if goes or (denies and not slows):
+            self._go(goes, denies, after_stop=bool(slows))
+        self._order(goes)
+        return self.facts
+
+    # -- states -------------------------------------------------------------------------------------------------------
+    def _state(self, made: Measured) -> None:
+        start = self.moments.moments[made.at] == "start"
+        beside = [each for each in self.moments.of("trigger") if each is not made and each.actor == made.actor]
+        if made.quantity is None and ((start and made.actor == HERO_ID) or (not start and beside)):
+            return  # "stands at the stop line" at first, "at the stop line" beside an amount
+        condition = self._condition(made)
+        known = self.facts.initial if start else self.facts.trigger
+        for old in known:
+            alike = (old.place is None, old.ttc is None) == (condition.place is None, condition.ttc is None)
+            if old.actor == condition.actor and alike:
+                raise self.words.refuse("two amounts are told of one vehicle at one moment", made.span)
+        known.append(condition)
+        self.events.append(condition.event)
+
+    def _condition(self, made: Measured) -> Condition:
+        if made.kind == "open":
+            raise self.words.refuse("it is not clear what this measures", made.span, "a place: 12 m from the stop line")
+        if made.kind in ("gap", "ttc") or made.actor is None:
+            return self._between(made)
+        event = Event("be", made.actor, made.span, made.clause.sentence)
+        if made.kind == "speed":
+            return Condition(made.actor, event, speed=made.quantity)
+        assert made.landmark is not None
+        place = Place(made.relation, made.landmark, made.quantity, made.span, vague=made.vague)
+        return Condition(made.actor, event, place)
+
+    def _between(self, made: Measured) -> Condition:
+        """Return a condition between the two vehicles."""
+        if made.kind == "ttc":
+            return Condition(EGO_ID, Event("ttc", EGO_ID, made.span, made.clause.sentence), ttc=made.quantity)
+        if made.kind != "gap":
+            raise self.words.refuse("it is not clear whose amount this is", made.span)
+        rear = made.actor if made.actor is not None else EGO_ID
+        relation = "from" if made.actor is None else "behind"
+        event = Event("be", rear, made.span, made.clause.sentence)
+        return Condition(rear, event, Place(relation, 1 - rear, made.quantity, made.span))
+
+    def _standing(self) -> None:
+        """Read "a taxi is standing at the stop line" before the trigger: it waits there until then."""
+        for deed in self.deeds:
+            first = deed.kind == "wait" and deed.actor == HERO_ID and deed.clause.sentence < self.trigger_sentence
+            if first and _STANDS.search(deed.span.excerpt(self.words.text)):
+                self.facts.standing = self.facts.standing or self._event(deed)
+
+    # -- what the hero does -------------------------------------------------------------------------------------------
+    def _counts(self, deed: Deed) -> bool:
+        """Whether a deed belongs to what the hero does from its trigger on."""
+        clause, here = deed.clause, self.trigger_sentence
+        if clause.link == "when" and deed.kind not in ("brake", "accelerate"):
+            return False
+        if deed.kind in ("brake", "accelerate", "not_yield", "complete"):
+            return True
+        if deed.kind == "yield":
+            return False
+        if deed.kind == "pass" and deed.landmark is None:
+            lane = self.words.where(range(deed.at, clause.end), "area", "lane") is not None
+            if lane or clause.sentence < here:
+                return False  # "crosses the ego's lane"
+        if deed.kind in ("stop", "pass"):
+            return clause.sentence >= here or clause.link != "that"
+        if deed.kind == "keep":
+            return clause.sentence >= here
+        first = min(made.at for made in self.moments.of("trigger"))
+        return clause.sentence > here or (clause.sentence == here and clause.start > first)
+
+    def _check(self, told: list[Deed]) -> None:
+        """Refuse what contradicts itself or is no story."""
+        kinds = {deed.kind for deed in told}
+        slows = [deed for deed in told if deed.kind in _SLOWS]
+        goes = [deed for deed in told if deed.kind in _GOES]
+        if not (slows or goes or "not_yield" in kinds):
+            raise self.words.refuse("it is not said what the hero does", None, "brakes, stops, accelerates, passes")
+        if slows and goes and goes[0].at < slows[0].at:
+            raise self.words.refuse("it is not clear in which order this happens", goes[0].span)
+        if slows and "not_yield" in kinds:
+            raise self.words.refuse("the hero is said to stop and not to stop", slows[0].span)
+        if {"keep", "accelerate"} <= kinds:
+            raise self.words.refuse("the hero is said to speed up and not to", goes[0].span)
+        turn = next((deed for deed in told if deed.kind == "turn"), None)
+        if turn is not None and (self.moments.begins(turn) or not kinds & {"complete", "pass"}):
+            raise self.words.refuse("it is not clear up to where the hero turns", turn.span)
+        self._check_turns()
+
+    def _check_turns(self) -> None:
+        """Refuse "goes, all the way round its turn": a turn that no verb begins or completes."""
+        for clause in self.words.clauses:
+            bound = clause.link in (*BOUNDS, "when")
+            if clause.sentence < self.trigger_sentence or clause.subject != HERO_ID or bound:
+                continue
+            for at in clause.inside:
+                owned = self.words.tag(at, "event_noun") == "turn" and "possessive" in self.words.tags(at - 1)
+                done = any(deed.clause is clause and deed.kind in ("complete", "turn") for deed in self.deeds)
+                if owned and not done:
+                    raise self.words.refuse("it is not clear up to where the hero goes", self.words.tokens[at].span)
+
+    def _slow(self, slows: list[Deed], *, waits: bool) -> None:
+        phase = Phase("dec", [self._event(slows[0])])
+        phase.to_stop = waits or any(deed.kind == "stop" for deed in slows)
+        for made in self.moments.of("deed"):
+            if made.kind == "place":
+                self._stop_place(phase, made)
+            elif made.kind == "duration":
+                phase.wait = made.quantity
+            elif made.kind == "rate" and self._deed_of(made, _MOVES) in _SLOWS:
+                phase.rate, phase.rate_event = made.quantity, self._event_at(made)
+            elif made.kind == "speed" and self._deed_of(made, (*_MOVES, "pass", "go")) in _SLOWS:
+                phase.to_speed = made.quantity
+        if phase.to_speed is not None and phase.to_stop:
+            raise self.words.refuse("a stop and a speed are told", phase.to_speed.span)
+        self.facts.phases.append(phase)
+
+    def _stop_place(self, phase: Phase, made: Measured) -> None:
+        assert made.landmark is not None
+        if phase.place is not None and made.quantity is None:
+            return
+        if phase.place is not None and phase.place.amount is not None:
+            raise self.words.refuse("two places to stop are told", made.span)
+        phase.place = Place(made.relation, made.landmark, made.quantity, made.span, vague=made.vague)
+        phase.place_event = self._event_at(made)
+
+    def _go(self, goes: list[Deed], denies: list[Deed], *, after_stop: bool) -> None:
+        keeps = any(deed.kind == "keep" for deed in goes) and not after_stop
+        phase = Phase("go" if keeps else "acc", [self._event((goes or denies)[0])])
+        goal = next((deed for deed in goes if deed.kind in ("pass", "complete")), None)
+        if goal is not None:
+            phase.goal = "turn_end" if goal.kind == "complete" else goal.landmark or "conflict_point"
+            phase.goal_event = self._event(goal)
+        for made in self.moments.of("deed"):
+            of = self._deed_of(made, (*_MOVES, "pass", "go") if made.kind == "speed" else _MOVES)
+            own = not after_stop or of not in _SLOWS
+            if made.kind == "rate" and own:
+                phase.rate, phase.rate_event = made.quantity, self._event_at(made)
+            elif made.kind == "speed" and own:
+                phase.to_speed = made.quantity
+            elif made.kind in ("duration", "place") and not after_stop and not self._stands_at(made):
+                raise self.words.refuse("this amount does not belong to what the hero does", made.span)
+        if phase.goal == "stop_line":
+            raise self.words.refuse("a stop line is no goal", phase.events[0].span)
+        self.facts.phases.append(phase)
+
+    def _stands_at(self, made: Measured) -> bool:
+        return self.facts.standing is not None and made.quantity is None and made.landmark == "stop_line"
+
+    def _deed_of(self, made: Measured, kinds: tuple[str, ...]) -> str | None:
+        """Return the deed that an amount belongs to: the one told last before it."""
+        near = [deed for deed in self.deeds if deed.actor == HERO_ID and deed.kind in kinds]
+        same = [deed for deed in near if deed.clause.sentence == made.clause.sentence]
+        chosen = [deed for deed in same if deed.at < made.at][-1:] or same[:1] or near[:1]
+        return chosen[0].kind if chosen else None
+
+    # -- who is first -------------------------------------------------------------------------------------------------
+    def _order(self, goes: list[Deed]) -> None:
+        acted = {deed.clause.sentence for deed in self.deeds if deed.actor == HERO_ID and deed.kind != "turn"}
+        moments = [deed for deed in self.deeds if deed.kind in ("before", "after")]
+        moments = [d for d in moments if d.clause.sentence >= self.trigger_sentence or d.clause.sentence in acted]
+        lets = [deed for deed in self.deeds if deed.kind == "let_reach"]
+        moments = moments or self._first(goes)
+        if lets and any(deed.kind == "before" for deed in moments):
+            raise self.words.refuse("the hero lets the ego go and also comes first", lets[0].span)
+        if lets and not moments:
+            self._let(lets[0])
+        previous: Deed | None = None
+        for deed in moments:
+            self._one_order(deed, previous)
+            previous = deed
+
+    def _let(self, deed: Deed) -> None:
+        event = Event("pass", EGO_ID, deed.span, deed.clause.sentence)
+        self.events.append(event)
+        landmark = deed.landmark or "conflict_point"
+        if self.facts.phases[-1].kind == "dec":
+            self.facts.let_goal = landmark, event
+        else:
+            self.facts.order = Order(False, landmark, event, at_start=True)
+
+    def _one_order(self, deed: Deed, previous: Deed | None) -> None:
+        phase, known = self.facts.phases[-1], self.facts.order
+        landmark = deed.landmark or "conflict_point"
+        if landmark == "same":
+            landmark = phase.goal or "conflict_point"
+        if landmark == "turn_end" and deed.landmark == "same":
+            raise self.words.refuse("it is not clear which moment of the ego this is", deed.span)
+        if phase.kind == "dec":
+            raise self.words.refuse("a stop cannot be ordered against the ego", deed.span)
+        first = deed.kind == "before"
+        again = previous is not None and previous.kind == deed.kind and "same" in (deed.landmark, previous.landmark)
+        if known is not None and again:
+            return  # "ahead of the ego, that is, before the ego does"
+        if known is not None:
+            raise self.words.refuse("two orders are told", deed.span)
+        event = Event("pass", EGO_ID, deed.span, deed.clause.sentence)
+        self.events.append(event)
+        self.facts.order = Order(first, landmark, event, at_start=not first and deed.landmark != "same")
+        if phase.goal is None and first:
+            phase.goal, phase.goal_event = "conflict_point", event
+
+    def _first(self, goes: list[Deed]) -> list[Deed]:
+        """Read "gets to the conflict point first"."""
+        for deed in goes:
+            at = self.words.where(deed.clause.inside, "adverb", "first")
+            if at is not None:
+                return [Deed("before", at, deed.clause, self.words.tokens[at].span, "same", EGO_ID)]
+        return []
+
+    # -- helpers ------------------------------------------------------------------------------------------------------
+    def _event(self, deed: Deed) -> Event:
+        event = Event(deed.kind, HERO_ID, self.words.span(deed.clause), deed.clause.sentence)
+        self.events.append(event)
+        return event
+
+    def _event_at(self, made: Measured) -> Event:
+        event = Event("be", HERO_ID, made.span, made.clause.sentence)
+        self.events.append(event)
+        return event

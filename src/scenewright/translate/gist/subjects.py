@@ -1,0 +1,187 @@
+"""Finds whom each clause is about: who is named in it, who a pronoun means, who was spoken of before.
+
+What enters: words with names and clauses. What leaves: the clauses, with subjects.
+"""
+
+from __future__ import annotations
+
+from scenewright.translate.events import HERO_ID
+from scenewright.translate.gist.names import PERSONAL
+from scenewright.translate.gist.words import Clause, Words
+
+_BESIDE = frozenset(
+    ("determiner", "actor_adjective", "possessive", "heading", "hero", "noun", "unknown", "direction")
+)
+_OBJECT_OF = frozenset(("to", "of", "for", "by", "between", "across", "into", "in", "on", "at", "out"))
+_TAKES_OBJECT = frozenset(
+    ("follow", "yield", "approach", "pass", "lead", "not_yield", "cut_in_front", "beat", "come_towards", "enter")
+    + ("attitude", "get_within", "hit", "reach")
+)
+_MAIN = ("main", "and", "then", "moment", "colon")
+_SUBORDINATE = ("before", "after", "until", "when", "that")
+_STRONG = frozenset(("brake", "stop", "accelerate"))  # nobody tells the ego to do these
+_DEEDS = _STRONG | {"pass", "complete", "wait", "keep"}
+_HIS = PERSONAL | {"his", "her"}
+
+
+def is_object(words: Words, at: int) -> bool:
+    """Whether the name at `at` stands after a preposition, or as the object of a verb."""
+    following = words.tags(at + 1)
+    if "genitive" in following and words.where((at + 1, at + 2), "area", "lane") is not None:
+        return True  # "crosses the ego's lane"
+    back = _before_name(words, at)
+    if 0 < back < at and "ing" in words.tokens[back].forms and "determiner" in words.tags(back - 1):
+        return False  # "the entering car"
+    if back < 0:
+        return False
+    tags, verb = words.tags(back), words.tag(back, "verb")
+    if verb in _TAKES_OBJECT and verb != "reach":
+        return True
+    preposition = tags.get("preposition")
+    if following.keys() & {"measure", "quantity"} and preposition in ("at", "with", "of", "to"):
+        return preposition in ("of", "to") and "measure" not in following  # "at ego time to arrival 4 s"
+    linked = tags.get("link")
+    if linked not in (None, "to", "by") and "quantity" not in words.tags(back - 1):
+        return False
+    if (tags.keys() & {"relation", "separates"} and linked != "when") or preposition in _OBJECT_OF:
+        return True
+    if verb == "let":  # "lets the ego pass", but not the imperative "let the ego drive"
+        return bool(words.tokens[back].forms & {"s", "ing"}) or words.word(back - 1) in ("to", "and")
+    return verb in _TAKES_OBJECT
+
+
+def _before_name(words: Words, at: int) -> int:
+    """Return where the words before a name, its article and its adjectives, end."""
+    back = at - 1
+    while back >= 0 and back not in words.names.actors and back not in words.names.pronouns:
+        tags = words.tags(back)
+        if not tags.keys() & _BESIDE:
+            break
+        if tags.keys() & {"relation", "preposition", "verb", "link"} and not tags.keys() & {
+            "determiner",
+            "actor_adjective",
+        }:
+            break
+        back -= 1
+    return back
+
+
+def give_subjects(words: Words) -> None:
+    """Find whom each clause is about, in the order of the text."""
+    last: int | None = None
+    acting = False  # whether the hero has begun to do something
+    for index, clause in enumerate(words.clauses):
+        before = words.clauses[index - 1] if index else None
+        _name_subject(words, clause)
+        clause.both = _is_about_both(words, clause, before)
+        if _starts_it(words, clause):
+            _mark_start(clause, before)
+        if clause.aside and not clause.named:
+            clause.subject = None
+            continue
+        if clause.subject is None:
+            clause.subject = _unnamed(words, index, last, acting)
+        verbs = words.verbs(clause.inside)
+        main = clause.link not in _SUBORDINATE
+        acts = verbs & _STRONG or (main and verbs & {"pass", "complete"})
+        acting = acting or (clause.subject == HERO_ID and bool(acts))
+        last = clause.subject
+
+
+def _name_subject(words: Words, clause: Clause) -> None:
+    """Take who is named in a clause: as its subject, "by the ego", or "for the ego" where nothing else is said."""
+    if clause.subject is not None:
+        return  # told by a label: "Truck: westbound"
+    names = [at for at in clause.inside if at in words.names.actors]
+    found = next((at for at in names if not is_object(words, at)), None)
+    if found is None:
+        found = next((at for at in names if _stands_after(words, at, "by")), None)
+    pronoun = any(at in words.names.pronouns for at in clause.inside)
+    if found is None and not pronoun and not words.verbs(clause.inside) & _STRONG:
+        found = next((at for at in names if _stands_after(words, at, "for")), None)
+    if found is not None:
+        clause.subject, clause.named = words.names.actors[found], True
+
+
+def _stands_after(words: Words, at: int, preposition: str) -> bool:
+    back = at - 1
+    while words.has([back], "determiner", "actor_adjective", "heading", "noun", "unknown"):
+        back -= 1
+    return words.word(back) == preposition
+
+
+def _is_about_both(words: Words, clause: Clause, before: Clause | None) -> bool:
+    if clause.pair or any(at in words.names.both for at in clause.inside) or _agrees_with_two(words, clause):
+        return True
+    goes_on = before is not None and before.both and before.sentence == clause.sentence
+    pronoun = any(at in words.names.pronouns for at in clause.inside)
+    return goes_on and clause.link in ("and", "main") and not clause.named and not pronoun
+
+
+def _agrees_with_two(words: Words, clause: Clause) -> bool:
+    """Whether the verb is a plural: "a van and, behind it, the ego drive east"."""
+    actors = words.names.actors
+    for at in clause.inside[1:]:
+        if "verb" in words.tags(at) and words.tokens[at].forms == {"base"} and at - 1 in actors:
+            earlier = [each for each in words.sentence(clause) if each.start < clause.start]
+            return any(actors.get(i, actors[at - 1]) != actors[at - 1] for each in earlier for i in each.inside)
+    return False
+
+
+def _starts_it(words: Words, clause: Clause) -> bool:
+    """Whether this is "when the observation begins", "when we start", "when things begin"."""
+    begins = words.tag(clause.end - 1, "verb") == "begin"
+    vehicle = words.has(clause.inside, "hero", "noun") or any("ego" in words.word(at) for at in clause.inside)
+    return clause.link == "when" and begins and len(clause.inside) <= 3 and not vehicle
+
+
+def _mark_start(clause: Clause, before: Clause | None) -> None:
+    clause.labels = [*clause.labels, "start"]
+    if before is not None and before.sentence == clause.sentence:
+        before.labels = [*before.labels, "start"]
+
+
+def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | None:
+    """Return whom a clause without a name is about."""
+    clause = words.clauses[index]
+    pronouns = [at for at in clause.inside if at in words.names.pronouns]
+    verbs = words.verbs(clause.inside)
+    if any(words.word(at) in _HIS for at in pronouns):
+        return HERO_ID
+    if words.names.spoken and words.has(pronouns, "pronoun", "possessive"):
+        return HERO_ID  # "we" are the ego, so "it" is the other one
+    named_last = words.named(range(clause.start - 1, -1, -1))
+    relative = clause.link == "that" and words.word(clause.start - 1) in ("which", "who", "that", "where")
+    if named_last is not None and (relative or words.has(clause.inside, "latter")):
+        return named_last
+    earlier = [each for each in words.sentence(clause) if each.start < clause.start]
+    hero_here = acting or any(each.named and each.subject == HERO_ID for each in earlier)
+    deeds = _DEEDS | {"go", "turn"} if clause.link == "then" or _after_a_moment(earlier) else _DEEDS
+    if clause.link in _MAIN and ((pronouns and hero_here and verbs & _STRONG) or (acting and verbs & deeds)):
+        return HERO_ID
+    owned = [at for at in pronouns if not words.has([at - 1], "preposition", "relation", "verb")]
+    if not owned and not any(each.named or _is_finite(words, each) for each in [*earlier, clause]):
+        following = _named_later(words, index)
+        return following if following is not None else last
+    return last
+
+
+def _after_a_moment(earlier: list[Clause]) -> bool:
+    return bool(earlier) and earlier[-1].link in ("when", "before", "after", "until")
+
+
+def _named_later(words: Words, index: int) -> int | None:
+    """Return who is named next in the sentence: "Travelling eastbound, a lorry ..."."""
+    clause = words.clauses[index]
+    for following in words.clauses[index + 1 :]:
+        if following.sentence != clause.sentence or following.link in ("when", "before", "after", "until"):
+            return None
+        for at in following.inside:
+            if at in words.names.actors and not is_object(words, at):
+                return words.names.actors[at]
+    return None
+
+
+def _is_finite(words: Words, clause: Clause) -> bool:
+    finite = any("verb" in words.tags(at) and "s" in words.tokens[at].forms for at in clause.inside)
+    return finite or words.has(clause.inside, "be", "auxiliary")

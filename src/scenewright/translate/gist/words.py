@@ -1,0 +1,151 @@
+"""The tokens of one text, with who is named in them, its clauses, and which tokens have told their part.
+
+What enters: tokens, names, clauses. What leaves: short questions about them, for all readers of the gist. It reads no
+fact itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from scenewright.errors import Place, Span, TranslationError
+from scenewright.translate.tokens import Token
+
+_NOTHING: Mapping[str, str] = {}
+FIX = "say it in a sentence of its own, or in other words; nothing is guessed"
+
+
+@dataclass(slots=True)
+class Names:
+    """Who each token stands for.
+
+    Attributes
+    ----------
+    actors
+        Actor by index of the naming token.
+    pronouns
+        Indices of "it", "its", "he", ... : who is meant follows from the clause.
+    both
+        Indices of words for both vehicles.
+    relative
+        What a name says by itself, by its index: ``lead`` in "the one in front", ``left`` in "the left turner".
+    kinds
+        Kinds of vehicle that the hero is called: more than one kind is more than one vehicle.
+    spoken
+        Whether the ego is only "I" and "we", so that "it" is the other vehicle.
+    guessed
+        A word that is not known and was taken for the other vehicle.
+    """
+
+    actors: dict[int, int] = field(default_factory=dict)
+    pronouns: set[int] = field(default_factory=set)
+    both: set[int] = field(default_factory=set)
+    relative: dict[int, str] = field(default_factory=dict)
+    kinds: set[str] = field(default_factory=set)
+    spoken: bool = False
+    guessed: str | None = None
+
+
+@dataclass(slots=True)
+class Clause:
+    """A stretch of tokens that says one thing.
+
+    Attributes
+    ----------
+    link
+        What ties it to the text: ``main``, ``and``, ``colon``, ``when``, ``then``, ``moment``, ``before``, ``after``,
+        ``until``, ``that``.
+    subject
+        The actor that it is about, where known; `named` in this very clause, or carried over.
+    both, pair
+        Whether it is about both vehicles; whether it names both as its subject.
+    aside
+        Whether it is about something else: "the courtesy did not last".
+    labels
+        What stands in front of it: ``start``, ``trigger``, ``deed``, ``who``, ``none``.
+    """
+
+    start: int
+    end: int
+    sentence: int
+    link: str = "main"
+    subject: int | None = None
+    named: bool = False
+    both: bool = False
+    aside: bool = False
+    pair: bool = False
+    labels: list[str] = field(default_factory=list)
+
+    @property
+    def inside(self) -> range:
+        """The indices of its tokens."""
+        return range(self.start, self.end)
+
+
+@dataclass(slots=True)
+class Words:
+    """One text, and what was found out about it so far."""
+
+    text: str
+    name: str
+    tokens: list[Token]
+    names: Names = field(default_factory=Names)
+    clauses: list[Clause] = field(default_factory=list)
+    used: set[int] = field(default_factory=set)
+
+    def tags(self, at: int) -> Mapping[str, str]:
+        """Return the tags of a token; none outside of the text."""
+        return self.tokens[at].tags if 0 <= at < len(self.tokens) else _NOTHING
+
+    def tag(self, at: int, key: str) -> str | None:
+        """Return one tag of a token."""
+        return self.tags(at).get(key)
+
+    def word(self, at: int) -> str:
+        """Return a token in lower case; nothing outside of the text."""
+        return self.tokens[at].text.lower() if 0 <= at < len(self.tokens) else ""
+
+    def has(self, stretch: Iterable[int], *keys: str) -> bool:
+        """Whether a token of the stretch has one of these tags."""
+        return any(self.tags(at).keys() & set(keys) for at in stretch)
+
+    def where(self, stretch: Iterable[int], key: str, *values: str) -> int | None:
+        """Return the first token of the stretch whose tag has one of the values (any value where none is given)."""
+        return next((at for at in stretch if key in self.tags(at) and (not values or self.tags(at)[key] in values)), None)
+
+    def verbs(self, stretch: Iterable[int]) -> set[str]:
+        """Return the verbs of a stretch."""
+        return {self.tags(at)["verb"] for at in stretch if "verb" in self.tags(at)}
+
+    def named(self, stretch: Iterable[int]) -> int | None:
+        """Return the actor that is named first in a stretch."""
+        return next((self.names.actors[at] for at in stretch if at in self.names.actors), None)
+
+    def skip(self, at: int, keys: frozenset[str], step: int = 1) -> int:
+        """Step over tokens that have one of these tags and name nobody; return where the others begin."""
+        while 0 <= at < len(self.tokens) and self.tags(at).keys() & keys:
+            if at in self.names.actors or at in self.names.pronouns:
+                break
+            at += step
+        return at
+
+    def landmark_before(self, at: int) -> int | None:
+        """Return where the last landmark before a token stands: what "that point" means."""
+        return self.where(range(at - 1, -1, -1), "landmark")
+
+    def sentence(self, clause: Clause) -> list[Clause]:
+        """Return the clauses of the same sentence."""
+        return [each for each in self.clauses if each.sentence == clause.sentence]
+
+    def span(self, clause: Clause) -> Span:
+        """Return where a clause stands in the text."""
+        return self.tokens[clause.start].span.union(self.tokens[clause.end - 1].span)
+
+    def refuse(self, message: str, span: Span | None = None, expected: str | None = None) -> TranslationError:
+        """Return the error for a stretch of the text, or for all of it."""
+        place = span or Span(0, len(self.text))
+        found = " ".join(place.excerpt(self.text).split())[:80]
+        return TranslationError(
+            message, place=Place(self.name, self.text, place), found=found, expected=expected, fix=FIX
+        )
