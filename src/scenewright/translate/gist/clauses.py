@@ -15,6 +15,7 @@ BOUNDS = ("before", "after", "until")
 _LINKS = ("when", "then", "moment", "that", *BOUNDS)
 _LABELS = {"when": "trigger", "main": "deed"}
 _BEFORE_NAMES = frozenset(("determiner", "actor_adjective", "unknown", "adverb", "link"))
+_AMOUNT_ENDS = ("landmark", "back_reference", "area", "hero", "ego", "noun", "quantity", "mark_noun", "pronoun")
 _PLACES = ("landmark", "back_reference", "area", "mouth")
 
 
@@ -170,15 +171,25 @@ def _parted(words: Words, clause: Clause) -> list[Clause]:
     told = False
     for at in clause.inside:
         told |= "quantity" in words.tags(at)
-        if not told or at not in words.names.actors or is_object(words, at):
+        if clause.link == "when" and clause.start < at < clause.start + 4 and _begun(words, clause, at):
+            return [replace(clause, end=at), *_parted(words, replace(clause, start=at, link="main"))]
+        acts = words.word(at) in ("he", "she", "it") and words.has([at + 1], "verb", "be", "auxiliary")
+        if not told or not (acts or (at in words.names.actors and not is_object(words, at))):
             continue
         first = at
         while first > clause.start and words.has([first - 1], "determiner", "actor_adjective", "heading"):
             first -= 1
-        if words.has([first - 1], "landmark", "back_reference", "area", "hero", "ego", "noun", "quantity", "mark_noun"):
+        if words.has([first - 1], *_AMOUNT_ENDS):
             rest = replace(clause, start=first, link="main")
             return [replace(clause, end=first), *_parted(words, rest)]
     return [clause]
+
+
+def _begun(words: Words, clause: Clause, at: int) -> bool:
+    """Whether "when the story starts" ends here: "when the story starts it is 100 m from it"."""
+    named = words.named(range(clause.start, at)) is not None
+    subject = at in words.names.pronouns or at in words.names.actors or "determiner" in words.tags(at)
+    return words.tag(at - 1, "verb") == "begin" and subject and not named
 
 
 def _is_aside(words: Words, clause: Clause) -> bool:

@@ -116,8 +116,18 @@ class DeedReader:
         if (across or "through" in tags) and "verb" not in tags and clause.subject == HERO_ID:
             if self._landmark(at, clause) == "conflict_point":
                 self._add("pass", at, clause)
+        if tags.get("event_noun") == "turn" and self._is_done(at):
+            self._add("complete", at, clause)
         if "landmark" in tags and self.words.tag(at - 1, "verb") == "approach":
             self.words.used.add(at)
+
+    def _is_done(self, at: int) -> bool:
+        """Whether this is "gets its whole turn done"."""
+        back = at - 1
+        while "unknown" in self.words.tags(back):
+            back -= 1
+        done = {self.words.word(at + 1), self.words.word(at + 2)} & {"done", "finished", "behind it"}
+        return "possessive" in self.words.tags(back) and bool(done)
 
     def _only_describes(self, verb: str, at: int, clause: Clause) -> bool:
         """Whether a verb tells no deed here: "a slow car", "goes west", "needs 3 s to reach the line", "its turn"."""

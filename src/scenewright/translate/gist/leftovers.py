@@ -16,12 +16,12 @@ from scenewright.translate.gist.words import Clause, Words
 
 # Limits that hold for a while, and what did not or will not happen: no reader of facts can tell what follows.
 _DANGERS = frozenset(
-    "exceed exceeds exceeded exceeding higher lower maximum minimum max min limit limited cap capped would "
-    "prediction predicts predicted supposedly allegedly hypothetically".split()
+    "exceed exceeds exceeded exceeding higher lower maximum minimum max min limit limited cap capped "
+    "predicts predicted says said supposedly allegedly hypothetically".split()
 )
 _EDGE_OF_TURN = re.compile(r"\b(?:start|beginning|end) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b", re.IGNORECASE)
 _COUNTED = re.compile(r"(?:[A-Za-z]-|#|\[|\b(?:run|test|no\.?|case|phase|step|item|day|version|v)\s?)$", re.IGNORECASE)
-_UNREAL = re.compile(r"(?:^|[.;!?]\s+|,\s+)(?:had|were) (?:the|it|a|an)\b|\bif \w+(?: \w+)? (?:were|had)\b", re.IGNORECASE)
+_UNREAL = re.compile(r"(?:^|[.;!?]\s+|,\s+)(?:had|were) (?:the|it|a|an)\b|\bif \w+(?: \w+)? (?:were|had)\b|\bwould(?: not|n't)? have\b", re.IGNORECASE)
 _DEEDS = frozenset(("brake", "stop", "accelerate", "pass", "complete", "yield", "not_yield", "turn", "pull_out")) | {
     "wait",
     "reach",
@@ -86,14 +86,18 @@ def _repeats(words: Words, clause: Clause, deeds: list[Deed], trigger_sentence: 
 
 def _is_strange_condition(words: Words, at: int, clause: Clause) -> bool:
     """Whether something that is not known may be what the hero waits for: "when the ego, 30 m from it, honks"."""
-    asked = next((each for each in words.sentence(clause) if each.link == "when"), None)
-    if asked is None or clause.start < asked.start:
+    sentence = words.sentence(clause)
+    asked = next((each for each in sentence if each.link == "when"), None)
+    measured = asked is not None and any(words.has(each.inside, "quantity") for each in sentence)
+    if asked is None or not measured or clause.start < asked.start or clause.link == "that":
         return False
-    earlier = [each for each in words.sentence(clause) if asked.start <= each.start <= clause.start]
+    earlier = [each for each in sentence if asked.start <= each.start <= clause.start]
     acted = any(each.subject == HERO_ID and words.verbs(each.inside) & _DEEDS for each in earlier)
+    pronoun = any(i in words.names.pronouns for i in clause.inside)
+    main = clause is not asked and (clause.named or pronoun) and not words.has(clause.inside, "quantity")
     word = words.word(at)
     alone = not words.has([at + 1], "noun", "hero", "ego", "landmark", "area", "unknown")
-    return not acted and alone and len(word) > 3 and word.endswith("s")
+    return not acted and not main and alone and len(word) > 3 and word.endswith("s")
 
 
 def _is_harmless(words: Words, at: int) -> bool:

@@ -159,7 +159,8 @@ class StoryTeller:
                 continue
             for at in clause.inside:
                 owned = self.words.tag(at, "event_noun") == "turn" and "possessive" in self.words.tags(at - 1)
-                done = any(deed.clause is clause and deed.kind in ("complete", "turn") for deed in self.deeds)
+                own = [deed for deed in self.deeds if at in deed.clause.inside]
+                done = any(deed.kind in ("complete", "turn", "before", "after", "let_reach") for deed in own)
                 if owned and not done:
                     raise self.words.refuse("it is not clear up to where the hero goes", self.words.tokens[at].span)
 

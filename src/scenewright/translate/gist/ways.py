@@ -69,7 +69,8 @@ class WayReader:
             self._by_name(said, self.words.names.actors[at], at)
         for at in range(len(self.words.tokens)):
             said = self.words.tag(at, "actor_adjective") or ""
-            if said in ("lead", "rear", "oncoming", "turns_left", "turns_right"):
+            end = said == "rear" and self.words.word(at + 1) == "end"  # "a rear-end crash"
+            if said in ("lead", "rear", "oncoming", "turns_left", "turns_right") and not end:
                 self._adjective(at, said)
 
     def _word(self, at: int, clause: Clause) -> None:
@@ -196,7 +197,7 @@ class WayReader:
         tags, word = self.words.tags(back), self.words.word(back)
         verb, preposition = tags.get("verb"), tags.get("preposition")
         before = self.words.verbs(range(max(clause.start, back - 2), back))
-        turned = self.words.has(range(clause.start, back), "direction") or "turn" in before
+        turned = self.words.where(range(clause.start, back), "direction", "left", "right") is not None or "turn" in before
         if preposition == "into" or verb in ("enter", "want") or word in ("for", "onto"):
             return "into"
         if preposition in ("on", "in") and (before & {"enter"} or (turned and self.words.tag(at, "area") == "road")):
@@ -300,7 +301,8 @@ class WayReader:
     # -- what was found -----------------------------------------------------------------------------------------------
     def _say(self, key: Key, value: str, at: int, actor: int | None, clause: Clause) -> None:
         span = self.words.tokens[at].span
-        if clause.pair or (clause.both and not clause.named):
+        marks = [i for i in clause.inside if i in self.words.names.both]
+        if clause.pair or (clause.both and (not clause.named or any(mark < at for mark in marks))):
             self.ways += [Way(key, value, at, span, EGO_ID), Way(key, value, at, span, HERO_ID)]
         elif actor is None and self._is_title(clause):
             self.titles.append(Way(key, value, at, span, None))

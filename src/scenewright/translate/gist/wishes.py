@@ -33,7 +33,7 @@ def wishes(words: Words, reader: WayReader, road_map: RoadMap) -> dict[int, dict
         options = [route for route in all_routes(road_map) if all(_fits(route, way) for way in ways)]
         if not options:
             raise words.refuse(f"no route fits what is said about the {ACTOR_NAMES[actor]}", ways[-1].span)
-        found[actor] = {_key(way, ways, options): Said(way.value, Event("be", actor, way.span, -1)) for way in ways}
+        found[actor] = {_key(words, way, ways, options): Said(way.value, Event("be", actor, way.span, -1)) for way in ways}
     return found
 
 
@@ -51,12 +51,17 @@ def _fits(route: Route, way: Way) -> bool:
     return bool(getattr(route, way.key) == way.value)
 
 
-def _key(way: Way, ways: list[Way], options: list[Route]) -> WishKey:
+def _key(words: Words, way: Way, ways: list[Way], options: list[Route]) -> WishKey:
     if way.key != "heading":
         return way.key
     if all(route.headings[0] == way.value for route in options):
         return "origin_heading"
     if all(route.headings[-1] == way.value for route in options):
         return "destination_heading"
-    turn = next((each.at for each in ways if each.key == "turn" and each.value != "straight"), None)
-    return "destination_heading" if turn is not None and turn < way.at else "origin_heading"
+    turns = [each.at for each in ways if each.key == "turn" and each.value != "straight" and each.at < way.at]
+    return "destination_heading" if any(_goes_on(words, turn, way.at) for turn in turns) else "origin_heading"
+
+
+def _goes_on(words: Words, turn: int, heading: int) -> bool:
+    """Whether a heading is that after the turn: "turns left, eastbound", but not "turns left; it is eastbound"."""
+    return not words.has(range(turn, heading), "end", "be", "ego", "hero", "noun")
