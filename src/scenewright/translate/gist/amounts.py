@@ -108,7 +108,7 @@ class AmountReader:
             made.kind = "ttc"
             self._to_place(made)
             return
-        if self._to_place(made) or self._to_vehicle(made) or self._around(made, measure):
+        if self._lies(made) or self._to_place(made) or self._to_vehicle(made) or self._around(made, measure):
             return
         if made.quantity is not None and made.quantity.dimension == "time" and self._lasts(made):
             made.kind, made.actor = "duration", HERO_ID
@@ -239,13 +239,12 @@ class AmountReader:
 
     def _around(self, made: Measured, measure: str | None) -> bool:
         """Read "the gap has fallen to 12 m", "9 m separate the two", "the distance between it and the line is 30 m"."""
-        if self.words.has(range(made.at + 1, made.at + 3), "separates"):
-            made.kind = "gap"
-            self.words.used |= set(range(made.at, made.at + 3))
+        separates = self.words.where(range(made.at + 1, made.at + 3), "separates")
+        if separates is not None:
+            self._separates(made, separates)
             return True
         between = self.words.where(made.clause.inside, "preposition", "between")
-        lies = self.words.tag(made.at + 1, "relation") in ("from", "ahead") and self.words.has(made.clause.inside, "be")
-        if measure is None and between is None and not lies:
+        if measure is None and between is None:
             return False
         place = self._place_in(made)
         if place is not None:
@@ -258,6 +257,34 @@ class AmountReader:
             self._who_follows(made)
             return True
         return False
+
+    def _lies(self, made: Measured) -> bool:
+        """Read "the intersection is 6.8 s away" and "the intersection lies 82 m ahead of it"."""
+        before = range(made.clause.start, made.at)
+        mark = self.words.where(before, "landmark")
+        away = self.words.tag(made.at + 1, "relation") in ("from", "ahead")
+        stands = self.words.has(before, "be") or "sit" in self.words.verbs(before)
+        measured = any(measure_of(self.words, at) is not None for at in before)
+        if mark is None or not away or not stands or measured or self.words.has(before, "quantity"):
+            return False
+        if self.words.named(before) is not None or self.place_at(made.at + 2) is not None:
+            return False
+        named = self.words.named(range(made.at + 1, min(made.at + 5, made.clause.end)))
+        made.kind, made.landmark = "place", self.words.tags(mark)["landmark"]
+        made.actor = named if named is not None else made.clause.subject
+        self.words.used |= {made.at, mark}
+        return True
+
+    def _separates(self, made: Measured, at: int) -> None:
+        """Read "9 m separate the ego from the van" and "28 m separate the ego from the conflict point"."""
+        made.kind = "gap"
+        self.words.used |= set(range(made.at, at + 1))
+        name = self.words.skip(at + 1, _BESIDE)
+        relation = self.relation_at(name + 1) if name in self.words.names.actors else None
+        place = self.place_at(relation[1]) if relation is not None else None
+        if place is not None:
+            made.kind, made.landmark, made.actor = "place", place[0], self.words.names.actors[name]
+            self.words.used |= set(range(at, place[1]))
 
     def _place_in(self, made: Measured) -> str | None:
         """Return the landmark that a measure names: "its distance to the stop line is 12 m"."""

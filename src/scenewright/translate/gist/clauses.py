@@ -121,6 +121,8 @@ def cut(words: Words) -> list[Clause]:
 def _link(words: Words, at: int) -> str | None:
     """Return what a linking word links, or None where it is none, or is a preposition here."""
     link, word, following = words.tag(at, "link"), words.word(at), words.tags(at + 1)
+    if word == "as" and (not at or words.has([at - 1], "end", "comma")) and _names_someone(words, at + 1):
+        return "when"
     if link not in _LINKS:
         return None
     if word == "following":
@@ -140,6 +142,14 @@ def _link(words: Words, at: int) -> str | None:
         points = "determiner" in words.tags(at) and words.has([at + 1], "mark_noun", "noun", *_PLACES)
         return None if measures or points else link
     return None if link == "when" and "label" in words.tags(at) and "colon" in following else link
+
+
+def _names_someone(words: Words, at: int) -> bool:
+    """Whether a vehicle is named here and does something: "As the car under test reaches 32 m"."""
+    while words.has([at], "determiner", "actor_adjective", "heading"):
+        at += 1
+    named = at in words.names.actors or at in words.names.pronouns
+    return named and words.has([at + 1], "verb", "be", "auxiliary")
 
 
 def _names_place(words: Words, at: int) -> bool:

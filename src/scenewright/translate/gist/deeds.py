@@ -140,7 +140,7 @@ class DeedReader:
             return True
         if verb == "reach":
             state = clause.subject == EGO_ID or self._landmark(at, clause) is None
-            amount = words.has(range(max(clause.start, at - 4), at), "quantity")
+            amount = words.has(range(at - 4, at), "quantity")
             return state or (amount and words.word(at - 1) in ("to", "from", "before"))
         return False
 

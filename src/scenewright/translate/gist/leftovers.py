@@ -70,7 +70,9 @@ def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> 
             lost = not (before and quiet) and not _is_defined(words, at)  # "pulls up to the stop line" before anything
         elif following is not None and following.link in BOUNDS:
             lost = not _repeats(words, following, deeds, trigger_sentence)
-        elif "unknown" in token.tags and clause is not None:
+        elif following is not None and following.link == "when" and following.sentence >= trigger_sentence:
+            lost = not _tells_moment(words, following)
+        elif clause is not None and ("unknown" in token.tags or token.tags.get("verb") == "attitude"):
             lost = _is_strange_condition(words, at, clause)
         if lost:
             raise words.refuse(f"'{token.text}' has no part in what was understood", token.span)
@@ -82,6 +84,13 @@ def _repeats(words: Words, clause: Clause, deeds: list[Deed], trigger_sentence: 
     again = bool(own) and all(deed.kind in ("stop", "brake", "wait") and deed.actor == HERO_ID for deed in own)
     way = clause.subject == HERO_ID and clause.sentence < trigger_sentence and not words.has(clause.inside, "quantity")
     return way or (clause.link in ("until", "after") and again)
+
+
+def _tells_moment(words: Words, clause: Clause) -> bool:
+    """Whether a "when" has an amount, or only tells when something begins that is known."""
+    later = [each for each in words.sentence(clause) if each.start >= clause.start][:3]
+    told = any(words.has(each.inside, "quantity") for each in later)
+    return told or bool(words.verbs(clause.inside) & _DEEDS) or "start" in clause.labels
 
 
 def _is_strange_condition(words: Words, at: int, clause: Clause) -> bool:

@@ -81,7 +81,7 @@ def _unknown_vehicle(tokens: list[Token]) -> str | None:
         if "unknown" not in token.tags or "unknown" in tokens[at + 1].tags or not token.text.isalpha():
             continue
         back = at - 1
-        while back >= 0 and tokens[back].tags.keys() & {"unknown", "actor_adjective", "heading"}:
+        while back >= 0 and tokens[back].tags.keys() & {"unknown", "actor_adjective", "heading", "area"}:
             back -= 1
         article = tokens[back].tags.get("determiner") if back >= 0 else None
         acts = tokens[at + 1].tags.keys() & {"verb", "be", "auxiliary", "quantity", "preposition", "comma", "link"}

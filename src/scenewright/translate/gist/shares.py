@@ -16,6 +16,7 @@ def share(words: Words, found: list[Measured]) -> None:
     """Fill in what one amount says for another."""
     _back_references(words, found)
     _respectively(words, found)
+    _told_after(words, found)
     _same_place(words, found)
     _in_order(words, found)
 
@@ -42,6 +43,19 @@ def _respectively(words: Words, found: list[Measured]) -> None:
                 made.kind, made.landmark, made.vague = "place", words.tags(mark)["landmark"], False
         if marks:
             words.used |= {at, *marks}
+
+
+def _told_after(words: Words, found: list[Measured]) -> None:
+    """Read "the ego at 4 s and the van at 3 s, both with respect to the conflict point"."""
+    for clause in words.clauses:
+        opens = [m for m in found if m.kind == "open" and m.clause.sentence == clause.sentence and m.at < clause.start]
+        begins = words.has([clause.start], "measured_word", "preposition", "relation")
+        mark = words.where(clause.inside, "landmark")
+        if not opens or not begins or mark is None or words.has(clause.inside, "quantity", "verb", "be", "ego", "hero"):
+            continue
+        for made in opens:
+            made.kind, made.landmark = "place", words.tags(mark)["landmark"]
+        words.used |= set(clause.inside)
 
 
 def _same_place(words: Words, found: list[Measured]) -> None:

@@ -56,8 +56,10 @@ class StoryTeller:
                 raise self.words.refuse(message, deed.span)
         self._standing()
         told = [deed for deed in self.deeds if deed.actor == HERO_ID and self._counts(deed)]
-        self._check(told)
         slows = [deed for deed in told if deed.kind in _SLOWS]
+        if slows:  # "brakes and keeps at it until it stands"
+            told = [deed for deed in told if deed.kind != "keep" or deed.clause.link == "then"]
+        self._check(told)
         goes = [deed for deed in told if deed.kind in _GOES]
         denies = [deed for deed in told if deed.kind == "not_yield"]
         if slows:

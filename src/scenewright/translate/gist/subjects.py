@@ -130,7 +130,7 @@ def _agrees_with_two(words: Words, clause: Clause) -> bool:
 
 def _starts_it(words: Words, clause: Clause) -> bool:
     """Whether this is "when the observation begins", "when we start", "when things begin"."""
-    begins = words.tag(clause.end - 1, "verb") == "begin"
+    begins = words.word(clause.end - 1).split()[-1] in ("begin", "begins", "start", "starts", "began", "started")
     vehicle = words.has(clause.inside, "hero", "noun") or any("ego" in words.word(at) for at in clause.inside)
     return clause.link == "when" and begins and len(clause.inside) <= 3 and not vehicle
 

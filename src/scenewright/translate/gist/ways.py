@@ -27,7 +27,7 @@ _BEFORE_TURN = frozenset(
 )
 _AFTER_TURN = frozenset(
     ("end", "comma", "heading", "preposition", "link", "event_noun", "verb", "area", "unknown", "colon", "adverb")
-    + ("relation", "pair", "auxiliary", "be", "negation", "side_noun")
+    + ("pronoun", "relation", "pair", "auxiliary", "be", "negation", "side_noun")
 )
 
 
@@ -198,7 +198,8 @@ class WayReader:
         verb, preposition = tags.get("verb"), tags.get("preposition")
         before = self.words.verbs(range(max(clause.start, back - 2), back))
         turned = self.words.where(range(clause.start, back), "direction", "left", "right") is not None or "turn" in before
-        if preposition == "into" or verb in ("enter", "want") or word in ("for", "onto"):
+        bound = preposition == "to" and self.words.word(back - 1).endswith("way")  # "on its way to the driveway"
+        if preposition == "into" or verb in ("enter", "want") or word in ("for", "onto") or bound:
             return "into"
         if preposition in ("on", "in") and (before & {"enter"} or (turned and self.words.tag(at, "area") == "road")):
             return "into"  # "enters in the driveway", "turns left on the road"
