@@ -26,6 +26,7 @@ class Basis(Enum):
     EXACT = Confidence(1.0, "every word is known and nothing was added")
     INFERRED = Confidence(0.9, "something left unsaid was taken from the map or from the words before")
     DEFAULT = Confidence(0.8, "something left unsaid was filled in by a convention")
+    FACTS = Confidence(0.7, "the facts were picked out of a free text; what tells none was set aside")
     CORRECTED = Confidence(0.6, "a misspelt word was corrected")
     GUESSED = Confidence(0.5, "an unknown word was taken for a description that changes nothing")
 

@@ -20,11 +20,12 @@ from scenewright.roads import find_conflict
 from scenewright.translate.assemble import Assembler
 from scenewright.translate.clauses import ClauseReader
 from scenewright.translate.commentary import denied, without_commentary
-from scenewright.translate.confidence import basis_of
+from scenewright.translate.confidence import Basis, basis_of
 from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, Event
 from scenewright.translate.facts import Facts
 from scenewright.translate.fronting import unfronted
 from scenewright.translate.geometry import is_remark
+from scenewright.translate.gist.reader import check_told, read_gist
 from scenewright.translate.headlines import untold
 from scenewright.translate.interpret import Interpreter
 from scenewright.translate.itineraries import Itineraries, choose_routes, default_map
@@ -110,6 +111,20 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     >>> [actor.route.headings for actor in translate_offline(text).program.actors]
     [('S', 'W'), ('W',)]
     """
+    chosen_map = road_map if road_map is not None else default_map()
+    try:
+        read = _by_grammar(text, chosen_map, name)
+    except TranslationError as error:
+        try:
+            return _by_facts(text, chosen_map, name)
+        except TranslationError:
+            raise error from None
+    _check_second_reading(read.program, text, chosen_map, name)
+    return read
+
+
+def _by_grammar(text: str, road_map: RoadMap, name: str) -> Translation:
+    """Translate clause by clause; every word has to be understood."""
     tokens = unfronted(reworded(related(spoken(noted(tokenise(text, name))))))
     tokens, comments = without_commentary(tokens)
     tokens, titles = lay_out(tokens)
@@ -117,53 +132,115 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     referents = Referents(text, name)
     phrases = Phrases(text, name, tokens, referents)
     skipped = [(words, words[0].span.union(words[-1].span)) for words in (*comments, *titles)]
+    _assume_what_was_read(phrases, skipped)
+    events = ClauseReader(phrases).read()
+    facts = Interpreter(text, name).run(events, phrases.described)
+    _complete(facts, text, name)
+    _deeds_done(facts, phrases, text, name)
+    routes = choose_routes(facts, road_map, text, name)
+    for stretch, span in skipped:
+        _check_skipped(stretch, span, facts, routes, Place(name, text, span))
+    return _assembled(facts, routes, events, tokens, tuple(phrases.assumptions), road_map.name, text, name)
+
+
+def _by_facts(text: str, road_map: RoadMap, name: str) -> Translation:
+    """Translate by the facts alone that a free text tells."""
+    gist = read_gist(text, name, road_map)
+    _complete(gist.facts, text, name)
+    routes = choose_routes(gist.facts, road_map, text, name)
+    check_told(gist, routes, text, name)
+    read = _assembled(gist.facts, routes, gist.events, gist.tokens, gist.assumptions, road_map.name, text, name)
+    basis = Basis.FACTS.value
+    readings = (
+        each if each.confidence < basis.value else replace(each, confidence=basis.value, basis=basis.meaning)
+        for each in read.readings
+    )
+    return replace(read, readings=tuple(readings))
+
+
+def _check_second_reading(program: Program, text: str, road_map: RoadMap, name: str) -> None:
+    """Refuse a text of which its facts alone say something else than its grammar: one of the readings is wrong."""
+    try:
+        other = _by_facts(text, road_map, name).program
+    except TranslationError:
+        return
+    if [(each.route, each.sketch) for each in program.actors] != [(each.route, each.sketch) for each in other.actors]:
+        place, found = Place(name, text, Span(0, len(text))), "another route, or another order of what the hero does"
+    else:
+        formulas = [each.formula for each in other.constraints]
+        only = [each for each in program.constraints if each.formula not in formulas]
+        if not only and len(formulas) == len(program.constraints):
+            return
+        constraint = only[0] if only else other.constraints[-1]
+        place, found = Place(name, text, constraint.span), print_expression(constraint.formula)
+    raise TranslationError(
+        "this can be read in two ways",
+        place=place,
+        found=found,
+        expected="one meaning by the grammar of its clauses and by its facts alone",
+        fix="say it in shorter sentences, each with the name of the vehicle it is about",
+    )
+
+
+def _assume_what_was_read(phrases: Phrases, skipped: list[tuple[list[Token], Span]]) -> None:
     for _, span in sorted(skipped, key=lambda each: each[1].start):
-        words = " ".join(span.excerpt(text).split())
+        words = " ".join(span.excerpt(phrases.text).split())
         phrases.assume(f"'{words}' comments on the test; nothing in it is orchestrated")
-    for token in tokens:
+    for token in phrases.tokens:
         if "guess" in token.tags:
             phrases.assume(f"'{token.text}' is taken for a description that changes nothing")
         if "unit_before" in token.tags:
             phrases.assume(f"'{token.text}' has the unit of the amount before it")
         for written, read in token.slips:
             phrases.assume(f"'{written}' is read as '{read}'")
-    events = ClauseReader(phrases).read()
-    facts = Interpreter(text, name).run(events, phrases.described)
-    _complete(facts, text, name)
-    _deeds_done(facts, phrases, text, name)
-    chosen_map = road_map if road_map is not None else default_map()
-    routes = choose_routes(facts, chosen_map, text, name)
-    for stretch, span in skipped:
-        if word := denied(stretch, [(route.turn, *route.headings) for route in (routes.ego, routes.hero)]):
-            raise TranslationError(
-                f"'{word.text}' was stepped over as a title or a comment, but neither vehicle does this",
-                place=Place(name, text, span),
-                found=" ".join(span.excerpt(text).split()),
-                expected=f"what fits {routes.ego} or {routes.hero}",
-                fix="say in a sentence of its own who does this",
-            )
-        if word := untold(stretch, _deeds(facts)):
-            raise TranslationError(
-                f"'{word.text}' was stepped over as a title, but it is not told again",
-                place=Place(name, text, span),
-                found=" ".join(span.excerpt(text).split()),
-                expected="a sentence that says when the hero does this",
-                fix="tell it in a sentence of its own",
-            )
-        if is_remark(stretch) and find_conflict(routes.ego, routes.hero) is None:
-            raise TranslationError(
-                "it is said that the ways of the two vehicles meet, but they do not",
-                place=Place(name, text, span),
-                found=" ".join(span.excerpt(text).split()),
-                expected=f"what fits {routes.ego} and {routes.hero}",
-                fix="check the turns and the directions of travel",
-            )
+
+
+def _check_skipped(stretch: list[Token], span: Span, facts: Facts, routes: Itineraries, place: Place) -> None:
+    """Refuse a title or a comment that says what the rest does not say, or what is not so."""
+    text = place.text or ""
+    found = " ".join(span.excerpt(text).split())
+    if word := denied(stretch, [(route.turn, *route.headings) for route in (routes.ego, routes.hero)]):
+        raise TranslationError(
+            f"'{word.text}' was stepped over as a title or a comment, but neither vehicle does this",
+            place=place,
+            found=found,
+            expected=f"what fits {routes.ego} or {routes.hero}",
+            fix="say in a sentence of its own who does this",
+        )
+    if word := untold(stretch, _deeds(facts)):
+        raise TranslationError(
+            f"'{word.text}' was stepped over as a title, but it is not told again",
+            place=place,
+            found=found,
+            expected="a sentence that says when the hero does this",
+            fix="tell it in a sentence of its own",
+        )
+    if is_remark(stretch) and find_conflict(routes.ego, routes.hero) is None:
+        raise TranslationError(
+            "it is said that the ways of the two vehicles meet, but they do not",
+            place=place,
+            found=found,
+            expected=f"what fits {routes.ego} and {routes.hero}",
+            fix="check the turns and the directions of travel",
+        )
+
+
+def _assembled(
+    facts: Facts,
+    routes: Itineraries,
+    events: list[Event],
+    tokens: list[Token],
+    assumed: tuple[str, ...],
+    map_name: str,
+    text: str,
+    name: str,
+) -> Translation:
+    """Build the program, and say what every event came to."""
     assembler = Assembler(facts, routes, text, name)
-    program = assembler.program(chosen_map.name)
+    program = assembler.program(map_name)
     _all_amounts_used(program, tokens, text, name)
-    assumptions = (*phrases.assumptions, *facts.assumptions, *routes.assumptions, *assembler.assumptions)
-    assumptions = tuple(dict.fromkeys(assumptions))
-    readings = tuple(_reading(event, facts, routes, assembler, program, text) for event in events)
+    assumptions = tuple(dict.fromkeys((*assumed, *facts.assumptions, *routes.assumptions, *assembler.assumptions)))
+    readings = (_reading(event, facts, routes, assembler, program, text) for event in events)
     return Translation(program, tuple(_rated(each, assumptions) for each in readings), assumptions)
 
 

@@ -76,8 +76,9 @@ def read_gist(text: str, name: str, road_map: RoadMap) -> Gist:
             raise error from None
 
 
-def check_told(gist: Gist, routes: Itineraries, words: Words) -> None:
+def check_told(gist: Gist, routes: Itineraries, text: str, name: str) -> None:
     """Refuse a title that tells a way which neither vehicle goes, and amounts that the routes do not allow."""
+    words = Words(text, name, gist.tokens)
     ways = [{route.turn, *route.headings, route.origin_kind, route.destination_kind} for route in (routes.ego, routes.hero)]
     for value, span in gist.told:
         if not any(value in way for way in ways):
@@ -113,10 +114,11 @@ def _read(words: Words, title: tuple[Token, ...], road_map: RoadMap) -> Gist:
     facts.relations = one_each(words, ways.relations)
     facts.mentioned |= {EGO_ID, HERO_ID}
     refuse_left_over(words, acts.deeds, teller.trigger_sentence)
-    events = [said.event for each in facts.wishes.values() for said in each.values()]
+    events = [*(said.event for each in facts.wishes.values() for said in each.values()), *teller.events]
     told = [(way.value, way.span) for way in ways.titles]
     told += [(token.tags[key], token.span) for token in title for key in _told_by(token)]
-    return Gist(facts, [*events, *teller.events], words.tokens, told, _assumptions(words, title))
+    events = sorted({id(event): event for event in events}.values(), key=lambda event: event.span.start)
+    return Gist(facts, events, words.tokens, told, _assumptions(words, title))
 
 
 def _told_by(token: Token) -> list[str]:

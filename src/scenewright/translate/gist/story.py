@@ -58,7 +58,7 @@ class StoryTeller:
         told = [deed for deed in self.deeds if deed.actor == HERO_ID and self._counts(deed)]
         slows = [deed for deed in told if deed.kind in _SLOWS]
         if slows:  # "brakes and keeps at it until it stands"
-            told = [deed for deed in told if deed.kind != "keep" or deed.clause.link == "then"]
+            told = [deed for deed in told if deed.clause.link == "then" or not self._only_keeps(deed)]
         self._check(told)
         goes = [deed for deed in told if deed.kind in _GOES]
         denies = [deed for deed in told if deed.kind == "not_yield"]
@@ -134,6 +134,9 @@ class StoryTeller:
             return clause.sentence >= here
         first = min(made.at for made in self.moments.of("trigger"))
         return clause.sentence > here or (clause.sentence == here and clause.start > first)
+
+    def _only_keeps(self, deed: Deed) -> bool:
+        return deed.kind in ("keep", "go") and deed.span.excerpt(self.words.text).lower().startswith(("keep", "kept"))
 
     def _check(self, told: list[Deed]) -> None:
         """Refuse what contradicts itself or is no story."""
