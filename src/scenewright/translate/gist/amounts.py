@@ -91,8 +91,10 @@ class AmountReader:
         made.kind, made.actor = "speed", owner_of(self.words, made.at, made.clause)
         told_for(self.words, made, made.at + 1)
         at = made.at - 1  # "behind a van doing 12 m/s", "a slower car (10 m/s)"
-        while self.words.has([at], "adverb", "comma") or self.words.tag(at, "preposition") in ("at", "with") or (
-            at >= 0 and "ing" in self.words.tokens[at].forms
+        while (
+            self.words.has([at], "adverb", "comma")
+            or self.words.tag(at, "preposition") in ("at", "with")
+            or (at >= 0 and "ing" in self.words.tokens[at].forms)
         ):
             at -= 1
         made.actor = self.words.names.actors.get(at, made.actor)
@@ -153,8 +155,10 @@ class AmountReader:
         if self.words.word(at) == "(" and at + 1 in names and self.words.word(at + 2) == ")":
             return at + 3, names[at + 1]  # "20 m (cab) away from it"
         ahead = at
-        while self.words.has([ahead], "left_over", "measure") or self.words.tag(ahead, "verb") == "go" or (
-            self.words.word(ahead) == "to" and self.words.tag(ahead + 1, "verb") == "go"
+        while (
+            self.words.has([ahead], "left_over", "measure")
+            or self.words.tag(ahead, "verb") == "go"
+            or (self.words.word(ahead) == "to" and self.words.tag(ahead + 1, "verb") == "go")
         ):
             ahead += 1
         if self.words.tag(ahead, "preposition") in ("for", "to", "of"):

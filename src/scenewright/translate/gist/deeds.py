@@ -19,6 +19,8 @@ _DEEDS = {
     "accelerate": "accelerate",
     "pass": "pass",
     "reach": "pass",
+    "beat": "pass",
+    "cut_in_front": "pass",
     "complete": "complete",
     "yield": "yield",
     "not_yield": "not_yield",
@@ -79,8 +81,10 @@ class DeedReader:
         for clause in self.words.clauses:
             if clause.aside:
                 self.words.used |= set(clause.inside)
-            elif not ((clause.link in BOUNDS or self._releases(clause)) and self._ego_moment(clause)):
+            elif not (self._is_bound(clause) and self._ego_moment(clause)):
                 self._clause(clause)
+        for deed in list(self.deeds):
+            self._in_front(deed)
 
     def _clause(self, clause: Clause) -> None:
         negation: int | None = None
@@ -140,8 +144,8 @@ class DeedReader:
             return True
         if verb == "reach":
             state = clause.subject == EGO_ID or self._landmark(at, clause) is None
-            amount = words.has(range(at - 4, at), "quantity")
-            return state or (amount and words.word(at - 1) in ("to", "from", "before"))
+            amount = next((i for i in range(at - 1, at - 6, -1) if "quantity" in words.tags(i)), at)
+            return state or any(words.word(i) in ("to", "from", "before") for i in range(amount, at))
         return False
 
     def _leads_on(self, at: int, clause: Clause) -> bool:
@@ -222,6 +226,27 @@ class DeedReader:
     def _is_perfect(self, clause: Clause) -> bool:
         return self.words.where(clause.inside, "auxiliary", "have") is not None
 
+    def _is_bound(self, clause: Clause) -> bool:
+        """Whether a clause tells a moment of the ego: "before it turns", "by the time it does", "after which it turns"."""
+        verbs = self.words.verbs(clause.inside)
+        by_then = self.words.word(clause.start - 1) == "by the time" and not self.words.has(clause.inside, "quantity")
+        which = self.words.word(clause.start - 1) == "after which" and bool(verbs & {"begin", "turn", "pass"})
+        return clause.link in BOUNDS or by_then or which or self._releases(clause)
+
+    def _in_front(self, deed: Deed) -> None:
+        """Read "crosses in front of the ego" and "beats the ego to the conflict point" as passing before the ego."""
+        clause, words = deed.clause, self.words
+        if deed.kind not in ("pass", "accelerate") or deed.actor != HERO_ID:
+            return
+        for at in clause.inside:
+            beside = words.tag(at, "relation") == "ahead" and at not in words.used
+            beats = words.tag(at, "verb") in ("beat", "cut_in_front") or beside
+            ego = any(words.names.actors.get(i) == EGO_ID for i in range(at + 1, min(at + 4, clause.end)))
+            if beats and ego and "quantity" not in words.tags(at - 1):
+                words.used.add(at)
+                self.deeds.append(Deed("before", at, clause, words.tokens[at].span, "same", EGO_ID))
+                return
+
     def _releases(self, clause: Clause) -> bool:
         """Whether "once the ego has completed its turn" is a moment of the ego that the hero waits for."""
         done = self.words.verbs(clause.inside) & {"complete", "pass"}
@@ -244,7 +269,8 @@ class DeedReader:
         verbs = self.words.verbs(clause.inside)
         if clause.subject != EGO_ID or (not clause.named and verbs & {"brake", "stop", "accelerate", "wait"}):
             return False
-        kind = {"before": "before", "let": "let_reach"}.get(clause.link, "after")
+        first = clause.link == "before" or self.words.word(clause.start - 1) in ("by the time", "after which")
+        kind = "before" if first else "let_reach" if clause.link == "let" else "after"
         self.words.used |= set(range(clause.start - 1, clause.end))
         span = self.words.span(clause)
         self.deeds.append(Deed(kind, clause.start, clause, span, self._ego_place(clause, verbs), EGO_ID))
@@ -254,7 +280,9 @@ class DeedReader:
         mark = self.words.where(clause.inside, "landmark")
         if "complete" in verbs:
             return "turn_end"
-        turns = verbs & {"turn", "pull_out", "begin"} or self.words.where(clause.inside, "event_noun", "turn") is not None
+        turns = (
+            verbs & {"turn", "pull_out", "begin"} or self.words.where(clause.inside, "event_noun", "turn") is not None
+        )
         if verbs & {"pass", "reach", "enter"} or (mark is not None and "turn" not in verbs):
             return self.words.tags(mark)["landmark"] if mark is not None else "conflict_point"
         if turns:

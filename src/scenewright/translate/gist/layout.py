@@ -27,7 +27,9 @@ def laid_out(text: str, name: str) -> list[Token]:
 
 def _plain(text: str) -> str:
     """Return the text with keys such as "ego_route" as words; every character keeps its place."""
-    spaced = _KEY.sub(lambda found: found.group() if unit_of_name(found.group()) else found.group().replace("_", " "), text)
+    spaced = _KEY.sub(
+        lambda found: found.group() if unit_of_name(found.group()) else found.group().replace("_", " "), text
+    )
     return re.sub(r"-{2,}", lambda found: " " * len(found.group()), spaced) if "|" in text else spaced
 
 

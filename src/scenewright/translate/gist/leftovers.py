@@ -21,7 +21,10 @@ _DANGERS = frozenset(
 )
 _EDGE_OF_TURN = re.compile(r"\b(?:start|beginning|end) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b", re.IGNORECASE)
 _COUNTED = re.compile(r"(?:[A-Za-z]-|#|\[|\b(?:run|test|no\.?|case|phase|step|item|day|version|v)\s?)$", re.IGNORECASE)
-_UNREAL = re.compile(r"(?:^|[.;!?]\s+|,\s+)(?:had|were) (?:the|it|a|an)\b|\bif \w+(?: \w+)? (?:were|had)\b|\bwould(?: not|n't)? have\b", re.IGNORECASE)
+_UNREAL = re.compile(
+    r"(?:^|[.;!?]\s+|,\s+)(?:had|were) (?:the|it|a|an)\b|\bif \w+(?: \w+)? (?:were|had)\b|\bwould(?: not|n't)? have\b",
+    re.IGNORECASE,
+)
 _DEEDS = frozenset(("brake", "stop", "accelerate", "pass", "complete", "yield", "not_yield", "turn", "pull_out")) | {
     "wait",
     "reach",
@@ -90,7 +93,8 @@ def _tells_moment(words: Words, clause: Clause) -> bool:
     """Whether a "when" has an amount, or only tells when something begins that is known."""
     later = [each for each in words.sentence(clause) if each.start >= clause.start][:3]
     told = any(words.has(each.inside, "quantity") for each in later)
-    return told or bool(words.verbs(clause.inside) & _DEEDS) or "start" in clause.labels
+    begins = clause.subject == HERO_ID and bool(words.verbs(clause.inside) & _DEEDS)
+    return told or begins or "start" in clause.labels
 
 
 def _is_strange_condition(words: Words, at: int, clause: Clause) -> bool:

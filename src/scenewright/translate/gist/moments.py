@@ -106,8 +106,12 @@ class MomentReader:
         before = self.words.clauses[at - 1] if at else clause
         goes_on = before.sentence == clause.sentence and not clause.named
         verbless = not self.words.has(range(clause.start, made.at), "verb", "be")
-        return goes_on and verbless and any(
-            deed.clause is before and deed.kind in ("stop", "wait") and deed.actor == HERO_ID for deed in self.deeds
+        return (
+            goes_on
+            and verbless
+            and any(
+                deed.clause is before and deed.kind in ("stop", "wait") and deed.actor == HERO_ID for deed in self.deeds
+            )
         )
 
     def begins(self, deed: Deed) -> bool:

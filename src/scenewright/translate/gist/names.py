@@ -66,7 +66,9 @@ def _speaker(tokens: list[Token]) -> int:
             tags = tokens[ahead].tags
             if tags.keys() & {"end", "comma", "ego"}:
                 break
-            drives = any(each.tags.get("verb") == "drive" or each.text.lower() == "in" for each in tokens[at + 1 : ahead])
+            drives = any(
+                each.tags.get("verb") == "drive" or each.text.lower() == "in" for each in tokens[at + 1 : ahead]
+            )
             if drives and tags.keys() & {"hero", "noun"} and not _is_tested(tokens, ahead):
                 return HERO_ID
     return EGO_ID

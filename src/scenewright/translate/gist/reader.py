@@ -10,9 +10,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from scenewright.errors import Span, TranslationError
-from scenewright.roads import RoadMap
+from scenewright.roads import RoadMap, find_conflict
 from scenewright.translate.events import EGO_ID, HERO_ID, Event
 from scenewright.translate.facts import Facts
+from scenewright.translate.geometry import is_remark
 from scenewright.translate.gist.amounts import AmountReader
 from scenewright.translate.gist.clauses import cut
 from scenewright.translate.gist.deeds import DeedReader
@@ -44,6 +45,8 @@ class Gist:
         What was read, without a title.
     told
         Headings, turns and areas that are told of no vehicle, in titles, with where: one vehicle must fit each.
+    meets
+        Where it is said that the two ways meet.
     assumptions
         What was set aside or taken for granted.
     """
@@ -52,6 +55,7 @@ class Gist:
     events: list[Event]
     tokens: list[Token]
     told: list[tuple[str, Span]]
+    meets: list[Span]
     assumptions: tuple[str, ...]
 
 
@@ -79,10 +83,14 @@ def read_gist(text: str, name: str, road_map: RoadMap) -> Gist:
 def check_told(gist: Gist, routes: Itineraries, text: str, name: str) -> None:
     """Refuse a title that tells a way which neither vehicle goes, and amounts that the routes do not allow."""
     words = Words(text, name, gist.tokens)
-    ways = [{route.turn, *route.headings, route.origin_kind, route.destination_kind} for route in (routes.ego, routes.hero)]
+    ways = [
+        {route.turn, *route.headings, route.origin_kind, route.destination_kind} for route in (routes.ego, routes.hero)
+    ]
     for value, span in gist.told:
         if not any(value in way for way in ways):
             raise words.refuse("neither vehicle does this", span)
+    if gist.meets and find_conflict(routes.ego, routes.hero) is None:
+        raise words.refuse("it is said that the ways of the two vehicles meet, but they do not", gist.meets[0])
     for condition in (*gist.facts.initial, *gist.facts.trigger):
         place = condition.place
         if place is None:
@@ -99,6 +107,7 @@ def _read(words: Words, title: tuple[Token, ...], road_map: RoadMap) -> Gist:
     words.clauses = cut(words)
     give_subjects(words)
     refuse_strangers(words)
+    meets = _set_remarks_aside(words)
     measured = AmountReader(words).read()
     share(words, measured)
     acts = DeedReader(words)
@@ -118,7 +127,17 @@ def _read(words: Words, title: tuple[Token, ...], road_map: RoadMap) -> Gist:
     told = [(way.value, way.span) for way in ways.titles]
     told += [(token.tags[key], token.span) for token in title for key in _told_by(token)]
     events = sorted({id(event): event for event in events}.values(), key=lambda event: event.span.start)
-    return Gist(facts, events, words.tokens, told, _assumptions(words, title))
+    return Gist(facts, events, words.tokens, told, meets, _assumptions(words, title))
+
+
+def _set_remarks_aside(words: Words) -> list[Span]:
+    """Set "so their paths cross" aside, and return where it stands: the routes have to fit it."""
+    found = []
+    for clause in words.clauses:
+        if not clause.named and is_remark(words.tokens[clause.start : clause.end]):
+            clause.aside = True
+            found.append(words.span(clause))
+    return found
 
 
 def _told_by(token: Token) -> list[str]:
@@ -152,10 +171,14 @@ def _assumptions(words: Words, title: tuple[Token, ...]) -> tuple[str, ...]:
         said.append(f"'{_shown(span, words.text)}' is taken for a title")
     for clause in words.clauses:
         if clause.aside:
-            said.append(f"'{_shown(words.span(clause), words.text)}' is set aside: it tells nothing of the two vehicles")
+            said.append(
+                f"'{_shown(words.span(clause), words.text)}' is set aside: it tells nothing of the two vehicles"
+            )
     aside = {at for clause in words.clauses if clause.aside for at in clause.inside}
     known = words.names.actors
-    strange = [t.text for at, t in enumerate(words.tokens) if "unknown" in t.tags and at not in aside and at not in known]
+    strange = [
+        t.text for at, t in enumerate(words.tokens) if "unknown" in t.tags and at not in aside and at not in known
+    ]
     if strange := list(dict.fromkeys(each for each in strange if each.isalpha())):
         listed = ", ".join(f"'{word}'" for word in strange)
         said.append(f"not understood and set aside: {listed}")

@@ -64,9 +64,15 @@ def _same_place(words: Words, found: list[Measured]) -> None:
         if first.kind == "open" and _alike(first, second) and second.kind == "place":
             _take_place(first, second)
     for first, second in pairwise(found):
-        if second.kind == "open" and _alike(first, second) and first.kind == "place" and None not in (
-            first.actor,
-            second.actor,
+        if (
+            second.kind == "open"
+            and _alike(first, second)
+            and first.kind == "place"
+            and None
+            not in (
+                first.actor,
+                second.actor,
+            )
         ):
             told_for(words, second, second.at + 1)
             if first.actor != second.actor:

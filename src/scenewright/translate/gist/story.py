@@ -197,7 +197,7 @@ class StoryTeller:
     def _go(self, goes: list[Deed], denies: list[Deed], *, after_stop: bool) -> None:
         keeps = any(deed.kind == "keep" for deed in goes) and not after_stop
         phase = Phase("go" if keeps else "acc", [self._event((goes or denies)[0])])
-        goal = next((deed for deed in goes if deed.kind in ("pass", "complete")), None)
+        goal = next((deed for deed in reversed(goes) if deed.kind in ("pass", "complete")), None)
         if goal is not None:
             phase.goal = "turn_end" if goal.kind == "complete" else goal.landmark or "conflict_point"
             phase.goal_event = self._event(goal)

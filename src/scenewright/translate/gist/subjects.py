@@ -9,9 +9,7 @@ from scenewright.translate.events import HERO_ID
 from scenewright.translate.gist.names import PERSONAL
 from scenewright.translate.gist.words import Clause, Words
 
-_BESIDE = frozenset(
-    ("determiner", "actor_adjective", "possessive", "heading", "hero", "noun", "unknown", "direction")
-)
+_BESIDE = frozenset(("determiner", "actor_adjective", "possessive", "heading", "hero", "noun", "unknown", "direction"))
 _OBJECT_OF = frozenset(("to", "of", "for", "by", "between", "across", "into", "in", "on", "at", "out"))
 _TAKES_OBJECT = frozenset(
     ("follow", "yield", "approach", "pass", "lead", "not_yield", "cut_in_front", "beat", "come_towards", "enter")

@@ -22,7 +22,19 @@ _LEAVING = ("leave", "pull_out")
 _CROSSING = frozenset(("turn", "pull_out", "cut_in_front", "pass"))
 _TURN_AFTER = ("go", "pull_out", "drive", "make", "come", "want")
 _BEFORE_TURN = frozenset(
-    ("determiner", "possessive", "comma", "colon", "end", "link", "area", "heading", "preposition", "wanting", "unknown")
+    (
+        "determiner",
+        "possessive",
+        "comma",
+        "colon",
+        "end",
+        "link",
+        "area",
+        "heading",
+        "preposition",
+        "wanting",
+        "unknown",
+    )
     + ("be", "ready", "bound_word")
 )
 _AFTER_TURN = frozenset(
@@ -155,8 +167,14 @@ class WayReader:
     def _same(self, at: int, clause: Clause) -> None:
         """Read "makes the same turn", "heading the same way", "with the same intention"."""
         for ahead in (at + 1, at + 2):
-            alike = self.words.tag(ahead, "event_noun") == "turn" or self.words.word(ahead) in ("way", "thing", "direction")
-            if clause.subject is not None and (alike or self.words.has([ahead], "direction_noun", "intent_noun", "wanting")):
+            alike = self.words.tag(ahead, "event_noun") == "turn" or self.words.word(ahead) in (
+                "way",
+                "thing",
+                "direction",
+            )
+            if clause.subject is not None and (
+                alike or self.words.has([ahead], "direction_noun", "intent_noun", "wanting")
+            ):
                 self.alike.append((clause.subject, at))
                 return
 
@@ -181,7 +199,9 @@ class WayReader:
                 self._say("turn", "straight", at, clause.subject, clause)
         elif role is not None and (clause.subject is not None or clause.both):
             if kind == "driveway":
-                self._say("destination_kind" if role == "into" else "origin_kind", "driveway", at, clause.subject, clause)
+                self._say(
+                    "destination_kind" if role == "into" else "origin_kind", "driveway", at, clause.subject, clause
+                )
             elif role == "into":
                 self._say("origin_kind", "driveway", at, clause.subject, clause)
             elif role == "on":
@@ -197,7 +217,9 @@ class WayReader:
         tags, word = self.words.tags(back), self.words.word(back)
         verb, preposition = tags.get("verb"), tags.get("preposition")
         before = self.words.verbs(range(max(clause.start, back - 2), back))
-        turned = self.words.where(range(clause.start, back), "direction", "left", "right") is not None or "turn" in before
+        turned = (
+            self.words.where(range(clause.start, back), "direction", "left", "right") is not None or "turn" in before
+        )
         bound = preposition == "to" and self.words.word(back - 1).endswith("way")  # "on its way to the driveway"
         if preposition == "into" or verb in ("enter", "want") or word in ("for", "onto") or bound:
             return "into"

@@ -33,7 +33,9 @@ def wishes(words: Words, reader: WayReader, road_map: RoadMap) -> dict[int, dict
         options = [route for route in all_routes(road_map) if all(_fits(route, way) for way in ways)]
         if not options:
             raise words.refuse(f"no route fits what is said about the {ACTOR_NAMES[actor]}", ways[-1].span)
-        found[actor] = {_key(words, way, ways, options): Said(way.value, Event("be", actor, way.span, -1)) for way in ways}
+        found[actor] = {
+            _key(words, way, ways, options): Said(way.value, Event("be", actor, way.span, -1)) for way in ways
+        }
     return found
 
 

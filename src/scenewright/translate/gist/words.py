@@ -112,7 +112,9 @@ class Words:
 
     def where(self, stretch: Iterable[int], key: str, *values: str) -> int | None:
         """Return the first token of the stretch whose tag has one of the values (any value where none is given)."""
-        return next((at for at in stretch if key in self.tags(at) and (not values or self.tags(at)[key] in values)), None)
+        return next(
+            (at for at in stretch if key in self.tags(at) and (not values or self.tags(at)[key] in values)), None
+        )
 
     def verbs(self, stretch: Iterable[int]) -> set[str]:
         """Return the verbs of a stretch."""
