@@ -90,18 +90,22 @@ class AmountReader:
     def _speed(self, made: Measured) -> None:
         made.kind, made.actor = "speed", owner_of(self.words, made.at, made.clause)
         told_for(self.words, made, made.at + 1)
-        at = made.at - 1  # "behind a van doing 12 m/s", "a slower car (10 m/s)"
-        while (
-            self.words.has([at], "adverb", "comma")
-            or self.words.tag(at, "preposition") in ("at", "with")
-            or (at >= 0 and "ing" in self.words.tokens[at].forms)
-        ):
+        at, beside = made.at - 1, False  # "behind a van doing 12 m/s", "a slower car (10 m/s)"
+        while self._leads_to_speed(at):
+            beside |= "comma" in self.words.tags(at) or "ing" in self.words.tokens[at].forms
             at -= 1
-        made.actor = self.words.names.actors.get(at, made.actor)
+        if beside:
+            made.actor = self.words.names.actors.get(at, made.actor)
         made.target = self._is_target(made.at, made.clause)
+
+    def _leads_to_speed(self, at: int) -> bool:
+        filler = self.words.has([at], "adverb", "comma") or self.words.tag(at, "preposition") in ("at", "with")
+        return at >= 0 and (filler or "ing" in self.words.tokens[at].forms)
 
     def _length_or_time(self, made: Measured) -> None:
         measure = measure_word(self.words, made.at, made.clause)
+        if measure in ("headway", "ttc"):
+            self._check_two(made)
         if measure == "headway":
             made.kind = "gap"
             self._who_follows(made)
@@ -119,6 +123,12 @@ class AmountReader:
         told_for(self.words, made, made.at + 1)
 
     # -- up to a place ------------------------------------------------------------------------------------------------
+    def _check_two(self, made: Measured) -> None:
+        """Refuse a time between a vehicle and itself."""
+        named = [self.words.names.actors[i] for i in made.clause.inside if i in self.words.names.actors]
+        if len(named) > 1 and len(set(named)) == 1:
+            raise self.words.refuse("a vehicle has no distance to itself", self.words.span(made.clause))
+
     def _to_place(self, made: Measured) -> bool:
         """Read "40 m before the stop line" and "3 s left for the ego to reach its conflict point"."""
         at, told = self._of_whom(made.at + 1)
@@ -126,7 +136,7 @@ class AmountReader:
         place = self.place_at(relation[1]) if relation is not None else None
         if relation is None or place is None:
             first = self.words.skip(relation[1], _SKIPPED) if relation is not None else -1
-            if "unknown" in self.words.tags(first) and first not in self.words.names.actors:
+            if relation is not None and self._is_strange_place(first):
                 raise self.words.refuse(
                     "it is not clear up to where this is measured", made.span.union(self.words.tokens[first].span)
                 )
@@ -145,6 +155,14 @@ class AmountReader:
         made.actor = told if told is not None else owner
         told_for(self.words, made, place[1])
         return True
+
+    def _is_strange_place(self, at: int) -> bool:
+        """Whether an amount is measured up to something that is no known place and no vehicle."""
+        names = self.words.names
+        if at in names.actors or at in names.pronouns or at in names.both or at >= len(self.words.tokens):
+            return False
+        goes_on = ("end", "comma", "colon", "link", "quantity", "preposition", "relation", "actor_adjective", "be")
+        return not self.words.has([at], *goes_on)
 
     def _beside(self, stretch: range) -> bool:
         return self.words.where(stretch, "relation", "behind", "ahead") is not None
@@ -175,6 +193,8 @@ class AmountReader:
         while at < len(self.words.tokens):
             tags, word = self.words.tags(at), self.words.word(at)
             preposition = tags.get("preposition")
+            if word == "behind" and self.words.tag(at + 1, "preposition") == "of":
+                return None
             if "relation" in tags:
                 seen = "past" if tags["relation"] == "past" else seen or "before"
             elif word in ("at that", "up to") or tags.get("link") in ("to", "until"):
@@ -230,6 +250,9 @@ class AmountReader:
             return False
         at = self.words.skip(at, _BESIDE)
         other = self.words.names.actors.get(at)
+        named = self.words.named(range(made.at - 1, made.clause.start - 1, -1))
+        if other is not None and other == named and made.clause.named:
+            raise self.words.refuse("a vehicle has no distance to itself", made.span)
         owner = owner_of(self.words, made.at, made.clause)
         if other is None and (at not in self.words.names.pronouns or owner is None) and relation == "from":
             return False
@@ -320,8 +343,12 @@ class AmountReader:
         near = range(max(clause.start, at - 6), at)
         if self.words.has(near, "measure") and not self.words.has(near, "verb"):
             return self.words.has(near, "falls")
-        down = any(self.words.word(i) == "down to" for i in range(at - 2, at))
-        return down or bool(self.words.verbs(range(clause.start, at)) & {"brake", "accelerate"})
+        before = [self.words.word(i) for i in range(at - 3, at)]
+        to = any(each in ("to", "down to", "until", "is") for each in before)
+        changes = bool(self.words.verbs(range(clause.start, at)) & {"brake", "accelerate"})
+        if changes and not to and "at" in before:
+            raise self.words.refuse("it is not clear what this speed means", self.words.tokens[at].span, "to 5 m/s")
+        return "down to" in before or changes
 
     def _lasts(self, made: Measured) -> bool:
         """Whether a time is how long the hero stands: "stands there for 2 s", "2 s later"."""

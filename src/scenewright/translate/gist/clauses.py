@@ -40,7 +40,7 @@ class _Cutter:
                 self._colon(at)
             elif (link := _link(self.words, at)) is not None:
                 self._close(at, link)
-            elif token.tags.get("link") == "and" and self._begins_clause(at + 1) and not self._between(at):
+            elif token.tags.get("link") == "and" and self._parts(at):
                 self._close(at, "and")
         self._close(len(self.words.tokens))
         return self.clauses
@@ -104,6 +104,11 @@ class _Cutter:
         named = at in names.actors or at in names.pronouns or at in names.both
         return named or self.words.has([at], "verb", "auxiliary", "be", "negation")
 
+    def _parts(self, at: int) -> bool:
+        """Whether "and" begins a clause here; "begins with its turn" is one."""
+        begins = self.words.word(at) == "with" and self.words.tag(at - 1, "verb") == "begin"
+        return self._begins_clause(at + 1) and not self._between(at) and not begins
+
     def _between(self, at: int) -> bool:
         """Whether this is the "and" of "between the ego and the line"."""
         return self.words.where(range(max(self.start, at - 4), at), "preposition", "between") is not None
@@ -123,6 +128,8 @@ def _link(words: Words, at: int) -> str | None:
     link, word, following = words.tag(at, "link"), words.word(at), words.tags(at + 1)
     if word == "as" and (not at or words.has([at - 1], "end", "comma")) and _names_someone(words, at + 1):
         return "when"
+    if word == "whose":
+        return "that"
     if link not in _LINKS:
         return None
     if word == "following":

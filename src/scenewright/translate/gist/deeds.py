@@ -37,6 +37,7 @@ _MOVES = {
     "let": "let",
     "enter": "pass",
 }
+_BESIDE = frozenset(("determiner",))
 _TURNS = ("turn", "pull_out")
 _WAITS = frozenset(("yield", "wait", "stop", "brake", "let"))
 
@@ -49,7 +50,7 @@ class Deed:
     ----------
     kind
         ``brake``, ``stop``, ``wait``, ``accelerate``, ``go``, ``keep`` (its speed), ``pass``, ``complete`` (its turn),
-        ``turn``, ``yield``, ``not_yield``, ``let``; of the ego ``before``, ``after``, ``let_reach``.
+        ``turn``, ``yield``, ``not_yield``, ``not_stop``, ``let``; of the ego ``before``, ``after``, ``let_reach``.
     landmark
         What is passed; ``same`` for "before the ego does".
     """
@@ -96,6 +97,11 @@ class DeedReader:
                 continue
             wanted |= tags.get("verb") in ("want", "need") or self.words.has([at], "wanting", "ready", "intent_noun")
             self._without_verb(at, clause, negation)
+            if tags.get("verb") == "fail":
+                if negation is not None:
+                    raise self.words.refuse("two negations are hard to read", self.words.span(clause))
+                negation = at
+                continue
             verb = tags.get("verb") or ("brake" if tags.get("event_noun") == "brake" else None)
             if verb is None or "heading" in tags:
                 continue
@@ -106,6 +112,9 @@ class DeedReader:
             elif verb == "let" and clause.subject == HERO_ID and self._lets(at, clause):
                 return
             elif verb in _DEEDS and not self._only_describes(verb, at, clause):
+                stopped = verb == "complete" and self.words.has(range(at - 2, at + 4), "stop_noun")
+                if stopped or (wanted and verb in ("brake", "stop", "accelerate")):
+                    raise self.words.refuse("an intention like this is not read here", self.words.span(clause))
                 self._add(_DEEDS[verb], at, clause)
             elif verb in _MOVES and not wanted and not self._only_describes(verb, at, clause):
                 self._add(_MOVES[verb], at, clause)
@@ -118,7 +127,11 @@ class DeedReader:
         over = self.words.word(at) == "over" or tags.get("relation") == "past"
         across = over and "quantity" not in self.words.tags(at - 1)
         if (across or "through" in tags) and "verb" not in tags and clause.subject == HERO_ID:
-            if self._landmark(at, clause) == "conflict_point":
+            mark = self.words.where(range(at + 1, clause.end), "landmark", "conflict_point")
+            back = self.words.where(range(at + 1, clause.end), "back_reference") or self.words.where(
+                range(at + 1, clause.end), "mark_noun"
+            )
+            if mark is not None or back is not None:
                 self._add("pass", at, clause)
         if tags.get("event_noun") == "turn" and self._is_done(at):
             self._add("complete", at, clause)
@@ -168,12 +181,18 @@ class DeedReader:
 
     def _add(self, kind: str, at: int, clause: Clause) -> None:
         actor = clause.subject if clause.subject is not None else HERO_ID
+        if kind in ("yield", "not_yield") and self.words.named(range(at + 1, min(at + 5, clause.end))) == actor:
+            raise self.words.refuse("a vehicle does not yield to itself", self.words.span(clause))
         if at + 1 < clause.end and self.words.tag(at + 1, "preposition") == "of":
             named = self.words.named(range(at + 2, min(at + 5, clause.end)))  # "the braking of the ego"
             actor = named if named is not None else actor
         self.words.used.add(at)
         span = self.words.tokens[at].span
-        self.deeds.append(Deed(kind, at, clause, span, self._landmark(at, clause), actor))
+        passed = self._landmark(at, clause) if kind not in ("brake", "stop", "wait", "accelerate") else None
+        other = self.words.names.actors.get(self.words.skip(at + 1, _BESIDE))
+        if kind == "pass" and other == EGO_ID and actor == HERO_ID and self.words.tag(at, "verb") == "pass":
+            raise self.words.refuse("overtaking cannot be orchestrated", self.words.span(clause))
+        self.deeds.append(Deed(kind, at, clause, span, passed, actor))
 
     def _landmark(self, at: int, clause: Clause) -> str | None:
         """Return what a deed is done to: the place after it, or before it in "the point is passed by the van"."""
@@ -205,11 +224,11 @@ class DeedReader:
         if clause.subject == EGO_ID:
             return False
         if verb in _WAITS:
-            self._add("not_yield", at, clause)
+            self._add("not_yield" if verb in ("yield", "let") else "not_stop", at, clause)
             return True
         if verb in ("drive", "go"):
             return self._stays(at, clause)
-        if verb == "accelerate":
+        if verb == "accelerate" and not any(deed.kind in ("brake", "stop", "wait") for deed in self.deeds):
             self._add("keep", at, clause)
             return True
         return False
@@ -220,7 +239,8 @@ class DeedReader:
         if any(each.link == "until" or (each.link == "before" and self._is_perfect(each)) for each in later):
             self._add("wait", at, clause)
             return True
-        return any(deed.kind in ("wait", "stop") for deed in self.deeds[-2:])
+        still = "ing" in self.words.tokens[at].forms
+        return still and any(deed.kind in ("wait", "stop") for deed in self.deeds[-2:])
 
     # -- moments of the ego -------------------------------------------------------------------------------------------
     def _is_perfect(self, clause: Clause) -> bool:
@@ -256,25 +276,34 @@ class DeedReader:
 
     def _lets(self, at: int, clause: Clause) -> bool:
         """Read "lets the ego complete its turn" as what the hero waits for."""
-        rest = range(at + 1, clause.end)
-        if not any(self.words.names.actors.get(each) == EGO_ID for each in rest):
+        rest, names = range(at + 1, clause.end), self.words.names
+        if not (any(names.actors.get(each) == EGO_ID for each in rest) or at + 1 in names.pronouns):
             return False
-        if not self.words.verbs(rest) & {"complete", "pass", "turn", "pull_out"}:
-            self._add("yield", at, clause)
-            return True
-        return self._ego_moment(replace(clause, start=at + 1, link="let", subject=EGO_ID, named=True))
+        let = replace(clause, start=at + 1, link="let", subject=EGO_ID, named=True)
+        if self.words.has(rest, "landmark", "back_reference", "event_noun") or self.words.verbs(rest) & {"turn", "pull_out"}:
+            return self._ego_moment(let)
+        self.words.used |= set(rest)  # "lets it pass", "lets the ego go first"
+        self.deeds.append(Deed("let_reach", at, let, self.words.tokens[at].span, None, EGO_ID))
+        return True
 
     def _ego_moment(self, clause: Clause) -> bool:
         """Read "before the ego begins to turn", "until it has passed the conflict point", "before us"."""
         verbs = self.words.verbs(clause.inside)
         if clause.subject != EGO_ID or (not clause.named and verbs & {"brake", "stop", "accelerate", "wait"}):
             return False
+        known = {"begin", "turn", "pull_out", "complete", "pass", "reach", "enter", "go", "make", "drive", "cut_in_front"}
+        if verbs - known or self.words.has(clause.inside, "negation", "stop_noun"):
+            raise self.words.refuse("this is no moment of the ego that can be compared", self.words.span(clause))
         first = clause.link == "before" or self.words.word(clause.start - 1) in ("by the time", "after which")
         kind = "before" if first else "let_reach" if clause.link == "let" else "after"
         self.words.used |= set(range(clause.start - 1, clause.end))
         span = self.words.span(clause)
         self.deeds.append(Deed(kind, clause.start, clause, span, self._ego_place(clause, verbs), EGO_ID))
         return True
+
+    def _names_turn(self, clause: Clause, verbs: set[str]) -> bool:
+        noun = self.words.where(clause.inside, "event_noun", "turn") is not None
+        return noun or bool(verbs & {"turn", "pull_out"}) or "own" in " ".join(map(self.words.word, clause.inside))
 
     def _ego_place(self, clause: Clause, verbs: set[str]) -> str:
         mark = self.words.where(clause.inside, "landmark")
@@ -285,6 +314,8 @@ class DeedReader:
         )
         if verbs & {"pass", "reach", "enter"} or (mark is not None and "turn" not in verbs):
             return self.words.tags(mark)["landmark"] if mark is not None else "conflict_point"
+        if turns and not self._names_turn(clause, verbs):
+            raise self.words.refuse("it is not said what the ego begins", self.words.span(clause))
         if turns:
             return "turn_end" if self._is_perfect(clause) and "begin" not in verbs else "turn_start"
         return "conflict_point" if self.words.has(clause.inside, "back_reference", "mark_noun") else "same"

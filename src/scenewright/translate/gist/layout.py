@@ -14,7 +14,9 @@ from scenewright.translate.notes import same_unit
 from scenewright.translate.tokens import Token, tokenise
 from scenewright.units import unit_of_name
 
-_KEY = re.compile(r"\b[A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)+\b")
+_KEY = re.compile(
+    r"^[ \t]*[A-Za-z]+(?:_[A-Za-z0-9]+)+(?=[ \t]*:)|(?<=:)[ \t]*[A-Za-z]+(?:_[A-Za-z0-9]+)+[ \t]*$", re.MULTILINE
+)
 _WRAPPED_AT = 70
 
 
@@ -28,7 +30,7 @@ def laid_out(text: str, name: str) -> list[Token]:
 def _plain(text: str) -> str:
     """Return the text with keys such as "ego_route" as words; every character keeps its place."""
     spaced = _KEY.sub(
-        lambda found: found.group() if unit_of_name(found.group()) else found.group().replace("_", " "), text
+        lambda found: found.group() if unit_of_name(found.group().strip()) else found.group().replace("_", " "), text
     )
     return re.sub(r"-{2,}", lambda found: " " * len(found.group()), spaced) if "|" in text else spaced
 

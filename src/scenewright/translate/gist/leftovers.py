@@ -10,7 +10,7 @@ import re
 
 from scenewright.errors import Span
 from scenewright.translate.events import HERO_ID
-from scenewright.translate.gist.clauses import BOUNDS
+from scenewright.translate.gist.clauses import BOUNDS, NEGATIVES
 from scenewright.translate.gist.deeds import Deed
 from scenewright.translate.gist.words import Clause, Words
 
@@ -45,12 +45,16 @@ def refuse_dangers(words: Words) -> None:
             raise words.refuse(f"'{token.text}' was not understood", token.span)
         if "unsupported" in token.tags and not _is_harmless(words, at):
             raise words.refuse(f"'{token.text}' cannot be orchestrated", token.span)
+        if token.tags.get("determiner") == "another" and words.has([at + 1], "landmark"):
+            raise words.refuse("there is one such place only", words.tokens[at + 1].span)
         if "bare_number" in token.tags and not _only_counts(words, at):
             raise words.refuse(f"'{token.text}' has no unit", token.span)
 
 
 def refuse_strangers(words: Words) -> None:
     """Refuse a text in which somebody does something of whom it is not known who it is."""
+    if words.names.unclear is not None:
+        raise words.refuse("this may be either of the two vehicles", words.tokens[words.names.unclear].span)
     if len(words.names.kinds) > 1:
         raise words.refuse("more than one other vehicle is spoken of")
     for clause in words.clauses:
@@ -66,11 +70,12 @@ def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> 
             continue
         clause = next((each for each in words.clauses if at in each.inside), None)
         following = next((each for each in words.clauses if each.start == at + 1), None)
-        lost = "negation" in token.tags or "respectively" in token.tags
-        if token.tags.get("landmark") in ("stop_line", "conflict_point"):
+        lost = "negation" in token.tags or "respectively" in token.tags or token.tags.get("verb") == "fail"
+        lost = lost or (token.text.lower() in NEGATIVES and _denies_something(words, at))
+        if "landmark" in token.tags:
             before = clause is not None and clause.sentence < trigger_sentence
             quiet = clause is not None and not words.has(clause.inside, "quantity")
-            lost = not (before and quiet) and not _is_defined(words, at)  # "pulls up to the stop line" before anything
+            lost = clause is not None and not (before and quiet) and not _is_defined(words, at)  # "pulls up to the stop line" before anything
         elif following is not None and following.link in BOUNDS:
             lost = not _repeats(words, following, deeds, trigger_sentence)
         elif following is not None and following.link == "when" and following.sentence >= trigger_sentence:
@@ -81,11 +86,42 @@ def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> 
             raise words.refuse(f"'{token.text}' has no part in what was understood", token.span)
 
 
+def refuse_third_parties(words: Words, deeds: list[Deed], trigger_sentence: int) -> None:
+    """Refuse "... while a llama sings": somebody who is not known does something while it all happens."""
+    acting = {deed.clause.sentence for deed in deeds if deed.clause.sentence >= trigger_sentence}
+    for clause in (each for each in words.clauses if each.sentence in acting):
+        for at in clause.inside:
+            beside = words.tag(at, "link") == "and" and "determiner" in words.tags(at + 1)
+            if beside and _is_stranger(words, at + 2):
+                raise words.refuse("it is not known who this is and what it changes", words.tokens[at + 2].span)
+    for clause in words.clauses:
+        if clause.sentence not in acting or clause.named or any(at in words.names.pronouns for at in clause.inside):
+            continue
+        unknown = [at for at in clause.inside if "unknown" in words.tags(at)]
+        begins = "determiner" in words.tags(clause.start) and clause.start + 1 in unknown
+        known = words.has(clause.inside, "landmark", "quantity", "direction", "heading", "area")
+        if begins and not known and (clause.aside or len(unknown) > 1):
+            raise words.refuse("it is not known who this is and what it changes", words.span(clause))
+
+
+def _denies_something(words: Words, at: int) -> bool:
+    """Whether "no" and the like stand before a deed: "no stop", "shall not stop", but not "no worries"."""
+    return words.has([at + 1], "verb", "stop_noun", "event_noun") or words.has([at + 2], "verb")
+
+
+def _is_stranger(words: Words, at: int) -> bool:
+    """Whether a word that is not known does something: "a llama sings"."""
+    if "unknown" not in words.tags(at) or at in words.names.actors:
+        return False
+    return words.has([at + 1], "unknown", "verb", "auxiliary", "be") and at + 1 not in words.names.actors
+
+
 def _repeats(words: Words, clause: Clause, deeds: list[Deed], trigger_sentence: int) -> bool:
     """Whether "until it has come to a stop" only repeats what the hero does, or a way is told: "before it turns"."""
     own = [deed for deed in deeds if deed.clause is clause]
     again = bool(own) and all(deed.kind in ("stop", "brake", "wait") and deed.actor == HERO_ID for deed in own)
-    way = clause.subject == HERO_ID and clause.sentence < trigger_sentence and not words.has(clause.inside, "quantity")
+    early = clause.link == "before" and clause.subject == HERO_ID and clause.sentence < trigger_sentence
+    way = early and not words.has(clause.inside, "quantity") and not words.verbs(clause.inside) & {"pass", "complete"}
     return way or (clause.link in ("until", "after") and again)
 
 
@@ -123,9 +159,9 @@ def _is_harmless(words: Words, at: int) -> bool:
         return True  # "there are no pedestrians"
     if token.text.lower() == "traffic":
         return bool(before.keys() & {"heading", "direction", "actor_adjective"})
-    if (not before or "end" in before) and after.keys() & {"colon", "end"}:
-        return True  # "Actors:"
     kind = token.tags["unsupported"]
+    if (not before or "end" in before) and after.keys() & {"colon", "end"}:
+        return kind == "more than one other actor"  # "Actors:"
     if kind in ("collisions", "alternatives and chance"):
         return _is_remark(words, at, kind)
     return kind == "more than one other actor" and before.get("bare_number", "").lower() == "two"

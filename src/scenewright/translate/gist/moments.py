@@ -17,8 +17,8 @@ from scenewright.translate.gist.words import Clause, Words
 Moment = Literal["start", "trigger", "deed", "open"]
 UNCLEAR = "it is not clear at which moment this holds"
 _STATE = ("verb", "be", "auxiliary")
-# Bounds that name the moment itself where something comes near: "as soon as it is within 20 m".
-_LIMITS = ("within", "less than", "closer than", "nearer than", "under", "below", "no more than")
+# What names the moment itself where something comes near: "as soon as it is within 20 m".
+_LIMITS = ("within",)
 _PAST = ("was", "were", "had")
 _FAR = 12
 
@@ -78,6 +78,9 @@ class MomentReader:
                 raise self.words.refuse("this is told of the start and of the trigger", made.span)
             return "start"
         if made.kind == "speed":
+            told = self._is_asked(clause) or self._deed_beside(clause)
+            if told and not made.target and not self._after_trigger(clause):
+                raise self.words.refuse(UNCLEAR, made.span)
             return "deed" if made.target or self._after_trigger(clause) else "start"
         asked = "trigger" in clause.labels or self._is_asked(clause)
         past = any(self.words.word(at) in _PAST for at in range(clause.start, made.at))
@@ -88,7 +91,7 @@ class MomentReader:
         if asked:
             self._check_one_moment(made)
             return "trigger"
-        return "trigger" if made.kind in ("gap", "ttc") or self._deed_beside(clause) else "open"
+        return "trigger" if self._deed_beside(clause) else "open"
 
     def _of_stop(self, made: Measured) -> bool:
         """Whether a place is where the hero comes to rest."""
@@ -156,6 +159,10 @@ class MomentReader:
         follows = any(
             each.link == "when" or self.words.where(each.inside, "label", "when") is not None for each in before
         )
+        done = [d for d in self.deeds if d.actor == HERO_ID and d.clause.sentence == clause.sentence and d.at < made.at]
+        acted = [d for d in done if d.kind in ("brake", "stop", "accelerate", "pass") and d.clause.link != "when"]
+        if acted and not any(each.link == "when" and each.start > acted[-1].at for each in before):
+            raise self.words.refuse(UNCLEAR, made.span)
         if clause.link == "main" and not self.words.has(clause.inside, *_STATE) and not follows:
             raise self.words.refuse(UNCLEAR, made.span)
 
@@ -185,6 +192,9 @@ class MomentReader:
     # -- triggers without a "when" ------------------------------------------------------------------------------------
     def _told_before(self) -> int | None:
         """Read "The ego gets to 12 m before the line. At that moment the hero brakes", and return where that begins."""
+        gaps = [made for made in self.of("open") if made.kind in ("gap", "ttc")]
+        if len(gaps) == 1:
+            return self._set_trigger(gaps)
         then = next((each for each in self.words.clauses if each.link == "moment"), None)
         if then is None:
             return self._told_before_a_colon()

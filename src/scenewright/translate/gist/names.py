@@ -51,10 +51,23 @@ def find_names(tokens: list[Token]) -> Names:
             _name_vehicle(tokens, at, names, kinds, marks)
         elif word in _PERSONS or word == unknown or _is_hero(tokens, at):
             names.actors[at] = HERO_ID
+            another = at > 0 and tokens[at - 1].tags.get("determiner") == "another"
+            if another and list(names.actors.values()).count(HERO_ID) > 1:
+                names.kinds |= {"hero", "another"}
     egos = [tokens[at].text.lower() for at, actor in names.actors.items() if actor == EGO_ID]
     names.spoken = bool(egos) and all(each in FIRST_PERSON for each in egos)
     names.guessed = unknown
+    names.unclear = _either(tokens, names)
     return names
+
+
+def _either(tokens: list[Token], names: Names) -> int | None:
+    """Return where "the car" may be either: where the ego is called one too, and no other one was brought in."""
+    ego_words = {tokens[at].text.lower().split()[-1] for at, actor in names.actors.items() if actor == EGO_ID}
+    first = next((at for at, actor in names.actors.items() if actor == HERO_ID), None)
+    if first is None or tokens[first].text.lower() not in ego_words or not first:
+        return None
+    return first if tokens[first - 1].tags.get("determiner") == "definite" else None
 
 
 def _speaker(tokens: list[Token]) -> int:
@@ -96,7 +109,7 @@ def _unknown_vehicle(tokens: list[Token]) -> str | None:
 def _name_vehicle(tokens: list[Token], at: int, names: Names, ego_kinds: set[str], ego_marks: set[str]) -> None:
     kind = tokens[at].tags["noun"]
     marked = at > 0 and tokens[at - 1].text.lower() in ego_marks
-    ego = marked or kind in ego_kinds or _is_tested(tokens, at) or _is_ours(tokens, at)
+    ego = marked or _is_predicate(tokens, at) or kind in ego_kinds or _is_tested(tokens, at) or _is_ours(tokens, at)
     names.actors[at] = EGO_ID if ego else HERO_ID
     if kind in _RELATIVE:
         names.relative[at] = _RELATIVE[kind]
@@ -104,6 +117,17 @@ def _name_vehicle(tokens: list[Token], at: int, names: Names, ego_kinds: set[str
         names.kinds.add(kind)
     if not ego and _is_third(tokens, at):
         names.kinds |= {"hero", kind}
+
+
+def _is_predicate(tokens: list[Token], at: int) -> bool:
+    """Whether this says what the ego is: "the ego is an old car", "the ego, a van,"."""
+    back = at - 1
+    while back > 0 and tokens[back].tags.keys() & {"actor_adjective", "heading", "unknown", "determiner"}:
+        back -= 1
+    if back < 1 or "ego" not in tokens[back - 1].tags:
+        return False
+    closes = at + 1 >= len(tokens) or bool(tokens[at + 1].tags.keys() & {"comma", "end", "link"})
+    return "be" in tokens[back].tags or ("comma" in tokens[back].tags and back < at - 1 and closes)
 
 
 def _is_third(tokens: list[Token], at: int) -> bool:

@@ -63,6 +63,14 @@ def _by_measure(words: Words, at: int, clause: Clause) -> int | None:
     return None
 
 
+def is_nobodys(words: Words, at: int, clause: Clause) -> bool:
+    """Whether a measure in a condition has no owner: "when the distance to the conflict point is 20 m"."""
+    measured = measure_word(words, at, clause) in ("length", "time")
+    if clause.link != "when" or clause.named or clause.both or not measured:
+        return False
+    return not any(i in words.names.pronouns for i in clause.inside)
+
+
 def _between(words: Words, at: int, clause: Clause) -> int | None:
     """Return whose "40 m between the ego and the conflict point" are, else whom the clause is about."""
     following = next((i for i in range(at + 1, clause.end) if "quantity" in words.tags(i)), clause.end)

@@ -18,7 +18,12 @@ from scenewright.translate.gist.amounts import AmountReader
 from scenewright.translate.gist.clauses import cut
 from scenewright.translate.gist.deeds import DeedReader
 from scenewright.translate.gist.layout import laid_out
-from scenewright.translate.gist.leftovers import refuse_dangers, refuse_left_over, refuse_strangers
+from scenewright.translate.gist.leftovers import (
+    refuse_dangers,
+    refuse_left_over,
+    refuse_strangers,
+    refuse_third_parties,
+)
 from scenewright.translate.gist.moments import MomentReader
 from scenewright.translate.gist.names import find_names
 from scenewright.translate.gist.shares import share
@@ -122,6 +127,7 @@ def _read(words: Words, title: tuple[Token, ...], road_map: RoadMap) -> Gist:
     facts.wishes = wishes(words, ways, road_map)
     facts.relations = one_each(words, ways.relations)
     facts.mentioned |= {EGO_ID, HERO_ID}
+    refuse_third_parties(words, acts.deeds, teller.trigger_sentence)
     refuse_left_over(words, acts.deeds, teller.trigger_sentence)
     events = [*(said.event for each in facts.wishes.values() for said in each.values()), *teller.events]
     told = [(way.value, way.span) for way in ways.titles]
@@ -150,7 +156,8 @@ def _title_end(tokens: list[Token], text: str) -> int | None:
     """Return where a title ends that tells no fact of its own, or None where there is none."""
     ends = (at for at, token in enumerate(tokens) if "end" in token.tags and not token.text.startswith(";"))
     end = next(ends, 0)
-    if not 0 < end < len(tokens) - 2 or any("quantity" in token.tags for token in tokens[:end]):
+    telling = ("quantity", "unsupported", "colon")
+    if not 0 < end < len(tokens) - 2 or any(token.tags.keys() & set(telling) for token in tokens[:end]):
         return None
     line = "\n" in text[tokens[end].span.start : tokens[end + 1].span.start]
     finite = any(

@@ -15,13 +15,14 @@ from scenewright.translate.gist.amounts import Measured
 from scenewright.translate.gist.clauses import BOUNDS
 from scenewright.translate.gist.deeds import Deed
 from scenewright.translate.gist.moments import MomentReader
+from scenewright.translate.gist.owners import is_nobodys
 from scenewright.translate.gist.words import Words
 
 _SLOWS = ("brake", "stop")
 _GOES = ("accelerate", "pass", "complete", "keep", "go")
 _MOVES = (*_SLOWS, "accelerate")
 # What the ego may do of itself: nobody tells it to, and it changes nothing of what is orchestrated.
-_EGO_MAY = ("before", "after", "let_reach", "wait", "go", "turn", "let", "keep", "yield")
+_EGO_MAY = ("before", "after", "let_reach", "go", "turn", "let", "keep", "yield")
 _STANDS = re.compile(r"\b(?:stand|stood|stationary|stopped|standstill|still|rest|idl)", re.IGNORECASE)
 
 
@@ -51,7 +52,8 @@ class StoryTeller:
         for made in (*self.moments.of("start"), *self.moments.of("trigger")):
             self._state(made)
         for deed in self.deeds:
-            if deed.actor == EGO_ID and deed.kind not in _EGO_MAY:
+            waits = deed.kind == "wait" and deed.clause.sentence < self.trigger_sentence
+            if deed.actor == EGO_ID and deed.kind not in _EGO_MAY and not waits:
                 message = "the ego cannot be told what to do: the driving policy under test drives it"
                 raise self.words.refuse(message, deed.span)
         self._standing()
@@ -62,6 +64,8 @@ class StoryTeller:
         self._check(told)
         goes = [deed for deed in told if deed.kind in _GOES]
         denies = [deed for deed in told if deed.kind == "not_yield"]
+        if denies and not slows:
+            self.facts.not_yielding = Event("yield", HERO_ID, denies[0].span, denies[0].clause.sentence)
         if slows:
             self._slow(slows, waits=any(deed.kind == "wait" for deed in told))
         if goes or (denies and not slows):
@@ -73,7 +77,7 @@ class StoryTeller:
     def _state(self, made: Measured) -> None:
         start = self.moments.moments[made.at] == "start"
         beside = [each for each in self.moments.of("trigger") if each is not made and each.actor == made.actor]
-        if made.quantity is None and ((start and made.actor == HERO_ID) or (not start and beside)):
+        if made.quantity is None and (start or beside):
             return  # "stands at the stop line" at first, "at the stop line" beside an amount
         condition = self._condition(made)
         known = self.facts.initial if start else self.facts.trigger
@@ -85,6 +89,8 @@ class StoryTeller:
         self.events.append(condition.event)
 
     def _condition(self, made: Measured) -> Condition:
+        if made.kind == "place" and is_nobodys(self.words, made.at, made.clause):
+            raise self.words.refuse("it is not said whose distance this is", made.span)
         if made.kind == "open":
             raise self.words.refuse("it is not clear what this measures", made.span, "a place: 12 m from the stop line")
         if made.kind in ("gap", "ttc") or made.actor is None:
@@ -120,7 +126,7 @@ class StoryTeller:
         clause, here = deed.clause, self.trigger_sentence
         if clause.link == "when" and deed.kind not in ("brake", "accelerate"):
             return False
-        if deed.kind in ("brake", "accelerate", "not_yield", "complete"):
+        if deed.kind in ("brake", "accelerate", "not_yield", "not_stop", "complete"):
             return True
         if deed.kind == "yield":
             return False
@@ -147,7 +153,10 @@ class StoryTeller:
             raise self.words.refuse("it is not said what the hero does", None, "brakes, stops, accelerates, passes")
         if slows and goes and goes[0].at < slows[0].at:
             raise self.words.refuse("it is not clear in which order this happens", goes[0].span)
-        if slows and "not_yield" in kinds:
+        again = next((deed for deed in slows if self._brakes_again(deed, slows, goes)), None)
+        if again is not None:
+            raise self.words.refuse("the hero has stopped already", again.span)
+        if slows and kinds & {"not_yield", "not_stop"}:
             raise self.words.refuse("the hero is said to stop and not to stop", slows[0].span)
         if {"keep", "accelerate"} <= kinds:
             raise self.words.refuse("the hero is said to speed up and not to", goes[0].span)
@@ -155,6 +164,17 @@ class StoryTeller:
         if turn is not None and (self.moments.begins(turn) or not kinds & {"complete", "pass"}):
             raise self.words.refuse("it is not clear up to where the hero turns", turn.span)
         self._check_turns()
+
+    def _brakes_again(self, deed: Deed, slows: list[Deed], goes: list[Deed]) -> bool:
+        """Whether the hero brakes after its stop, on its way: "stops, then brakes to pass the conflict point"."""
+        stopped = any(each.kind == "stop" and each.at < deed.at for each in slows)
+        goal = any(each.at > deed.at and each.kind != "accelerate" for each in goes)
+        goal = goal and (deed.clause.link == "then" or deed.clause.sentence != self.trigger_sentence or self._shared(deed, goes))
+        finite = bool(self.words.tokens[deed.at].forms & {"s", "base"})
+        return deed.kind == "brake" and stopped and goal and finite and not self.moments.begins(deed)
+
+    def _shared(self, deed: Deed, goes: list[Deed]) -> bool:
+        return any(each.clause.sentence == deed.clause.sentence and each.at > deed.at for each in goes)
 
     def _check_turns(self) -> None:
         """Refuse "goes, all the way round its turn": a turn that no verb begins or completes."""
@@ -243,11 +263,10 @@ class StoryTeller:
     def _let(self, deed: Deed) -> None:
         event = Event("pass", EGO_ID, deed.span, deed.clause.sentence)
         self.events.append(event)
-        landmark = deed.landmark or "conflict_point"
-        if self.facts.phases[-1].kind == "dec":
-            self.facts.let_goal = landmark, event
-        else:
-            self.facts.order = Order(False, landmark, event, at_start=True)
+        if self.facts.phases[-1].kind != "dec":
+            self.facts.order = Order(False, deed.landmark or "conflict_point", event, at_start=True)
+        elif deed.landmark is not None:
+            self.facts.let_goal = deed.landmark, event
 
     def _one_order(self, deed: Deed, previous: Deed | None) -> None:
         phase, known = self.facts.phases[-1], self.facts.order
@@ -266,7 +285,9 @@ class StoryTeller:
             raise self.words.refuse("two orders are told", deed.span)
         event = Event("pass", EGO_ID, deed.span, deed.clause.sentence)
         self.events.append(event)
-        self.facts.order = Order(first, landmark, event, at_start=not first and deed.landmark != "same")
+        reached = phase.goal_event is not None and phase.goal_event.sentence == deed.clause.sentence
+        at_end = first or deed.landmark == "same" or (reached and phase.goal_event is not None and phase.goal_event.span.start < deed.span.start)
+        self.facts.order = Order(first, landmark, event, at_start=not at_end)
         if phase.goal is None and first:
             phase.goal, phase.goal_event = "conflict_point", event
 

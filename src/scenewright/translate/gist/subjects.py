@@ -149,9 +149,15 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     if words.names.spoken and words.has(pronouns, "pronoun", "possessive"):
         return HERO_ID  # "we" are the ego, so "it" is the other one
     named_last = words.named(range(clause.start - 1, -1, -1))
-    relative = clause.link == "that" and words.word(clause.start - 1) in ("which", "who", "that", "where")
+    relative = clause.link == "that" and words.word(clause.start - 1) in ("which", "who", "that", "where", "whose")
+    if relative:
+        _check_antecedent(words, index)
     if named_last is not None and (relative or words.has(clause.inside, "latter")):
         return named_last
+    bare = words.clauses[index - 1] if index else clause
+    told = words.has(bare.inside, "verb", "be", "quantity")
+    if bare.named and bare.sentence == clause.sentence and not told and clause.link == "then":
+        return bare.subject  # "The ego then passes it"
     earlier = [each for each in words.sentence(clause) if each.start < clause.start]
     hero_here = acting or any(each.named and each.subject == HERO_ID for each in earlier)
     deeds = _DEEDS | {"go", "turn"} if clause.link == "then" or _after_a_moment(earlier) else _DEEDS
@@ -162,6 +168,17 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
         following = _named_later(words, index)
         return following if following is not None else last
     return last
+
+
+def _check_antecedent(words: Words, index: int) -> None:
+    """Refuse "the ego follows a car on the driveway, which is 20 m from it": either may be there."""
+    clause, before = words.clauses[index], words.clauses[index - 1] if index else None
+    if before is None or before.sentence != clause.sentence:
+        return
+    named = [at for at in before.inside if at in words.names.actors]
+    actors = {words.names.actors[at] for at in named}
+    if len(actors) == 2 and named[-1] != before.end - 1 and words.has(clause.inside, "quantity"):
+        raise words.refuse("it is not clear which of the two vehicles is meant", words.span(clause))
 
 
 def _after_a_moment(earlier: list[Clause]) -> bool:

@@ -20,6 +20,15 @@ _BESIDE = frozenset(("determiner", "possessive", "actor_adjective", "preposition
 _AREA_WORDS = frozenset(("determiner", "possessive", "area_adjective", "same", "side", "adverb", "unknown"))
 _LEAVING = ("leave", "pull_out")
 _CROSSING = frozenset(("turn", "pull_out", "cut_in_front", "pass"))
+_WAY_VERBS = frozenset(("turn", "pull_out", "go", "drive", "make", "come", "want", "keep", "leave", "enter", "begin")) | {
+    "complete",
+    "lane_follow",
+    "sit",
+    "wait",
+    "let",
+    "need",
+    "approach",
+}
 _TURN_AFTER = ("go", "pull_out", "drive", "make", "come", "want")
 _BEFORE_TURN = frozenset(
     (
@@ -160,6 +169,9 @@ class WayReader:
 
     def _is_turn(self, at: int) -> bool:
         before, after = self.words.tags(at - 1), self.words.tags(at + 1)
+        others = [tags["verb"] for tags in (before, after) if "verb" in tags and tags["verb"] not in _WAY_VERBS]
+        if others or "stop_noun" in after:
+            return False  # "wants to stop right onto the road"
         near = (after.get("verb"), after.get("event_noun"), before.get("verb"), before.get("event_noun"))
         turns = "turn" in near or before.get("verb") in _TURN_AFTER or not before
         return (turns or bool(before.keys() & _BEFORE_TURN)) and (not after or bool(after.keys() & _AFTER_TURN))
@@ -204,7 +216,7 @@ class WayReader:
                 )
             elif role == "into":
                 self._say("origin_kind", "driveway", at, clause.subject, clause)
-            elif role == "on":
+            else:  # "on the road", "leaves the road"
                 self._say("origin_kind", "road", at, clause.subject, clause)
 
     def _role(self, at: int, clause: Clause) -> str | None:
@@ -233,6 +245,11 @@ class WayReader:
             return "past"
         if preposition == "of" and self.words.has([back - 1], "mouth", "landmark"):
             return "on"  # "at the end of the driveway"
+        keeps = preposition == "to" and before & {"drive", "keep"} and self.words.tag(at, "area") == "driveway"
+        if keeps or verb in ("lane_follow", "follow"):
+            return "on"
+        if word.endswith(" on") and verb in ("go", "drive", "keep"):
+            return "on"  # "drives on the road"
         begins = back < clause.start or bool(tags.keys() & {"comma", "end", "colon"})
         if "relation" in tags or not (preposition in ("on", "in", "with") or begins):
             return None
@@ -295,6 +312,7 @@ class WayReader:
         near = self.words.named(range(at - 1, max(clause.start - 1, at - 4), -1))
         mine = near if near is not None else mine
         ends = self.words.has([ahead], "end", "comma", "link") or ahead >= len(self.words.tokens)
+        ends = ends or self.words.tag(at + 1, "preposition") in ("in", "on")
         if other is None and mine is not None and (ahead in names.pronouns or ends):
             other = 1 - mine
         if other is not None:

@@ -36,6 +36,8 @@ class Names:
         Whether the ego is only "I" and "we", so that "it" is the other vehicle.
     guessed
         A word that is not known and was taken for the other vehicle.
+    unclear
+        Where a name may be either vehicle's: "our car ... the car".
     """
 
     actors: dict[int, int] = field(default_factory=dict)
@@ -45,6 +47,7 @@ class Names:
     kinds: set[str] = field(default_factory=set)
     spoken: bool = False
     guessed: str | None = None
+    unclear: int | None = None
 
 
 @dataclass(slots=True)
