@@ -211,7 +211,7 @@ class AmountReader:
         tags = self.words.tags(at)
         fills = "left_over" in tags or "measured_word" in tags or tags.get("adverb") in ("filler", "exact", "about")
         to_go = tags.get("verb") in _TO_VERBS and self.words.word(at - 1) in ("to", "from")
-        left = seen is None and "be" in tags and "left_over" in self.words.tags(at + 1)
+        left = seen is None and "be" in tags and self.words.has([at + 1], "left_over", "relation")
         return fills or to_go or left
 
     def place_at(self, at: int) -> tuple[str, int, bool] | None:
@@ -274,6 +274,8 @@ class AmountReader:
         if measure is None and between is None:
             return False
         place = self._place_in(made)
+        if place is None and measure is not None:
+            self._check_known_place(made)
         if place is not None:
             made.kind, made.landmark = "place", place
             made.actor = owner_of(self.words, made.at, made.clause)
@@ -285,6 +287,13 @@ class AmountReader:
             return True
         return False
 
+    def _check_known_place(self, made: Measured) -> None:
+        """Refuse "the time to the turn line is 2 s": a measure up to what is no known place and no vehicle."""
+        for at in range(made.clause.start, made.at):
+            to = self.words.tag(at, "preposition") == "to" or self.words.tag(at, "link") == "until"
+            if to and "measure" in self.words.tags(at - 1) and self._is_strange_place(self.words.skip(at + 1, _SKIPPED)):
+                raise self.words.refuse("it is not clear up to where this is measured", self.words.span(made.clause))
+
     def _lies(self, made: Measured) -> bool:
         """Read "the intersection is 6.8 s away" and "the intersection lies 82 m ahead of it"."""
         before = range(made.clause.start, made.at)
@@ -294,7 +303,8 @@ class AmountReader:
         measured = any(measure_of(self.words, at) is not None for at in before)
         if mark is None or not away or not stands or measured or self.words.has(before, "quantity"):
             return False
-        if self.words.named(before) is not None or self.place_at(made.at + 2) is not None:
+        place = self.place_at(made.at + 2)
+        if self.words.named(before) is not None or (place is not None and place[0] != "last"):
             return False
         named = self.words.named(range(made.at + 1, min(made.at + 5, made.clause.end)))
         made.kind, made.landmark = "place", self.words.tags(mark)["landmark"]

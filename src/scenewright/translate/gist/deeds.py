@@ -155,6 +155,8 @@ class DeedReader:
             return True
         if verb in ("go", "drive", "keep") and (self._tells_way(at, clause) or self._leads_on(at, clause)):
             return True
+        if "left_over" in token.tags and words.has(range(at - 2, at), "quantity"):
+            return True  # "6 m remain"
         if verb == "reach":
             state = clause.subject == EGO_ID or self._landmark(at, clause) is None
             amount = next((i for i in range(at - 1, at - 6, -1) if "quantity" in words.tags(i)), at)
@@ -188,9 +190,10 @@ class DeedReader:
             actor = named if named is not None else actor
         self.words.used.add(at)
         span = self.words.tokens[at].span
-        passed = self._landmark(at, clause) if kind not in ("brake", "stop", "wait", "accelerate") else None
+        passed = self._landmark(at, clause) if kind == "pass" else None
         other = self.words.names.actors.get(self.words.skip(at + 1, _BESIDE))
-        if kind == "pass" and other == EGO_ID and actor == HERO_ID and self.words.tag(at, "verb") == "pass":
+        overtakes = other == EGO_ID and "genitive" not in self.words.tags(self.words.skip(at + 1, _BESIDE) + 1)
+        if kind == "pass" and overtakes and actor == HERO_ID and self.words.tag(at, "verb") == "pass":
             raise self.words.refuse("overtaking cannot be orchestrated", self.words.span(clause))
         self.deeds.append(Deed(kind, at, clause, span, passed, actor))
 
@@ -239,7 +242,8 @@ class DeedReader:
         if any(each.link == "until" or (each.link == "before" and self._is_perfect(each)) for each in later):
             self._add("wait", at, clause)
             return True
-        still = "ing" in self.words.tokens[at].forms
+        only_waits = not any(deed.kind in ("brake", "stop") for deed in self.deeds)
+        still = "ing" in self.words.tokens[at].forms or only_waits
         return still and any(deed.kind in ("wait", "stop") for deed in self.deeds[-2:])
 
     # -- moments of the ego -------------------------------------------------------------------------------------------

@@ -23,7 +23,7 @@ _WRAPPED_AT = 70
 def laid_out(text: str, name: str) -> list[Token]:
     """Return the tokens of a text, with its lines and bars as ends and commas."""
     tokens = tokenise(_plain(text), name)
-    tokens = [_bar(token) for token in tokens]
+    tokens = [_bar(_as_written(token)) for token in tokens]
     return same_unit(_with_lines(tokens, text))
 
 
@@ -33,6 +33,13 @@ def _plain(text: str) -> str:
         lambda found: found.group() if unit_of_name(found.group().strip()) else found.group().replace("_", " "), text
     )
     return re.sub(r"-{2,}", lambda found: " " * len(found.group()), spaced) if "|" in text else spaced
+
+
+def _as_written(token: Token) -> Token:
+    """Return a word as it was written where it was corrected to a vehicle: "loader" is no slip of "leader"."""
+    if token.slips and token.tags.keys() & {"noun", "hero", "ego", "actor_adjective", "unsupported"}:
+        return replace(token, text=token.slips[0][0], tags={"unknown": token.slips[0][0]}, slips=())
+    return token
 
 
 def _bar(token: Token) -> Token:

@@ -100,7 +100,8 @@ def refuse_third_parties(words: Words, deeds: list[Deed], trigger_sentence: int)
         unknown = [at for at in clause.inside if "unknown" in words.tags(at)]
         begins = "determiner" in words.tags(clause.start) and clause.start + 1 in unknown
         known = words.has(clause.inside, "landmark", "quantity", "direction", "heading", "area")
-        if begins and not known and (clause.aside or len(unknown) > 1):
+        only_is = len(clause.inside) == 3 and "be" in words.tags(clause.end - 1)  # "The decision is then revised"
+        if begins and not known and not only_is and (clause.aside or len(unknown) > 1):
             raise words.refuse("it is not known who this is and what it changes", words.span(clause))
 
 
@@ -145,6 +146,8 @@ def _is_strange_condition(words: Words, at: int, clause: Clause) -> bool:
     pronoun = any(i in words.names.pronouns for i in clause.inside)
     main = clause is not asked and (clause.named or pronoun) and not words.has(clause.inside, "quantity")
     word = words.word(at)
+    if at in words.names.pronouns or (clause is asked and len(clause.inside) == 1):
+        return False
     alone = not words.has([at + 1], "noun", "hero", "ego", "landmark", "area", "unknown")
     return not acted and not main and alone and len(word) > 3 and word.endswith("s")
 
@@ -152,8 +155,6 @@ def _is_strange_condition(words: Words, at: int, clause: Clause) -> bool:
 def _is_harmless(words: Words, at: int) -> bool:
     """Whether "crashes" or "traffic" only speaks of the world: "a frequent precursor of crashes"."""
     token, before, after = words.tokens[at], words.tags(at - 1), words.tags(at + 1)
-    if token.slips:
-        return True  # "worries" is no slip of "lorries"
     if words.word(at - 1) == "no":
         words.used.add(at - 1)
         return True  # "there are no pedestrians"

@@ -150,7 +150,8 @@ class MomentReader:
 
     def _check_one_moment(self, made: Measured) -> None:
         clause = made.clause
-        first = next((each for each in self.words.clauses if each.link == "when" and self._has_amount(each)), None)
+        whens = [each for each in self.words.clauses if each.link == "when" and "start" not in each.labels]
+        first = next((each for each in whens if self._has_amount(each)), None)
         if "trigger" in clause.labels:
             return
         if first is not None and clause.sentence != first.sentence:

@@ -33,6 +33,7 @@ def find_names(tokens: list[Token]) -> Names:
     names = Names()
     kinds, marks = _ego_kinds(tokens), _ego_marks(tokens)
     speaker = _speaker(tokens)
+    tails = {t.text.lower().split()[-1] for t in tokens if t.tags.keys() & {"noun", "hero"} and " " in t.text}
     unknown = _unknown_vehicle(tokens)
     for at, token in enumerate(tokens):
         word = token.text.lower()
@@ -49,7 +50,7 @@ def find_names(tokens: list[Token]) -> Names:
             names.pronouns.add(at)
         elif "noun" in token.tags and not token.slips and not _is_last_one(tokens, at):
             _name_vehicle(tokens, at, names, kinds, marks)
-        elif word in _PERSONS or word == unknown or _is_hero(tokens, at):
+        elif word in _PERSONS or word == unknown or _is_hero(tokens, at) or ("unknown" in token.tags and word in tails):
             names.actors[at] = HERO_ID
             another = at > 0 and tokens[at - 1].tags.get("determiner") == "another"
             if another and list(names.actors.values()).count(HERO_ID) > 1:

@@ -68,7 +68,7 @@ def is_nobodys(words: Words, at: int, clause: Clause) -> bool:
     measured = measure_word(words, at, clause) in ("length", "time")
     if clause.link != "when" or clause.named or clause.both or not measured:
         return False
-    return not any(i in words.names.pronouns for i in clause.inside)
+    return words.named(clause.inside) is None and not any(i in words.names.pronouns for i in clause.inside)
 
 
 def _between(words: Words, at: int, clause: Clause) -> int | None:

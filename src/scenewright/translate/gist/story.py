@@ -167,7 +167,7 @@ class StoryTeller:
 
     def _brakes_again(self, deed: Deed, slows: list[Deed], goes: list[Deed]) -> bool:
         """Whether the hero brakes after its stop, on its way: "stops, then brakes to pass the conflict point"."""
-        stopped = any(each.kind == "stop" and each.at < deed.at for each in slows)
+        stopped = any(each.kind in ("stop", "wait") and each.at < deed.at for each in self.deeds if each.actor == HERO_ID)
         goal = any(each.at > deed.at and each.kind != "accelerate" for each in goes)
         goal = goal and (deed.clause.link == "then" or deed.clause.sentence != self.trigger_sentence or self._shared(deed, goes))
         finite = bool(self.words.tokens[deed.at].forms & {"s", "base"})

@@ -101,6 +101,8 @@ class WayReader:
             self._heading(at, clause)
         elif "direction" in tags:
             self._direction(at, clause)
+        elif self.words.word(at).startswith("left ") and self.words.tag(at - 1, "verb") == "turn":
+            self._say("turn", "left", at, clause.subject, clause)  # "turns left to the road"
         elif tags.get("pronoun") == "it" and self._driveway_before(at):
             self._into_it(at, clause)
         elif verb == "lane_follow":
@@ -154,6 +156,9 @@ class WayReader:
         before, after = self.words.tags(at - 1), self.words.tags(at + 1)
         just = self.words.tag(at, "adverb") == "just"
         left_over = "left_over" in self.words.tags(at)
+        opens = self.words.word(at) == "right" and "comma" in after and (not before or "end" in before)
+        if opens:
+            return True  # "Right, so the ego ..."
         if after.get("relation") in ("ahead", "behind") or (just and after.get("preposition") in ("of", "at")):
             return True
         if "genitive" in before and "link" in after:
@@ -237,6 +242,8 @@ class WayReader:
             return "into"
         if preposition in ("on", "in") and (before & {"enter"} or (turned and self.words.tag(at, "area") == "road")):
             return "into"  # "enters in the driveway", "turns left on the road"
+        if verb == "pull_out" and word.startswith(("join", "merg")):
+            return "into"
         if preposition == "out" or verb in _LEAVING or word in ("from", "down") or "out of" in word:
             return "from"
         if preposition == "by" and self.words.verbs(clause.inside) & {"leave"}:
