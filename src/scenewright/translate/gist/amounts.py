@@ -1,7 +1,7 @@
 """Reads every amount of a text: what it measures, of whom, up to which place.
 
-What enters: words with clauses. What leaves: one `Measured` for each amount, and for each place without one ("just before
-the stop line"). At which moment of the story it holds is decided by `moments`.
+What enters: words with clauses. What leaves: one `Measured` for each amount, and for each place without one ("just
+before the stop line"). At which moment of the story it holds is decided by `moments`.
 """
 
 from __future__ import annotations
@@ -197,14 +197,17 @@ class AmountReader:
                 return None
             if "relation" in tags:
                 seen = "past" if tags["relation"] == "past" else seen or "before"
-            elif word in ("at that", "up to") or tags.get("link") in ("to", "until"):
-                seen = seen or "from"
-            elif preposition in ("to", "at", "of") or (preposition == "out" and seen is None):
+            elif self._leads_to(at) or (preposition == "out" and seen is None):
                 seen = seen or "from"
             elif not self._passes(at, seen):
                 break
             at += 1
         return (seen, at) if seen is not None else None
+
+    def _leads_to(self, at: int) -> bool:
+        tags = self.words.tags(at)
+        linked = tags.get("link") in ("to", "until") or tags.get("preposition") in ("to", "at", "of")
+        return linked or self.words.word(at) in ("at that", "up to")
 
     def _passes(self, at: int, seen: Relation | None) -> bool:
         """Whether a word between an amount and its place only fills: "are left to", "from reaching"."""
@@ -231,7 +234,7 @@ class AmountReader:
         return None
 
     def _named_in_sentence(self, at: int) -> bool:
-        """Whether a landmark was named before in this sentence: "80 feet from the conflict point ... 65 feet from it"."""
+        """Whether a landmark was named before in this sentence: "80 feet from the stop line ... 65 feet from it"."""
         back = at - 1
         while back >= 0 and "end" not in self.words.tags(back):
             if "landmark" in self.words.tags(back):
@@ -291,7 +294,11 @@ class AmountReader:
         """Refuse "the time to the turn line is 2 s": a measure up to what is no known place and no vehicle."""
         for at in range(made.clause.start, made.at):
             to = self.words.tag(at, "preposition") == "to" or self.words.tag(at, "link") == "until"
-            if to and "measure" in self.words.tags(at - 1) and self._is_strange_place(self.words.skip(at + 1, _SKIPPED)):
+            if (
+                to
+                and "measure" in self.words.tags(at - 1)
+                and self._is_strange_place(self.words.skip(at + 1, _SKIPPED))
+            ):
                 raise self.words.refuse("it is not clear up to where this is measured", self.words.span(made.clause))
 
     def _lies(self, made: Measured) -> bool:

@@ -251,7 +251,7 @@ class DeedReader:
         return self.words.where(clause.inside, "auxiliary", "have") is not None
 
     def _is_bound(self, clause: Clause) -> bool:
-        """Whether a clause tells a moment of the ego: "before it turns", "by the time it does", "after which it turns"."""
+        """Whether a clause tells a moment of the ego: "before it turns", "by the time it does"."""
         verbs = self.words.verbs(clause.inside)
         by_then = self.words.word(clause.start - 1) == "by the time" and not self.words.has(clause.inside, "quantity")
         which = self.words.word(clause.start - 1) == "after which" and bool(verbs & {"begin", "turn", "pass"})
@@ -284,7 +284,10 @@ class DeedReader:
         if not (any(names.actors.get(each) == EGO_ID for each in rest) or at + 1 in names.pronouns):
             return False
         let = replace(clause, start=at + 1, link="let", subject=EGO_ID, named=True)
-        if self.words.has(rest, "landmark", "back_reference", "event_noun") or self.words.verbs(rest) & {"turn", "pull_out"}:
+        if self.words.has(rest, "landmark", "back_reference", "event_noun") or self.words.verbs(rest) & {
+            "turn",
+            "pull_out",
+        }:
             return self._ego_moment(let)
         self.words.used |= set(rest)  # "lets it pass", "lets the ego go first"
         self.deeds.append(Deed("let_reach", at, let, self.words.tokens[at].span, None, EGO_ID))
@@ -295,7 +298,19 @@ class DeedReader:
         verbs = self.words.verbs(clause.inside)
         if clause.subject != EGO_ID or (not clause.named and verbs & {"brake", "stop", "accelerate", "wait"}):
             return False
-        known = {"begin", "turn", "pull_out", "complete", "pass", "reach", "enter", "go", "make", "drive", "cut_in_front"}
+        known = {
+            "begin",
+            "turn",
+            "pull_out",
+            "complete",
+            "pass",
+            "reach",
+            "enter",
+            "go",
+            "make",
+            "drive",
+            "cut_in_front",
+        }
         if verbs - known or self.words.has(clause.inside, "negation", "stop_noun"):
             raise self.words.refuse("this is no moment of the ego that can be compared", self.words.span(clause))
         first = clause.link == "before" or self.words.word(clause.start - 1) in ("by the time", "after which")

@@ -1,7 +1,8 @@
-"""Cuts a text into tokens with an end after each line of notes, tables and lists, but not where prose is only wrapped.
+"""Cuts a text into tokens with an end after each line of notes, tables and lists, but not where prose is wrapped.
 
-What enters: the text. What leaves: tokens. Lines are ends where they are short or begin with a label; the bars of a table
-part clauses; names joined by underscores that are no parameters are read as words.
+What enters: the text. What leaves: tokens. Lines are ends where they are short or begin with a label; the bars of a
+table part clauses; keys joined by underscores are read as words; a word that was corrected to a vehicle is left as it
+was written.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Refuses what this reader must not step over: what cannot be orchestrated, denials, bounds, words without a part.
 
-What enters: words, before and after they were read. What leaves: nothing, or a refusal that names the words. Words that are
-not known may be set aside; words that tell a fact may not.
+What enters: words, before and after they were read. What leaves: nothing, or a refusal that names the words. Words
+that are not known may be set aside; words that tell a fact may not.
 """
 
 from __future__ import annotations
@@ -16,20 +16,19 @@ from scenewright.translate.gist.words import Clause, Words
 
 # Limits that hold for a while, and what did not or will not happen: no reader of facts can tell what follows.
 _DANGERS = frozenset(
-    "exceed exceeds exceeded exceeding higher lower maximum minimum max min limit limited cap capped "
-    "predicts predicted says said supposedly allegedly hypothetically".split()
-)
+    ["exceed", "exceeds", "exceeded", "exceeding", "higher", "lower", "maximum", "minimum", "max", "min", "limit",
+     "limited", "cap", "capped", "predicts", "predicted", "says", "said", "supposedly", "allegedly", "hypothetically"]
+)  # fmt: skip
 _EDGE_OF_TURN = re.compile(r"\b(?:start|beginning|end) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b", re.IGNORECASE)
 _COUNTED = re.compile(r"(?:[A-Za-z]-|#|\[|\b(?:run|test|no\.?|case|phase|step|item|day|version|v)\s?)$", re.IGNORECASE)
 _UNREAL = re.compile(
     r"(?:^|[.;!?]\s+|,\s+)(?:had|were) (?:the|it|a|an)\b|\bif \w+(?: \w+)? (?:were|had)\b|\bwould(?: not|n't)? have\b",
     re.IGNORECASE,
 )
-_DEEDS = frozenset(("brake", "stop", "accelerate", "pass", "complete", "yield", "not_yield", "turn", "pull_out")) | {
-    "wait",
-    "reach",
-    "enter",
-}
+_DEEDS = frozenset(
+    ["brake", "stop", "accelerate", "pass", "complete", "yield", "not_yield", "turn", "pull_out", "wait", "reach",
+     "enter"]
+)  # fmt: skip
 
 
 def refuse_dangers(words: Words) -> None:
@@ -75,7 +74,9 @@ def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> 
         if "landmark" in token.tags:
             before = clause is not None and clause.sentence < trigger_sentence
             quiet = clause is not None and not words.has(clause.inside, "quantity")
-            lost = clause is not None and not (before and quiet) and not _is_defined(words, at)  # "pulls up to the stop line" before anything
+            lost = (
+                clause is not None and not (before and quiet) and not _is_defined(words, at)
+            )  # "pulls up to the stop line" before anything
         elif following is not None and following.link in BOUNDS:
             lost = not _repeats(words, following, deeds, trigger_sentence)
         elif following is not None and following.link == "when" and following.sentence >= trigger_sentence:

@@ -1,7 +1,7 @@
 """Decides for each amount at which moment it holds: at the start, at the trigger, or of a deed.
 
-What enters: words, amounts, deeds. What leaves: the moment of every amount. Nothing is guessed: what no word decides is
-refused, but for amounts told before the trigger is, which hold at the start.
+What enters: words, amounts, deeds. What leaves: the moment of every amount. Nothing is guessed: what no word decides
+is refused, but for amounts told before the trigger is, which hold at the start.
 """
 
 from __future__ import annotations

@@ -5,6 +5,8 @@ What enters: tokens. What leaves: `Names`. A vehicle, or its driver, that is not
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from scenewright.translate.events import EGO_ID, HERO_ID
 from scenewright.translate.gist.words import Names
 from scenewright.translate.lexicon import load_lexicon
@@ -12,10 +14,12 @@ from scenewright.translate.tokens import Token
 
 FIRST_PERSON = frozenset(("i", "me", "we", "us", "myself", "ourselves", "mine", "ours"))
 PERSONAL = frozenset(("he", "she", "him", "himself", "herself", "hers"))
+# Whoever these are, in a text about two vehicles they drive the one that is not under test.
 _PERSONS = frozenset(
-    "man woman uncle aunt grandmother grandma grandfather grandpa granny neighbour neighbor somebody someone guy lady "
-    "gentleman fellow stranger owner father mother commuter courier chap bloke kid teenager trucker operator".split()
-)
+    ["man", "woman", "guy", "chap", "bloke", "fellow", "lady", "gentleman", "kid", "teenager", "somebody", "someone",
+     "stranger", "owner", "operator", "commuter", "courier", "trucker", "neighbour", "neighbor", "father", "mother",
+     "uncle", "aunt", "grandmother", "grandma", "granny", "grandfather", "grandpa"]
+)  # fmt: skip
 # Kinds of vehicle that can be any vehicle, and names that say how a vehicle lies to the other or what it does.
 _GENERIC = frozenset(("car", "vehicle", "driver", "motorist", "actor", "agent", "traffic_one"))
 _RELATIVE = {
@@ -132,7 +136,7 @@ def _is_predicate(tokens: list[Token], at: int) -> bool:
 
 
 def _is_third(tokens: list[Token], at: int) -> bool:
-    """Whether a vehicle comes in after the hero was named as such: "the hero ... A tractor pulls out behind the hero"."""
+    """Whether a vehicle comes in after the hero was named as such: "the hero ... A tractor pulls out behind it"."""
     back = at - 1
     while back > 0 and tokens[back].tags.keys() & {"actor_adjective", "heading", "unknown"}:
         back -= 1
@@ -228,5 +232,4 @@ def _ego_is(tokens: list[Token], at: int) -> bool:
 
 def _ego_marks(tokens: list[Token]) -> set[str]:
     """Return what sets the ego apart: "robot" in "the robot car under test"."""
-    pairs = zip(tokens, tokens[1:], strict=False)
-    return {mark.text.lower() for mark, named in pairs if "ego" in named.tags and "unknown" in mark.tags}
+    return {mark.text.lower() for mark, named in pairwise(tokens) if "ego" in named.tags and "unknown" in mark.tags}

@@ -22,7 +22,7 @@ class Owned(Protocol):
 
 
 def measure_of(words: Words, at: int) -> str | None:
-    """Return what a word measures: "distance", "times to arrival"; also "that" in "and that from the van to the line"."""
+    """Return what a word measures: "distance", "times to arrival", also "that" in "and that from the van to it"."""
     if words.word(at) == "that" and words.tag(at + 1, "preposition") in ("out", "of"):
         return "length"
     return words.tag(at, "measure") or words.tag(at, "measures")

@@ -1,8 +1,8 @@
 """Reads a free text for its gist: the facts that one scenario needs, wherever and however they are told.
 
-What enters: the text, a map. What leaves: `Gist`: facts as the strict reader makes them, where each stands, and what was set
-aside. A text is accepted only where every amount has its part, every way and deed fits, and no denial, bound or order is
-left over; words that are not known are set aside, and said to be.
+What enters: the text, a map. What leaves: `Gist`: facts as the strict reader makes them, where each stands, and what
+was set aside. A text is accepted only where every amount has its part, every way and deed fits, and no denial, bound
+or order is left over; words that are not known are set aside, and said to be.
 """
 
 from __future__ import annotations

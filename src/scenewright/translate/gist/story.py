@@ -1,7 +1,7 @@
-"""Puts what was found together to one story: what holds at the start and at the trigger, what the hero does, who is first.
+"""Puts what was found together to one story: states at the start and at the trigger, what the hero does, who is first.
 
-What enters: words, amounts with their moments, deeds. What leaves: `Facts`, as the strict reader makes them, and an event
-for each fact, which says where it stands.
+What enters: words, amounts with their moments, deeds. What leaves: `Facts`, as the strict reader makes them, and an
+event for each fact, which says where it stands.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 
-from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place
+from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place, Relation
 from scenewright.translate.facts import Condition, Facts, Order, Phase
 from scenewright.translate.gist.amounts import Measured
 from scenewright.translate.gist.clauses import BOUNDS
@@ -109,7 +109,7 @@ class StoryTeller:
         if made.kind != "gap":
             raise self.words.refuse("it is not clear whose amount this is", made.span)
         rear = made.actor if made.actor is not None else EGO_ID
-        relation = "from" if made.actor is None else "behind"
+        relation: Relation = "from" if made.actor is None else "behind"
         event = Event("be", rear, made.span, made.clause.sentence)
         return Condition(rear, event, Place(relation, 1 - rear, made.quantity, made.span))
 
@@ -167,9 +167,13 @@ class StoryTeller:
 
     def _brakes_again(self, deed: Deed, slows: list[Deed], goes: list[Deed]) -> bool:
         """Whether the hero brakes after its stop, on its way: "stops, then brakes to pass the conflict point"."""
-        stopped = any(each.kind in ("stop", "wait") and each.at < deed.at for each in self.deeds if each.actor == HERO_ID)
+        stopped = any(
+            each.kind in ("stop", "wait") and each.at < deed.at for each in self.deeds if each.actor == HERO_ID
+        )
         goal = any(each.at > deed.at and each.kind != "accelerate" for each in goes)
-        goal = goal and (deed.clause.link == "then" or deed.clause.sentence != self.trigger_sentence or self._shared(deed, goes))
+        goal = goal and (
+            deed.clause.link == "then" or deed.clause.sentence != self.trigger_sentence or self._shared(deed, goes)
+        )
         finite = bool(self.words.tokens[deed.at].forms & {"s", "base"})
         return deed.kind == "brake" and stopped and goal and finite and not self.moments.begins(deed)
 
@@ -286,7 +290,11 @@ class StoryTeller:
         event = Event("pass", EGO_ID, deed.span, deed.clause.sentence)
         self.events.append(event)
         reached = phase.goal_event is not None and phase.goal_event.sentence == deed.clause.sentence
-        at_end = first or deed.landmark == "same" or (reached and phase.goal_event is not None and phase.goal_event.span.start < deed.span.start)
+        at_end = (
+            first
+            or deed.landmark == "same"
+            or (reached and phase.goal_event is not None and phase.goal_event.span.start < deed.span.start)
+        )
         self.facts.order = Order(first, landmark, event, at_start=not at_end)
         if phase.goal is None and first:
             phase.goal, phase.goal_event = "conflict_point", event

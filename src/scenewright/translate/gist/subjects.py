@@ -12,9 +12,9 @@ from scenewright.translate.gist.words import Clause, Words
 _BESIDE = frozenset(("determiner", "actor_adjective", "possessive", "heading", "hero", "noun", "unknown", "direction"))
 _OBJECT_OF = frozenset(("to", "of", "for", "by", "between", "across", "into", "in", "on", "at", "out"))
 _TAKES_OBJECT = frozenset(
-    ("follow", "yield", "approach", "pass", "lead", "not_yield", "cut_in_front", "beat", "come_towards", "enter")
-    + ("attitude", "get_within", "hit", "reach")
-)
+    ["follow", "yield", "approach", "pass", "lead", "not_yield", "cut_in_front", "beat", "come_towards", "enter",
+     "attitude", "get_within", "hit", "reach"]
+)  # fmt: skip
 _MAIN = ("main", "and", "then", "moment", "colon")
 _SUBORDINATE = ("before", "after", "until", "when", "that")
 _STRONG = frozenset(("brake", "stop", "accelerate"))  # nobody tells the ego to do these

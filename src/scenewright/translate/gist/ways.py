@@ -1,7 +1,7 @@
 """Reads where each vehicle comes from and goes: headings, turns, areas, and how the two lie to each other.
 
-What enters: words with clauses. What leaves: `Way`s, each of one vehicle or of none ("Eastbound tailing case."), and lane
-relations as `facts` holds them. Which routes fit is asked in `wishes`.
+What enters: words with clauses. What leaves: `Way`s, each of one vehicle or of none ("Eastbound tailing case."), and
+lane relations as `facts` holds them. Which routes fit is asked in `wishes`.
 """
 
 from __future__ import annotations
@@ -20,36 +20,19 @@ _BESIDE = frozenset(("determiner", "possessive", "actor_adjective", "preposition
 _AREA_WORDS = frozenset(("determiner", "possessive", "area_adjective", "same", "side", "adverb", "unknown"))
 _LEAVING = ("leave", "pull_out")
 _CROSSING = frozenset(("turn", "pull_out", "cut_in_front", "pass"))
-_WAY_VERBS = frozenset(("turn", "pull_out", "go", "drive", "make", "come", "want", "keep", "leave", "enter", "begin")) | {
-    "complete",
-    "lane_follow",
-    "sit",
-    "wait",
-    "let",
-    "need",
-    "approach",
-}
+_WAY_VERBS = frozenset(
+    ["turn", "pull_out", "go", "drive", "make", "come", "want", "keep", "leave", "enter", "begin", "complete",
+     "lane_follow", "sit", "wait", "let", "need", "approach"]
+)  # fmt: skip
 _TURN_AFTER = ("go", "pull_out", "drive", "make", "come", "want")
 _BEFORE_TURN = frozenset(
-    (
-        "determiner",
-        "possessive",
-        "comma",
-        "colon",
-        "end",
-        "link",
-        "area",
-        "heading",
-        "preposition",
-        "wanting",
-        "unknown",
-    )
-    + ("be", "ready", "bound_word")
-)
+    ["determiner", "possessive", "comma", "colon", "end", "link", "area", "heading", "preposition", "wanting",
+     "unknown", "be", "ready", "bound_word"]
+)  # fmt: skip
 _AFTER_TURN = frozenset(
-    ("end", "comma", "heading", "preposition", "link", "event_noun", "verb", "area", "unknown", "colon", "adverb")
-    + ("pronoun", "relation", "pair", "auxiliary", "be", "negation", "side_noun")
-)
+    ["end", "comma", "heading", "preposition", "link", "event_noun", "verb", "area", "unknown", "colon", "adverb",
+     "pronoun", "relation", "pair", "auxiliary", "be", "negation", "side_noun"]
+)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,7 @@
 """Asks which routes of a map fit the ways that a text tells, and puts them as `facts` holds them.
 
-What enters: ways, a map. What leaves: wishes by actor. Whether a heading is that of the first road or of the last follows
-from the map, or from whether it is told before the turn or after it.
+What enters: ways, a map. What leaves: wishes by actor. Whether a heading is that of the first road or of the last
+follows from the map, or from whether it is told before the turn or after it.
 """
 
 from __future__ import annotations
