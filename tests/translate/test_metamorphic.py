@@ -299,6 +299,8 @@ def test_every_single_word_that_matters_counts(text: str) -> None:
                 continue  # behind each other: whose heading is told does not matter
             if word in ("ego", "hero") and re.match(r"\w+ (?:is oncoming|comes the other way)", text[match.start() :]):
                 continue  # each of two vehicles that meet is oncoming to the other
+            if re.search(r"(?:side|access) driveway$", changed[: match.start() + len(other)]):
+                continue  # a side road and a side driveway are the same here
             try:
                 program = translate_offline(changed).program
             except TranslationError:

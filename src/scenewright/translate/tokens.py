@@ -29,7 +29,7 @@ _RAW = re.compile(
     |(?P<parameter>{_PARAMETER})
     |(?P<number>(?<![\w.])[+\-−]?(?:\d+(?:,\d+)*(?:\.\d+)?|\.\d+)(?:/\d+)?)
     |(?P<instant>\bt_?[01]\b|\bt\s*=\s*(?:t_?)?0(?:\s*s)?\b|\bv_?0\b|\bv\(0\))
-    |(?P<word>[^\W\d_]+?n['’]t\b|['’](?:ll|re|ve|d)\b|[^\W\d_]+)
+    |(?P<word>[^\W\d_]+?n['’]t\b|['’](?:ll|re|ve|d|m)\b|[^\W\d_]+)
     |(?P<genitive>['’]s\b|(?<=s)['’](?=\s))
     |(?P<title>(?:(?<=\n)|^)[ \t]*\#+[^\n]*(?:\n|$))
     |(?P<mark>\*\*+|`+|__+)

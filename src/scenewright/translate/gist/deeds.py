@@ -264,6 +264,8 @@ class DeedReader:
             return
         for at in clause.inside:
             beside = words.tag(at, "relation") == "ahead" and at not in words.used
+            if words.tag(at, "relation") == "behind" and "quantity" not in words.tags(at - 1) and deed.kind == "pass":
+                raise words.refuse("a place in a queue is no order of passing", words.span(clause))
             beats = words.tag(at, "verb") in ("beat", "cut_in_front") or beside
             ego = any(words.names.actors.get(i) == EGO_ID for i in range(at + 1, min(at + 4, clause.end)))
             if beats and ego and "quantity" not in words.tags(at - 1):

@@ -17,7 +17,7 @@ from scenewright.translate.gist.words import Clause, Words
 # Limits that hold for a while, and what did not or will not happen: no reader of facts can tell what follows.
 _DANGERS = frozenset(
     ["exceed", "exceeds", "exceeded", "exceeding", "higher", "lower", "maximum", "minimum", "max", "min", "limit",
-     "limited", "cap", "capped", "predicts", "predicted", "says", "said", "supposedly", "allegedly", "hypothetically"]
+     "limited", "cap", "capped", "predicts", "predicted", "says", "said", "twice", "thrice", "repeatedly", "supposedly", "allegedly", "hypothetically"]
 )  # fmt: skip
 _EDGE_OF_TURN = re.compile(r"\b(?:start|beginning|end) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b", re.IGNORECASE)
 _COUNTED = re.compile(r"(?:[A-Za-z]-|#|\[|\b(?:run|test|no\.?|case|phase|step|item|day|version|v)\s?)$", re.IGNORECASE)
@@ -109,6 +109,18 @@ def refuse_third_parties(words: Words, deeds: list[Deed], trigger_sentence: int)
 def _denies_something(words: Words, at: int) -> bool:
     """Whether "no" and the like stand before a deed: "no stop", "shall not stop", but not "no worries"."""
     return words.has([at + 1], "verb", "stop_noun", "event_noun") or words.has([at + 2], "verb")
+
+
+def refuse_strange_deeds(words: Words, trigger_sentence: int) -> None:
+    """Refuse "the hero stups": what a vehicle does from the trigger on has to be known."""
+    for at, token in enumerate(words.tokens):
+        if "unknown" not in token.tags or at in words.names.actors or token.text.lower().endswith("ly"):
+            continue
+        clause = next((each for each in words.clauses if at in each.inside), None)
+        acts = at - 1 in words.names.actors or words.has([at - 1], "pronoun")
+        compound = words.has([at + 1], "noun", "hero", "ego")
+        if clause is not None and clause.sentence >= trigger_sentence and acts and not compound:
+            raise words.refuse(f"'{token.text}' was not understood: it may be what a vehicle does", token.span)
 
 
 def _is_stranger(words: Words, at: int) -> bool:

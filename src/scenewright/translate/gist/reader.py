@@ -21,6 +21,7 @@ from scenewright.translate.gist.layout import laid_out
 from scenewright.translate.gist.leftovers import (
     refuse_dangers,
     refuse_left_over,
+    refuse_strange_deeds,
     refuse_strangers,
     refuse_third_parties,
 )
@@ -96,6 +97,9 @@ def check_told(gist: Gist, routes: Itineraries, text: str, name: str) -> None:
             raise words.refuse("neither vehicle does this", span)
     if gist.meets and find_conflict(routes.ego, routes.hero) is None:
         raise words.refuse("it is said that the ways of the two vehicles meet, but they do not", gist.meets[0])
+    for phase in gist.facts.phases:
+        if phase.place is not None and phase.place.target == "stop_line" and routes.hero.origin_kind != "driveway":
+            raise words.refuse("the hero comes to no stop line", phase.place.span)
     for condition in (*gist.facts.initial, *gist.facts.trigger):
         place = condition.place
         if place is None:
@@ -127,6 +131,7 @@ def _read(words: Words, title: tuple[Token, ...], road_map: RoadMap) -> Gist:
     facts.wishes = wishes(words, ways, road_map)
     facts.relations = one_each(words, ways.relations)
     facts.mentioned |= {EGO_ID, HERO_ID}
+    refuse_strange_deeds(words, teller.trigger_sentence)
     refuse_third_parties(words, acts.deeds, teller.trigger_sentence)
     refuse_left_over(words, acts.deeds, teller.trigger_sentence)
     events = [*(said.event for each in facts.wishes.values() for said in each.values()), *teller.events]

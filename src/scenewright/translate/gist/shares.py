@@ -49,7 +49,8 @@ def _told_after(words: Words, found: list[Measured]) -> None:
     """Read "the ego at 4 s and the van at 3 s, both with respect to the conflict point"."""
     for clause in words.clauses:
         opens = [m for m in found if m.kind == "open" and m.clause.sentence == clause.sentence and m.at < clause.start]
-        begins = words.has([clause.start], "measured_word", "preposition", "relation")
+        alike = len({made.quantity.dimension for made in opens if made.quantity is not None}) < 2
+        begins = alike and words.has([clause.start], "measured_word", "preposition", "relation")
         mark = words.where(clause.inside, "landmark")
         if not opens or not begins or mark is None or words.has(clause.inside, "quantity", "verb", "be", "ego", "hero"):
             continue

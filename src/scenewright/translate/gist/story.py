@@ -119,6 +119,14 @@ class StoryTeller:
             first = deed.kind == "wait" and deed.actor == HERO_ID and deed.clause.sentence < self.trigger_sentence
             if first and _STANDS.search(deed.span.excerpt(self.words.text)):
                 self.facts.standing = self.facts.standing or self._event(deed)
+            elif first and not self._tells_where(deed):
+                raise self.words.refuse("it is not said where the hero waits", deed.span)
+
+    def _tells_where(self, deed: Deed) -> bool:
+        """Whether a wait only says where a vehicle is or what it is about to do: "waits on the driveway to turn"."""
+        sentence = self.words.sentence(deed.clause)
+        where = ("area", "landmark", "direction", "quantity", "heading")
+        return any(self.words.has(each.inside, *where) for each in sentence)
 
     # -- what the hero does -------------------------------------------------------------------------------------------
     def _counts(self, deed: Deed) -> bool:
