@@ -6,6 +6,7 @@ motion is at one. It plans nothing.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -21,9 +22,10 @@ from scenewright.solve.situation import SHORTEST_LEAD_S, HeroState
 
 _LONGEST_SLACK_S = 1.0
 _FAR_S = 40.0
-# An ego that makes haste does so like this (m/s^2, from m/s), from these shares of the time left; what is worth it.
+# An ego that makes haste does so like this (m/s^2, from m/s), from these shares of the time left; how much sooner (s,
+# and as a share of the time left) it has to be there to be worth it.
 _HASTE_MPSS, _SETS_OFF_MPS, _HASTE_SHARES = 1.5, 0.4, (0.0, 0.25, 0.5, 0.75, 1.0)
-_HASTE_HORIZON_S, _NOTABLY_EARLIER_S = 12.0, 0.25
+_HASTE_HORIZON_S, _NOTABLY_EARLIER_S, _NOTABLE_SHARE = 12.0, 0.25, 0.15
 _FIRST_TRIGGERS_S = (2.5, 3.5, 4.5, 6.0, 8.0, 10.0, 13.0, 16.0, 2.0, 1.5, 1.0, 20.0, 25.0)
 # Whom the ego follows is answered: the sooner the trigger comes, the better it is foreseen.
 _FIRST_TRIGGERS_WHEN_FOLLOWED_S = (1.5, 2.0, *_FIRST_TRIGGERS_S)
@@ -48,6 +50,8 @@ class TriggerTimes:
     ----------
     ego_began
         The ego's position (m) and speed (m/s) when the run began.
+    cruise_mps
+        How fast people drive where the ego does: one in haste gets there ever more gently.
     leaders
         For each hero that the ego follows: on which side of it the hero is.
     """
@@ -58,6 +62,7 @@ class TriggerTimes:
     predictor: Predictor
     ego_began: tuple[float, float] = (0.0, 0.0)
     leaders: dict[int, Clearance] = field(init=False, default_factory=dict)
+    cruise_mps: float = math.inf
     _lags: dict[int, Lag] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -170,10 +175,12 @@ class TriggerTimes:
         for share in _HASTE_SHARES:
             begin_s = time_s + share * (expected_s - time_s)
             s_m, speed_mps, _ = prediction.state(begin_s)
-            motion = self.predictor.predict([(begin_s, s_m, max(speed_mps, _SETS_OFF_MPS), _HASTE_MPSS)])
+            pull = _HASTE_MPSS * max(0.0, 1.0 - (speed_mps / self.cruise_mps) ** 4)
+            motion = self.predictor.predict([(begin_s, s_m, max(speed_mps, _SETS_OFF_MPS), pull)])
             arrival = side.first_time({EGO: motion}, begin_s)
             found.append((begin_s, expected_s if arrival is None else min(expected_s, arrival)))
-        return tuple(found) if expected_s - found[0][1] > _NOTABLY_EARLIER_S else ()
+        notably_s = max(_NOTABLY_EARLIER_S, _NOTABLE_SHARE * (expected_s - time_s))
+        return tuple(found) if expected_s - found[0][1] > notably_s else ()
 
     def slack_s(self, hero: Actor, prediction: Profile, instant_s: float) -> float:
         """Return the time in which the ego gets one tight tolerance off its side of the trigger."""
