@@ -32,6 +32,8 @@ _FIRST_TRIGGERS_WHEN_FOLLOWED_S = (1.5, 2.0, *_FIRST_TRIGGERS_S)
 _RETRY_TRIGGERS_S = (0.0, 0.25, -0.25, 0.75, 1.5, 3.0, 6.0, 10.0)
 # How near (in tight tolerances) and how soon before it is planned (s) a trigger that both decide may come at once.
 _NEAR, _NEARLY_S = 0.5, 0.5
+# Who does not get nearer to its place than this before it stands is there.
+_STANDS_MPS, _STANDS_THERE_M = 0.02, 0.9 * TIGHT_LENGTH_M
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,10 +50,10 @@ class TriggerTimes:
 
     Attributes
     ----------
-    ego_began
-        The ego's position (m) and speed (m/s) when the run began.
     cruise_mps
         How fast people drive where the ego does: one in haste gets there ever more gently.
+    ego_began
+        The ego's position (m) and speed (m/s) when the run began.
     leaders
         For each hero that the ego follows: on which side of it the hero is.
     """
@@ -60,9 +62,9 @@ class TriggerTimes:
     structure: Structure
     conditions: tuple[LinearCondition, ...]
     predictor: Predictor
+    cruise_mps: float = math.inf
     ego_began: tuple[float, float] = (0.0, 0.0)
     leaders: dict[int, Clearance] = field(init=False, default_factory=dict)
-    cruise_mps: float = math.inf
     _lags: dict[int, Lag] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -109,7 +111,11 @@ class TriggerTimes:
         """
         side = self.ego_side(hero)
         if side is not None:
-            return [self._ego_arrival_s(side, time_s, prediction)]
+            arrival_s = self._ego_arrival_s(side, time_s, prediction)
+            stands = None if planned is None else _standing(side, time_s, prediction, arrival_s)
+            if planned is None or stands is None:
+                return [arrival_s]
+            return [min(max(planned.time_s, stands[0]), stands[1])]
         if hero.id in self._lags:
             return [self._lagged_s(self._lags[hero.id], time_s, prediction, ego_knots_s)]
         if planned is None:
@@ -232,6 +238,19 @@ class TriggerTimes:
 
     def _conditions_of(self, hero: Actor) -> list[LinearCondition]:
         return [c for c in self.conditions if c.moments <= self.structure.triggers[hero.id]]
+
+
+def _standing(side: LinearCondition, time_s: float, prediction: Profile, before_s: float) -> tuple[float, float] | None:
+    """Return from when to when (s) the ego stands so near to its place that it is there; None where it does not."""
+    per_metre, per_speed = side.weights[EGO]
+    soonest_s = time_s + SHORTEST_LEAD_S
+    for segment in prediction.segments:
+        begin_s = max(segment.start_s, soonest_s)
+        stands = segment.speed_mps < _STANDS_MPS and segment.accel_mpss <= 0.0 and segment.end_s > soonest_s
+        if stands and begin_s <= before_s and not per_speed:
+            off_m = abs(side.value({EGO: (segment.s_m, 0.0)}) / per_metre)
+            return (begin_s, segment.end_s) if off_m <= _STANDS_THERE_M else None
+    return None
 
 
 def _hero_place(hero: Actor, conditions: list[LinearCondition]) -> tuple[float, float] | None:
