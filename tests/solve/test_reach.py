@@ -29,7 +29,7 @@ def yielding() -> tuple[Prospects, LinearCondition]:
     structure = read_structure(scene.program)
     conditions = linear_conditions(scene, structure)
     side = next(c for c in conditions if set(c.weights) == {HERO} and (HERO, "t1") in c.moments)
-    return Prospects(scene.program, structure, limits_of(scene), conditions), side
+    return Prospects(scene, structure, limits_of(scene), conditions), side
 
 
 @given(

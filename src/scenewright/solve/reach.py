@@ -13,7 +13,9 @@ from dataclasses import dataclass, replace
 from scenewright.motion.algebra import pin
 from scenewright.program.structure import Structure
 from scenewright.program.types import Actor, PieceKind, Program
+from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import TIGHT_LENGTH_M, TIGHT_TIME_S, LinearCondition, hero_side
+from scenewright.solve.clearance import out_of_way_mps
 from scenewright.solve.haste import Errand
 from scenewright.solve.limits import ACCEL_MAX_MPSS, SETTLED_MPSS, WAIT_BRAKE_MPSS, Limits, Manner, Wait
 from scenewright.solve.situation import Situation
@@ -162,19 +164,21 @@ class Prospects:
 
     Parameters
     ----------
-    program, structure, limits, conditions
+    scene, structure, limits, conditions
         As for a `Planner`.
     """
 
     def __init__(
         self,
-        program: Program,
+        scene: Scene,
         structure: Structure,
         limits: Mapping[int, Limits],
         conditions: tuple[LinearCondition, ...],
     ) -> None:
+        program = scene.program
         self._heroes = {hero.id: hero for hero in program.heroes}
         self._limits = limits
+        self._out_of_way_mps = {hero.id: out_of_way_mps(scene, structure, conditions, hero) for hero in program.heroes}
         self._tasks: dict[int, Task] = {}
         errands = {hero.id: Errand.of(program, structure, conditions, hero) for hero in program.heroes}
         self._errands = {hero: errand for hero, errand in errands.items() if errand is not None}
@@ -311,7 +315,7 @@ class Prospects:
         if not stretches:
             return None
         timed = bool(task.side.weights[hero_id][1])
-        least = trigger_speed_mps(manner, self._heroes[hero_id], task.piece, timed)
+        least = trigger_speed_mps(manner, self._heroes[hero_id], task.piece, timed, self._out_of_way_mps[hero_id])
         brakes_s = float(shortest_s(manner, self._heroes[hero_id], task.piece + 1, task.knot, task.side))
         least = max(least, task.least_mps(manner.dec_mpss, brakes_s, tolerance))
         return Approach(tuple(stretches), manner.top_speeds_mps(self._limits[hero_id])[0], least)

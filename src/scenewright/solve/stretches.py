@@ -182,14 +182,14 @@ def shortest_s(
     return pin(manner.seen_s)
 
 
-def trigger_speed_mps(manner: Manner, hero: Actor, piece: int, timed: bool) -> float:
+def trigger_speed_mps(manner: Manner, hero: Actor, piece: int, timed: bool, out_of_way_mps: float = 0.0) -> float:
     """Return the smallest speed (m/s) at the trigger that ends `piece`.
 
     One that is to speed up may wait at its place and set off when the moment comes, unless the program times it there
     (`timed`), as a time to arrival does: then it cannot stand.
     """
     waits = following_piece(hero, piece) is PieceKind.ACC and not manner.natural_speed and not timed
-    return 0.0 if waits else manner.trigger_speed_mps
+    return 0.0 if waits else max(manner.trigger_speed_mps, out_of_way_mps if manner.out_of_way else 0.0)
 
 
 def _divided(piece: int, rest_s: Fraction, steps: int, knot: str | None) -> list[Stretch]:
