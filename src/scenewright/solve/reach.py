@@ -38,7 +38,7 @@ _SETS_OFF_MPS, _FLYING_MPS, _SETS_OFF_MPSS, _SETS_OFF_CALMLY_MPSS = 1.2, 3.5, 3.
 _SOMEWHAT_FASTER = 1.1
 _LATE_SLACK_S = 0.01
 _SHORTEST_GO_S = 0.1
-_STANDS_MPS, _BRAKES_AT_MOST_MPSS = 0.2, 5.0
+_STANDS_MPS, _BRAKES_AT_MOST_MPSS = 0.2, 7.5
 # How far beside its place one may wait: mostly, and at the last one.
 _ROOM_M, _LEAST_ROOM_M = 0.3, 0.03
 # How finely the authority needed is found, and how much more is given: the solver needs some room.
@@ -309,7 +309,7 @@ class Prospects:
         """Return the way to the trigger; None where no time is left."""
         rest_s = pin(situation.trigger_s[hero_id]) - pin(situation.time_s)
         stretches = []
-        for stretch in timed_approach(manner, task.piece, rest_s, task.knot):
+        for stretch in timed_approach(manner, task.piece, rest_s, task.knot, situation.heroes[hero_id].speed_mps):
             up, down = approach_rates(manner, stretch, task.following)
             stretches.append((float(stretch.duration_s or 0), float(up), float(down)))
         if not stretches:
