@@ -35,7 +35,7 @@ _WALKING_MPS = 1.5
 _CREEPS_MPS, _CREEPS_WHEN_HASTY_MPS = 1.5, 4.0
 _DRIVES_UP_MPS, _DRIVES_UP_MPSS = 5.0, 2.0
 _SETS_OFF_MPS, _FLYING_MPS, _SETS_OFF_MPSS, _SETS_OFF_CALMLY_MPSS = 1.2, 3.5, 3.5, 2.0
-_SOMEWHAT_FASTER = 1.1
+_SOMEWHAT_FASTER, _JUST_FASTER = 1.1, 1.04
 _LATE_SLACK_S = 0.01
 _SHORTEST_GO_S = 0.1
 _STANDS_MPS, _BRAKES_AT_MOST_MPSS = 0.2, 7.5
@@ -43,6 +43,8 @@ _STANDS_MPS, _BRAKES_AT_MOST_MPSS = 0.2, 7.5
 _ROOM_M, _LEAST_ROOM_M = 0.3, 0.03
 # How finely the authority needed is found, and how much more is given: the solver needs some room.
 _HALVINGS, _AMPLE, _AT_LEAST = 6, 1.15, 0.04
+# What is taken of the rest where one has to be ready, too.
+_CALM_SHARE = 0.2
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,9 +224,23 @@ class Prospects:
         ways = self._ways(situation, manner)
         if len(ways) != 1 or self._tasks[ways[0][1]].following is not PieceKind.DEC:
             return ()
-        place_m, go_s, _ = self._waiting_places(ways[0], manner, hasty=True)[0]
+        _, _, _, s_m, speed_mps = ways[0]
+        places = self._waiting_places(ways[0], manner, hasty=True)
+        stops_m = s_m + speed_mps * speed_mps / (2.0 * _BRAKES_AT_MOST_MPSS)
+        place_m, go_s, _ = next((place for place in places if place[0] >= stops_m), places[-1])
         ready = replace(manner, waiting_place_m=place_m, sets_off_s=_SOMEWHAT_FASTER * go_s)
-        return (ready,) if waits is None else (waits, ready)
+        found = (self._calmer(situation, ready), ready)
+        return found if waits is None else (waits, *found)
+
+    def _calmer(self, situation: Situation, manner: Manner) -> Manner:
+        """Return `manner` with some of its authority: a little more than it takes where the ego comes as foreseen."""
+        least = self.gentled(situation, manner, 0.0)
+        up, down = least.approach_accel_mpss, least.approach_brake_mpss
+        return replace(
+            manner,
+            approach_accel_mpss=up + _CALM_SHARE * (manner.approach_accel_mpss - up),
+            approach_brake_mpss=down + _CALM_SHARE * (manner.approach_brake_mpss - down),
+        )
 
     def gentled(self, situation: Situation, manner: Manner, tolerance: float) -> Manner:
         """Return `manner` with no more authority on the way to the trigger than it takes to come as near as that.
@@ -282,7 +298,7 @@ class Prospects:
         found = [] if hasty or not brakes else [(roomy_mps, _SETS_OFF_CALMLY_MPSS, _ROOM_M)]
         found.append((roomy_mps, _SETS_OFF_MPSS, _ROOM_M))
         if brakes or not per_speed:
-            found.append((approach.least_mps, ACCEL_MAX_MPSS, _LEAST_ROOM_M))
+            found.append((_JUST_FASTER * approach.least_mps, ACCEL_MAX_MPSS, _LEAST_ROOM_M))
         places = []
         for speed, rate, room_m in found:
             go_s, run_m = speed / rate, speed * speed / (2.0 * rate)
