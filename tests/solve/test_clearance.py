@@ -14,7 +14,7 @@ from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.backends.z3_backend import Z3Backend
-from scenewright.solve.clearance import Clearance
+from scenewright.solve.clearance import OUT_OF_WAY_M, Clearance, out_of_way_mps
 from scenewright.solve.planner import Planner
 from scenewright.solve.situation import Situation
 
@@ -53,6 +53,29 @@ def test_the_distance_tells_who_is_ahead(distance: str, ahead: bool) -> None:
 
 def test_who_only_crosses_need_not_keep_clear() -> None:
     assert clearance_of(YIELDS.scene()) is None
+
+
+TIMED = "A0(t1) == A1(t1)\ntta(A0, conflict_point, t1) == 2 s\ntta(A1, conflict_point, t1) == {seconds}\n{after}"
+STOPS, FIRST = "A1v(t2) == 0\n", "A1x(t2) == conflict_point\nA0x(t2) == conflict_point\nA1(t2) < A0(t2)\n"
+
+
+@given(seconds=st.floats(0.5, 8.0))
+def test_who_is_timed_is_out_of_the_way_from_some_speed_on(seconds: float) -> None:
+    text = example("E, N", "t0, go, t1, dec, t2", TIMED.format(seconds=f"{seconds:.3f} s", after=STOPS))
+    scene = ground(parse_program(text), load_map("t_intersection"), {})
+    structure = read_structure(scene.program)
+    least_mps = out_of_way_mps(scene, structure, linear_conditions(scene, structure), scene.program.heroes[0])
+    conflict = scene.conflict(EGO, HERO)
+    assert conflict is not None
+    place_m = scene.landmark_m(HERO, "conflict_point", EGO) - round(seconds, 3) * least_mps
+    assert place_m == pytest.approx(conflict.zone_b_m[0] - OUT_OF_WAY_M)
+
+
+def test_who_is_to_be_first_or_has_its_place_need_not_be_out_of_the_way() -> None:
+    first = example("E, N", "t0, go, t1, acc, t2", TIMED.format(seconds="2 s", after=FIRST))
+    for scene in (ground(parse_program(first), load_map("t_intersection"), {}), BRAKES.scene()):
+        structure = read_structure(scene.program)
+        assert out_of_way_mps(scene, structure, linear_conditions(scene, structure), scene.program.heroes[0]) == 0.0
 
 
 @settings(max_examples=8, deadline=None)

@@ -213,7 +213,7 @@ def test_a_hero_is_ready_for_an_ego_that_makes_haste_and_for_one_that_stops(
     earliest = {1: ((0.0, arrival_s), (expected_s, expected_s))}
     ego = ego_at(3.0, scene.landmark_m(0, "stop_line") - 25.0, expected_s)
     situation = Situation(0.0, ego, {"t0": 0.0, "t1": expected_s}, {1: state}, {1: expected_s}, earliest_s=earliest)
-    prospects = Prospects(scene.program, planner.structure, planner.limits, planner.conditions)
+    prospects = Prospects(scene, planner.structure, planner.limits, planner.conditions)
     for manner in prospects.versions(situation, replace(COUNTER, ready=True), 0.0, gently=True):
         plan = planner._solve(situation, manner, Fraction(0), 20.0)
         if not isinstance(plan, Plan):

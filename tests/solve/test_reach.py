@@ -29,7 +29,7 @@ def yielding() -> tuple[Prospects, LinearCondition]:
     structure = read_structure(scene.program)
     conditions = linear_conditions(scene, structure)
     side = next(c for c in conditions if set(c.weights) == {HERO} and (HERO, "t1") in c.moments)
-    return Prospects(scene.program, structure, limits_of(scene), conditions), side
+    return Prospects(scene, structure, limits_of(scene), conditions), side
 
 
 @given(
@@ -78,6 +78,15 @@ def test_the_last_half_second_is_settled_however_little_is_left(manner: Manner, 
             assert down <= Fraction(1, 4)
             assert up <= Fraction(9, 20) or manner is COUNTER
     assert left == 0
+
+
+@given(rest_s=st.fractions(Fraction(1), Fraction(30)), speed_mps=st.floats(0.0, 18.0))
+def test_who_has_to_stop_can_do_it_within_the_first_step(rest_s: Fraction, speed_mps: float) -> None:
+    way = timed_approach(WHOLE, 0, rest_s, "t1", speed_mps)
+    assert sum(stretch.duration_s or 0 for stretch in way) == rest_s
+    assert all(stretch.duration_s for stretch in way)
+    if 2.0 < speed_mps < 11.0 and rest_s > 9:
+        assert float(way[0].duration_s or 0) == pytest.approx(speed_mps / WHOLE.approach_brake_mpss, abs=1e-4)
 
 
 def test_who_has_long_to_go_a_short_way_stands_and_waits() -> None:

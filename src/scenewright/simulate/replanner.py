@@ -81,7 +81,8 @@ class Replanner:
     _times: TriggerTimes = field(init=False)
 
     def __post_init__(self) -> None:
-        self._times = TriggerTimes(self.scene, self.structure, self.conditions, self.predictor)
+        cruise_mps = self.planner.limits[EGO].natural_approach_speed_mps
+        self._times = TriggerTimes(self.scene, self.structure, self.conditions, self.predictor, cruise_mps)
 
     # -- the first plan ---------------------------------------------------------------------------------------------
     def begin(self, ego: EgoSample) -> Attempt:

@@ -6,6 +6,7 @@ motion is at one. It plans nothing.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -21,15 +22,18 @@ from scenewright.solve.situation import SHORTEST_LEAD_S, HeroState
 
 _LONGEST_SLACK_S = 1.0
 _FAR_S = 40.0
-# An ego that makes haste does so like this (m/s^2, from m/s), from these shares of the time left; what is worth it.
+# An ego that makes haste does so like this (m/s^2, from m/s), from these shares of the time left; how much sooner (s,
+# and as a share of the time left) it has to be there to be worth it.
 _HASTE_MPSS, _SETS_OFF_MPS, _HASTE_SHARES = 1.5, 0.4, (0.0, 0.25, 0.5, 0.75, 1.0)
-_HASTE_HORIZON_S, _NOTABLY_EARLIER_S = 12.0, 0.25
+_HASTE_HORIZON_S, _NOTABLY_EARLIER_S, _NOTABLE_SHARE = 12.0, 0.25, 0.15
 _FIRST_TRIGGERS_S = (2.5, 3.5, 4.5, 6.0, 8.0, 10.0, 13.0, 16.0, 2.0, 1.5, 1.0, 20.0, 25.0)
 # Whom the ego follows is answered: the sooner the trigger comes, the better it is foreseen.
 _FIRST_TRIGGERS_WHEN_FOLLOWED_S = (1.5, 2.0, *_FIRST_TRIGGERS_S)
 _RETRY_TRIGGERS_S = (0.0, 0.25, -0.25, 0.75, 1.5, 3.0, 6.0, 10.0)
 # How near (in tight tolerances) and how soon before it is planned (s) a trigger that both decide may come at once.
 _NEAR, _NEARLY_S = 0.5, 0.5
+# Who does not get nearer to its place than this before it stands is there.
+_STANDS_MPS, _STANDS_THERE_M = 0.02, 0.9 * TIGHT_LENGTH_M
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +50,8 @@ class TriggerTimes:
 
     Attributes
     ----------
+    cruise_mps
+        How fast people drive where the ego does: one in haste gets there ever more gently.
     ego_began
         The ego's position (m) and speed (m/s) when the run began.
     leaders
@@ -56,6 +62,7 @@ class TriggerTimes:
     structure: Structure
     conditions: tuple[LinearCondition, ...]
     predictor: Predictor
+    cruise_mps: float = math.inf
     ego_began: tuple[float, float] = (0.0, 0.0)
     leaders: dict[int, Clearance] = field(init=False, default_factory=dict)
     _lags: dict[int, Lag] = field(init=False, default_factory=dict)
@@ -104,7 +111,11 @@ class TriggerTimes:
         """
         side = self.ego_side(hero)
         if side is not None:
-            return [self._ego_arrival_s(side, time_s, prediction)]
+            arrival_s = self._ego_arrival_s(side, time_s, prediction)
+            stands = None if planned is None else _standing(side, time_s, prediction, arrival_s)
+            if planned is None or stands is None:
+                return [arrival_s]
+            return [min(max(planned.time_s, stands[0]), stands[1])]
         if hero.id in self._lags:
             return [self._lagged_s(self._lags[hero.id], time_s, prediction, ego_knots_s)]
         if planned is None:
@@ -170,10 +181,12 @@ class TriggerTimes:
         for share in _HASTE_SHARES:
             begin_s = time_s + share * (expected_s - time_s)
             s_m, speed_mps, _ = prediction.state(begin_s)
-            motion = self.predictor.predict([(begin_s, s_m, max(speed_mps, _SETS_OFF_MPS), _HASTE_MPSS)])
+            pull = _HASTE_MPSS * max(0.0, 1.0 - (speed_mps / self.cruise_mps) ** 4)
+            motion = self.predictor.predict([(begin_s, s_m, max(speed_mps, _SETS_OFF_MPS), pull)])
             arrival = side.first_time({EGO: motion}, begin_s)
             found.append((begin_s, expected_s if arrival is None else min(expected_s, arrival)))
-        return tuple(found) if expected_s - found[0][1] > _NOTABLY_EARLIER_S else ()
+        notably_s = max(_NOTABLY_EARLIER_S, _NOTABLE_SHARE * (expected_s - time_s))
+        return tuple(found) if expected_s - found[0][1] > notably_s else ()
 
     def slack_s(self, hero: Actor, prediction: Profile, instant_s: float) -> float:
         """Return the time in which the ego gets one tight tolerance off its side of the trigger."""
@@ -225,6 +238,19 @@ class TriggerTimes:
 
     def _conditions_of(self, hero: Actor) -> list[LinearCondition]:
         return [c for c in self.conditions if c.moments <= self.structure.triggers[hero.id]]
+
+
+def _standing(side: LinearCondition, time_s: float, prediction: Profile, before_s: float) -> tuple[float, float] | None:
+    """Return from when to when (s) the ego stands so near to its place that it is there; None where it does not."""
+    per_metre, per_speed = side.weights[EGO]
+    soonest_s = time_s + SHORTEST_LEAD_S
+    for segment in prediction.segments:
+        begin_s = max(segment.start_s, soonest_s)
+        stands = segment.speed_mps < _STANDS_MPS and segment.accel_mpss <= 0.0 and segment.end_s > soonest_s
+        if stands and begin_s <= before_s and not per_speed:
+            off_m = abs(side.value({EGO: (segment.s_m, 0.0)}) / per_metre)
+            return (begin_s, segment.end_s) if off_m <= _STANDS_THERE_M else None
+    return None
 
 
 def _hero_place(hero: Actor, conditions: list[LinearCondition]) -> tuple[float, float] | None:

@@ -11,14 +11,16 @@ from fractions import Fraction
 from scenewright.motion.algebra import Condition, Value, compare, pin
 from scenewright.motion.profile import Profile
 from scenewright.program.expressions import Derived, Node, walk
-from scenewright.program.structure import Structure
+from scenewright.program.structure import Role, Structure
 from scenewright.program.types import EGO, Actor
 from scenewright.roads.conflicts import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene
-from scenewright.solve.arrival import LinearCondition
+from scenewright.solve.arrival import LinearCondition, hero_side
 
 # A vehicle's length, and some room between the bumpers.
 APART_M = VEHICLE_LENGTH_M + 1.5
+# How far before the place where the two could touch a hero is out of the ego's way.
+OUT_OF_WAY_M = 0.5
 # A difference of places may depend on speeds too: what people drive in town tells the side.
 _TYPICAL_MPS = 10.0
 
@@ -77,6 +79,22 @@ class Clearance:
     def is_kept(self, ego: Profile, time_s: float, s_m: Fraction | float) -> bool:
         """Whether the hero is far enough from the ego."""
         return self.gap_m(ego, time_s, float(s_m)) >= APART_M
+
+
+def out_of_way_mps(scene: Scene, structure: Structure, conditions: tuple[LinearCondition, ...], hero: Actor) -> float:
+    """Return from which speed on (m/s) a hero that is timed at its trigger is not in the ego's way there; 0 for any.
+
+    Who is two seconds from a place is the nearer to it the slower it is, and an ego that is to pass first stops for a
+    hero in its way. Where the program says who is to be first the hero has to hurry.
+    """
+    side, conflict = hero_side(conditions, structure, hero.id), scene.conflict(EGO, hero.id)
+    if side is None or conflict is None or conflict.kind == "following" or not all(side.weights[hero.id]):
+        return 0.0
+    if Role.OUTCOME in structure.roles.values():
+        return 0.0
+    per_metre, per_speed = side.weights[hero.id]
+    reaches_m = -side.constant / per_metre - (conflict.zone_b_m[0] - OUT_OF_WAY_M)
+    return max(0.0, reaches_m * per_metre / per_speed) if per_metre * per_speed > 0.0 else 0.0
 
 
 def _distance(formula: Node) -> Derived | None:

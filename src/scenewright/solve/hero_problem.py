@@ -19,7 +19,7 @@ from scenewright.program.types import EGO, Actor, Constraint, PieceKind
 from scenewright.roads.conflicts import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition, hero_side
-from scenewright.solve.clearance import APART_M, Clearance
+from scenewright.solve.clearance import APART_M, Clearance, out_of_way_mps
 from scenewright.solve.limits import BRAKE_MAX_MPSS, MOVING_MPS, Limits, Manner
 from scenewright.solve.lowering import Lowering, NotYet
 from scenewright.solve.problem import Problem
@@ -285,7 +285,8 @@ class HeroProblem:
         self.problem.require(condition, f"{hero.name} turns at up to {turn_top:.1f} m/s")
 
     def _bound_trigger_speed(self, hero: Actor, piece: int, speed: Symbol) -> None:
-        least = trigger_speed_mps(self.manner, hero, piece, self._is_timed(hero, piece + 1))
+        clear_mps = out_of_way_mps(self.scene, self.structure, self.conditions, hero)
+        least = trigger_speed_mps(self.manner, hero, piece, self._is_timed(hero, piece + 1), clear_mps)
         self.problem.bound(speed, pin(least), None, f"{hero.name} moves at {least:g} m/s or more at its trigger")
 
     # -- the program's constraints ----------------------------------------------------------------------------------

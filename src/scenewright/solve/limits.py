@@ -119,6 +119,8 @@ class Manner:
     ready, waiting_place_m, sets_off_s
         Whether it stays near enough for an ego that makes haste all of a sudden, and far enough for one that stops; the
         place that it does not go beyond then, until it has to: so long before its trigger.
+    out_of_way
+        Whether one that is timed at its trigger is not in the ego's way there yet.
     seen_s
         How long it brakes or speeds up at least, once that is what was asked for: less is hardly seen to have begun.
     opening_mps
@@ -145,6 +147,7 @@ class Manner:
     wait: Wait | None = None
     seen_s: float = 0.6
     opening_mps: float | None = None
+    out_of_way: bool = True
     ready: bool = False
     waiting_place_m: float | None = None
     sets_off_s: float = 0.0
@@ -165,14 +168,15 @@ STEADY = Manner("steady", 0.0, 0.0, 1, True, (1.2, 2.4), (1.2, 2.5), (0.6, 1.2),
 COASTING = Manner("steady", 0.02, 0.02, 1, True, (0.7, 6.0), (0.8, 3.5), (0.5, 3.0), MOVING_MPS, False)
 GENTLE = Manner("gentle", 1.0, 1.2, 2, True, (0.9, 4.0), (1.0, 2.5), (0.6, 1.5), 1.5, True)
 FIRM = Manner("firm", 2.5, 3.0, 3, True, (0.7, 6.0), (0.8, 3.5), (0.5, 3.0), MOVING_MPS, False)
-WHOLE = Manner("whole", ACCEL_MAX_MPSS, 6.0, 5, True, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)
+WHOLE = Manner("whole", ACCEL_MAX_MPSS, BRAKE_MAX_MPSS, 5, True, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)
 URGENT = Manner(
-    "urgent", ACCEL_MAX_MPSS, 8.0, 4, False, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False, seen_s=0.35
-)
+    "urgent", ACCEL_MAX_MPSS, 8.0, 4, False, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False, seen_s=0.35,
+    out_of_way=False,
+)  # fmt: skip
 # Who is about to brake may still speed up, and the other way round: nothing that was asked for has begun by that.
 COUNTER = replace(WHOLE, counter_mpss=6.0, trigger_speed_mps=0.5)
 # As little time as can just be seen, before the trigger and after it.
-CLOSE = replace(COUNTER, settle_s=0.58, seen_s=0.35, dec_mpss=(0.52, 8.0))
+CLOSE = replace(COUNTER, settle_s=0.58, seen_s=0.35, dec_mpss=(0.52, 8.0), out_of_way=False)
 
 # Where the hero is to be first, whatever the ego does: it loses no time after its trigger.
 GENTLE_QUICK = replace(GENTLE, dec_mpss=(1.8, 4.0), acc_mpss=(1.0, 3.5), stop_s=(0.5, 0.6), outcome_margin_s=1.5)
@@ -180,7 +184,7 @@ FIRM_QUICK = replace(FIRM, dec_mpss=(2.0, 6.0), acc_mpss=(0.8, 4.0), stop_s=(0.5
 HASTE = replace(FIRM, dec_mpss=(2.0, 8.0), acc_mpss=(0.8, 4.0), stop_s=(STANDSTILL_MIN_S, 0.5), seen_s=0.35)
 WHOLE_QUICK = replace(WHOLE, dec_mpss=(2.0, 8.0), stop_s=(0.5, 0.6), outcome_margin_s=0.7)
 COUNTER_QUICK = replace(WHOLE_QUICK, counter_mpss=COUNTER.counter_mpss, trigger_speed_mps=COUNTER.trigger_speed_mps)
-CLOSE_QUICK = replace(COUNTER_QUICK, settle_s=CLOSE.settle_s, seen_s=CLOSE.seen_s)
+CLOSE_QUICK = replace(COUNTER_QUICK, settle_s=CLOSE.settle_s, seen_s=CLOSE.seen_s, out_of_way=False)
 
 
 def limits_on(route: Route, road_map: RoadMap) -> Limits:

@@ -111,7 +111,7 @@ class Planner:
         self._outcome = Role.OUTCOME in structure.roles.values()
         clearances = [Clearance.of(scene, structure, conditions, hero) for hero in scene.program.heroes]
         self._leads = any(c is not None and c.ahead and not c.closing for c in clearances)
-        self._prospects = Prospects(scene.program, structure, limits, conditions)
+        self._prospects = Prospects(scene, structure, limits, conditions)
         self.trials = trials(self._outcome)
         self._held = self.trials[0].manner
         self._replans = 0

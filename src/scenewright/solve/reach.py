@@ -13,7 +13,9 @@ from dataclasses import dataclass, replace
 from scenewright.motion.algebra import pin
 from scenewright.program.structure import Structure
 from scenewright.program.types import Actor, PieceKind, Program
+from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import TIGHT_LENGTH_M, TIGHT_TIME_S, LinearCondition, hero_side
+from scenewright.solve.clearance import out_of_way_mps
 from scenewright.solve.haste import Errand
 from scenewright.solve.limits import ACCEL_MAX_MPSS, SETTLED_MPSS, WAIT_BRAKE_MPSS, Limits, Manner, Wait
 from scenewright.solve.situation import Situation
@@ -33,14 +35,16 @@ _WALKING_MPS = 1.5
 _CREEPS_MPS, _CREEPS_WHEN_HASTY_MPS = 1.5, 4.0
 _DRIVES_UP_MPS, _DRIVES_UP_MPSS = 5.0, 2.0
 _SETS_OFF_MPS, _FLYING_MPS, _SETS_OFF_MPSS, _SETS_OFF_CALMLY_MPSS = 1.2, 3.5, 3.5, 2.0
-_SOMEWHAT_FASTER = 1.1
+_SOMEWHAT_FASTER, _JUST_FASTER = 1.1, 1.04
 _LATE_SLACK_S = 0.01
 _SHORTEST_GO_S = 0.1
-_STANDS_MPS, _BRAKES_AT_MOST_MPSS = 0.2, 5.0
+_STANDS_MPS, _BRAKES_AT_MOST_MPSS = 0.2, 7.5
 # How far beside its place one may wait: mostly, and at the last one.
 _ROOM_M, _LEAST_ROOM_M = 0.3, 0.03
 # How finely the authority needed is found, and how much more is given: the solver needs some room.
 _HALVINGS, _AMPLE, _AT_LEAST = 6, 1.15, 0.04
+# What is taken of the rest where one has to be ready, too.
+_CALM_SHARE = 0.2
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,19 +166,21 @@ class Prospects:
 
     Parameters
     ----------
-    program, structure, limits, conditions
+    scene, structure, limits, conditions
         As for a `Planner`.
     """
 
     def __init__(
         self,
-        program: Program,
+        scene: Scene,
         structure: Structure,
         limits: Mapping[int, Limits],
         conditions: tuple[LinearCondition, ...],
     ) -> None:
+        program = scene.program
         self._heroes = {hero.id: hero for hero in program.heroes}
         self._limits = limits
+        self._out_of_way_mps = {hero.id: out_of_way_mps(scene, structure, conditions, hero) for hero in program.heroes}
         self._tasks: dict[int, Task] = {}
         errands = {hero.id: Errand.of(program, structure, conditions, hero) for hero in program.heroes}
         self._errands = {hero: errand for hero, errand in errands.items() if errand is not None}
@@ -218,9 +224,23 @@ class Prospects:
         ways = self._ways(situation, manner)
         if len(ways) != 1 or self._tasks[ways[0][1]].following is not PieceKind.DEC:
             return ()
-        place_m, go_s, _ = self._waiting_places(ways[0], manner, hasty=True)[0]
+        _, _, _, s_m, speed_mps = ways[0]
+        places = self._waiting_places(ways[0], manner, hasty=True)
+        stops_m = s_m + speed_mps * speed_mps / (2.0 * _BRAKES_AT_MOST_MPSS)
+        place_m, go_s, _ = next((place for place in places if place[0] >= stops_m), places[-1])
         ready = replace(manner, waiting_place_m=place_m, sets_off_s=_SOMEWHAT_FASTER * go_s)
-        return (ready,) if waits is None else (waits, ready)
+        found = (self._calmer(situation, ready), ready)
+        return found if waits is None else (waits, *found)
+
+    def _calmer(self, situation: Situation, manner: Manner) -> Manner:
+        """Return `manner` with some of its authority: a little more than it takes where the ego comes as foreseen."""
+        least = self.gentled(situation, manner, 0.0)
+        up, down = least.approach_accel_mpss, least.approach_brake_mpss
+        return replace(
+            manner,
+            approach_accel_mpss=up + _CALM_SHARE * (manner.approach_accel_mpss - up),
+            approach_brake_mpss=down + _CALM_SHARE * (manner.approach_brake_mpss - down),
+        )
 
     def gentled(self, situation: Situation, manner: Manner, tolerance: float) -> Manner:
         """Return `manner` with no more authority on the way to the trigger than it takes to come as near as that.
@@ -278,7 +298,7 @@ class Prospects:
         found = [] if hasty or not brakes else [(roomy_mps, _SETS_OFF_CALMLY_MPSS, _ROOM_M)]
         found.append((roomy_mps, _SETS_OFF_MPSS, _ROOM_M))
         if brakes or not per_speed:
-            found.append((approach.least_mps, ACCEL_MAX_MPSS, _LEAST_ROOM_M))
+            found.append((_JUST_FASTER * approach.least_mps, ACCEL_MAX_MPSS, _LEAST_ROOM_M))
         places = []
         for speed, rate, room_m in found:
             go_s, run_m = speed / rate, speed * speed / (2.0 * rate)
@@ -305,13 +325,13 @@ class Prospects:
         """Return the way to the trigger; None where no time is left."""
         rest_s = pin(situation.trigger_s[hero_id]) - pin(situation.time_s)
         stretches = []
-        for stretch in timed_approach(manner, task.piece, rest_s, task.knot):
+        for stretch in timed_approach(manner, task.piece, rest_s, task.knot, situation.heroes[hero_id].speed_mps):
             up, down = approach_rates(manner, stretch, task.following)
             stretches.append((float(stretch.duration_s or 0), float(up), float(down)))
         if not stretches:
             return None
         timed = bool(task.side.weights[hero_id][1])
-        least = trigger_speed_mps(manner, self._heroes[hero_id], task.piece, timed)
+        least = trigger_speed_mps(manner, self._heroes[hero_id], task.piece, timed, self._out_of_way_mps[hero_id])
         brakes_s = float(shortest_s(manner, self._heroes[hero_id], task.piece + 1, task.knot, task.side))
         least = max(least, task.least_mps(manner.dec_mpss, brakes_s, tolerance))
         return Approach(tuple(stretches), manner.top_speeds_mps(self._limits[hero_id])[0], least)

@@ -18,7 +18,8 @@ from scenewright.solve.limits import BEGINNING_MPSS, COASTING, Limits, Manner, W
 from scenewright.solve.situation import Situation
 
 _WALKING_MPS = 2.0
-_QUICK_S = Fraction(3, 2)
+# How long a first step may be, and must be, that leaves one who drives the time to stop; who stops sooner stands.
+_QUICK_S, _SHORTEST_QUICK_S, _STANDS_S = Fraction(3, 2), Fraction(1, 5), Fraction(1, 100)
 _SHORTEST_S = Fraction(1, 20)
 _OF_TIME_TO_ARRIVAL = Fraction(2, 3)
 
@@ -70,7 +71,8 @@ class Division:
             approach = piece < trigger_index and sketch.pieces[piece] is PieceKind.GO
             planned = self.situation.trigger_s.get(hero.id)
             if approach and piece + 1 == trigger_index and piece == first and planned is not None:
-                found += timed_approach(self.manner, piece, pin(planned) - pin(self.situation.time_s), knot)
+                speed_mps = state.speed_mps if state else 0.0
+                found += timed_approach(self.manner, piece, pin(planned) - pin(self.situation.time_s), knot, speed_mps)
             elif approach:
                 found += [Stretch(piece, None, None, True), Stretch(piece, None, knot, True, True)]
             elif sketch.pieces[piece] is PieceKind.ACC and self._cruises(hero, piece):
@@ -106,8 +108,15 @@ class Division:
         return None
 
 
-def timed_approach(manner: Manner, piece: int, rest_s: Fraction, knot: str) -> list[Stretch]:
-    """Divide the time that is left before the trigger into steps, the last one settled where that is asked for."""
+def timed_approach(manner: Manner, piece: int, rest_s: Fraction, knot: str, speed_mps: float = 0.0) -> list[Stretch]:
+    """Divide the time that is left before the trigger into steps, the last one settled where that is asked for.
+
+    Parameters
+    ----------
+    speed_mps
+        Of the hero now: the first step leaves it the time to come to a stand and no more.
+    """
+    stops_s = pin(speed_mps / manner.approach_brake_mpss) if manner.approach_brake_mpss else Fraction(0)
     if manner.wait is not None and rest_s > pin(manner.wait.shortest_s):
         return _waiting_approach(manner.wait, pin(manner.settle_s), piece, rest_s, knot)
     steps, settle = manner.steps, manner.settle
@@ -116,12 +125,12 @@ def timed_approach(manner: Manner, piece: int, rest_s: Fraction, knot: str) -> l
     if steps == 1 or rest_s < Fraction(1, 5):
         return [Stretch(piece, rest_s, knot, True, settle)]
     if not settle:
-        return _divided(piece, rest_s, steps, knot)
+        return _divided(piece, rest_s, steps, knot, stops_s)
     settle_s = pin(manner.settle_s)
     if rest_s <= settle_s * Fraction(11, 10):
         return [Stretch(piece, rest_s, knot, True, True)]
     hold_s = max(settle_s, rest_s * Fraction(2, 5)) if steps == 2 else settle_s
-    return [*_divided(piece, rest_s - hold_s, steps - 1, None), Stretch(piece, hold_s, knot, True, True)]
+    return [*_divided(piece, rest_s - hold_s, steps - 1, None, stops_s), Stretch(piece, hold_s, knot, True, True)]
 
 
 def _waiting_approach(wait: Wait, settle_s: Fraction, piece: int, rest_s: Fraction, knot: str) -> list[Stretch]:
@@ -182,21 +191,22 @@ def shortest_s(
     return pin(manner.seen_s)
 
 
-def trigger_speed_mps(manner: Manner, hero: Actor, piece: int, timed: bool) -> float:
+def trigger_speed_mps(manner: Manner, hero: Actor, piece: int, timed: bool, out_of_way_mps: float = 0.0) -> float:
     """Return the smallest speed (m/s) at the trigger that ends `piece`.
 
     One that is to speed up may wait at its place and set off when the moment comes, unless the program times it there
     (`timed`), as a time to arrival does: then it cannot stand.
     """
     waits = following_piece(hero, piece) is PieceKind.ACC and not manner.natural_speed and not timed
-    return 0.0 if waits else manner.trigger_speed_mps
+    return 0.0 if waits else max(manner.trigger_speed_mps, out_of_way_mps if manner.out_of_way else 0.0)
 
 
-def _divided(piece: int, rest_s: Fraction, steps: int, knot: str | None) -> list[Stretch]:
+def _divided(piece: int, rest_s: Fraction, steps: int, knot: str | None, stops_s: Fraction) -> list[Stretch]:
     """Divide evenly, but where that takes long let the first step be a quick one: who has to stop can do it at once."""
-    if steps < 3 or rest_s <= steps * _QUICK_S:
+    quick_s = min(max(stops_s, _SHORTEST_QUICK_S), _QUICK_S) if stops_s > _STANDS_S else _QUICK_S
+    if steps < 3 or rest_s <= steps * quick_s:
         return _even(piece, rest_s, steps, knot)
-    return [Stretch(piece, _QUICK_S, None, True), *_even(piece, rest_s - _QUICK_S, steps - 1, knot)]
+    return [Stretch(piece, quick_s, None, True), *_even(piece, rest_s - quick_s, steps - 1, knot)]
 
 
 def _even(piece: int, rest_s: Fraction, steps: int, knot: str | None) -> list[Stretch]:

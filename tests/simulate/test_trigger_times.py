@@ -1,0 +1,66 @@
+"""When a trigger may come: an ego that stands where it should be is there, and one in no haste is not waited for."""
+
+from __future__ import annotations
+
+import pytest
+from stories import YIELDS_DISTANCE
+
+from scenewright.motion.profile import Profile, chain
+from scenewright.program.structure import read_structure
+from scenewright.program.text import parse_program
+from scenewright.program.types import EGO
+from scenewright.roads.grounding import ground
+from scenewright.roads.load import load_map
+from scenewright.simulate.prediction import ConstantAcceleration
+from scenewright.simulate.triggers import PlannedTrigger, TriggerTimes
+from scenewright.solve.arrival import TIGHT_LENGTH_M, linear_conditions
+
+NOW_S = 5.0
+HERO_MOTION = Profile(chain(0.0, 0.0, 8.0, [(60.0, 0.0, 0)]))
+
+
+def times() -> tuple[TriggerTimes, float]:
+    """Return when the trigger of a hero that is to yield comes, and the ego's place (m) at it."""
+    scene = ground(parse_program(YIELDS_DISTANCE), load_map("t_intersection"), {})
+    structure = read_structure(scene.program)
+    conditions = linear_conditions(scene, structure)
+    found = TriggerTimes(scene, structure, conditions, ConstantAcceleration(cruise_mps=13.9))
+    side = found.ego_side(scene.program.heroes[0])
+    assert side is not None
+    return found, -side.constant / side.weights[EGO][0]
+
+
+@pytest.mark.parametrize(("planned_s", "expected_s"), [(3.0, 6.0), (6.4, 6.4), (9.0, 7.0)])
+@pytest.mark.parametrize("short", [0.0, 0.5, 0.8])
+def test_the_trigger_may_come_while_the_ego_stands_there(planned_s: float, expected_s: float, short: float) -> None:
+    found, place_m = times()
+    stand_m = place_m - short * TIGHT_LENGTH_M
+    ego = Profile(chain(NOW_S, stand_m - 1.0, 2.0, [(1.0, -2.0, 0), (1.0, 0.0, 0), (3.0, 1.0, 0)]))
+    planned = PlannedTrigger(planned_s, HERO_MOTION)
+    hero = found.scene.program.heroes[0]
+    assert found.instants_s(hero, NOW_S, ego, {}, planned) == pytest.approx([expected_s])
+
+
+def test_an_ego_that_passes_its_place_before_it_stands_is_there_when_it_passes() -> None:
+    found, place_m = times()
+    ego = Profile(chain(NOW_S, place_m - 0.8, 2.0, [(1.0, -2.0, 0), (1.0, 0.0, 0), (9.0, 1.0, 0)]))
+    (instant_s,) = found.instants_s(found.scene.program.heroes[0], NOW_S, ego, {}, PlannedTrigger(6.4, HERO_MOTION))
+    assert instant_s < 6.0
+    assert ego.state(instant_s)[0] == pytest.approx(place_m)
+
+
+@pytest.mark.parametrize("short_m", [0.6, 3.0])
+def test_an_ego_that_stands_too_far_off_is_waited_for(short_m: float) -> None:
+    found, place_m = times()
+    ego = Profile(chain(NOW_S, place_m - short_m - 1.0, 2.0, [(1.0, -2.0, 0), (1.0, 0.0, 0), (9.0, 1.0, 0)]))
+    (instant_s,) = found.instants_s(found.scene.program.heroes[0], NOW_S, ego, {}, PlannedTrigger(6.4, HERO_MOTION))
+    assert ego.state(instant_s)[0] == pytest.approx(place_m)
+
+
+@pytest.mark.parametrize(("speed_mps", "hasty"), [(1.0, True), (13.0, False)])
+def test_only_one_that_is_slow_may_come_notably_sooner(speed_mps: float, hasty: bool) -> None:
+    found, place_m = times()
+    ego = Profile(chain(NOW_S, place_m - 4.0 * speed_mps, speed_mps, [(20.0, 0.0, 0)]))
+    earliest = found.earliest_s(found.scene.program.heroes[0], NOW_S, ego, NOW_S + 4.0)
+    assert bool(earliest) is hasty
+    assert all(NOW_S <= begin_s <= arrival_s <= NOW_S + 4.0 for begin_s, arrival_s in earliest)
