@@ -95,11 +95,12 @@ class ConditionAssembler:
         if self.routes.share_approach():
             rear = HERO_ID if any(each.kind == "ego_leads" for each in self.facts.relations) else EGO_ID
             return Compare("==", Derived("ttc", rear, 1 - rear, Knot(knot)), condition.ttc.term)
+        whose = ACTOR_NAMES[condition.actor]
         self.assumptions.append(
-            "the time to collision of vehicles that meet is the ego's time to arrival at the conflict point"
+            f"the time to collision of vehicles that meet is the {whose}'s time to arrival at the conflict point"
         )
         aim = Landmark("conflict_point", span=condition.event.span)
-        return Compare("==", Derived("tta", EGO_ID, aim, Knot(knot)), condition.ttc.term)
+        return Compare("==", Derived("tta", condition.actor, aim, Knot(knot)), condition.ttc.term)
 
     def _at(self, place: Place, actor: int, knot: str) -> Formula:
         assert isinstance(place.target, str)

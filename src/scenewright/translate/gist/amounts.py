@@ -111,8 +111,7 @@ class AmountReader:
             self._who_follows(made)
             return
         if measure == "ttc":
-            made.kind = "ttc"
-            self._to_place(made)
+            self._collision_time(made)
             return
         if self._lies(made) or self._to_place(made) or self._to_vehicle(made) or self._around(made, measure):
             return
@@ -123,6 +122,16 @@ class AmountReader:
         told_for(self.words, made, made.at + 1)
 
     # -- up to a place ------------------------------------------------------------------------------------------------
+    def _collision_time(self, made: Measured) -> None:
+        """Read a time to collision: between the two, or of one "at the conflict point", which is a time to arrival."""
+        place = None if self._to_place(made) else self._place_in(made)
+        if place is not None:
+            made.kind, made.landmark = "place", place
+            made.actor = owner_of(self.words, made.at, made.clause)
+            told_for(self.words, made, made.at + 1)
+        elif made.kind != "place":
+            made.kind = "ttc"
+
     def _check_two(self, made: Measured) -> None:
         """Refuse a time between a vehicle and itself."""
         named = [self.words.names.actors[i] for i in made.clause.inside if i in self.words.names.actors]

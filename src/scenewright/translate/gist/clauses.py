@@ -220,7 +220,7 @@ def _is_aside(words: Words, clause: Clause) -> bool:
         at += 1
     if "unknown" not in words.tags(at) or words.word(at) in NEGATIVES or at in names.actors or at in names.pronouns:
         return False
-    while at < clause.end and "unknown" in words.tags(at):
+    while at < clause.end and "unknown" in words.tags(at) and at not in names.actors:
         at += 1
     if at >= clause.end or at in names.actors:
         return False

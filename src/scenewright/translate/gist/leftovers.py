@@ -20,11 +20,12 @@ _DANGERS = frozenset(
      "limited", "cap", "capped", "predicts", "predicted", "says", "said", "twice", "thrice", "repeatedly", "supposedly", "allegedly", "hypothetically"]
 )  # fmt: skip
 _EDGE_OF_TURN = re.compile(r"\b(?:start|beginning|end) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b", re.IGNORECASE)
-_COUNTED = re.compile(r"(?:[A-Za-z]-|#|\[|\b(?:run|test|no\.?|case|phase|step|item|day|version|v)\s?)$", re.IGNORECASE)
+_COUNTED = re.compile(r"(?:[A-Za-z]-|#|\[|\b(?:run|test|number|no\.?|case|phase|step|item|day|version|v)\s?)$", re.IGNORECASE)
 _UNREAL = re.compile(
     r"(?:^|[.;!?]\s+|,\s+)(?:had|were) (?:the|it|a|an)\b|\bif \w+(?: \w+)? (?:were|had)\b|\bwould(?: not|n't)? have\b",
     re.IGNORECASE,
 )
+_ALL_BUT = re.compile(r"\b(?:any|every|no)thing (?:but|except|other than)\b|\ball but\b", re.IGNORECASE)
 _DEEDS = frozenset(
     ["brake", "stop", "accelerate", "pass", "complete", "yield", "not_yield", "turn", "pull_out", "wait", "reach",
      "enter"]
@@ -36,6 +37,7 @@ def refuse_dangers(words: Words) -> None:
     for pattern, message in (
         (_EDGE_OF_TURN, "a place within a turn is not read here"),
         (_UNREAL, "what did not happen is not read here"),
+        (_ALL_BUT, "what does not happen is no scenario"),
     ):
         if found := pattern.search(words.text):
             raise words.refuse(message, Span(*found.span()))
@@ -143,8 +145,9 @@ def _tells_moment(words: Words, clause: Clause) -> bool:
     """Whether a "when" has an amount, or only tells when something begins that is known."""
     later = [each for each in words.sentence(clause) if each.start >= clause.start][:3]
     told = any(words.has(each.inside, "quantity") for each in later)
-    begins = clause.subject == HERO_ID and bool(words.verbs(clause.inside) & _DEEDS)
-    return told or begins or "start" in clause.labels
+    begins = words.verbs(clause.inside) & {"brake", "stop", "accelerate"} and clause.subject == HERO_ID
+    begins = begins and len({words.names.actors[at] for at in clause.inside if at in words.names.actors}) < 2
+    return told or bool(begins) or "start" in clause.labels
 
 
 def _is_strange_condition(words: Words, at: int, clause: Clause) -> bool:

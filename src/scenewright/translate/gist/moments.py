@@ -77,6 +77,8 @@ class MomentReader:
             if clause.link == "when" or "trigger" in clause.labels:
                 raise self.words.refuse("this is told of the start and of the trigger", made.span)
             return "start"
+        if made.kind == "speed" and self._is_asked(clause) and self._is_condition(made):
+            return "trigger"
         if made.kind == "speed":
             told = self._is_asked(clause) or self._deed_beside(clause)
             if told and not made.target and not self._after_trigger(clause):
@@ -141,6 +143,14 @@ class MomentReader:
         verbless = not words.has(range(clause.start, made.at), "verb", "be")
         earlier = any(each.clause is before and self.moments.get(each.at) == "start" for each in self.measured)
         return alone or (earlier and verbless and clause.named and clause.link in ("and", "main"))
+
+    def _is_condition(self, made: Measured) -> bool:
+        """Whether a speed is part of a condition: "when the ego is 12 m from it and the hero's speed is 10 m/s"."""
+        clause = made.clause
+        measured = self.words.where(clause.inside, "measure", "speed") is not None
+        acted = any(d.actor == HERO_ID and d.clause.sentence == clause.sentence and d.at < made.at for d in self.deeds)
+        first = next(each for each in self.words.sentence(clause) if each.link == "when" or each is clause)
+        return measured and not acted and not made.target and first.start <= clause.start
 
     def _is_asked(self, clause: Clause) -> bool:
         """Whether the sentence tells a condition: "when", "trigger"."""

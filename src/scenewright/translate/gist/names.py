@@ -173,6 +173,8 @@ def _is_hero(tokens: list[Token], at: int) -> bool:
     """Whether a word names the hero: "the POV", "other" alone, "oncoming" in "oncoming 40 m before it"."""
     tags = tokens[at].tags
     following = tokens[at + 1] if at + 1 < len(tokens) else None
+    if "hero" in tags and at and tokens[at - 1].text.lower() == "each":
+        return False  # "each other"
     if "hero" in tags:
         describes = following is not None and bool(following.tags.keys() & {"noun", "actor_adjective", "hero"})
         return not ("actor_adjective" in tags and describes)
