@@ -99,7 +99,7 @@ def _print_misses(readings: Sequence[Reading]) -> None:
 
     for reading in readings:
         if reading.outcome not in GOOD:
-            stdout().print(f"\n[bold]{reading.text.id}[/bold] {reading.outcome}", highlight=False)
+            stdout().print(f"\n{reading.text.id}: {reading.outcome}", style="bold", markup=False, highlight=False)
             stdout().print(reading.text.text, soft_wrap=True, markup=False, highlight=False)
             for note in reading.notes:
                 stdout().print(f"  {note}", soft_wrap=True, markup=False, highlight=False)

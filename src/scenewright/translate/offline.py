@@ -117,10 +117,19 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     except TranslationError as error:
         try:
             return _by_facts(text, chosen_map, name)
-        except TranslationError:
-            raise error from None
+        except TranslationError as second:
+            raise _joined(error, second) from None
     _check_second_reading(read.program, text, chosen_map, name)
     return read
+
+
+def _joined(first: TranslationError, second: TranslationError) -> TranslationError:
+    """Return the first refusal; where words are not known, with what is amiss even if they are stepped over."""
+    if "not understood" not in first.message or "word" not in first.message or second.message == first.message:
+        return first
+    where = f" ('{second.found}')" if second.found else ""
+    fix = f"{first.fix}. Even without them: {second.message}{where}"
+    return TranslationError(first.message, place=first.place, found=first.found, expected=first.expected, fix=fix)
 
 
 def _by_grammar(text: str, road_map: RoadMap, name: str) -> Translation:

@@ -231,6 +231,12 @@ def _words(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
     fresh = not tokens or bool(tokens[-1].tags.keys() & {"end", "colon"})
     if tags.get("comment") == "sentence" and len(tags) == 1 and not fresh:  # "the car on the road is westbound"
         length, tags, forms = tagger.lexicon.lookup(words[: length - 1], 0)
+    if (
+        length > 1
+        and "ego" not in tags
+        and "ego" in tagger.lexicon.entries.get(tuple(words[length - 1 : length + 1]), {})
+    ):
+        length, tags, forms = tagger.lexicon.lookup(words[: length - 1], 0)  # "in the test car" is "in", "the test car"
     if length < 2 and (after := _number_in_words(tagger, index, words, ends, tokens)):
         return after
     if not length:

@@ -93,8 +93,9 @@ class _Cutter:
             return _LABELS.get(said, said)
         if self.words.where(stretch, "adverb", "initially") is not None:
             return "start"
-        names = all(self.words.has([i], "ego", "hero", "noun", "actor_adjective") for i in stretch)
-        return "who" if names and self.words.has(stretch, "ego", "hero", "noun") else None
+        actors = self.words.names.actors
+        names = all(i in actors or self.words.has([i], "actor_adjective") for i in stretch)
+        return "who" if names and any(i in actors for i in stretch) else None
 
     def _begins_clause(self, at: int) -> bool:
         """Whether "and" is followed by a name or a verb, and not by "40 m" or "straight"."""

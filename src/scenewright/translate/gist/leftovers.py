@@ -17,10 +17,13 @@ from scenewright.translate.gist.words import Clause, Words
 # Limits that hold for a while, and what did not or will not happen: no reader of facts can tell what follows.
 _DANGERS = frozenset(
     ["exceed", "exceeds", "exceeded", "exceeding", "higher", "lower", "maximum", "minimum", "max", "min", "limit",
-     "limited", "cap", "capped", "predicts", "predicted", "says", "said", "twice", "thrice", "repeatedly", "supposedly", "allegedly", "hypothetically"]
+     "limited", "cap", "capped", "predicts", "predicted", "says", "said", "twice", "thrice", "repeatedly",
+     "supposedly", "allegedly", "hypothetically"]
 )  # fmt: skip
 _EDGE_OF_TURN = re.compile(r"\b(?:start|beginning|end) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b", re.IGNORECASE)
-_COUNTED = re.compile(r"(?:[A-Za-z]-|#|\[|\b(?:run|test|number|no\.?|case|phase|step|item|day|version|v)\s?)$", re.IGNORECASE)
+_COUNTED = re.compile(
+    r"(?:[A-Za-z]-|#|\[|\b(?:run|test|number|no\.?|case|phase|step|item|day|version|v)\s?)$", re.IGNORECASE
+)
 _UNREAL = re.compile(
     r"(?:^|[.;!?]\s+|,\s+)(?:had|were) (?:the|it|a|an)\b|\bif \w+(?: \w+)? (?:were|had)\b|\bwould(?: not|n't)? have\b",
     re.IGNORECASE,

@@ -157,6 +157,9 @@ class StoryTeller:
         kinds = {deed.kind for deed in told}
         slows = [deed for deed in told if deed.kind in _SLOWS]
         goes = [deed for deed in told if deed.kind in _GOES]
+        waits = next((deed for deed in told if deed.kind == "wait"), None)
+        if waits is not None and not slows:
+            raise self.words.refuse("it is not said how the hero comes to stand here", waits.span, "brakes to a stop")
         if not (slows or goes or "not_yield" in kinds):
             raise self.words.refuse("it is not said what the hero does", None, "brakes, stops, accelerates, passes")
         if slows and goes and goes[0].at < slows[0].at:
@@ -318,6 +321,7 @@ class StoryTeller:
     # -- helpers ------------------------------------------------------------------------------------------------------
     def _event(self, deed: Deed) -> Event:
         event = Event(deed.kind, HERO_ID, self.words.span(deed.clause), deed.clause.sentence)
+        self.facts.understood[id(event)] = ["what the hero does"]
         self.events.append(event)
         return event
 
