@@ -1,8 +1,10 @@
-"""The offline translator: a description in the paper's kind of English becomes a program, clause by clause.
+"""The offline translator: a description in English becomes a program, without network or model.
 
 What enters: a description and, optionally, the map it is about. What leaves: a `Translation`: the program, how every
-clause was read, and what had to be assumed. What it does not understand it refuses, naming the words; it never drops a
-clause and uses no network and no model.
+clause was read, and what had to be assumed. Two readers with rules of their own read it: one goes through the grammar
+of its clauses and has to understand every word, the other looks for its facts and has to account for every name,
+amount, way and deed. The first is believed, unless the second reads something else: then the text is refused. Where
+only the second can read it, what was set aside stands among the assumptions.
 """
 
 from __future__ import annotations
@@ -102,7 +104,8 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     Raises
     ------
     TranslationError
-        Where the text, or any word of it, was not understood, contradicts itself, or leaves a choice open.
+        Where neither reader understands the text, where they understand different things, and where it contradicts
+        itself or leaves a choice open.
 
     Examples
     --------

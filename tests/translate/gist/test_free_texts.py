@@ -9,6 +9,7 @@ import pytest
 from scenewright.errors import TranslationError
 from scenewright.program.printer import print_expression
 from scenewright.program.types import Program
+from scenewright.translate import offline
 from scenewright.translate.confidence import Basis
 from scenewright.translate.itineraries import default_map
 from scenewright.translate.offline import Translation, translate_offline
@@ -16,10 +17,10 @@ from scenewright.translate.offline import Translation, translate_offline
 POLITE = (
     "My uncle drives a lorry, and he is a patient man. He is on the main road now, heading west, with no turn to make. "
     "Out of the driveway comes the ego, which is to turn left and go off eastward; as the scene opens it is 5.8 "
-    "seconds from the stop line. When the ego is 1.9 seconds from the stop line, and my uncle's lorry 4.2 seconds from the "
-    "conflict point, he starts to brake, and he brings the lorry to a complete stop twelve metres before the conflict "
-    "point. He stands there until the ego has completed its turn. Only after that does he accelerate and drive on "
-    "through the conflict point."
+    "seconds from the stop line. When the ego is 1.9 seconds from the stop line, and my uncle's lorry 4.2 seconds from "
+    "the conflict point, he starts to brake, and he brings the lorry to a complete stop twelve metres before the "
+    "conflict point. He stands there until the ego has completed its turn. Only after that does he accelerate and "
+    "drive on through the conflict point."
 )
 TABLE = (
     "| AV: westbound -> right into driveway | Hero: eastbound -> left into driveway |\n"
@@ -167,3 +168,23 @@ def test_a_list_with_headings_and_a_vehicle_of_an_unknown_kind() -> None:
     assert {"A0x(t0) == intersection - 70", "A1x(t1) == stop_line - 13", "A1x(t2) == stop_line - 1"} <= set(
         formulas(program)
     )
+
+
+AGREED = (
+    "Ego is on the driveway exit and wants to turn right, 20 m behind the stop line. The hero travels westbound. "
+    "When the ego is 12 m behind the stop line and the hero 30 m before the conflict point, the hero brakes to a stop "
+    "5 m before the conflict point."
+)
+
+
+@pytest.mark.parametrize(
+    ("said", "otherwise"),
+    [("20 m", "21 m"), ("12 m", "21 m"), ("5 m", "6 m"), ("westbound", "eastbound"), ("turn right", "turn left")],
+)
+def test_two_readings_that_differ_are_no_reading(monkeypatch: pytest.MonkeyPatch, said: str, otherwise: str) -> None:
+    """The reader of clauses is made to hear another word; the reader of facts hears what is written."""
+    mishear = offline._by_grammar
+    monkeypatch.setattr(offline, "_by_grammar", lambda text, *rest: mishear(text.replace(said, otherwise), *rest))
+    with pytest.raises(TranslationError, match="two ways"):
+        read(AGREED)
+    assert read(AGREED.replace(said, otherwise)).program.actors
