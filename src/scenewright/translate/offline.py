@@ -354,8 +354,9 @@ def _reading(
 ) -> Reading:
     ids = tuple(dict.fromkeys(assembler.ids.get(id(event), ())))
     roles = read_structure(program).roles
-    parts = list(dict.fromkeys(_ROLES[roles[identifier]] for identifier in ids))
-    parts += facts.understood.get(id(event), ())
+    parts = list(
+        dict.fromkeys([*(_ROLES[roles[identifier]] for identifier in ids), *facts.understood.get(id(event), ())])
+    )
     tells_route = any(said.event is event for wishes in facts.wishes.values() for said in wishes.values())
     if (tells_route or not parts) and event.actor is not None:
         parts.append(f"the {ACTOR_NAMES[event.actor]}'s route: {routes.of(event.actor)}")

@@ -119,9 +119,20 @@ def cut(words: Words) -> list[Clause]:
     """Return the clauses of a text, without their subjects."""
     joined = _joined(words, _Cutter(words).run())
     parts = [part for clause in joined for part in _parted(words, clause)]
+    _turn_until_to_when(words, parts)
     for part in parts:
         part.aside = _is_aside(words, part)
     return parts
+
+
+def _turn_until_to_when(words: Words, clauses: list[Clause]) -> None:
+    """Read "drives on until the ego is 12 m short of it; at that moment it brakes": the moment, told before."""
+    for number, clause in enumerate(clauses):
+        following = clauses[number + 1 : number + 6]
+        then = next((each for each in following if each.link == "moment"), None)
+        told = clause.link == "until" and words.has(clause.inside, "quantity")
+        if told and then is not None and then.sentence - clause.sentence <= 1:
+            clause.link = "when"
 
 
 def _link(words: Words, at: int) -> str | None:

@@ -40,6 +40,9 @@ _MOVES = {
 _BESIDE = frozenset(("determiner",))
 _TURNS = ("turn", "pull_out")
 _WAITS = frozenset(("yield", "wait", "stop", "brake", "let"))
+_WISHES = ("wanting", "ready", "intent_noun")
+# "Has to brake" tells what is done.
+_OBLIGES = ("has to", "have to", "needs to", "need to", "had to")
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +98,7 @@ class DeedReader:
             if "negation" in tags or self.words.word(at) in NEGATIVES:
                 negation = at
                 continue
-            wanted |= tags.get("verb") in ("want", "need") or self.words.has([at], "wanting", "ready", "intent_noun")
+            wanted |= self._is_wish(at)
             self._without_verb(at, clause, negation)
             if tags.get("verb") == "fail":
                 if negation is not None:
@@ -118,6 +121,12 @@ class DeedReader:
                 self._add(_DEEDS[verb], at, clause)
             elif verb in _MOVES and not wanted and not self._only_describes(verb, at, clause):
                 self._add(_MOVES[verb], at, clause)
+
+    def _is_wish(self, at: int) -> bool:
+        """Whether this is "wants", "is ready to"; "has to" and "is asked to" tell what is done."""
+        tags = self.words.tags(at)
+        asked = "demanded" in tags or self.words.word(at) in _OBLIGES
+        return not asked and (tags.get("verb") in ("want", "need") or self.words.has([at], *_WISHES))
 
     def _without_verb(self, at: int, clause: Clause, negation: int | None) -> None:
         """Read "to a full stop", "speed zero", "over the conflict point", "through it"."""

@@ -85,6 +85,10 @@ class MomentReader:
                 raise self.words.refuse(UNCLEAR, made.span)
             return "deed" if made.target or self._after_trigger(clause) else "start"
         asked = "trigger" in clause.labels or self._is_asked(clause)
+        if self._goes_until(clause):
+            if self.words.word(made.at - 1) == "from":
+                return "start"  # "drives on from 27 m before it until ..."
+            raise self.words.refuse(UNCLEAR, made.span)
         past = any(self.words.word(at) in _PAST for at in range(clause.start, made.at))
         if asked and clause.link == "that" and past:
             raise self.words.refuse(UNCLEAR, made.span)
@@ -157,6 +161,11 @@ class MomentReader:
         sentence = self.words.sentence(clause)
         labels = any(self.words.where(each.inside, "label", "when") is not None for each in sentence)
         return labels or any(each.link == "when" for each in sentence)
+
+    def _goes_until(self, clause: Clause) -> bool:
+        """Whether the moment is told after this clause as the end of it: "drives on until the gap is 16 m"."""
+        later = [each for each in self.words.sentence(clause) if each.start > clause.start and each.link == "when"]
+        return clause.link != "when" and bool(later) and self.words.word(later[0].start - 1) == "until"
 
     def _check_one_moment(self, made: Measured) -> None:
         clause = made.clause

@@ -28,6 +28,8 @@ def is_object(words: Words, at: int) -> bool:
     if "genitive" in following and words.where((at + 1, at + 2), "area", "lane") is not None:
         return True  # "crosses the ego's lane"
     back = _before_name(words, at)
+    if _is_owner(words, back, at):
+        return False
     if 0 < back < at and "ing" in words.tokens[back].forms and "determiner" in words.tags(back - 1):
         return False  # "the entering car"
     if back < 0:
@@ -46,6 +48,14 @@ def is_object(words: Words, at: int) -> bool:
     if verb == "let":  # "lets the ego pass", but not the imperative "let the ego drive"
         return bool(words.tokens[back].forms & {"s", "ing"}) or words.word(back - 1) in ("to", "and")
     return verb in _TAKES_OBJECT
+
+
+def _is_owner(words: Words, of: int, at: int) -> bool:
+    """Whether a name is the owner of what a clause begins with: "The route of the van is", "The driver of the bus"."""
+    if words.word(of) != "of" or not words.has([at + 1], "be", "verb", "auxiliary"):
+        return False
+    first = of - 2 if "determiner" in words.tags(of - 2) else of - 1
+    return first == 0 or words.has([first - 1], "end", "comma", "link")
 
 
 def _before_name(words: Words, at: int) -> int:
