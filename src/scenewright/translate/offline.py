@@ -9,6 +9,7 @@ only the second can read it, what was set aside stands among the assumptions.
 
 from __future__ import annotations
 
+import itertools
 import re
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -46,6 +47,13 @@ _ROLES = {
     Role.INTERACTION: "what the hero does",
     Role.OUTCOME: "how it ends",
 }
+
+_AT_ONCE = re.compile(
+    r"\b(?:at|in) the (?:very )?same (?:moment|time|instant|second)|\bsimultaneously\b|\bconcurrently\b", re.IGNORECASE
+)
+
+# A heading with keys under it, further in: whose heading that is, the grammar of clauses does not know.
+_NESTED = re.compile(r"^([ \t]*)\S[^\n:]*:[ \t]*\n(?:\1[ \t]+[^\n:]+:[^\n]+\n?){2,}", re.MULTILINE)
 
 if TYPE_CHECKING:
     from scenewright.roads import RoadMap
@@ -115,6 +123,8 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     [('S', 'W'), ('W',)]
     """
     chosen_map = road_map if road_map is not None else default_map()
+    if _NESTED.search(text):
+        return _by_facts(text, chosen_map, name)
     try:
         read = _by_grammar(text, chosen_map, name)
     except TranslationError as error:
@@ -306,6 +316,7 @@ def _complete(facts: Facts, text: str, name: str) -> None:
         )
     slowing = [phase for phase in facts.phases if phase.kind == "dec"]
     goes_on = len(facts.phases) > 1 and slowing and slowing[0].to_speed is not None and not slowing[0].to_stop
+    _refuse_at_once(facts, text, name)
     if facts.not_yielding is not None and slowing and not (goes_on and facts.not_yielding.verb == "stop"):
         event = facts.not_yielding
         raise TranslationError(
@@ -315,6 +326,20 @@ def _complete(facts: Facts, text: str, name: str) -> None:
             expected=slowing[0].events[0].span.excerpt(text),
             fix="say one of them",
         )
+
+
+def _refuse_at_once(facts: Facts, text: str, name: str) -> None:
+    """Refuse "brakes and at the same moment accelerates"."""
+    for first, second in itertools.pairwise(facts.phases):
+        span = first.events[0].span.union(second.events[-1].span)
+        if {first.kind, second.kind} >= {"dec", "acc"} and (found := _AT_ONCE.search(span.excerpt(text))):
+            raise TranslationError(
+                "the hero is said to slow down and to speed up at one time",
+                place=Place(name, text, span),
+                found=found.group(),
+                expected="one after the other",
+                fix="say which comes first",
+            )
 
 
 def _deeds_done(facts: Facts, phrases: Phrases, text: str, name: str) -> None:

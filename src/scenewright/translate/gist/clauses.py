@@ -12,6 +12,7 @@ from scenewright.translate.gist.words import Clause, Words
 
 NEGATIVES = frozenset(("neither", "nor", "none", "no", "cannot", "nobody", "shall not", "must not", "should not"))
 BOUNDS = ("before", "after", "until")
+_DURING = ("while", "whilst", "when", "as", "with")
 _LINKS = ("when", "then", "moment", "that", *BOUNDS)
 _LABELS = {"when": "trigger", "main": "deed"}
 _BEFORE_NAMES = frozenset(("determiner", "actor_adjective", "unknown", "adverb", "link"))
@@ -40,7 +41,7 @@ class _Cutter:
                 self._colon(at)
             elif (link := _link(self.words, at)) is not None:
                 self._close(at, link)
-            elif token.tags.get("link") == "and" and self._parts(at):
+            elif token.tags.get("link") == "and" and token.text.lower() != "yet" and self._parts(at):
                 self._close(at, "and")
         self._close(len(self.words.tokens))
         return self.clauses
@@ -86,7 +87,7 @@ class _Cutter:
     def _label(self, at: int) -> str | None:
         """Return what a short stretch before a colon announces."""
         stretch = [i for i in range(self.start, at) if "determiner" not in self.words.tags(i)]
-        if not stretch or len(stretch) > 3:
+        if not stretch or len(stretch) > 3 or self.words.has(stretch, "quantity"):
             return None
         if (told := self.words.where(stretch, "label")) is not None:
             said = self.words.tags(told)["label"]
@@ -138,6 +139,10 @@ def _turn_until_to_when(words: Words, clauses: list[Clause]) -> None:
 def _link(words: Words, at: int) -> str | None:
     """Return what a linking word links, or None where it is none, or is a preposition here."""
     link, word, following = words.tag(at, "link"), words.word(at), words.tags(at + 1)
+    if word == "yet":
+        return None
+    if word in _DURING and _is_still_to_come(words, at):
+        return "before"
     if word == "as" and (not at or words.has([at - 1], "end", "comma")) and _names_someone(words, at + 1):
         return "when"
     if word == "whose":
@@ -161,6 +166,17 @@ def _link(words: Words, at: int) -> str | None:
         points = "determiner" in words.tags(at) and words.has([at + 1], "mark_noun", "noun", *_PLACES)
         return None if measures or points else link
     return None if link == "when" and "label" in words.tags(at) and "colon" in following else link
+
+
+def _is_still_to_come(words: Words, at: int) -> bool:
+    """Whether what follows has not happened: "while the ego has yet to begin its turn"."""
+    for ahead in range(at + 1, len(words.tokens)):
+        if words.has([ahead], "end", "comma", "quantity"):
+            return False
+        if words.word(ahead) == "yet" or words.word(ahead).endswith(" yet"):
+            words.used |= set(range(at, ahead + 1))
+            return True
+    return False
 
 
 def _names_someone(words: Words, at: int) -> bool:

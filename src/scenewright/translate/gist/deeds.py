@@ -95,6 +95,8 @@ class DeedReader:
         wanted = False
         for at in clause.inside:
             tags = self.words.tags(at)
+            if tags.get("verb") == "pretend" and self.words.word(at + 1) == "to":
+                return  # "seems to wait" is no wait
             if "negation" in tags or self.words.word(at) in NEGATIVES:
                 negation = at
                 continue
@@ -133,7 +135,7 @@ class DeedReader:
         tags = self.words.tags(at)
         if "stop_noun" in tags and "verb" not in tags and negation is None:
             self._add("stop", at, clause)
-        over = self.words.word(at) == "over" or tags.get("relation") == "past"
+        over = self.words.word(at) in ("over", "across") or tags.get("relation") == "past"
         across = over and "quantity" not in self.words.tags(at - 1)
         if (across or "through" in tags) and "verb" not in tags and clause.subject == HERO_ID:
             mark = self.words.where(range(at + 1, clause.end), "landmark", "conflict_point")
@@ -322,7 +324,12 @@ class DeedReader:
             "drive",
             "cut_in_front",
         }
-        if verbs - known or self.words.has(clause.inside, "negation", "stop_noun"):
+        yet = any("yet" in self.words.word(at).split() for at in clause.inside)
+        if (
+            verbs - known
+            or (self.words.has(clause.inside, "negation") and not yet)
+            or (self.words.has(clause.inside, "stop_noun"))
+        ):
             raise self.words.refuse("this is no moment of the ego that can be compared", self.words.span(clause))
         first = clause.link == "before" or self.words.word(clause.start - 1) in ("by the time", "after which")
         kind = "before" if first else "let_reach" if clause.link == "let" else "after"
@@ -347,5 +354,6 @@ class DeedReader:
         if turns and not self._names_turn(clause, verbs):
             raise self.words.refuse("it is not said what the ego begins", self.words.span(clause))
         if turns:
-            return "turn_end" if self._is_perfect(clause) and "begin" not in verbs else "turn_start"
+            yet = any("yet" in self.words.word(at).split() for at in clause.inside)
+            return "turn_end" if self._is_perfect(clause) and "begin" not in verbs and not yet else "turn_start"
         return "conflict_point" if self.words.has(clause.inside, "back_reference", "mark_noun") else "same"

@@ -19,6 +19,10 @@ _KEY = re.compile(
     r"^[ \t]*[A-Za-z]+(?:_[A-Za-z0-9]+)+(?=[ \t]*:)|(?<=:)[ \t]*[A-Za-z]+(?:_[A-Za-z0-9]+)+[ \t]*$", re.MULTILINE
 )
 _WRAPPED_AT = 70
+_BOLD = re.compile(r"\*\*|__(?=\S)|(?<=\S)__")
+# "Trigger - ego 3 s from it" at the beginning of a line
+_DASHED = re.compile(r"^([ \t]*(?:[-*] )?[A-Za-z][\w ()]{0,30}?) ([-\u2013\u2014])(?= )", re.MULTILINE)
+_PLUS = re.compile(r"(?<= )[+&](?= )")
 
 
 def laid_out(text: str, name: str) -> list[Token]:
@@ -29,7 +33,11 @@ def laid_out(text: str, name: str) -> list[Token]:
 
 
 def _plain(text: str) -> str:
-    """Return the text with keys such as "ego_route" as words; every character keeps its place."""
+    """Return the text with keys such as "ego_route" as words, without marks; every character keeps its place."""
+    text = _BOLD.sub("  ", text)
+    if "\n" in text.strip():
+        text = _DASHED.sub(r"\1 :", text)
+    text = _PLUS.sub(",", text)
     spaced = _KEY.sub(
         lambda found: found.group() if unit_of_name(found.group().strip()) else found.group().replace("_", " "), text
     )

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 from scenewright.errors import Span
-from scenewright.translate.events import HERO_ID
+from scenewright.translate.events import EGO_ID, HERO_ID
 from scenewright.translate.gist.clauses import BOUNDS, NEGATIVES
 from scenewright.translate.gist.deeds import Deed
 from scenewright.translate.gist.words import Clause, Words
@@ -69,6 +69,8 @@ def refuse_strangers(words: Words) -> None:
 
 def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> None:
     """Refuse a text in which a word that tells a fact had no part."""
+    _refuse_meanwhile(words, deeds, trigger_sentence)
+    _refuse_unmeasured(words, trigger_sentence)
     for at, token in enumerate(words.tokens):
         if at in words.used:
             continue
@@ -90,6 +92,31 @@ def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> 
             lost = _is_strange_condition(words, at, clause)
         if lost:
             raise words.refuse(f"'{token.text}' has no part in what was understood", token.span)
+
+
+def _refuse_meanwhile(words: Words, deeds: list[Deed], trigger_sentence: int) -> None:
+    """Refuse "passes the conflict point while the ego is turning": neither before nor after it."""
+    for clause in (each for each in words.clauses if each.sentence >= trigger_sentence):
+        turns = words.verbs(clause.inside) & {"turn", "pull_out", "pass", "complete"}
+        during = words.word(clause.start - 1) in ("while", "whilst") and clause.subject == EGO_ID
+        acted = any(each.actor == HERO_ID and each.clause.sentence == clause.sentence for each in deeds)
+        if during and turns and acted and not words.has(clause.inside, "quantity"):
+            raise words.refuse("what happens meanwhile cannot be compared", words.span(clause), "before or after it")
+
+
+def _refuse_unmeasured(words: Words, trigger_sentence: int) -> None:
+    """Refuse "when the ego is level with the mailbox and the van 15 m from it": half of the moment is not known."""
+    for number, clause in enumerate(words.clauses):
+        asked = clause.link == "when" and clause.sentence == trigger_sentence and clause.named
+        if not asked or not words.has(clause.inside, "be"):
+            continue
+        following = [each for each in words.clauses[number + 1 : number + 3] if each.sentence == clause.sentence]
+        rest = [each for each in following[:1] if not each.named and each.link == "and"]
+        told = [at for each in (clause, *rest) for at in each.inside]
+        measured = words.has(told, "quantity", "landmark", "back_reference", "area", "measure")
+        strange = any("unknown" in words.tags(at) and at not in words.names.actors for at in told)
+        if strange and not measured:
+            raise words.refuse("it is not known where this is", words.span(clause), "a landmark of the map")
 
 
 def refuse_third_parties(words: Words, deeds: list[Deed], trigger_sentence: int) -> None:

@@ -107,6 +107,12 @@ class MomentReader:
         own = [deed for deed in self.deeds if deed.clause is clause and deed.actor == HERO_ID]
         if any(deed.kind in ("stop", "wait") for deed in own):
             return True
+        if clause.link == "that" and "reach" in self.words.verbs(
+            clause.inside
+        ):  # "to a stop, which it reaches 9 m before"
+            earlier = [deed for deed in self.deeds if deed.at < clause.start and deed.actor == HERO_ID]
+            if earlier and earlier[-1].kind == "stop" and earlier[-1].clause.sentence == clause.sentence:
+                return True
         brakes = [deed for deed in own if deed.kind == "brake"]
         if brakes and not self.begins(brakes[0]):
             message = "it is not clear whether the hero begins to brake there or comes to rest there"

@@ -97,6 +97,8 @@ def check_told(gist: Gist, routes: Itineraries, text: str, name: str) -> None:
             raise words.refuse("neither vehicle does this", span)
     if gist.meets and find_conflict(routes.ego, routes.hero) is None:
         raise words.refuse("it is said that the ways of the two vehicles meet, but they do not", gist.meets[0])
+    if find_conflict(routes.ego, routes.hero) is None and (near := _near_conflict(gist.facts)) is not None:
+        raise words.refuse("the ways of the two vehicles have no conflict point", near)
     for phase in gist.facts.phases:
         if phase.place is not None and phase.place.target == "stop_line" and routes.hero.origin_kind != "driveway":
             raise words.refuse("the hero comes to no stop line", phase.place.span)
@@ -108,6 +110,12 @@ def check_told(gist: Gist, routes: Itineraries, text: str, name: str) -> None:
             raise words.refuse("this vehicle comes to no stop line", place.span)
         if isinstance(place.target, int) and not routes.share_approach():
             raise words.refuse("the two vehicles do not follow each other", place.span)
+
+
+def _near_conflict(facts: Facts) -> Span | None:
+    """Return where a conflict point is spoken of."""
+    places = [each.place for each in (*facts.initial, *facts.trigger, *facts.phases)]
+    return next((each.span for each in places if each is not None and each.target == "conflict_point"), None)
 
 
 def _read(words: Words, title: tuple[Token, ...], road_map: RoadMap) -> Gist:

@@ -98,7 +98,7 @@ def give_subjects(words: Words) -> None:
 
 def _name_subject(words: Words, clause: Clause) -> None:
     """Take who is named in a clause: as its subject, "by the ego", or "for the ego" where nothing else is said."""
-    if clause.subject is not None:
+    if clause.subject is not None and clause.link not in ("before", "after", "until"):
         return  # told by a label: "Truck: westbound"
     names = [at for at in clause.inside if at in words.names.actors]
     found = next((at for at in names if not is_object(words, at)), None)

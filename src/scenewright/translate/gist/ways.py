@@ -123,8 +123,11 @@ class WayReader:
             if "genitive" in before and at - 2 in self.words.names.actors:
                 self._relate(f"from_{value}", clause.subject, at)  # "from the ego's left"
                 return
-            closes = after.keys() & {"end", "comma", "link"}
-            if at - 1 in self.words.names.actors and closes:  # "the ego turns right, the car left"
+            verbless = not self.words.has(clause.inside, "verb", "be") and after.get("preposition") in ("out", "into")
+            closes = verbless or after.keys() & {"end", "comma", "link"}
+            if (
+                at - 1 in self.words.names.actors and closes
+            ):  # "the ego turns right, the car left", "ego left out of it"
                 self._say("turn", value, at, self.words.names.actors[at - 1], clause)
                 return
             if not self._is_turn(at):
@@ -217,8 +220,10 @@ class WayReader:
         tags, word = self.words.tags(back), self.words.word(back)
         verb, preposition = tags.get("verb"), tags.get("preposition")
         before = self.words.verbs(range(max(clause.start, back - 2), back))
-        turned = (
-            self.words.where(range(clause.start, back), "direction", "left", "right") is not None or "turn" in before
+        turned = "turn" in before or any(
+            self.words.where(range(each.start, min(each.end, back)), "direction", "left", "right") is not None
+            for each in self.words.sentence(clause)
+            if each.start <= clause.start and each.subject == clause.subject
         )
         bound = preposition == "to" and self.words.word(back - 1).endswith("way")  # "on its way to the driveway"
         if preposition == "into" or verb in ("enter", "want") or word in ("for", "onto") or bound:
