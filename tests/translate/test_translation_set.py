@@ -51,7 +51,6 @@ def outcome(row: dict[str, Any]) -> str:
         ("taxonomy.toml", 1.0),
         ("phrases.toml", 0.9),
         ("fresh_moments.toml", 0.8),
-        ("paper_kind.toml", 1.0),
     ],
 )
 def test_texts_are_read_right_or_refused(name: str, least: float) -> None:
@@ -60,7 +59,16 @@ def test_texts_are_read_right_or_refused(name: str, least: float) -> None:
     assert Counter(outcomes.values())["right"] >= least * len(outcomes)
 
 
-@pytest.mark.parametrize(("name", "least"), [("free_prose.toml", 0.8), ("free_notes.toml", 0.5), ("traps.toml", 0.0)])
+@pytest.mark.parametrize(
+    ("name", "least"),
+    [
+        ("paper_kind.toml", 1.0),
+        ("free_prose.toml", 0.8),
+        ("free_notes.toml", 0.5),
+        ("free_stories.toml", 0.2),
+        ("traps.toml", 0.0),
+    ],
+)
 def test_free_texts_mean_the_same_or_are_refused(name: str, least: float) -> None:
     """Written freely, one motion has many programs; and what looks suspicious may be sound: meaning decides."""
     texts = read_texts(Path(str(FOLDER / name)))

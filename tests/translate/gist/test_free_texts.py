@@ -188,3 +188,95 @@ def test_two_readings_that_differ_are_no_reading(monkeypatch: pytest.MonkeyPatch
     with pytest.raises(TranslationError, match="two ways"):
         read(AGREED)
     assert read(AGREED.replace(said, otherwise)).program.actors
+
+
+ROUTES = (
+    "Our shuttle comes down the driveway, bound for the left. A lorry, whose hue nobody recalls, goes west along the "
+    "road. "
+)
+ACTS = "Once the shuttle is 14 m before its stop line and the lorry 40 m from the conflict point, "
+
+
+def refusal_of(text: str) -> str:
+    with pytest.raises(TranslationError) as caught:
+        read(text)
+    return caught.value.message + (caught.value.fix or "")
+
+
+@pytest.mark.parametrize(
+    ("end", "last"),
+    [
+        ("while the shuttle has yet to begin its turn.", ["A0x(t2) == turn_start", "A1(t2) < A0(t2)"]),
+        ("when the shuttle has not yet begun to turn.", ["A0x(t2) == turn_start", "A1(t2) < A0(t2)"]),
+        ("while the shuttle has yet to complete its turn.", ["A0x(t2) == turn_end", "A1(t2) < A0(t2)"]),
+    ],
+)
+def test_what_is_yet_to_come_is_an_order(end: str, last: list[str]) -> None:
+    assert (
+        formulas(read(f"{ROUTES}{ACTS}the lorry picks up speed and clears the conflict point {end}").program)[-2:]
+        == last
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        (f"{ROUTES}{ACTS}the lorry speeds up and clears the conflict point while the shuttle is turning.", "meanwhile"),
+        (
+            f"{ROUTES}When the shuttle is level with the mailbox and the lorry 40 m from the conflict point, the lorry "
+            "brakes to a stop 5 m before the conflict point.",
+            "where this is",
+        ),
+        (
+            f"{ROUTES}{ACTS}the lorry brakes at 3 m/s^2 and at the same moment accelerates at 2 m/s^2 to pass the "
+            "conflict point before the shuttle begins to turn.",
+            "at one time",
+        ),
+        (f"{ROUTES}{ACTS}the lorry seems to brake.", "what the hero does"),
+    ],
+)
+def test_what_cannot_be_told_apart_is_refused(text: str, why: str) -> None:
+    assert why in refusal_of(text)
+
+
+def test_what_says_that_it_changes_nothing_is_set_aside_and_listed() -> None:
+    rain = "It has rained all night, which makes no difference to the test."
+    plain, wet = (
+        read(f"{ROUTES}{ACTS}the lorry brakes to a stop 5 m before the conflict point."),
+        read(f"{rain} {ROUTES}{ACTS}the lorry brakes to a stop 5 m before the conflict point."),
+    )
+    assert formulas(plain.program) == formulas(wet.program)
+    assert any("It has rained all night" in each for each in wet.assumptions)
+    assert "not to stop" in refusal_of(
+        f"The lorry does not stop, which makes no difference. {ROUTES}{ACTS}the lorry stops."
+    )
+
+
+KEYS = """actors:
+  ego: westbound, straight
+  hero: oncoming, left turn into driveway
+trigger:
+  ego: 3.5 s from conflict point
+  hero: 2 s from conflict point
+reaction: hero speeds up, has completed the turn before ego passes the conflict point"""
+
+
+def test_keys_under_a_heading_are_all_of_that_heading() -> None:
+    told = formulas(read(KEYS).program)
+    assert {"tta(A0, conflict_point, t1) == 3.5", "tta(A1, conflict_point, t1) == 2"} <= set(told)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        f"{ROUTES}The lorry is 40 m from the conflict point and the shuttle 14 m before its stop line when the lorry "
+        "begins to brake; it comes to a complete stop 5 m before the conflict point.",
+        f"{ROUTES}The lorry drives on until the shuttle is 14 m before its stop line and the lorry 40 m from the "
+        "conflict point; at that moment it begins to brake to a stop 5 m before the conflict point.",
+        f"{ROUTES}{ACTS}the lorry has to brake to a stop 5 m before the conflict point; it does not "
+        "drive on afterwards.",
+    ],
+)
+def test_one_scenario_told_in_many_ways(text: str) -> None:
+    plain = read(f"{ROUTES}{ACTS}the lorry brakes to a stop 5 m before the conflict point.")
+    assert set(formulas(read(text).program)) == set(formulas(plain.program))

@@ -108,8 +108,18 @@ class _Cutter:
 
     def _parts(self, at: int) -> bool:
         """Whether "and" begins a clause here; "begins with its turn" is one."""
-        begins = self.words.word(at) == "with" and self.words.tag(at - 1, "verb") == "begin"
+        begins = self.words.word(at) == "with" and (
+            self.words.tag(at - 1, "verb") == "begin" or self._has_something(at)
+        )
         return self._begins_clause(at + 1) and not self._between(at) and not begins
+
+    def _has_something(self, at: int) -> bool:
+        """Whether this is the "with" of "a car with a trailer"."""
+        ahead = at + 1
+        while "determiner" in self.words.tags(ahead):
+            ahead += 1
+        strange = "unknown" in self.words.tags(ahead) and ahead not in self.words.names.actors
+        return strange and self.words.has([at - 1], "noun", "hero") and at - 1 in self.words.names.actors
 
     def _between(self, at: int) -> bool:
         """Whether this is the "and" of "between the ego and the line"."""
@@ -159,8 +169,9 @@ def _link(words: Words, at: int) -> str | None:
         return None if measured or _names_place(words, at + 1) else link
     if word == "at that" and following.keys() & {"landmark", "mark_noun", "back_reference"}:
         return None
-    if word in ("the second", "second") and following.get("preposition") == "of":
-        return None  # "the second of the two"
+    second = following.get("preposition") == "of" or following.keys() & {"noun", "hero", "actor_adjective"}
+    if word in ("the second", "second") and second:
+        return None  # "the second of the two", "the second vehicle"
     if link == "that":
         measures = following.get("preposition") in ("out", "of")  # "and that from the van to the line"
         points = "determiner" in words.tags(at) and words.has([at + 1], "mark_noun", "noun", *_PLACES)

@@ -235,6 +235,10 @@ class DeedReader:
         if verb in _TURNS and None not in actors:
             self.straight += [(actor, at) for actor in actors if actor is not None]
             return True
+        area = self.words.where(range(min(at + 4, clause.end) - 1, -1, -1), "area")
+        if verb == "leave" and None not in actors and area is not None and self.words.tags(area)["area"] == "road":
+            self.straight += [(actor, at) for actor in actors if actor is not None]
+            return True  # "is on the road, which it does not leave"
         if clause.subject == EGO_ID:
             return False
         if verb in _WAITS:
@@ -252,6 +256,10 @@ class DeedReader:
         later = [each for each in self.words.sentence(clause) if each.start > clause.start]
         if any(each.link == "until" or (each.link == "before" and self._is_perfect(each)) for each in later):
             self._add("wait", at, clause)
+            return True
+        stopped = any(deed.kind == "stop" and deed.actor == HERO_ID for deed in self.deeds)
+        if stopped and not self.words.has(clause.inside, "direction", "heading", "area", "landmark"):
+            self._add("wait", at, clause)  # "it does not drive on afterwards"
             return True
         only_waits = not any(deed.kind in ("brake", "stop") for deed in self.deeds)
         still = "ing" in self.words.tokens[at].forms or only_waits

@@ -11,6 +11,7 @@ import re
 from dataclasses import replace
 
 from scenewright.errors import Span
+from scenewright.translate.gist.disclaimers import disclaimers
 from scenewright.translate.notes import same_unit
 from scenewright.translate.tokens import Token, tokenise
 from scenewright.units import unit_of_name
@@ -35,6 +36,8 @@ def laid_out(text: str, name: str) -> list[Token]:
 def _plain(text: str) -> str:
     """Return the text with keys such as "ego_route" as words, without marks; every character keeps its place."""
     text = _BOLD.sub("  ", text)
+    for span in disclaimers(text):
+        text = text[: span.start] + " " * (span.end - span.start) + text[span.end :]
     if "\n" in text.strip():
         text = _DASHED.sub(r"\1 :", text)
     text = _PLUS.sub(",", text)

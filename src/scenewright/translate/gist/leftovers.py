@@ -98,7 +98,9 @@ def _refuse_meanwhile(words: Words, deeds: list[Deed], trigger_sentence: int) ->
     """Refuse "passes the conflict point while the ego is turning": neither before nor after it."""
     for clause in (each for each in words.clauses if each.sentence >= trigger_sentence):
         turns = words.verbs(clause.inside) & {"turn", "pull_out", "pass", "complete"}
-        during = words.word(clause.start - 1) in ("while", "whilst") and clause.subject == EGO_ID
+        during = (
+            clause.link == "and" and words.word(clause.start - 1) in ("while", "whilst") and clause.subject == EGO_ID
+        )
         acted = any(each.actor == HERO_ID and each.clause.sentence == clause.sentence for each in deeds)
         if during and turns and acted and not words.has(clause.inside, "quantity"):
             raise words.refuse("what happens meanwhile cannot be compared", words.span(clause), "before or after it")
@@ -125,7 +127,8 @@ def refuse_third_parties(words: Words, deeds: list[Deed], trigger_sentence: int)
     for clause in (each for each in words.clauses if each.sentence in acting):
         for at in clause.inside:
             beside = words.tag(at, "link") == "and" and "determiner" in words.tags(at + 1)
-            if beside and _is_stranger(words, at + 2):
+            part = words.word(at) == "with" and at - 1 in words.names.actors  # "the car with the trailer"
+            if beside and not part and _is_stranger(words, at + 2):
                 raise words.refuse("it is not known who this is and what it changes", words.tokens[at + 2].span)
     for clause in words.clauses:
         if clause.sentence not in acting or clause.named or any(at in words.names.pronouns for at in clause.inside):

@@ -94,10 +94,28 @@ class MomentReader:
             raise self.words.refuse(UNCLEAR, made.span)
         if clause.link == "moment" and made.kind == "place":
             return "trigger"
+        if made.kind == "place" and self._when_it_acts(clause):
+            return "trigger"
         if asked:
             self._check_one_moment(made)
             return "trigger"
         return "trigger" if self._deed_beside(clause) else "open"
+
+    def _when_it_acts(self, clause: Clause) -> bool:
+        """Whether the deed is told as the moment: "it was 22 m from it, and ours 7 m from the line, when it braked"."""
+        later = [each for each in self.words.sentence(clause) if each.start > clause.start and each.link == "when"]
+        before = [each for each in self.words.sentence(clause) if each.start < clause.start and each.link == "when"]
+        if before or len(later) != 1 or self._has_amount(later[0]):
+            return False
+        kinds = ("brake", "stop", "accelerate")
+        acts = any(d.clause is later[0] and d.actor == HERO_ID and d.kind in kinds for d in self.deeds)
+        return acts and not self._acts_early(clause)
+
+    def _acts_early(self, clause: Clause) -> bool:
+        """Whether the hero does something before this in the sentence."""
+        return any(
+            d.actor == HERO_ID and d.clause.sentence == clause.sentence and d.at < clause.end for d in self.deeds
+        )
 
     def _of_stop(self, made: Measured) -> bool:
         """Whether a place is where the hero comes to rest."""

@@ -209,16 +209,23 @@ def _ego_kinds(tokens: list[Token]) -> set[str]:
         kind = token.tags.get("noun")
         if kind is None or kind in _GENERIC:
             continue
-        if _is_tested(tokens, at) or _is_called(tokens, at) or (kind in _RELATIVE and _ego_is(tokens, at)):
+        if (
+            _is_tested(tokens, at)
+            or _is_called(tokens, at)
+            or _is_ours(tokens, at)
+            or (kind in _RELATIVE and _ego_is(tokens, at))
+        ):
             kinds.add(kind)
     return kinds
 
 
 def _is_called(tokens: list[Token], at: int) -> bool:
-    """Whether a vehicle is said to be the ego: "the one behind is the ego", "the taxi, our ego,"."""
+    """Whether a vehicle is said to be the ego: "the one behind is the ego", "the taxi, which is our ego,"."""
     if at + 2 >= len(tokens) or not tokens[at + 1].tags.keys() & {"comma", "be"}:
         return False
-    ahead = at + 2 + ("determiner" in tokens[at + 2].tags)
+    which = tokens[at + 2].text.lower() in ("which", "that") and "be" in tokens[min(at + 3, len(tokens) - 1)].tags
+    ahead = at + 2 + (2 if which else 0)
+    ahead += ahead < len(tokens) and "determiner" in tokens[ahead].tags
     if ahead >= len(tokens) or "ego" not in tokens[ahead].tags:
         return False
     closes = ahead + 1 >= len(tokens) or bool(tokens[ahead + 1].tags.keys() & {"comma", "end"})

@@ -17,6 +17,7 @@ from scenewright.translate.geometry import is_remark
 from scenewright.translate.gist.amounts import AmountReader
 from scenewright.translate.gist.clauses import cut
 from scenewright.translate.gist.deeds import DeedReader
+from scenewright.translate.gist.disclaimers import disclaimers
 from scenewright.translate.gist.layout import laid_out
 from scenewright.translate.gist.leftovers import (
     refuse_dangers,
@@ -114,7 +115,7 @@ def check_told(gist: Gist, routes: Itineraries, text: str, name: str) -> None:
 
 def _near_conflict(facts: Facts) -> Span | None:
     """Return where a conflict point is spoken of."""
-    places = [each.place for each in (*facts.initial, *facts.trigger, *facts.phases)]
+    places = [each.place for each in (*facts.initial, *facts.trigger)] + [each.place for each in facts.phases]
     return next((each.span for each in places if each is not None and each.target == "conflict_point"), None)
 
 
@@ -194,6 +195,10 @@ def _assumptions(words: Words, title: tuple[Token, ...]) -> tuple[str, ...]:
             said.append(
                 f"'{_shown(words.span(clause), words.text)}' is set aside: it tells nothing of the two vehicles"
             )
+    said += [
+        f"'{_shown(span, words.text)}' is set aside: it says that it changes nothing"
+        for span in disclaimers(words.text)
+    ]
     aside = {at for clause in words.clauses if clause.aside for at in clause.inside}
     known = words.names.actors
     strange = [

@@ -167,7 +167,8 @@ class StoryTeller:
         again = next((deed for deed in slows if self._brakes_again(deed, slows, goes)), None)
         if again is not None:
             raise self.words.refuse("the hero has stopped already", again.span)
-        if slows and kinds & {"not_yield", "not_stop"}:
+        slowed = not kinds & {"stop", "wait"} and any(made.kind == "speed" for made in self.moments.of("deed"))
+        if slows and kinds & ({"not_yield"} if slowed else {"not_yield", "not_stop"}):
             raise self.words.refuse("the hero is said to stop and not to stop", slows[0].span)
         if {"keep", "accelerate"} <= kinds:
             raise self.words.refuse("the hero is said to speed up and not to", goes[0].span)

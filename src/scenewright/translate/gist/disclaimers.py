@@ -1,0 +1,34 @@
+"""Finds sentences that say of themselves that they change nothing: "It has rained, which makes no difference".
+
+What enters: the text. What leaves: where such sentences stand. One that tells what a vehicle does, or holds an amount,
+is none of them.
+"""
+
+from __future__ import annotations
+
+import re
+
+from scenewright.errors import Span
+
+_SENTENCE = re.compile(r"[^.!?\n]+[.!?]?")
+_CHANGES_NOTHING = re.compile(
+    r"\b(?:(?:plays?|takes?|has|have|is|are) no part|no part of the test|(?:makes?|made) no difference"
+    r"|nothing to do with (?:the|this|it)|of no (?:account|importance)|(?:is|are) irrelevant|do(?:es)? not matter"
+    r"|(?:nobody|no one|no other (?:vehicle|car)|nothing) else (?:is|on)"
+    r"|no other (?:vehicle|car|road user|traffic)s? (?:is|are))\b",
+    re.IGNORECASE,
+)
+_TELLS = re.compile(
+    r"\d|\b(?:ego|av|sut|hero|npc|pov|under test|our (?:car|vehicle)|brak|accelerat|slow|stop|turn|yield|pass|cross"
+    r"|until|when|if|(?:east|west|north|south)|left|right|straight|driveway|conflict|before|after)",
+    re.IGNORECASE,
+)
+
+
+def disclaimers(text: str) -> list[Span]:
+    """Return where sentences stand that say that they change nothing."""
+    return [
+        Span(*found.span())
+        for found in _SENTENCE.finditer(text)
+        if _CHANGES_NOTHING.search(found.group()) and not _TELLS.search(found.group())
+    ]
