@@ -128,7 +128,8 @@ class DeedReader:
         """Whether this is "wants", "is ready to"; "has to" and "is asked to" tell what is done."""
         tags = self.words.tags(at)
         asked = "demanded" in tags or self.words.word(at) in _OBLIGES
-        return not asked and (tags.get("verb") in ("want", "need") or self.words.has([at], *_WISHES))
+        going = self.words.word(at).endswith("going") and self.words.word(at + 1) != "to"
+        return not asked and not going and (tags.get("verb") in ("want", "need") or self.words.has([at], *_WISHES))
 
     def _without_verb(self, at: int, clause: Clause, negation: int | None) -> None:
         """Read "to a full stop", "speed zero", "over the conflict point", "through it"."""
@@ -241,6 +242,9 @@ class DeedReader:
             return True  # "is on the road, which it does not leave"
         if clause.subject == EGO_ID:
             return False
+        there = "there" in " ".join(self.words.word(i) for i in range(at, clause.end)).split()
+        if verb in ("wait", "sit") and there and any(each.kind == "stop" for each in self.deeds[-1:]):
+            return True  # "it stops, but it does not stay there"
         if verb in _WAITS:
             self._add("not_yield" if verb in ("yield", "let") else "not_stop", at, clause)
             return True

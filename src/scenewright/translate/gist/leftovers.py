@@ -25,7 +25,8 @@ _COUNTED = re.compile(
     r"(?:[A-Za-z]-|#|\[|\b(?:run|test|number|no\.?|case|phase|step|item|day|version|v)\s?)$", re.IGNORECASE
 )
 _UNREAL = re.compile(
-    r"(?:^|[.;!?]\s+|,\s+)(?:had|were) (?:the|it|a|an)\b|\bif \w+(?: \w+)? (?:were|had)\b|\bwould(?: not|n't)? have\b",
+    r"(?:^|[.;!?]\s+|,\s+)(?:had|were) (?:the|it|a|an)\b"
+    r"|(?<!as )\bif \w+(?: \w+)? (?:were|had)\b|\bwould(?: not|n't)? have\b",
     re.IGNORECASE,
 )
 _ALL_BUT = re.compile(r"\b(?:any|every|no)thing (?:but|except|other than)\b|\ball but\b", re.IGNORECASE)

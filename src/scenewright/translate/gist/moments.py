@@ -94,12 +94,20 @@ class MomentReader:
             raise self.words.refuse(UNCLEAR, made.span)
         if clause.link == "moment" and made.kind == "place":
             return "trigger"
-        if made.kind == "place" and self._when_it_acts(clause):
+        if made.kind == "place" and (self._when_it_acts(clause) or self._begins_here(made)):
             return "trigger"
         if asked:
             self._check_one_moment(made)
             return "trigger"
         return "trigger" if self._deed_beside(clause) else "open"
+
+    def _begins_here(self, made: Measured) -> bool:
+        """Whether the hero begins to act there: "it starts to brake 10 m before the line, when the ego is ..."."""
+        own = [d for d in self.deeds if d.clause is made.clause and d.actor == HERO_ID]
+        brakes = len(own) == 1 and own[0].kind in ("brake", "accelerate") and made.actor == HERO_ID
+        later = [each for each in self.words.sentence(made.clause) if each.start > made.clause.start]
+        asked = any(each.link == "when" and self._has_amount(each) for each in later)
+        return brakes and asked and self.begins(own[0]) and own[0].at < made.at
 
     def _when_it_acts(self, clause: Clause) -> bool:
         """Whether the deed is told as the moment: "it was 22 m from it, and ours 7 m from the line, when it braked"."""

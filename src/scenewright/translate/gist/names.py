@@ -193,7 +193,7 @@ def _is_tested(tokens: list[Token], at: int) -> bool:
 def _is_ours(tokens: list[Token], at: int) -> bool:
     """Whether this is "our car" or "my shuttle"; "my uncle's lorry" is not."""
     back = at - 1
-    while back >= 0 and tokens[back].tags.keys() & {"actor_adjective", "unknown"}:
+    while back >= 0 and tokens[back].tags.keys() & {"actor_adjective", "unknown", "heading"}:
         back -= 1
     return back >= 0 and "our" in tokens[back].tags.values()
 

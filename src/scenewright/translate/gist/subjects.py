@@ -169,15 +169,45 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     if bare.named and bare.sentence == clause.sentence and not told and clause.link == "then":
         return bare.subject  # "The ego then passes it"
     earlier = [each for each in words.sentence(clause) if each.start < clause.start]
+    if (other := _other_one(words, clause, earlier)) is not None:
+        return other
     hero_here = acting or any(each.named and each.subject == HERO_ID for each in earlier)
     deeds = _DEEDS | {"go", "turn"} if clause.link == "then" or _after_a_moment(earlier) else _DEEDS
-    if clause.link in _MAIN and ((pronouns and hero_here and verbs & _STRONG) or (acting and verbs & deeds)):
+    strong = verbs & _STRONG or words.has(clause.inside, "stop_noun")
+    if clause.link in _MAIN and ((pronouns and hero_here and strong) or (acting and (verbs & deeds or strong))):
         return HERO_ID
     owned = [at for at in pronouns if not words.has([at - 1], "preposition", "relation", "verb")]
     if not owned and not any(each.named or _is_finite(words, each) for each in [*earlier, clause]):
         following = _named_later(words, index)
         return following if following is not None else last
     return last
+
+
+def _other_one(words: Words, clause: Clause, earlier: list[Clause]) -> int | None:
+    """Return whom "it" means beside a vehicle whose place was told: "when we are 50 m and it is 12 m from it"."""
+    it = any(words.word(at) in ("it", "he", "she") for at in clause.inside[:1])
+    if not it or not earlier:
+        return None
+    if words.verbs(clause.inside) & _STRONG and earlier[0].subject == HERO_ID and clause.link == "when":
+        return HERO_ID  # "it is 2 s from it, and the ego 4 s, when it begins to brake"
+    told = [each for each in earlier if words.has(each.inside, "quantity")]
+    placed = clause.link == "and" and told and told[-1] is earlier[-1] and earlier[-1].link in ("when", "and")
+    asked = placed and any(each.link == "when" for each in earlier)
+    if not asked or not (earlier[-1].named and _tells_place(words, earlier[-1]) and _tells_place(words, clause)):
+        return None
+    subject = earlier[-1].subject
+    return None if subject is None else 1 - subject
+
+
+def _tells_place(words: Words, clause: Clause) -> bool:
+    """Whether nothing but a distance or a time to a place is told: "it is 12 m from its stop line"."""
+    amounts = [at for at in clause.inside if "quantity" in words.tags(at)]
+    lengths = all(words.tags(at)["quantity"] in ("length", "time") for at in amounts)
+    apart = words.has(clause.inside, "measure") or any(
+        words.tag(at, "relation") in ("behind", "ahead") and words.named(range(at, at + 4)) is not None
+        for at in clause.inside
+    )
+    return bool(amounts) and lengths and not apart
 
 
 def _check_antecedent(words: Words, index: int) -> None:

@@ -245,6 +245,11 @@ class WayReader:
             return "on"
         if word.endswith(" on") and verb in ("go", "drive", "keep"):
             return "on"  # "drives on the road"
+        goal = {"destination", "goal", "target", "aim"} & {
+            self.words.word(i) for i in range(max(0, back - 2), back + 1)
+        }
+        if goal and self._is_title(clause):
+            return None  # "Two vehicles with one destination, the driveway."
         begins = back < clause.start or bool(tags.keys() & {"comma", "end", "colon"})
         if "relation" in tags or not (preposition in ("on", "in", "with") or begins):
             return None
@@ -253,7 +258,8 @@ class WayReader:
         verbs = self.words.verbs(range(at, clause.end))
         if self.words.has(range(at, clause.end), "be") and verbs & {"enter", "leave"}:
             return "into" if "enter" in verbs else "from"  # "the driveway is entered by a van"
-        return "on"
+        sided = self.words.where(range(clause.start, back), "direction", "left", "right") is not None
+        return "into" if sided and self.words.tag(at, "area") == "road" else "on"
 
     def _lane(self, at: int, clause: Clause) -> None:
         """Read "into the ego's lane" and "into the lane that the ego is using"."""
