@@ -391,6 +391,8 @@ class AmountReader:
         if place is None or place[2] or (here and self.words.has(range(max(clause.start, at - 2), at), "quantity")):
             return None
         before = range(clause.start, at)
+        if clause.link in ("before", "after", "until") and clause.subject == EGO_ID:
+            return None  # "before we are at the conflict point"
         measured = any(measure_of(self.words, i) in ("length", "time") for i in before)
         if measured or (here and place[0] not in ("stop_line", "conflict_point")):
             return None

@@ -12,6 +12,7 @@ from scenewright.translate.gist.words import Clause, Words
 
 NEGATIVES = frozenset(("neither", "nor", "none", "no", "cannot", "nobody", "shall not", "must not", "should not"))
 BOUNDS = ("before", "after", "until")
+_SEES = ("sees", "spots", "notices", "watches", "saw", "spotted", "noticed")
 _DURING = ("while", "whilst", "when", "as", "with")
 _LINKS = ("when", "then", "moment", "that", *BOUNDS)
 _LABELS = {"when": "trigger", "main": "deed"}
@@ -109,7 +110,9 @@ class _Cutter:
     def _parts(self, at: int) -> bool:
         """Whether "and" begins a clause here; "begins with its turn" is one."""
         begins = self.words.word(at) == "with" and (
-            self.words.tag(at - 1, "verb") == "begin" or self._has_something(at)
+            self.words.tag(at - 1, "verb") == "begin"
+            or "measure" in self.words.tags(at - 1)  # "the time to collision with the van"
+            or self._has_something(at)
         )
         return self._begins_clause(at + 1) and not self._between(at) and not begins
 
@@ -164,6 +167,10 @@ def _link(words: Words, at: int) -> str | None:
     if word in ("ahead of", "in front of"):
         raced = words.verbs(range(max(0, at - 8), at)) & {"pass", "complete", "accelerate", "reach", "go"}
         return link if raced else None
+    if link == "before" and "ing" in words.tokens[at + 1].forms and words.tag(at + 1, "verb") in ("go", "accelerate"):
+        first = next((i + 1 for i in range(at, -1, -1) if "end" in words.tags(i)), 0)
+        if "wait" in words.verbs(range(first, at)):
+            return "then"  # "waits for the ego to pass before starting off again"
     if link in BOUNDS:
         measured = "quantity" in words.tags(at - 1) or words.tag(at - 1, "adverb") == "just"
         return None if measured or _names_place(words, at + 1) else link
@@ -229,6 +236,8 @@ def _parted(words: Words, clause: Clause) -> list[Clause]:
         told |= "quantity" in words.tags(at)
         if clause.link == "when" and clause.start < at < clause.start + 4 and _begun(words, clause, at):
             return [replace(clause, end=at), *_parted(words, replace(clause, start=at, link="main"))]
+        if at in words.names.actors and "ing" in words.tokens[at + 1].forms and (seen := _seen_from(words, at, clause)):
+            return [replace(clause, end=seen), *_parted(words, replace(clause, start=seen, link="main"))]
         acts = words.word(at) in ("he", "she", "it") and words.has([at + 1], "verb", "be", "auxiliary")
         if not told or not (acts or (at in words.names.actors and not is_object(words, at))):
             continue
@@ -239,6 +248,14 @@ def _parted(words: Words, clause: Clause) -> list[Clause]:
             rest = replace(clause, start=first, link="main")
             return [replace(clause, end=first), *_parted(words, rest)]
     return [clause]
+
+
+def _seen_from(words: Words, at: int, clause: Clause) -> int | None:
+    """Return where "the ego driving west" begins in "the van sees the ego driving west"."""
+    first = at
+    while first > clause.start and words.has([first - 1], "determiner", "actor_adjective", "heading"):
+        first -= 1
+    return first if first > clause.start and words.word(first - 1) in _SEES else None
 
 
 def _begun(words: Words, clause: Clause, at: int) -> bool:

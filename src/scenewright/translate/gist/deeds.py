@@ -99,6 +99,11 @@ class DeedReader:
                 return  # "seems to wait" is no wait
             if "negation" in tags or self.words.word(at) in NEGATIVES:
                 negation = at
+                given = {self.words.word(i) for i in range(at + 1, min(at + 5, clause.end))}
+                if clause.subject == HERO_ID and "priority" in given and given & {"give", "grant", "us"}:
+                    self.words.used.add(at)
+                    self._add("not_yield", at, clause)  # "does not give us priority"
+                    return
                 continue
             wanted |= self._is_wish(at)
             self._without_verb(at, clause, negation)
@@ -114,7 +119,9 @@ class DeedReader:
                 if self._denied(verb, at, clause):
                     self.words.used.add(negation)
                     negation = None
-            elif verb == "let" and clause.subject == HERO_ID and self._lets(at, clause):
+            elif (verb == "let" and clause.subject == HERO_ID and self._lets(at, clause)) or (
+                verb == "wait" and self.words.word(at + 1) == "for" and self._waits_for(at, clause)
+            ):
                 return
             elif verb in _DEEDS and not self._only_describes(verb, at, clause):
                 stopped = verb == "complete" and self.words.has(range(at - 2, at + 4), "stop_noun")
@@ -167,6 +174,10 @@ class DeedReader:
             return True
         if verb in ("go", "drive", "keep") and (self._tells_way(at, clause) or self._leads_on(at, clause)):
             return True
+        if verb == "wait" and clause.subject == EGO_ID and words.word(at + 1) == "to":
+            return True  # "the ego, which is waiting to turn left"
+        if words.word(at) == "clear" and words.word(at - 1) in ("way", "road", "path", "junction", "lane"):
+            return True  # "leaving the way clear"
         if "left_over" in token.tags and words.has(range(at - 2, at), "quantity"):
             return True  # "6 m remain"
         if verb == "reach":
@@ -271,7 +282,8 @@ class DeedReader:
 
     # -- moments of the ego -------------------------------------------------------------------------------------------
     def _is_perfect(self, clause: Clause) -> bool:
-        return self.words.where(clause.inside, "auxiliary", "have") is not None
+        have = any(self.words.word(at) in ("we have", "i have") for at in clause.inside)
+        return have or self.words.where(clause.inside, "auxiliary", "have") is not None
 
     def _is_bound(self, clause: Clause) -> bool:
         """Whether a clause tells a moment of the ego: "before it turns", "by the time it does"."""
@@ -318,6 +330,16 @@ class DeedReader:
         self.deeds.append(Deed("let_reach", at, let, self.words.tokens[at].span, None, EGO_ID))
         return True
 
+    def _waits_for(self, at: int, clause: Clause) -> bool:
+        """Read "waits for the ego to complete its turn"."""
+        rest = range(at + 2, clause.end)
+        named = any(self.words.names.actors.get(each) == EGO_ID for each in rest[:3])
+        done = self.words.verbs(rest) & {"complete", "pass"}
+        if clause.subject != HERO_ID or not named or not done:
+            return False
+        self._add("wait", at, clause)
+        return self._ego_moment(replace(clause, start=at + 2, link="until", subject=EGO_ID, named=True))
+
     def _ego_moment(self, clause: Clause) -> bool:
         """Read "before the ego begins to turn", "until it has passed the conflict point", "before us"."""
         verbs = self.words.verbs(clause.inside)
@@ -352,7 +374,10 @@ class DeedReader:
 
     def _names_turn(self, clause: Clause, verbs: set[str]) -> bool:
         noun = self.words.where(clause.inside, "event_noun", "turn") is not None
-        return noun or bool(verbs & {"turn", "pull_out"}) or "own" in " ".join(map(self.words.word, clause.inside))
+        ours = self.words.word(clause.end - 1) in ("ours", "its own") and any(d.kind == "complete" for d in self.deeds)
+        return (
+            noun or ours or bool(verbs & {"turn", "pull_out"}) or "own" in " ".join(map(self.words.word, clause.inside))
+        )
 
     def _ego_place(self, clause: Clause, verbs: set[str]) -> str:
         mark = self.words.where(clause.inside, "landmark")

@@ -19,6 +19,7 @@ UNCLEAR = "it is not clear at which moment this holds"
 _STATE = ("verb", "be", "auxiliary")
 # What names the moment itself where something comes near: "as soon as it is within 20 m".
 _LIMITS = ("within",)
+_SET = ("released", "spawned", "initialised", "initialized", "dropped")
 _PAST = ("was", "were", "had")
 _FAR = 12
 
@@ -166,6 +167,10 @@ class MomentReader:
             return True
         if words.where(clause.inside, "adverb", "initially") is not None:
             return True
+        if words.where(clause.inside, "aspect", "start") is not None or any(
+            words.word(at) in _SET for at in clause.inside
+        ):
+            return True  # "its starting position", "was released 80 m before it"
         for at in range(max(clause.start, made.at - 5), made.at):
             if words.tag(at, "verb") == "begin" and not words.verbs(range(at + 1, made.at)):
                 return True

@@ -43,7 +43,7 @@ def find_names(tokens: list[Token]) -> Names:
         word = token.text.lower()
         if word == "subject" and at + 1 < len(tokens) and "colon" in tokens[at + 1].tags:
             continue  # of a letter
-        if word in FIRST_PERSON:
+        if word in FIRST_PERSON or word in ("we have", "i have"):
             names.actors[at] = speaker
         elif "ego" in token.tags:
             names.actors[at] = EGO_ID

@@ -89,7 +89,7 @@ def told_for(words: Words, made: Owned, at: int) -> None:
         return
     for ahead in range(made.at + 1, min(len(words.tokens), max(at, made.at + 1) + 4)):
         preposition = words.tag(ahead, "preposition")
-        if words.has([ahead], "quantity", "end"):
+        if words.has([ahead], "quantity", "end") or words.tag(ahead, "verb") == "wait":
             return
         to = preposition == "to" and made.kind == "open"
         if preposition == "for" or to or (preposition == "of" and ahead <= made.at + 2):

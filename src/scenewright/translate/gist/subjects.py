@@ -5,7 +5,7 @@ What enters: words with names and clauses. What leaves: the clauses, with subjec
 
 from __future__ import annotations
 
-from scenewright.translate.events import HERO_ID
+from scenewright.translate.events import EGO_ID, HERO_ID
 from scenewright.translate.gist.names import PERSONAL
 from scenewright.translate.gist.words import Clause, Words
 
@@ -19,6 +19,7 @@ _MAIN = ("main", "and", "then", "moment", "colon")
 _SUBORDINATE = ("before", "after", "until", "when", "that")
 _STRONG = frozenset(("brake", "stop", "accelerate"))  # nobody tells the ego to do these
 _DEEDS = _STRONG | {"pass", "complete", "wait", "keep"}
+_RUNS = ("clock", "run", "test", "recording", "simulation", "scene", "log", "scenario", "measurement")
 _HIS = PERSONAL | {"his", "her"}
 
 
@@ -109,6 +110,8 @@ def _name_subject(words: Words, clause: Clause) -> None:
         found = next((at for at in names if _stands_after(words, at, "for")), None)
     if found is not None:
         clause.subject, clause.named = words.names.actors[found], True
+    elif clause.link in ("before", "after", "until") and "our" in words.tags(clause.start).values():
+        clause.subject, clause.named = EGO_ID, True  # "before our turn begins"
 
 
 def _stands_after(words: Words, at: int, preposition: str) -> bool:
@@ -138,6 +141,8 @@ def _agrees_with_two(words: Words, clause: Clause) -> bool:
 
 def _starts_it(words: Words, clause: Clause) -> bool:
     """Whether this is "when the observation begins", "when we start", "when things begin"."""
+    if clause.link == "when" and words.verbs(clause.inside) & {"begin"} and words.word(clause.end - 1) in _RUNS:
+        return not words.has(clause.inside, "quantity")
     begins = words.word(clause.end - 1).split()[-1] in ("begin", "begins", "start", "starts", "began", "started")
     vehicle = words.has(clause.inside, "hero", "noun") or any("ego" in words.word(at) for at in clause.inside)
     return clause.link == "when" and begins and len(clause.inside) <= 3 and not vehicle
@@ -185,7 +190,7 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
 
 def _other_one(words: Words, clause: Clause, earlier: list[Clause]) -> int | None:
     """Return whom "it" means beside a vehicle whose place was told: "when we are 50 m and it is 12 m from it"."""
-    it = any(words.word(at) in ("it", "he", "she") for at in clause.inside[:1])
+    it = words.word(clause.start) in ("it", "he", "she")
     if not it or not earlier:
         return None
     if words.verbs(clause.inside) & _STRONG and earlier[0].subject == HERO_ID and clause.link == "when":
@@ -193,6 +198,8 @@ def _other_one(words: Words, clause: Clause, earlier: list[Clause]) -> int | Non
     told = [each for each in earlier if words.has(each.inside, "quantity")]
     placed = clause.link == "and" and told and told[-1] is earlier[-1] and earlier[-1].link in ("when", "and")
     asked = placed and any(each.link == "when" for each in earlier)
+    if words.verbs(clause.inside) & _STRONG or words.has(clause.inside, "stop_noun"):
+        return None
     if not asked or not (earlier[-1].named and _tells_place(words, earlier[-1]) and _tells_place(words, clause)):
         return None
     subject = earlier[-1].subject

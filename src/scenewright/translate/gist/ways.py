@@ -220,11 +220,7 @@ class WayReader:
         tags, word = self.words.tags(back), self.words.word(back)
         verb, preposition = tags.get("verb"), tags.get("preposition")
         before = self.words.verbs(range(max(clause.start, back - 2), back))
-        turned = "turn" in before or any(
-            self.words.where(range(each.start, min(each.end, back)), "direction", "left", "right") is not None
-            for each in self.words.sentence(clause)
-            if each.start <= clause.start and each.subject == clause.subject
-        )
+        turned = "turn" in before or self._turned(back, clause)
         bound = preposition == "to" and self.words.word(back - 1).endswith("way")  # "on its way to the driveway"
         if preposition == "into" or verb in ("enter", "want") or word in ("for", "onto") or bound:
             return "into"
@@ -258,8 +254,18 @@ class WayReader:
         verbs = self.words.verbs(range(at, clause.end))
         if self.words.has(range(at, clause.end), "be") and verbs & {"enter", "leave"}:
             return "into" if "enter" in verbs else "from"  # "the driveway is entered by a van"
-        sided = self.words.where(range(clause.start, back), "direction", "left", "right") is not None
-        return "into" if sided and self.words.tag(at, "area") == "road" else "on"
+        return "into" if turned and self.words.tag(at, "area") == "road" else "on"
+
+    def _turned(self, at: int, clause: Clause) -> bool:
+        """Whether a turn of the same vehicle was told before in the sentence: "turns left to drive along the road"."""
+        stretch = [
+            i
+            for each in self.words.sentence(clause)
+            if each.start <= clause.start and each.subject == clause.subject
+            for i in range(each.start, min(each.end, at))
+        ]
+        sided = any(self.words.word(i) in ("left to", "right to") for i in stretch)
+        return sided or self.words.where(stretch, "direction", "left", "right") is not None
 
     def _lane(self, at: int, clause: Clause) -> None:
         """Read "into the ego's lane" and "into the lane that the ego is using"."""
