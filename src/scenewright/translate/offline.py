@@ -141,7 +141,7 @@ def _joined(first: TranslationError, second: TranslationError) -> TranslationErr
     if "not understood" not in first.message or "word" not in first.message or second.message == first.message:
         return first
     where = f" ('{second.found}')" if second.found else ""
-    fix = f"{first.fix}. Even without them: {second.message}{where}"
+    fix = f"{first.fix} - but even without them: {second.message}{where}"
     return TranslationError(first.message, place=first.place, found=first.found, expected=first.expected, fix=fix)
 
 
