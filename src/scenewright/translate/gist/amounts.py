@@ -113,6 +113,12 @@ class AmountReader:
         if measure == "ttc":
             self._collision_time(made)
             return
+        rests = self.words.tag(made.at + 1, "preposition") in ("at", "of")
+        at = self.words.skip(made.at + 2, _SKIPPED)
+        if rests and self.words.has([at], "stop_noun") and made.quantity and made.quantity.dimension == "time":
+            made.kind, made.actor = "duration", HERO_ID  # "after one second at rest"
+            self.words.used.add(made.at - 1)
+            return
         if self._lies(made) or self._to_place(made) or self._to_vehicle(made) or self._around(made, measure):
             return
         if made.quantity is not None and made.quantity.dimension == "time" and self._lasts(made):
@@ -179,8 +185,8 @@ class AmountReader:
     def _of_whom(self, at: int) -> tuple[int, int | None]:
         """Step over "left for the ego" in "12 m left for the ego to its stop line"."""
         names = self.words.names.actors
-        if self.words.word(at) == "(" and at + 1 in names and self.words.word(at + 2) == ")":
-            return at + 3, names[at + 1]  # "20 m (cab) away from it"
+        if (bracket := self.words.in_brackets(at)) is not None:
+            return bracket  # "20 m (cab) away from it"
         ahead = at
         while (
             self.words.has([ahead], "left_over", "measure")
@@ -221,7 +227,7 @@ class AmountReader:
     def _passes(self, at: int, seen: Relation | None) -> bool:
         """Whether a word between an amount and its place only fills: "are left to", "from reaching"."""
         tags = self.words.tags(at)
-        fills = "left_over" in tags or "measured_word" in tags or tags.get("adverb") in ("filler", "exact", "about")
+        fills = self.words.word(at) == "more" or "left_over" in tags or "measured_word" in tags or tags.get("adverb") in ("filler", "exact", "about")
         to_go = tags.get("verb") in _TO_VERBS and self.words.word(at - 1) in ("to", "from")
         left = seen is None and "be" in tags and self.words.has([at + 1], "left_over", "relation")
         return fills or to_go or left
@@ -393,7 +399,7 @@ class AmountReader:
         before = range(clause.start, at)
         if clause.link in ("before", "after", "until") and clause.subject == EGO_ID:
             return None  # "before we are at the conflict point"
-        measured = any(measure_of(self.words, i) in ("length", "time") for i in before)
+        measured = any(measure_of(self.words, i) in ("length", "time", "own") for i in before)
         if measured or (here and place[0] not in ("stop_line", "conflict_point")):
             return None
         self.words.used |= set(range(at, place[1]))

@@ -7,16 +7,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from scenewright.translate.gist.subjects import is_object
+from scenewright.translate.gist.subjects import SEES, is_object
 from scenewright.translate.gist.words import Clause, Words
 
 NEGATIVES = frozenset(("neither", "nor", "none", "no", "cannot", "nobody", "shall not", "must not", "should not"))
 BOUNDS = ("before", "after", "until")
-_SEES = ("sees", "spots", "notices", "watches", "saw", "spotted", "noticed")
 _DURING = ("while", "whilst", "when", "as", "with")
 _LINKS = ("when", "then", "moment", "that", *BOUNDS)
 _LABELS = {"when": "trigger", "main": "deed"}
-_BEFORE_NAMES = frozenset(("determiner", "actor_adjective", "unknown", "adverb", "link"))
+_BEFORE_NAMES = frozenset(("determiner", "actor_adjective", "unknown", "adverb", "link", "heading"))
 _AMOUNT_ENDS = ("landmark", "back_reference", "area", "hero", "ego", "noun", "quantity", "mark_noun", "pronoun")
 _PLACES = ("landmark", "back_reference", "area", "mouth")
 
@@ -160,6 +159,8 @@ def _link(words: Words, at: int) -> str | None:
         return "when"
     if word == "whose":
         return "that"
+    if word == "where" and (not at or words.has([at - 1], "end")):
+        return None  # "Where it comes to rest, 8 m are left"
     if link not in _LINKS:
         return None
     if word == "following":
@@ -171,6 +172,10 @@ def _link(words: Words, at: int) -> str | None:
         first = next((i + 1 for i in range(at, -1, -1) if "end" in words.tags(i)), 0)
         if "wait" in words.verbs(range(first, at)):
             return "then"  # "waits for the ego to pass before starting off again"
+    if link == "before" and words.tags(at + 1).keys() & {"pronoun"} and words.tag(at + 2, "verb") in ("go", "accelerate"):
+        first = next((i + 1 for i in range(at, -1, -1) if "end" in words.tags(i)), 0)
+        if words.verbs(range(first, at)) & {"wait", "let"}:
+            return "then"  # "lets the ego pass before it moves off again"
     if link in BOUNDS:
         measured = "quantity" in words.tags(at - 1) or words.tag(at - 1, "adverb") == "just"
         return None if measured or _names_place(words, at + 1) else link
@@ -238,6 +243,8 @@ def _parted(words: Words, clause: Clause) -> list[Clause]:
             return [replace(clause, end=at), *_parted(words, replace(clause, start=at, link="main"))]
         if at in words.names.actors and "ing" in words.tokens[at + 1].forms and (seen := _seen_from(words, at, clause)):
             return [replace(clause, end=seen), *_parted(words, replace(clause, start=seen, link="main"))]
+        if told and words.has([at], "be") and (cue := _cue_of(words, at)):
+            return [replace(clause, end=at), *_parted(words, replace(clause, start=cue, link="main"))]
         acts = words.word(at) in ("he", "she", "it") and words.has([at + 1], "verb", "be", "auxiliary")
         if not told or not (acts or (at in words.names.actors and not is_object(words, at))):
             continue
@@ -250,12 +257,21 @@ def _parted(words: Words, clause: Clause) -> list[Clause]:
     return [clause]
 
 
+def _cue_of(words: Words, at: int) -> int | None:
+    """Return where "the taxi's cue to brake" begins in "being 25 m from it is the taxi's cue to brake"."""
+    name = at + 1
+    while words.has([name], "determiner", "actor_adjective", "heading") and name not in words.names.actors:
+        name += 1
+    cue = name in words.names.actors and "genitive" in words.tags(name + 1)
+    return at + 1 if cue and words.tag(name + 2, "label") == "when" else None
+
+
 def _seen_from(words: Words, at: int, clause: Clause) -> int | None:
     """Return where "the ego driving west" begins in "the van sees the ego driving west"."""
     first = at
     while first > clause.start and words.has([first - 1], "determiner", "actor_adjective", "heading"):
         first -= 1
-    return first if first > clause.start and words.word(first - 1) in _SEES else None
+    return first if first > clause.start and words.word(first - 1) in SEES else None
 
 
 def _begun(words: Words, clause: Clause, at: int) -> bool:

@@ -99,7 +99,7 @@ class DeedReader:
                 return  # "seems to wait" is no wait
             if "negation" in tags or self.words.word(at) in NEGATIVES:
                 negation = at
-                given = {self.words.word(i) for i in range(at + 1, min(at + 5, clause.end))}
+                given = {word for i in range(at + 1, min(at + 5, clause.end)) for word in self.words.word(i).split()}
                 if clause.subject == HERO_ID and "priority" in given and given & {"give", "grant", "us"}:
                     self.words.used.add(at)
                     self._add("not_yield", at, clause)  # "does not give us priority"
@@ -125,7 +125,8 @@ class DeedReader:
                 return
             elif verb in _DEEDS and not self._only_describes(verb, at, clause):
                 stopped = verb == "complete" and self.words.has(range(at - 2, at + 4), "stop_noun")
-                if stopped or (wanted and verb in ("brake", "stop", "accelerate")):
+                future = {"going", "is going", "are going"} & {self.words.word(i) for i in range(at - 3, at)}
+                if stopped or (wanted and not future and verb in ("brake", "stop", "accelerate")):
                     raise self.words.refuse("an intention like this is not read here", self.words.span(clause))
                 self._add(_DEEDS[verb], at, clause)
             elif verb in _MOVES and not wanted and not self._only_describes(verb, at, clause):
@@ -176,8 +177,21 @@ class DeedReader:
             return True
         if verb == "wait" and clause.subject == EGO_ID and words.word(at + 1) == "to":
             return True  # "the ego, which is waiting to turn left"
-        if words.word(at) == "clear" and words.word(at - 1) in ("way", "road", "path", "junction", "lane"):
+        ways = ("way", "road", "path", "junction", "lane")
+        if words.word(at) == "clear" and words.word(at - 1).split()[-1:] and words.word(at - 1).split()[-1] in ways:
             return True  # "leaving the way clear"
+        first = at == clause.start and (not at or words.has([at - 1], "end"))
+        if first and token.forms == {"base"} and words.tag(at + 1, "preposition") == "for":
+            return True  # "Race for the driveway:"
+        by = verb == "pass" and "ing" in token.forms and words.tag(at + 1, "preposition") in ("by", "on")
+        if (by or words.word(at).endswith(" by")) and clause.subject == EGO_ID:
+            return True  # "the ego, meanwhile, is passing by on the road"
+        if verb in ("yield", "not_yield") and "ing" in token.forms and words.has([at + 1], "unknown"):
+            return True  # "the yielding set"
+        will = words.has(range(at - 2, at), "auxiliary", "wanting")
+        into = words.has(range(at + 1, min(at + 4, clause.end)), "area")
+        if verb == "enter" and into and (will or clause.both or clause.subject == EGO_ID):
+            return True  # "both are going to enter the driveway"
         if "left_over" in token.tags and words.has(range(at - 2, at), "quantity"):
             return True  # "6 m remain"
         if verb == "reach":
@@ -256,6 +270,10 @@ class DeedReader:
         there = "there" in " ".join(self.words.word(i) for i in range(at, clause.end)).split()
         if verb in ("wait", "sit") and there and any(each.kind == "stop" for each in self.deeds[-1:]):
             return True  # "it stops, but it does not stay there"
+        stopped = any(each.kind in ("stop", "wait") and each.actor == HERO_ID for each in self.deeds)
+        later = self.words.verbs(range(at + 1, len(self.words.tokens))) & {"go", "accelerate", "drive", "pull_out"}
+        if verb == "wait" and stopped and ("ing" in self.words.tokens[at].forms or later):
+            return True  # "Without waiting for the ego it then drives on"
         if verb in _WAITS:
             self._add("not_yield" if verb in ("yield", "let") else "not_stop", at, clause)
             return True

@@ -79,6 +79,7 @@ def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> 
         following = next((each for each in words.clauses if each.start == at + 1), None)
         lost = "negation" in token.tags or "respectively" in token.tags or token.tags.get("verb") == "fail"
         lost = lost or (token.text.lower() in NEGATIVES and _denies_something(words, at))
+        lost = lost and not _denies_nothing(words, at, clause)
         if "landmark" in token.tags:
             before = clause is not None and clause.sentence < trigger_sentence
             quiet = clause is not None and not words.has(clause.inside, "quantity")
@@ -166,6 +167,17 @@ def _is_stranger(words: Words, at: int) -> bool:
     return words.has([at + 1], "unknown", "verb", "auxiliary", "be") and at + 1 not in words.names.actors
 
 
+def _denies_nothing(words: Words, at: int, clause: Clause | None) -> bool:
+    """Whether a denial tells nothing of a drive: "it won't have the place to itself", "without regard for anybody"."""
+    if clause is None or "negation" not in words.tags(at):
+        return False
+    rest = range(at + 1, clause.end)
+    plain = ("unknown", "determiner", "pronoun", "possessive", "preposition", "auxiliary", "link", "adverb")
+    known = any(not words.tags(i).keys() & set(plain) or i in words.names.actors for i in rest)
+    done = any(words.word(i).endswith("ing") for i in rest) or words.has(rest, "verb", "heading", "direction")
+    return len(rest) > 1 and "unknown" not in words.tags(at + 1) and not known and not done
+
+
 def _repeats(words: Words, clause: Clause, deeds: list[Deed], trigger_sentence: int) -> bool:
     """Whether "until it has come to a stop" only repeats what the hero does, or a way is told: "before it turns"."""
     own = [deed for deed in deeds if deed.clause is clause]
@@ -177,7 +189,7 @@ def _repeats(words: Words, clause: Clause, deeds: list[Deed], trigger_sentence: 
 
 def _tells_moment(words: Words, clause: Clause) -> bool:
     """Whether a "when" has an amount, or only tells when something begins that is known."""
-    later = [each for each in words.sentence(clause) if each.start >= clause.start][:3]
+    later = [each for each in words.sentence(clause) if each.start >= clause.start][:6]
     told = any(words.has(each.inside, "quantity") for each in later)
     begins = words.verbs(clause.inside) & {"brake", "stop", "accelerate"} and clause.subject == HERO_ID
     begins = begins and len({words.names.actors[at] for at in clause.inside if at in words.names.actors}) < 2

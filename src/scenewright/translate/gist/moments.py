@@ -78,14 +78,17 @@ class MomentReader:
             if clause.link == "when" or "trigger" in clause.labels:
                 raise self.words.refuse("this is told of the start and of the trigger", made.span)
             return "start"
-        if made.kind == "speed" and self._is_asked(clause) and self._is_condition(made):
+        if made.kind == "speed" and (self._is_within(made) or (self._is_asked(clause) and self._is_condition(made))):
             return "trigger"
         if made.kind == "speed":
             told = self._is_asked(clause) or self._deed_beside(clause)
-            if told and not made.target and not self._after_trigger(clause):
+            if told and not made.target and not self._after_trigger(clause) and not self._on_its_way(made):
                 raise self.words.refuse(UNCLEAR, made.span)
             return "deed" if made.target or self._after_trigger(clause) else "start"
         asked = "trigger" in clause.labels or self._is_asked(clause)
+        comes = self.words.verbs(range(clause.start, made.at)) & {"come", "drive", "go", "approach", "pull_out"}
+        if self.words.word(made.at - 1) == "from" and made.kind == "place" and clause.link != "when" and comes:
+            return "start"  # "is coming up from 50 m before its stop line"
         if self._goes_until(clause):
             if self.words.word(made.at - 1) == "from":
                 return "start"  # "drives on from 27 m before it until ..."
@@ -129,8 +132,10 @@ class MomentReader:
     def _of_stop(self, made: Measured) -> bool:
         """Whether a place is where the hero comes to rest."""
         clause = made.clause
-        if made.actor == EGO_ID or made.kind != "place" or clause.link == "when":
+        if made.actor == EGO_ID or made.kind != "place" or (clause.link == "when" and not self._stands_once(clause)):
             return False
+        if clause.link == "when":
+            return True
         own = [deed for deed in self.deeds if deed.clause is clause and deed.actor == HERO_ID]
         if any(deed.kind in ("stop", "wait") for deed in own):
             return True
@@ -155,6 +160,13 @@ class MomentReader:
                 deed.clause is before and deed.kind in ("stop", "wait") and deed.actor == HERO_ID for deed in self.deeds
             )
         )
+
+    def _stands_once(self, clause: Clause) -> bool:
+        """Whether this is where the hero stands: "It is stationary once it is 8 m from it", told after the trigger."""
+        told = [each for each in self.words.sentence(clause) if self.words.has(each.inside, "quantity")]
+        stands = [d for d in self.deeds if d.clause.sentence == clause.sentence and d.kind in ("stop", "wait")]
+        early = any(self.moments.get(each.at) == "trigger" for each in self.measured)
+        return early and told == [clause] and bool(stands) and stands[0].actor == HERO_ID and stands[0].at < clause.start
 
     def begins(self, deed: Deed) -> bool:
         """Whether a deed is said to begin: "begins to brake"."""
@@ -193,11 +205,34 @@ class MomentReader:
         first = next(each for each in self.words.sentence(clause) if each.link == "when" or each is clause)
         return measured and not acted and not made.target and first.start <= clause.start
 
+    def _is_within(self, made: Measured) -> bool:
+        """Whether a speed is told within a condition: "when the van, then doing 30 km/h, is 3 s from it"."""
+        sentence = self.words.sentence(made.clause)
+        asked = next((each for each in sentence if each.link == "when"), None)
+        if asked is None or made.target or made.at < asked.start or made.clause.link == "that":
+            return False
+        acts = (d.at for d in self.deeds if d.actor == HERO_ID and d.clause.sentence == made.clause.sentence)
+        act = min((at for at in acts if at > asked.start), default=sentence[-1].end)
+        own = [each for each in self.measured if each.kind == "place" and each.actor == made.actor]
+        before = [self.words.word(at) for at in range(made.clause.start, made.at)]
+        then = {"then", "by then", "at that"} & set(before)
+        return bool(then) and any(made.at < each.at < act for each in own)
+
     def _is_asked(self, clause: Clause) -> bool:
         """Whether the sentence tells a condition: "when", "trigger"."""
         sentence = self.words.sentence(clause)
         labels = any(self.words.where(each.inside, "label", "when") is not None for each in sentence)
         return labels or any(each.link == "when" for each in sentence)
+
+    def _on_its_way(self, made: Measured) -> bool:
+        """Whether a speed is told with the way, before a moment: "comes down the road at 5 m/s, and brakes when"."""
+        clause = made.clause
+        ways = self.words.verbs(range(clause.start, made.at)) & {"come", "drive", "go", "pull_out", "approach", "leave"}
+        whens = [each for each in self.words.sentence(clause) if each.link == "when"]
+        early = bool(whens) and all(each.start > clause.start for each in whens) and clause.link in ("main", "colon")
+        done = any(deed.clause is clause and deed.kind != "turn" for deed in self.deeds)
+        verbless = not self.words.has(clause.inside, "verb", "be")
+        return early and (bool(ways) or verbless) and not done
 
     def _goes_until(self, clause: Clause) -> bool:
         """Whether the moment is told after this clause as the end of it: "drives on until the gap is 16 m"."""
@@ -224,7 +259,7 @@ class MomentReader:
             raise self.words.refuse(UNCLEAR, made.span)
 
     def _has_amount(self, clause: Clause) -> bool:
-        following = [each for each in self.words.sentence(clause) if each.start >= clause.start][:3]
+        following = [each for each in self.words.sentence(clause) if each.start >= clause.start][:6]
         return any(self.words.has(each.inside, "quantity") for each in following)
 
     def _deed_beside(self, clause: Clause) -> bool:

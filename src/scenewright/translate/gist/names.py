@@ -29,6 +29,7 @@ _RELATIVE = {
     "right_turner": "right",
     "through_one": "straight",
 }
+_GOES = ("turn", "go", "leave", "pull_out", "enter", "drive")
 _NAMED = frozenset(("ego", "hero", "noun"))
 
 
@@ -43,11 +44,13 @@ def find_names(tokens: list[Token]) -> Names:
         word = token.text.lower()
         if word == "subject" and at + 1 < len(tokens) and "colon" in tokens[at + 1].tags:
             continue  # of a letter
-        if word in FIRST_PERSON or word in ("we have", "i have"):
+        if _is_director(tokens, at):
+            continue
+        if word in FIRST_PERSON or word in ("we have", "i have") or _is_own_wish(tokens, at):
             names.actors[at] = speaker
-        elif "ego" in token.tags:
+        elif "ego" in token.tags or _is_our_own(tokens, at):
             names.actors[at] = EGO_ID
-        elif word in ("both", "they", "each") or ("pair" in token.tags and "measured_word" not in token.tags):
+        elif word in ("both", "they", "each") or ("pair" in token.tags and not _is_told_later(tokens, at)):
             if not _one_of_them(tokens, at) and not _both_and(tokens, at):
                 names.both.add(at)
         elif word in PERSONAL or token.tags.keys() & {"latter", "pronoun", "possessive"}:
@@ -60,10 +63,28 @@ def find_names(tokens: list[Token]) -> Names:
             if another and list(names.actors.values()).count(HERO_ID) > 1:
                 names.kinds |= {"hero", "another"}
     egos = [tokens[at].text.lower() for at, actor in names.actors.items() if actor == EGO_ID]
-    names.spoken = bool(egos) and all(each in FIRST_PERSON for each in egos)
+    names.spoken = bool(egos) and all(each.split()[0] in FIRST_PERSON for each in egos)
     names.guessed = unknown
     names.unclear = _either(tokens, names)
     return names
+
+
+def _is_director(tokens: list[Token], at: int) -> bool:
+    """Whether "we" stage the test here: "we let a vehicle turn left"."""
+    if tokens[at].text.lower() not in ("we", "i") or at + 2 >= len(tokens) or tokens[at + 1].tags.get("verb") != "let":
+        return False
+    return tokens[at + 2].tags.get("determiner") in ("indefinite", "another")
+
+
+def _is_own_wish(tokens: list[Token], at: int) -> bool:
+    """Whether "we want to" tells where the ego goes, and not what the test is for."""
+    if tokens[at].tags.get("frame") != "wish" or tokens[at].text.lower().split()[0] not in FIRST_PERSON:
+        return False
+    verb = next((i for i in range(at + 1, min(at + 4, len(tokens))) if "verb" in tokens[i].tags), None)
+    if verb is None or verb + 1 >= len(tokens):
+        return False
+    ways = bool(tokens[verb + 1].tags.keys() & {"direction", "preposition", "heading", "relation"})
+    return tokens[verb].tags["verb"] in _GOES or (tokens[verb].tags["verb"] == "come" and ways)
 
 
 def _either(tokens: list[Token], names: Names) -> int | None:
@@ -160,6 +181,12 @@ def _one_of_them(tokens: list[Token], at: int) -> bool:
     return "negation" not in tokens[at - 2].tags and tokens[at - 2].text.lower() != "neither"
 
 
+def _is_told_later(tokens: list[Token], at: int) -> bool:
+    """Whether this says of amounts that they are alike: "3 s and 4 s, both to the line", not "both of them turning"."""
+    acts = at + 1 < len(tokens) and "ing" in tokens[at + 1].forms
+    return "measured_word" in tokens[at].tags and not acts
+
+
 def _both_and(tokens: list[Token], at: int) -> bool:
     """Whether "both" begins "both the ego ... and the van ..."."""
     ahead = at + 1
@@ -196,6 +223,13 @@ def _is_ours(tokens: list[Token], at: int) -> bool:
     while back >= 0 and tokens[back].tags.keys() & {"actor_adjective", "unknown", "heading"}:
         back -= 1
     return back >= 0 and "our" in tokens[back].tags.values()
+
+
+def _is_our_own(tokens: list[Token], at: int) -> bool:
+    """Whether "our" stands for the vehicle: "our being 4 s from it", "our distance to it"."""
+    if "our" not in tokens[at].tags.values() or at + 1 >= len(tokens):
+        return False
+    return bool(tokens[at + 1].tags.keys() & {"measure", "measures"}) or tokens[at + 1].text.lower() == "being"
 
 
 def _ego_kinds(tokens: list[Token]) -> set[str]:

@@ -10,7 +10,7 @@ from typing import Protocol
 from scenewright.translate.gist.subjects import is_object
 from scenewright.translate.gist.words import Clause, Words
 
-_MEASURES = ("length", "time", "ttc", "headway")
+_MEASURES = ("length", "time", "ttc", "headway", "own")
 
 
 class Owned(Protocol):
@@ -25,7 +25,20 @@ def measure_of(words: Words, at: int) -> str | None:
     """Return what a word measures: "distance", "times to arrival", also "that" in "and that from the van to it"."""
     if words.word(at) == "that" and words.tag(at + 1, "preposition") in ("out", "of"):
         return "length"
+    if "genitive" in words.tags(at) and words.has([at + 1], "preposition", "relation", "be"):
+        return "own"  # "the ego's time to the line is 2 s, and the target's to the conflict point 3 s"
+    if _is_elliptic(words, at):
+        return "own"
     return words.tag(at, "measure") or words.tag(at, "measures")
+
+
+def _is_elliptic(words: Words, at: int) -> bool:
+    """Whether this is the "'s" of "and the target's at the conflict point is 3 s", and no "is"."""
+    short = "be" in words.tags(at) and words.tokens[at].span.excerpt(words.text).startswith(("'", "\u2019"))
+    if not short or not words.has([at + 1], "preposition", "relation"):
+        return False
+    amount = next((i for i in range(at + 1, at + 8) if words.has([i], "quantity", "end")), at)
+    return words.has(range(at + 1, amount), "be", "falls")
 
 
 def measure_word(words: Words, at: int, clause: Clause) -> str | None:
@@ -84,8 +97,8 @@ def _between(words: Words, at: int, clause: Clause) -> int | None:
 
 def told_for(words: Words, made: Owned, at: int) -> None:
     """Read "3 s for the ego and 2 s for the van" and "25 m (ego)": whose it is stands after it."""
-    if words.word(made.at + 1) == "(" and words.word(made.at + 3) == ")" and made.at + 2 in words.names.actors:
-        made.actor = words.names.actors[made.at + 2]
+    if (bracket := words.in_brackets(made.at + 1)) is not None:
+        made.actor = bracket[1]
         return
     for ahead in range(made.at + 1, min(len(words.tokens), max(at, made.at + 1) + 4)):
         preposition = words.tag(ahead, "preposition")

@@ -144,6 +144,8 @@ class StoryTeller:
                 return False  # "crosses the ego's lane"
         if deed.kind in ("stop", "pass"):
             return clause.sentence >= here or clause.link != "that"
+        if deed.kind == "turn" and clause.link == "that" and not self.moments.begins(deed):
+            return False  # "a tractor that has been making its way out of the driveway"
         if deed.kind == "keep":
             return clause.sentence >= here
         first = min(made.at for made in self.moments.of("trigger"))
@@ -265,7 +267,11 @@ class StoryTeller:
         acted = {deed.clause.sentence for deed in self.deeds if deed.actor == HERO_ID and deed.kind != "turn"}
         moments = [deed for deed in self.deeds if deed.kind in ("before", "after")]
         moments = [d for d in moments if d.clause.sentence >= self.trigger_sentence or d.clause.sentence in acted]
-        lets = [deed for deed in self.deeds if deed.kind == "let_reach"]
+        later = [d for d in moments if d.clause.sentence >= self.trigger_sentence]
+        if later:  # "It stops for us and resumes after we are gone. ..." tells in short what follows
+            kinds = {(d.kind, d.landmark) for d in later}
+            moments = [d for d in moments if d in later or (d.landmark != "same" and (d.kind, d.landmark) not in kinds)]
+        lets = [deed for deed in self.deeds if deed.kind == "let_reach" and not self._is_purpose(deed)]
         moments = moments or self._first(goes)
         if lets and any(deed.kind == "before" for deed in moments):
             raise self.words.refuse("the hero lets the ego go and also comes first", lets[0].span)
@@ -275,6 +281,11 @@ class StoryTeller:
         for deed in moments:
             self._one_order(deed, previous)
             previous = deed
+
+    def _is_purpose(self, deed: Deed) -> bool:
+        """Whether it is only said what for: "To let the ego make its turn, a car stops. It begins to brake when ..."."""
+        to = self.words.word(deed.clause.start - 2) == "to"
+        return to and deed.clause.sentence < self.trigger_sentence
 
     def _let(self, deed: Deed) -> None:
         event = Event("pass", EGO_ID, deed.span, deed.clause.sentence)

@@ -9,6 +9,7 @@ from scenewright.translate.events import EGO_ID, HERO_ID
 from scenewright.translate.gist.names import PERSONAL
 from scenewright.translate.gist.words import Clause, Words
 
+SEES = ("sees", "spots", "notices", "watches", "saw", "spotted", "noticed", "see", "seeing")
 _BESIDE = frozenset(("determiner", "actor_adjective", "possessive", "heading", "hero", "noun", "unknown", "direction"))
 _OBJECT_OF = frozenset(("to", "of", "for", "by", "between", "across", "into", "in", "on", "at", "out"))
 _TAKES_OBJECT = frozenset(
@@ -33,6 +34,8 @@ def is_object(words: Words, at: int) -> bool:
         return False
     if 0 < back < at and "ing" in words.tokens[back].forms and "determiner" in words.tags(back - 1):
         return False  # "the entering car"
+    if words.word(back) in SEES and "ing" in words.tokens[min(at + 1, len(words.tokens) - 1)].forms:
+        return False  # "sees the ego driving west"
     if back < 0:
         return False
     tags, verb = words.tags(back), words.tag(back, "verb")
@@ -94,7 +97,19 @@ def give_subjects(words: Words) -> None:
         main = clause.link not in _SUBORDINATE
         acts = verbs & _STRONG or (main and verbs & {"pass", "complete"})
         acting = acting or (clause.subject == HERO_ID and bool(acts))
-        last = clause.subject
+        if words.word(clause.start - 1) not in SEES:
+            last = clause.subject  # who sees the other one goes on: "sees the ego coming, and stops"
+        last = _goes_on(words, index, last)
+
+
+def _goes_on(words: Words, index: int, last: int | None) -> int | None:
+    """Return whom "it" means in the sentence after "The van goes once the ego has passed": who acts there."""
+    clause = words.clauses[index]
+    following = words.clauses[index + 1] if index + 1 < len(words.clauses) else clause
+    if clause.link not in ("before", "after", "until") or following.sentence == clause.sentence:
+        return last
+    acting = [each for each in words.sentence(clause) if each.link in _MAIN and each.subject is not None]
+    return acting[-1].subject if acting else last
 
 
 def _name_subject(words: Words, clause: Clause) -> None:
@@ -133,7 +148,8 @@ def _agrees_with_two(words: Words, clause: Clause) -> bool:
     """Whether the verb is a plural: "a van and, behind it, the ego drive east"."""
     actors = words.names.actors
     for at in clause.inside[1:]:
-        if "verb" in words.tags(at) and words.tokens[at].forms == {"base"} and at - 1 in actors:
+        plural = "verb" in words.tags(at) and words.tokens[at].forms == {"base"} and at - 1 in actors
+        if plural and "let" not in words.verbs(clause.inside):
             earlier = [each for each in words.sentence(clause) if each.start < clause.start]
             return any(actors.get(i, actors[at - 1]) != actors[at - 1] for each in earlier for i in each.inside)
     return False
@@ -176,13 +192,21 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     earlier = [each for each in words.sentence(clause) if each.start < clause.start]
     if (other := _other_one(words, clause, earlier)) is not None:
         return other
-    hero_here = acting or any(each.named and each.subject == HERO_ID for each in earlier)
-    deeds = _DEEDS | {"go", "turn"} if clause.link == "then" or _after_a_moment(earlier) else _DEEDS
+    first_of_two = bool(earlier) and earlier[0].subject == HERO_ID and earlier[0].link == "main"
+    hero_here = acting or first_of_two or any(each.named and each.subject == HERO_ID for each in earlier)
+    participle = "ing" in words.tokens[clause.start].forms and clause.link in ("before", "after")
+    if participle and hero_here and (verbs & _STRONG or words.has(clause.inside, "stop_noun")):
+        return HERO_ID  # "After coming to a stop, it waits"
+    deeds = _DEEDS | {"go", "turn", "follow"} if clause.link == "then" or _after_a_moment(earlier) else _DEEDS
     strong = verbs & _STRONG or words.has(clause.inside, "stop_noun")
     if clause.link in _MAIN and ((pronouns and hero_here and strong) or (acting and (verbs & deeds or strong))):
         return HERO_ID
     owned = [at for at in pronouns if not words.has([at - 1], "preposition", "relation", "verb")]
     if not owned and not any(each.named or _is_finite(words, each) for each in [*earlier, clause]):
+        beside = words.clauses[index + 1] if index + 1 < len(words.clauses) else clause
+        with_it = "with" in (words.word(clause.end), words.word(clause.end + 1)) and words.has([clause.start], "direction")
+        if with_it and beside.sentence == clause.sentence and words.named(beside.inside) is not None:
+            return last  # "Left turn from the driveway, with a westbound truck"
         following = _named_later(words, index)
         return following if following is not None else last
     return last
@@ -191,6 +215,8 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
 def _other_one(words: Words, clause: Clause, earlier: list[Clause]) -> int | None:
     """Return whom "it" means beside a vehicle whose place was told: "when we are 50 m and it is 12 m from it"."""
     it = words.word(clause.start) in ("it", "he", "she")
+    if it and (beside := _told_beside(words, clause)) is not None:
+        return 1 - beside
     if not it or not earlier:
         return None
     if words.verbs(clause.inside) & _STRONG and earlier[0].subject == HERO_ID and clause.link == "when":
@@ -204,6 +230,23 @@ def _other_one(words: Words, clause: Clause, earlier: list[Clause]) -> int | Non
         return None
     subject = earlier[-1].subject
     return None if subject is None else 1 - subject
+
+
+def _told_beside(words: Words, clause: Clause) -> int | None:
+    """Return whose place is told next to that of "it": "when it is 12 m from it and the ego is 30 m from it"."""
+    if clause.link != "when" or not _tells_place(words, clause):
+        return None
+    later = [each for each in words.sentence(clause) if each.start > clause.start and each.link != "that"]
+    following = next((each for each in later if words.has(each.inside, "quantity") or each.named), None)
+    if following is None or following.link not in ("and", "main"):
+        return None
+    named = next((at for at in following.inside if at in words.names.actors), None)
+    if named is None or is_object(words, named) or words.verbs(following.inside) & _STRONG:
+        return None
+    told = [each for each in later if following.start <= each.start][:2]
+    amount = next((each for each in told if words.has(each.inside, "quantity")), None)
+    placed = amount is not None and _tells_place(words, amount)
+    return words.names.actors[named] if placed else None
 
 
 def _tells_place(words: Words, clause: Clause) -> bool:

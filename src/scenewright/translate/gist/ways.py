@@ -94,6 +94,8 @@ class WayReader:
             self._lane(at, clause)
         elif area is not None and (verb is None or self.words.has([at - 1], "determiner", "preposition", "possessive")):
             self._area(at, clause)  # "I drive" is no drive
+        elif "from_side" in tags and self._is_beside_driveway(at, clause):
+            self._say("turn", tags["from_side"].removeprefix("on_"), at, clause.subject, clause)
         elif "from_side" in tags:
             self._relate(tags["from_side"].replace("on_", "from_"), self._whose(at, clause), at)
         elif "oncoming_way" in tags:
@@ -111,7 +113,7 @@ class WayReader:
         while "determiner" in self.words.tags(back):
             back -= 1
         lane = self.words.has([at + 1], "area", "noun", "hero")
-        if self.words.word(back) == "from" and not lane:
+        if self.words.word(back).split()[-1:] == ["from"] and not lane:
             value = OPPOSITE[value]  # who comes from the east drives west
         self._say("heading", value, at, self._whose(at, clause), clause)
 
@@ -132,10 +134,16 @@ class WayReader:
                 return
             if not self._is_turn(at):
                 raise self.words.refuse("it is not clear who turns here", self.words.tokens[at].span)
-        owner = clause.subject
+        owner = self._let(at, clause)
         if "noun" in after and "verb" not in before:
             owner = self.words.names.actors.get(at + 1, owner)
         self._say("turn", value, at, owner, clause)
+
+    def _let(self, at: int, clause: Clause) -> int | None:
+        """Return who is let go this way, in "lets the ego make its left turn"; else whom the clause is about."""
+        let = self.words.where(range(clause.start, at), "verb", "let")
+        named = self.words.named(range(let + 1, min(let + 4, at))) if let is not None else None
+        return named if named is not None else clause.subject
 
     def _is_no_turn(self, at: int) -> bool:
         """Whether this is "right in front of", "right of way", "right at the line", "30 m left to it", "left to go"."""
@@ -145,6 +153,8 @@ class WayReader:
         opens = self.words.word(at) == "right" and "comma" in after and (not before or "end" in before)
         if opens:
             return True  # "Right, so the ego ..."
+        if "determiner" in before and self.words.word(at + 1) in ("thing", "decision", "moment", "time", "order"):
+            return True  # "does the right thing"
         if after.get("relation") in ("ahead", "behind") or (just and after.get("preposition") in ("of", "at")):
             return True
         if "genitive" in before and "link" in after:
@@ -187,9 +197,16 @@ class WayReader:
         back = self.words.where(range(at - 1, -1, -1), "area")
         return back is not None and self.words.tags(back)["area"] == "driveway"
 
+    def _is_beside_driveway(self, at: int, clause: Clause) -> bool:
+        """Whether this is "for the driveway on its left", which tells a turn."""
+        on = self.words.tags(at)["from_side"].startswith("on_") and self.words.tag(at - 1, "area") == "driveway"
+        return on and clause.subject is not None and self._role(at - 1, clause) == "into"
+
     def _into_it(self, at: int, clause: Clause) -> None:
         before = self.words.tags(at - 1)
-        if before.get("preposition") == "into" or before.get("verb") == "enter":
+        if self.words.word(at - 1) == "onto":  # nobody drives onto a driveway: the road is meant
+            self._say("origin_kind", "driveway", at, clause.subject, clause)
+        elif before.get("preposition") == "into" or before.get("verb") == "enter":
             self._say("destination_kind", "driveway", at, clause.subject, clause)
         out = before.get("preposition") == "out" and "relation" not in before
         if out or before.get("verb") == "leave" or "out of" in self.words.word(at - 1):
@@ -200,6 +217,9 @@ class WayReader:
         if role == "past":
             if kind == "driveway" and clause.subject is not None and clause.link not in ("before", "after", "until"):
                 self._say("turn", "straight", at, clause.subject, clause)
+        elif self._let(at, clause) != clause.subject and role is not None and kind == "driveway":
+            key: Key = "destination_kind" if role == "into" else "origin_kind"
+            self.ways.append(Way(key, "driveway", at, self.words.tokens[at].span, self._let(at, clause)))
         elif role is not None and (clause.subject is not None or clause.both):
             if kind == "driveway":
                 self._say(
@@ -222,12 +242,14 @@ class WayReader:
         before = self.words.verbs(range(max(clause.start, back - 2), back))
         turned = "turn" in before or self._turned(back, clause)
         bound = preposition == "to" and self.words.word(back - 1).endswith("way")  # "on its way to the driveway"
-        if preposition == "into" or verb in ("enter", "want") or word in ("for", "onto") or bound:
+        if preposition == "into" or verb in ("enter", "want") or word.split()[-1:] in (["for"], ["onto"]) or bound:
             return "into"
         if preposition in ("on", "in") and (before & {"enter"} or (turned and self.words.tag(at, "area") == "road")):
             return "into"  # "enters in the driveway", "turns left on the road"
         if verb == "pull_out" and word.startswith(("join", "merg")):
             return "into"
+        if verb == "leave" and self.words.tag(at + 1, "preposition") in ("to", "for"):
+            return None  # "leaves the driveway to us"
         if preposition == "out" or verb in _LEAVING or word in ("from", "down") or "out of" in word:
             return "from"
         if preposition == "by" and self.words.verbs(clause.inside) & {"leave"}:
@@ -244,8 +266,8 @@ class WayReader:
         goal = {"destination", "goal", "target", "aim"} & {
             self.words.word(i) for i in range(max(0, back - 2), back + 1)
         }
-        if goal and self._is_title(clause):
-            return None  # "Two vehicles with one destination, the driveway."
+        if goal and self._is_title(clause):  # "Two vehicles with one destination, the driveway."
+            return "into" if clause.both else None
         begins = back < clause.start or bool(tags.keys() & {"comma", "end", "colon"})
         if "relation" in tags or not (preposition in ("on", "in", "with") or begins):
             return None
@@ -265,7 +287,8 @@ class WayReader:
             for i in range(each.start, min(each.end, at))
         ]
         sided = any(self.words.word(i) in ("left to", "right to") for i in stretch)
-        return sided or self.words.where(stretch, "direction", "left", "right") is not None
+        own = [i for i in stretch if "genitive" not in self.words.tags(i - 1)]  # not "from the ego's left"
+        return sided or self.words.where(own, "direction", "left", "right") is not None
 
     def _lane(self, at: int, clause: Clause) -> None:
         """Read "into the ego's lane" and "into the lane that the ego is using"."""
@@ -284,6 +307,8 @@ class WayReader:
 
     def _follows(self, at: int, clause: Clause, verb: str) -> None:
         near = range(at + 1, at + 4)
+        if self.words.has(near, "through") or self.words.has(range(at + 1, at + 3), "landmark"):
+            return  # "then follows it through the conflict point", "stays behind its stop line"
         road = "pronoun" in self.words.tags(at + 1) and self._road_before(at)
         if verb == "follow" and road:  # "is on the road and follows it"
             self._say("turn", "straight", at, clause.subject, clause)
@@ -307,7 +332,9 @@ class WayReader:
             "unknown" in self.words.tags(back) and back not in names.actors
             for back in range(max(clause.start, at - 2), at)
         )
-        if "quantity" in self.words.tags(at - 1) or crosses or strange:
+        to_line = "landmark" in self.words.tags(self.words.skip(at + 1, _BESIDE) + 1)
+        enters = self.words.tag(at - 1, "area") == "driveway" and self._role(at - 1, clause) == "into"
+        if "quantity" in self.words.tags(at - 1) or crosses or strange or to_line or enters:
             return  # "sneaks in ahead of us" tells no order in a lane
         ahead = self.words.skip(at + 1, _BESIDE)
         other, mine = names.actors.get(ahead), clause.subject

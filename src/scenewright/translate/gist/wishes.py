@@ -7,6 +7,7 @@ follows from the map, or from whether it is told before the turn or after it.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from scenewright.roads import RoadMap, Route, all_routes
 from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, Event
@@ -24,6 +25,8 @@ def wishes(words: Words, reader: WayReader, road_map: RoadMap) -> dict[int, dict
         Where what is said about a vehicle fits no route of the map.
     """
     told = {actor: [way for way in reader.ways if way.actor == actor] for actor in (EGO_ID, HERO_ID)}
+    for actor in told:
+        told[actor] += _by_title(actor, told, reader.titles, road_map)
     for actor, at in reader.alike:
         if not any(way.key == "turn" for way in told[actor]):
             span = words.tokens[at].span
@@ -37,6 +40,14 @@ def wishes(words: Words, reader: WayReader, road_map: RoadMap) -> dict[int, dict
             _key(words, way, ways, options): Said(way.value, Event("be", actor, way.span, -1)) for way in ways
         }
     return found
+
+
+def _by_title(actor: int, told: dict[int, list[Way]], titles: list[Way], road_map: RoadMap) -> list[Way]:
+    """Return the ways of a title for the vehicle of which none are told, if the other cannot go them."""
+    if told[actor] or not titles or not told[1 - actor]:
+        return []
+    other = [route for route in all_routes(road_map) if all(_fits(route, way) for way in [*told[1 - actor], *titles])]
+    return [] if other else [replace(way, actor=actor) for way in titles]
 
 
 def one_each(words: Words, relations: Sequence[LaneRelation]) -> list[LaneRelation]:

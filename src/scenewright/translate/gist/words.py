@@ -127,6 +127,15 @@ class Words:
         """Return the actor that is named first in a stretch."""
         return next((self.names.actors[at] for at in stretch if at in self.names.actors), None)
 
+    def in_brackets(self, at: int) -> tuple[int, int] | None:
+        """Return where brackets end that hold nothing but a name, and whose: "(the other car)"."""
+        if self.word(at) != "(":
+            return None
+        end = next((i for i in range(at + 2, at + 6) if self.word(i) == ")"), None)
+        if end is None or end - 1 not in self.names.actors or self.has(range(at + 1, end), "quantity", "verb"):
+            return None
+        return end + 1, self.names.actors[end - 1]
+
     def skip(self, at: int, keys: frozenset[str], step: int = 1) -> int:
         """Step over tokens that have one of these tags and name nobody; return where the others begin."""
         while 0 <= at < len(self.tokens) and self.tags(at).keys() & keys:
