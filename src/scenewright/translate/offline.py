@@ -52,6 +52,8 @@ _AT_ONCE = re.compile(
     r"\b(?:at|in) the (?:very )?same (?:moment|time|instant|second)|\bsimultaneously\b|\bconcurrently\b", re.IGNORECASE
 )
 
+_AT_TRIGGER = re.compile(r"\b(?:at|on|upon) (?:the )?trigger\b", re.IGNORECASE)
+
 # A heading with keys under it, further in: whose heading that is, the grammar of clauses does not know.
 _NESTED = re.compile(r"^([ \t]*)\S[^\n:]*:[ \t]*\n(?:\1[ \t]+[^\n:]+:[^\n]+\n?){2,}", re.MULTILINE)
 
@@ -330,6 +332,15 @@ def _complete(facts: Facts, text: str, name: str) -> None:
 
 def _refuse_at_once(facts: Facts, text: str, name: str) -> None:
     """Refuse "brakes and at the same moment accelerates"."""
+    if {phase.kind for phase in facts.phases} >= {"dec", "acc"} and len(_AT_TRIGGER.findall(text)) > 1:
+        found = list(_AT_TRIGGER.finditer(text))[-1]
+        raise TranslationError(
+            "the hero is said to slow down and to speed up at one time",
+            place=Place(name, text, Span(*found.span())),
+            found=found.group(),
+            expected="one after the other",
+            fix="say which comes first",
+        )
     for first, second in itertools.pairwise(facts.phases):
         span = first.events[0].span.union(second.events[-1].span)
         if {first.kind, second.kind} >= {"dec", "acc"} and (found := _AT_ONCE.search(span.excerpt(text))):

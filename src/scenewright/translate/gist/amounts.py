@@ -82,6 +82,8 @@ class AmountReader:
         if quantity.dimension == "speed":
             self._speed(made)
         elif quantity.dimension == "acceleration":
+            if self.words.where(range(max(clause.start, at - 3), at), "measure", "speed") is not None:
+                raise self.words.refuse("a speed cannot be in acceleration units", made.span)
             made.kind, made.actor = "rate", HERO_ID
         else:
             self._length_or_time(made)
@@ -103,6 +105,8 @@ class AmountReader:
         return at >= 0 and (filler or "ing" in self.words.tokens[at].forms)
 
     def _length_or_time(self, made: Measured) -> None:
+        if self._is_same_as_before(made):
+            return
         measure = measure_word(self.words, made.at, made.clause)
         if measure in ("headway", "ttc"):
             self._check_two(made)
@@ -124,8 +128,38 @@ class AmountReader:
         if made.quantity is not None and made.quantity.dimension == "time" and self._lasts(made):
             made.kind, made.actor = "duration", HERO_ID
             return
+        if self._is_that_gap(made):
+            made.kind = "gap"
+            return
         made.actor = owner_of(self.words, made.at, made.clause)
         told_for(self.words, made, made.at + 1)
+
+    def _is_same_as_before(self, made: Measured) -> bool:
+        """Read "once that time has dropped to 3 s": what was measured last, of whom it was measured."""
+        words, quantity = self.words, made.quantity
+        stretch = range(made.clause.start, made.at)
+        if not stretch or words.word(stretch[0]) not in ("that", "this") or quantity is None:
+            return False
+        plain = ("measure", "falls", "be", "auxiliary", "adverb", "unknown", "determiner", "preposition")
+        if not all(words.tags(at).keys() & set(plain) for at in stretch) or words.named(stretch) is not None:
+            return False
+        alike = [
+            each for each in self.found if each.quantity is not None and each.quantity.dimension == quantity.dimension
+        ]
+        if not alike or alike[-1].kind not in ("place", "gap"):
+            return False
+        made.kind, made.landmark, made.actor = alike[-1].kind, alike[-1].landmark, alike[-1].actor
+        return True
+
+    def _is_that_gap(self, made: Measured) -> bool:
+        """Whether "it" is the gap spoken of: "The gap shrinks, and when it is 15 m the van brakes"."""
+        it = self.words.word(made.clause.start) == "it" and "be" in self.words.tags(made.clause.start + 1)
+        at = self.words.clauses.index(made.clause)
+        before = self.words.clauses[at - 1] if at else made.clause
+        spoken = [i for i in before.inside if "determiner" not in self.words.tags(i)][:1]
+        gap = self.words.has(spoken, "measure") and self.words.tag(spoken[0], "measure") == "length"
+        told = self.words.has(before.inside, "quantity", "landmark", "ego", "hero", "noun")
+        return it and gap and not told and before.sentence == made.clause.sentence
 
     # -- up to a place ------------------------------------------------------------------------------------------------
     def _collision_time(self, made: Measured) -> None:
@@ -146,6 +180,9 @@ class AmountReader:
 
     def _to_place(self, made: Measured) -> bool:
         """Read "40 m before the stop line" and "3 s left for the ego to reach its conflict point"."""
+        if self.words.word(made.at + 1) == "from there":
+            made.kind, made.landmark, made.actor = "place", "last", owner_of(self.words, made.at, made.clause)
+            return True
         at, told = self._of_whom(made.at + 1)
         relation = self.relation_at(at)
         place = self.place_at(relation[1]) if relation is not None else None
@@ -240,8 +277,11 @@ class AmountReader:
         tags = self.words.tags(at)
         if "landmark" in tags:
             return tags["landmark"], at + 1, False
-        if "back_reference" in tags or ("mark_noun" in tags and at > first):
+        if "back_reference" in tags or ("mark_noun" in tags and at > first) or self.words.word(at) == "there":
             return "last", at + 1, False
+        if "mouth" in tags and self.words.word(at + 1) == "of":
+            mouth = self.place_at(at + 2)
+            return mouth if mouth is not None and mouth[0] == "turn" else None
         if tags.get("area") == "driveway":
             return "turn", at + 1, True
         if tags.get("pronoun") == "it" and at == first and self._named_in_sentence(at):
@@ -299,11 +339,22 @@ class AmountReader:
             made.actor = owner_of(self.words, made.at, made.clause)
             told_for(self.words, made, made.at + 1)
             return True
+        if measure == "length" and between is None and self._is_told_of_next(made):
+            return False  # "at a distance of 21 m, and the hero at one of 26 m, from the conflict point"
         if measure == "length" or between is not None:
             made.kind = "gap"
             self._who_follows(made)
             return True
         return False
+
+    def _is_told_of_next(self, made: Measured) -> bool:
+        """Whether the place comes with the other vehicle's amount: "at a distance of 21 m, and the hero at one of"."""
+        words = self.words
+        of = [words.word(made.at - i) for i in (3, 2, 1)] == ["a", "distance", "of"]
+        ahead = range(made.at + 1, min(made.at + 10, len(words.tokens)))
+        other = words.where(ahead, "quantity", "length")
+        like = other is not None and words.word(other - 1) == "of" and words.word(other - 2) in ("one", "that")
+        return of and like and words.named(ahead) is not None
 
     def _check_known_place(self, made: Measured) -> None:
         """Refuse "the time to the turn line is 2 s": a measure up to what is no known place and no vehicle."""
@@ -380,7 +431,8 @@ class AmountReader:
         changes = bool(self.words.verbs(range(clause.start, at)) & {"brake", "accelerate"})
         if changes and not to and "at" in before:
             raise self.words.refuse("it is not clear what this speed means", self.words.tokens[at].span, "to 5 m/s")
-        return "down to" in before or changes
+        fallen = self.words.has([at - 1], "falls") and clause.link != "when"  # "so that it is down to 3 m/s"
+        return "down to" in before or changes or fallen
 
     def _lasts(self, made: Measured) -> bool:
         """Whether a time is how long the hero stands: "stands there for 2 s", "2 s later"."""

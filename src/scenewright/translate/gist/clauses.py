@@ -159,6 +159,8 @@ def _link(words: Words, at: int) -> str | None:
         return "when"
     if word == "whose":
         return "that"
+    if word == "from there" and "quantity" in words.tags(at - 1):
+        return None  # "when it is 2 s from there"
     if word == "where" and (not at or words.has([at - 1], "end")):
         return None  # "Where it comes to rest, 8 m are left"
     if link not in _LINKS:
@@ -176,6 +178,12 @@ def _link(words: Words, at: int) -> str | None:
         first = next((i + 1 for i in range(at, -1, -1) if "end" in words.tags(i)), 0)
         if words.verbs(range(first, at)) & {"wait", "let"}:
             return "then"  # "lets the ego pass before it moves off again"
+    if (word == "at the time" and words.has([at + 1], "comma")) or (word == "that" and words.word(at - 1) == "in"):
+        return None  # "the van, 25 m from it at the time, brakes", "yields in that it brakes"
+    if word == "after" and "be" in words.tags(at - 1) and "determiner" in following:
+        return None  # "both are after the same driveway"
+    if link == "until" and words.has([at - 1], "measure"):
+        return None  # "the time until the ego arrives at the conflict point is 4 s"
     if link in BOUNDS:
         measured = "quantity" in words.tags(at - 1) or words.tag(at - 1, "adverb") == "just"
         return None if measured or _names_place(words, at + 1) else link
@@ -184,6 +192,8 @@ def _link(words: Words, at: int) -> str | None:
     second = following.get("preposition") == "of" or following.keys() & {"noun", "hero", "actor_adjective"}
     if word in ("the second", "second") and second:
         return None  # "the second of the two", "the second vehicle"
+    if link == "that" and words.tag(at - 1, "link") == "when":
+        return None  # "once that has dropped to 3 s"
     if link == "that":
         measures = following.get("preposition") in ("out", "of")  # "and that from the van to the line"
         points = "determiner" in words.tags(at) and words.has([at + 1], "mark_noun", "noun", *_PLACES)
@@ -284,7 +294,9 @@ def _begun(words: Words, clause: Clause, at: int) -> bool:
 def _is_aside(words: Words, clause: Clause) -> bool:
     """Whether a clause is about something else: "The courtesy did not last", "you might expect"."""
     at, names = clause.start, words.names
-    if words.word(at) in ("you", "everyone"):
+    if clause.link == "that" and words.word(at - 1) in ("which", "who", "that"):
+        return False  # "which therefore goes straight" has its subject
+    if words.word(at) in ("you", "everyone") and at not in names.actors:
         return True
     while at < clause.end and words.has([at], "determiner", "actor_adjective", "area_adjective", "adverb"):
         if "hero" in words.tags(at):

@@ -91,6 +91,8 @@ class DeedReader:
             self._in_front(deed)
 
     def _clause(self, clause: Clause) -> None:
+        if self._only_denies(clause):
+            return
         negation: int | None = None
         wanted = False
         for at in clause.inside:
@@ -158,6 +160,19 @@ class DeedReader:
         if "landmark" in tags and self.words.tag(at - 1, "verb") == "approach":
             self.words.used.add(at)
 
+    def _only_denies(self, clause: Clause) -> bool:
+        """Read "The van turns left, the ego won't": who does not do what the other does goes straight."""
+        last, index = clause.end - 1, self.words.clauses.index(clause)
+        before = self.words.clauses[index - 1] if index else clause
+        alone = "negation" in self.words.tags(last) and not self.words.has(clause.inside, "verb", "be", "quantity")
+        turn = self.words.where(before.inside, "direction", "left", "right")
+        other = None not in (clause.subject, before.subject) and clause.subject != before.subject
+        if not (alone and other and turn is not None and before.sentence == clause.sentence and clause.subject is not None):
+            return False
+        self.words.used.add(last)
+        self.straight.append((clause.subject, last))
+        return True
+
     def _is_done(self, at: int) -> bool:
         """Whether this is "gets its whole turn done"."""
         back = at - 1
@@ -186,7 +201,7 @@ class DeedReader:
         by = verb == "pass" and "ing" in token.forms and words.tag(at + 1, "preposition") in ("by", "on")
         if (by or words.word(at).endswith(" by")) and clause.subject == EGO_ID:
             return True  # "the ego, meanwhile, is passing by on the road"
-        if verb in ("yield", "not_yield") and "ing" in token.forms and words.has([at + 1], "unknown"):
+        if verb in ("yield", "not_yield") and "ing" in token.forms and words.has([at - 1], "determiner"):
             return True  # "the yielding set"
         will = words.has(range(at - 2, at), "auxiliary", "wanting")
         into = words.has(range(at + 1, min(at + 4, clause.end)), "area")
@@ -276,6 +291,9 @@ class DeedReader:
             return True  # "Without waiting for the ego it then drives on"
         if verb in _WAITS:
             self._add("not_yield" if verb in ("yield", "let") else "not_stop", at, clause)
+            return True
+        if verb in ("drive", "go") and self.words.word(at - 1) == "no longer":
+            self._add("stop", at, clause)  # "until it no longer moves"
             return True
         if verb in ("drive", "go"):
             return self._stays(at, clause)
@@ -383,6 +401,8 @@ class DeedReader:
             or (self.words.has(clause.inside, "stop_noun"))
         ):
             raise self.words.refuse("this is no moment of the ego that can be compared", self.words.span(clause))
+        if clause.link == "until" and self.words.word(clause.start - 2) == "not":
+            self.words.used.add(clause.start - 2)  # "not until the ego has passed does it move"
         first = clause.link == "before" or self.words.word(clause.start - 1) in ("by the time", "after which")
         kind = "before" if first else "let_reach" if clause.link == "let" else "after"
         self.words.used |= set(range(clause.start - 1, clause.end))

@@ -23,6 +23,11 @@ _WRAPPED_AT = 70
 _BOLD = re.compile(r"\*\*|__(?=\S)|(?<=\S)__")
 # "Trigger - ego 3 s from it" at the beginning of a line
 _DASHED = re.compile(r"^([ \t]*(?:[-*] )?[A-Za-z][\w ()]{0,30}?) ([-\u2013\u2014])(?= )", re.MULTILINE)
+_CROSSING = re.compile(
+    r"(?:point|spot|place) (?:where|at which|in which) (?:their|the|the two|both|our|its|your|these|two) (?:two )?"
+    r"(?:paths|ways|lanes|routes|tracks|trajectories|courses) (?:cross|meet|merge|intersect|join|conflict)\b",
+    re.IGNORECASE,
+)
 _PLUS = re.compile(r"(?<= )[+&](?= )")
 
 
@@ -41,6 +46,7 @@ def _plain(text: str) -> str:
     if "\n" in text.strip():
         text = _DASHED.sub(r"\1 :", text)
     text = _PLUS.sub(",", text)
+    text = _CROSSING.sub(lambda found: "conflict point".ljust(len(found.group())), text)
     spaced = _KEY.sub(
         lambda found: found.group() if unit_of_name(found.group().strip()) else found.group().replace("_", " "), text
     )

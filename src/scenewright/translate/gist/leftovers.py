@@ -63,7 +63,7 @@ def refuse_strangers(words: Words) -> None:
     if len(words.names.kinds) > 1:
         raise words.refuse("more than one other vehicle is spoken of")
     for clause in words.clauses:
-        acts = words.verbs(clause.inside) & _DEEDS or words.has(clause.inside, "quantity")
+        acts = words.verbs(clause.inside) & {*_DEEDS, "lane_follow"} or words.has(clause.inside, "quantity")
         if clause.aside and acts:
             raise words.refuse("it is not clear who does this", words.span(clause))
 
@@ -84,12 +84,16 @@ def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> 
             before = clause is not None and clause.sentence < trigger_sentence
             quiet = clause is not None and not words.has(clause.inside, "quantity")
             lost = (
-                clause is not None and not (before and quiet) and not _is_defined(words, at)
+                clause is not None
+                and not (before and quiet)
+                and not _is_defined(words, at)
+                and at + 1 not in words.names.actors  # "the crossing car"
             )  # "pulls up to the stop line" before anything
         elif following is not None and following.link in BOUNDS:
             lost = not _repeats(words, following, deeds, trigger_sentence)
         elif following is not None and following.link == "when" and following.sentence >= trigger_sentence:
-            lost = not _tells_moment(words, following)
+            denied = all("negation" in words.tags(i) for i in following.inside)  # "If not, please build it."
+            lost = not _tells_moment(words, following) and not denied
         elif clause is not None and ("unknown" in token.tags or token.tags.get("verb") == "attitude"):
             lost = _is_strange_condition(words, at, clause)
         if lost:
@@ -171,9 +175,13 @@ def _denies_nothing(words: Words, at: int, clause: Clause | None) -> bool:
     """Whether a denial tells nothing of a drive: "it won't have the place to itself", "without regard for anybody"."""
     if clause is None or "negation" not in words.tags(at):
         return False
+    if clause.link == "when" and len(clause.inside) == 1:
+        return True  # "If not, please build it."
     rest = range(at + 1, clause.end)
     plain = ("unknown", "determiner", "pronoun", "possessive", "preposition", "auxiliary", "link", "adverb")
-    known = any(not words.tags(i).keys() & set(plain) or i in words.names.actors for i in rest)
+    known = any(
+        (not words.tags(i).keys() & set(plain) and words.word(i) != "place") or i in words.names.actors for i in rest
+    )
     done = any(words.word(i).endswith("ing") for i in rest) or words.has(rest, "verb", "heading", "direction")
     return len(rest) > 1 and "unknown" not in words.tags(at + 1) and not known and not done
 
@@ -225,9 +233,31 @@ def _is_harmless(words: Words, at: int) -> bool:
     kind = token.tags["unsupported"]
     if (not before or "end" in before) and after.keys() & {"colon", "end"}:
         return kind == "more than one other actor"  # "Actors:"
+    if kind == "lateral manoeuvres":
+        return _only_goes_first(words, at)
     if kind in ("collisions", "alternatives and chance"):
-        return _is_remark(words, at, kind)
+        return _is_remark(words, at, kind) or (kind != "collisions" and _asks_people(words, at))
     return kind == "more than one other actor" and before.get("bare_number", "").lower() == "two"
+
+
+def _sentence_of(words: Words, at: int) -> range:
+    first = next((i + 1 for i in range(at - 1, -1, -1) if "end" in words.tags(i)), 0)
+    return range(first, next((i for i in range(at, len(words.tokens)) if "end" in words.tags(i)), len(words.tokens)))
+
+
+def _only_goes_first(words: Words, at: int) -> bool:
+    """Whether "cuts in" is what is told again: "accelerates and cuts in, passing the point before the ego does"."""
+    rest = [i for i in _sentence_of(words, at) if i > at]
+    before = words.where(rest, "link", "before") is not None
+    passes = "pass" in words.verbs(rest)
+    return words.word(at) in ("cuts in", "cut in") and "comma" in words.tags(at + 1) and passes and before
+
+
+def _asks_people(words: Words, at: int) -> bool:
+    """Whether a sentence tells nothing of a drive: "Could one of you take this?"."""
+    sentence = _sentence_of(words, at)
+    told = words.has(sentence, "quantity", "ego", "hero", "noun", "landmark", "pronoun", "area", "latter", "stop_noun")
+    return not told and not words.verbs(sentence) & _DEEDS
 
 
 def _is_remark(words: Words, at: int, kind: str) -> bool:

@@ -6,6 +6,7 @@ is refused, but for amounts told before the trigger is, which hold at the start.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -21,6 +22,7 @@ _STATE = ("verb", "be", "auxiliary")
 _LIMITS = ("within",)
 _SET = ("released", "spawned", "initialised", "initialized", "dropped")
 _PAST = ("was", "were", "had")
+_THEN = ("then", "by then", "at the time", "at that time", "at that point", "at this point")
 _FAR = 12
 
 
@@ -72,6 +74,7 @@ class MomentReader:
     def _moment(self, made: Measured) -> Moment:
         clause = made.clause
         slowed = any(each.kind == "speed" and each.target and each.clause is clause for each in self.measured)
+        slowed = slowed or self._slowed_there(made)
         if made.kind in ("rate", "duration") or (made.kind == "place" and slowed) or self._of_stop(made):
             return "deed"
         if self._at_start(made):
@@ -80,6 +83,9 @@ class MomentReader:
             return "start"
         if made.kind == "speed" and (self._is_within(made) or (self._is_asked(clause) and self._is_condition(made))):
             return "trigger"
+        ways = self.words.verbs(range(clause.start, made.at)) & {"lane_follow", "go", "drive", "come"}
+        if made.kind == "speed" and clause.link == "that" and ways and not made.target:
+            return "start"  # "when the ego, which goes straight on at 14 m/s, is 4 s from it"
         if made.kind == "speed":
             told = self._is_asked(clause) or self._deed_beside(clause)
             if told and not made.target and not self._after_trigger(clause) and not self._on_its_way(made):
@@ -104,6 +110,14 @@ class MomentReader:
             self._check_one_moment(made)
             return "trigger"
         return "trigger" if self._deed_beside(clause) else "open"
+
+    def _slowed_there(self, made: Measured) -> bool:
+        """Whether a speed is reached there: "so that it is down to 3 m/s when it is 9 m before that point"."""
+        at = self.words.clauses.index(made.clause)
+        before = self.words.clauses[at - 1] if at else made.clause
+        reached = any(each.kind == "speed" and each.target and each.clause is before for each in self.measured)
+        own = made.clause.link == "when" and before.sentence == made.clause.sentence and made.actor == HERO_ID
+        return own and reached and any(each.kind == "place" and each.at < before.start for each in self.measured)
 
     def _begins_here(self, made: Measured) -> bool:
         """Whether the hero begins to act there: "it starts to brake 10 m before the line, when the ego is ..."."""
@@ -151,6 +165,8 @@ class MomentReader:
             raise self.words.refuse(message, made.span)
         at = self.words.clauses.index(clause)  # "target stopped, 15 ft before the conflict point"
         before = self.words.clauses[at - 1] if at else clause
+        if self._stops_next(made):
+            return True
         goes_on = before.sentence == clause.sentence and not clause.named
         verbless = not self.words.has(range(clause.start, made.at), "verb", "be")
         return (
@@ -160,6 +176,17 @@ class MomentReader:
                 deed.clause is before and deed.kind in ("stop", "wait") and deed.actor == HERO_ID for deed in self.deeds
             )
         )
+
+    def _stops_next(self, made: Measured) -> bool:
+        """Whether the deed follows in a clause of its own: "decelerates, and 10 m before the point it stops"."""
+        clause, at = made.clause, self.words.clauses.index(made.clause)
+        if at + 1 >= len(self.words.clauses) or clause.named or self.words.has(clause.inside, "verb", "be", "auxiliary"):
+            return False
+        following = self.words.clauses[at + 1]
+        own = [d for d in self.deeds if d.clause is following and d.actor == HERO_ID]
+        adjacent = following.sentence == clause.sentence and following.start == clause.end
+        early = any(self.moments.get(each.at) == "trigger" for each in self.measured if each.at < made.at)
+        return adjacent and early and bool(own) and own[0].kind in ("stop", "wait") and following.link == "main"
 
     def _stands_once(self, clause: Clause) -> bool:
         """Whether this is where the hero stands: "It is stationary once it is 8 m from it", told after the trigger."""
@@ -175,6 +202,7 @@ class MomentReader:
     def _at_start(self, made: Measured) -> bool:
         """Whether an amount is told of the start: "at first", "begins 40 m before", "its initial distance"."""
         clause, words = made.clause, self.words
+        told = words.span(clause).excerpt(words.text).lower()
         if "start" in clause.labels or words.has(clause.inside, "starting"):
             return True
         if words.where(clause.inside, "adverb", "initially") is not None:
@@ -186,7 +214,9 @@ class MomentReader:
         for at in range(max(clause.start, made.at - 5), made.at):
             if words.tag(at, "verb") == "begin" and not words.verbs(range(at + 1, made.at)):
                 return True
-        if "initial" in words.span(clause).excerpt(words.text).lower():
+        if words.has(clause.inside, "measure", "landmark") and re.search(r"\bfirst (?:position|place|distance)\b", told):
+            return True
+        if "initial" in told:
             return True
         at = words.clauses.index(clause)
         before = words.clauses[at - 1] if at else None
@@ -229,7 +259,9 @@ class MomentReader:
         clause = made.clause
         ways = self.words.verbs(range(clause.start, made.at)) & {"come", "drive", "go", "pull_out", "approach", "leave"}
         whens = [each for each in self.words.sentence(clause) if each.link == "when"]
-        early = bool(whens) and all(each.start > clause.start for each in whens) and clause.link in ("main", "colon")
+        first = clause.link == "and" and clause is self.words.sentence(clause)[0]  # "With the ego on its way at 12 m/s"
+        early = all(each.start > clause.start for each in whens) and (first or clause.link in ("main", "colon"))
+        early = early and bool(whens)
         done = any(deed.clause is clause and deed.kind != "turn" for deed in self.deeds)
         verbless = not self.words.has(clause.inside, "verb", "be")
         return early and (bool(ways) or verbless) and not done
@@ -255,7 +287,8 @@ class MomentReader:
         acted = [d for d in done if d.kind in ("brake", "stop", "accelerate", "pass") and d.clause.link != "when"]
         if acted and not any(each.link == "when" and each.start > acted[-1].at for each in before):
             raise self.words.refuse(UNCLEAR, made.span)
-        if clause.link == "main" and not self.words.has(clause.inside, *_STATE) and not follows:
+        then = any(self.words.word(at) in _THEN for at in clause.inside) and self._deed_beside(clause)
+        if clause.link == "main" and not self.words.has(clause.inside, *_STATE) and not follows and not then:
             raise self.words.refuse(UNCLEAR, made.span)
 
     def _has_amount(self, clause: Clause) -> bool:

@@ -40,6 +40,8 @@ def find_names(tokens: list[Token]) -> Names:
     speaker = _speaker(tokens)
     tails = {t.text.lower().split()[-1] for t in tokens if t.tags.keys() & {"noun", "hero"} and " " in t.text}
     unknown = _unknown_vehicle(tokens)
+    owners, ours = _owners(tokens), _our_own_words(tokens)
+    ours |= {"you"} if _drives_it(tokens) else set()
     for at, token in enumerate(tokens):
         word = token.text.lower()
         if word == "subject" and at + 1 < len(tokens) and "colon" in tokens[at + 1].tags:
@@ -48,7 +50,7 @@ def find_names(tokens: list[Token]) -> Names:
             continue
         if word in FIRST_PERSON or word in ("we have", "i have") or _is_own_wish(tokens, at):
             names.actors[at] = speaker
-        elif "ego" in token.tags or _is_our_own(tokens, at):
+        elif "ego" in token.tags or _is_our_own(tokens, at) or ("unknown" in token.tags and word in ours):
             names.actors[at] = EGO_ID
         elif word in ("both", "they", "each") or ("pair" in token.tags and not _is_told_later(tokens, at)):
             if not _one_of_them(tokens, at) and not _both_and(tokens, at):
@@ -57,6 +59,8 @@ def find_names(tokens: list[Token]) -> Names:
             names.pronouns.add(at)
         elif "noun" in token.tags and not token.slips and not _is_last_one(tokens, at):
             _name_vehicle(tokens, at, names, kinds, marks)
+        elif word in owners and not _owns(tokens, at):
+            names.actors[at] = HERO_ID
         elif word in _PERSONS or word == unknown or _is_hero(tokens, at) or ("unknown" in token.tags and word in tails):
             names.actors[at] = HERO_ID
             another = at > 0 and tokens[at - 1].tags.get("determiner") == "another"
@@ -71,9 +75,18 @@ def find_names(tokens: list[Token]) -> Names:
 
 def _is_director(tokens: list[Token], at: int) -> bool:
     """Whether "we" stage the test here: "we let a vehicle turn left"."""
-    if tokens[at].text.lower() not in ("we", "i") or at + 2 >= len(tokens) or tokens[at + 1].tags.get("verb") != "let":
+    if tokens[at].text.lower() not in ("we", "i") or at + 2 >= len(tokens):
         return False
-    return tokens[at + 2].tags.get("determiner") in ("indefinite", "another")
+    following = tokens[at + 2].tags
+    if tokens[at + 1].text.lower() in ("let", "make", "have", "keep") and _is_third_person(tokens):
+        return bool(following.keys() & {"determiner", "pronoun", "ego", "hero", "actor_adjective"})
+    lets = tokens[at + 1].tags.get("verb") == "let"
+    return lets and following.get("determiner") in ("indefinite", "another")
+
+
+def _is_third_person(tokens: list[Token]) -> bool:
+    """Whether the ego has a name that is not the teller's: "the ego", "the AV"."""
+    return any("ego" in each.tags and each.text.lower().split()[0] not in ("our", "my", *FIRST_PERSON) for each in tokens)
 
 
 def _is_own_wish(tokens: list[Token], at: int) -> bool:
@@ -134,7 +147,7 @@ def _unknown_vehicle(tokens: list[Token]) -> str | None:
 
 def _name_vehicle(tokens: list[Token], at: int, names: Names, ego_kinds: set[str], ego_marks: set[str]) -> None:
     kind = tokens[at].tags["noun"]
-    marked = at > 0 and tokens[at - 1].text.lower() in ego_marks
+    marked = at > 0 and (tokens[at - 1].text.lower() in ego_marks or "ego" in tokens[at - 1].tags)  # "the ADS car"
     ego = marked or _is_predicate(tokens, at) or kind in ego_kinds or _is_tested(tokens, at) or _is_ours(tokens, at)
     names.actors[at] = EGO_ID if ego else HERO_ID
     if kind in _RELATIVE:
@@ -171,6 +184,8 @@ def _is_third(tokens: list[Token], at: int) -> bool:
 def _is_last_one(tokens: list[Token], at: int) -> bool:
     """Whether this is "Last one for today" and no vehicle."""
     relative = tokens[at].tags["noun"] in _RELATIVE and tokens[at].text.lower().endswith("one")
+    if relative and tokens[at].text.lower() == "last one" and tokens[min(at + 1, len(tokens) - 1)].text.lower() == "for":
+        return not at or "determiner" not in tokens[at - 1].tags
     return relative and (at == 0 or not tokens[at - 1].tags.keys() & {"determiner", "colon", "comma", "link"})
 
 
@@ -179,6 +194,48 @@ def _one_of_them(tokens: list[Token], at: int) -> bool:
     if at < 2 or tokens[at - 1].tags.get("preposition") != "of":
         return False
     return "negation" not in tokens[at - 2].tags and tokens[at - 2].text.lower() != "neither"
+
+
+def _drives_it(tokens: list[Token]) -> bool:
+    """Whether who is spoken to drives the ego: "You are following a car", "You are in the car under test"."""
+    ways = ("follow", "drive", "come", "approach", "turn", "leave", "pull_out", "go", "sit")
+    for at, token in enumerate(tokens[:-2]):
+        if token.text.lower() != "you" or "be" not in tokens[at + 1].tags:
+            continue
+        acts = tokens[at + 2].tags.get("verb") in ways and "ing" in tokens[at + 2].forms
+        if acts or "quantity" in tokens[at + 2].tags:
+            return True
+    return False
+
+
+def _owners(tokens: list[Token]) -> set[str]:
+    """Return who drives the hero by what belongs to them: "resident" in "a resident's car"."""
+    return {
+        token.text.lower()
+        for at, token in enumerate(tokens)
+        if "unknown" in token.tags and _owns(tokens, at) and at and "determiner" in tokens[at - 1].tags
+    }
+
+
+def _owns(tokens: list[Token], at: int) -> bool:
+    """Whether "resident" is followed by "'s car"."""
+    following = tokens[at + 1 : at + 3]
+    return len(following) == 2 and "genitive" in following[0].tags and "noun" in following[1].tags
+
+
+def _our_own_words(tokens: list[Token]) -> set[str]:
+    """Return words that are not known and stand for the ego: "our prototype turns left"."""
+    if any("ego" in token.tags for token in tokens):
+        return set()
+    found: set[str] = set()
+    for first, token in pairwise(range(len(tokens))):
+        ours = "our" in tokens[first].tags.values() and "unknown" in tokens[token].tags
+        acts = token + 1 < len(tokens) and "verb" in tokens[token + 1].tags and "s" in tokens[token + 1].forms
+        again = any(each.text.lower() == tokens[token].text.lower() for each in tokens[token + 1 :])
+        acts = acts or (again and token + 1 < len(tokens) and bool(tokens[token + 1].tags.keys() & {"comma", "end"}))
+        if ours and (acts or (token + 1 < len(tokens) and "be" in tokens[token + 1].tags)):
+            found.add(tokens[token].text.lower())
+    return found if len(found) == 1 else set()
 
 
 def _is_told_later(tokens: list[Token], at: int) -> bool:
@@ -214,7 +271,12 @@ def _is_hero(tokens: list[Token], at: int) -> bool:
 
 
 def _is_tested(tokens: list[Token], at: int) -> bool:
-    return [each.text.lower() for each in tokens[at + 1 : at + 3]] == ["under", "test"]
+    following = [each.text.lower() for each in tokens[at + 1 : at + 3]]
+    tested = following and "test" in following[0] and "comment" in tokens[at + 1].tags  # "the shuttle we are testing"
+    ahead = [each.text.lower() for each in tokens[at + 1 : at + 6]]
+    short = ahead[:1] == ["we"] and "testing" in ahead[1:3]  # "the car we're testing"
+    apposed = ahead[1:3] == ["the", "one"] and any("comment" in each.tags for each in tokens[at + 4 : at + 5])
+    return following == ["under", "test"] or bool(tested) or short or (apposed and "test" in " ".join(ahead[3:]))
 
 
 def _is_ours(tokens: list[Token], at: int) -> bool:
@@ -275,4 +337,8 @@ def _ego_is(tokens: list[Token], at: int) -> bool:
 
 def _ego_marks(tokens: list[Token]) -> set[str]:
     """Return what sets the ego apart: "robot" in "the robot car under test"."""
-    return {mark.text.lower() for mark, named in pairwise(tokens) if "ego" in named.tags and "unknown" in mark.tags}
+    return {
+        mark.text.lower()
+        for at, (mark, named) in enumerate(pairwise(tokens))
+        if "unknown" in mark.tags and ("ego" in named.tags or ("noun" in named.tags and _is_tested(tokens, at + 1)))
+    }

@@ -38,7 +38,7 @@ def _is_elliptic(words: Words, at: int) -> bool:
     if not short or not words.has([at + 1], "preposition", "relation"):
         return False
     amount = next((i for i in range(at + 1, at + 8) if words.has([i], "quantity", "end")), at)
-    return words.has(range(at + 1, amount), "be", "falls")
+    return words.has(range(at + 1, amount), "be", "falls") or words.word(amount - 1) == "to"
 
 
 def measure_word(words: Words, at: int, clause: Clause) -> str | None:
@@ -79,6 +79,8 @@ def _by_measure(words: Words, at: int, clause: Clause) -> int | None:
 def is_nobodys(words: Words, at: int, clause: Clause) -> bool:
     """Whether a measure in a condition has no owner: "when the distance to the conflict point is 20 m"."""
     measured = measure_word(words, at, clause) in ("length", "time")
+    if words.word(clause.start) in ("that", "this"):
+        return False  # "once that time has dropped to 3 s": whose it is was said
     if clause.link != "when" or clause.named or clause.both or not measured:
         return False
     return words.named(clause.inside) is None and not any(i in words.names.pronouns for i in clause.inside)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from typing import Literal
 
 from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place, Relation
 from scenewright.translate.facts import Condition, Facts, Order, Phase
@@ -59,6 +60,8 @@ class StoryTeller:
         self._standing()
         told = [deed for deed in self.deeds if deed.actor == HERO_ID and self._counts(deed)]
         slows = [deed for deed in told if deed.kind in _SLOWS]
+        if slows and not any(deed.kind in _GOES for deed in told):
+            told = sorted([*told, *self._told_early()], key=lambda deed: deed.at)
         if slows:  # "brakes and keeps at it until it stands"
             told = [deed for deed in told if deed.clause.link == "then" or not self._only_keeps(deed)]
         self._check(told)
@@ -116,11 +119,20 @@ class StoryTeller:
     def _standing(self) -> None:
         """Read "a taxi is standing at the stop line" before the trigger: it waits there until then."""
         for deed in self.deeds:
-            first = deed.kind == "wait" and deed.actor == HERO_ID and deed.clause.sentence < self.trigger_sentence
+            first = deed.kind == "wait" and deed.actor == HERO_ID and self._is_before(deed)
             if first and _STANDS.search(deed.span.excerpt(self.words.text)):
                 self.facts.standing = self.facts.standing or self._event(deed)
             elif first and not self._tells_where(deed):
                 raise self.words.refuse("it is not said where the hero waits", deed.span)
+
+    def _is_before(self, deed: Deed) -> bool:
+        """Whether a deed is told before the trigger, or of whom: "a car that is standing at the line sets off when"."""
+        if deed.clause.sentence < self.trigger_sentence:
+            return True
+        first = min(made.at for made in self.moments.of("trigger"))
+        relative = deed.clause.link == "that" and deed.at < first
+        stands = bool(_STANDS.search(deed.span.excerpt(self.words.text)))
+        return relative and stands and not any(d.actor == HERO_ID and d.kind in _SLOWS for d in self.deeds)
 
     def _tells_where(self, deed: Deed) -> bool:
         """Whether a wait only says where a vehicle is or what it is about to do: "waits on the driveway to turn"."""
@@ -151,6 +163,18 @@ class StoryTeller:
         first = min(made.at for made in self.moments.of("trigger"))
         return clause.sentence > here or (clause.sentence == here and clause.start > first)
 
+    def _told_early(self) -> list[Deed]:
+        """Return how the hero goes on where all is told before the trigger: "It stops, and drives on. It brakes when"."""
+        own = [d for d in self.deeds if d.actor == HERO_ID and d.clause.sentence < self.trigger_sentence]
+        stops = [d for d in own if d.kind == "stop"]
+        return [
+            d
+            for d in own
+            if d.kind in ("go", "pass", "complete", "accelerate")
+            and any(each.clause.sentence == d.clause.sentence and each.at < d.at for each in stops)
+            and not self._counts(d)
+        ]
+
     def _only_keeps(self, deed: Deed) -> bool:
         return deed.kind in ("keep", "go") and deed.span.excerpt(self.words.text).lower().startswith(("keep", "kept"))
 
@@ -175,9 +199,17 @@ class StoryTeller:
         if {"keep", "accelerate"} <= kinds:
             raise self.words.refuse("the hero is said to speed up and not to", goes[0].span)
         turn = next((deed for deed in told if deed.kind == "turn"), None)
-        if turn is not None and (self.moments.begins(turn) or not kinds & {"complete", "pass"}):
+        if turn is not None and not self._turns_whole(told) and (
+            self.moments.begins(turn) or not kinds & {"complete", "pass"}
+        ):
             raise self.words.refuse("it is not clear up to where the hero turns", turn.span)
         self._check_turns()
+
+    def _turns_whole(self, deeds: list[Deed]) -> bool:
+        """Whether nothing is told but that the hero begins its turn and completes it."""
+        told = [deed for deed in deeds if deed.actor == HERO_ID and self._counts(deed)]
+        kinds = {deed.kind for deed in told} - {"not_yield", "not_stop"}
+        return kinds == {"turn", "complete"} and any(d.kind == "turn" and self.moments.begins(d) for d in told)
 
     def _brakes_again(self, deed: Deed, slows: list[Deed], goes: list[Deed]) -> bool:
         """Whether the hero brakes after its stop, on its way: "stops, then brakes to pass the conflict point"."""
@@ -225,16 +257,18 @@ class StoryTeller:
 
     def _stop_place(self, phase: Phase, made: Measured) -> None:
         assert made.landmark is not None
-        if phase.place is not None and made.quantity is None:
+        if phase.place is not None and made.quantity is None and made.relation != "just_before":
             return
-        if phase.place is not None and phase.place.amount is not None:
+        if phase.place is not None and (phase.place.amount is not None or phase.place.relation == "just_before"):
             raise self.words.refuse("two places to stop are told", made.span)
         phase.place = Place(made.relation, made.landmark, made.quantity, made.span, vague=made.vague)
         phase.place_event = self._event_at(made)
 
     def _go(self, goes: list[Deed], denies: list[Deed], *, after_stop: bool) -> None:
         keeps = any(deed.kind == "keep" for deed in goes) and not after_stop
-        phase = Phase("go" if keeps else "acc", [self._event((goes or denies)[0])])
+        kind: Literal["go", "turn", "acc"] = "go" if keeps else "acc"
+        kind = "turn" if self._turns_whole(self.deeds) else kind
+        phase = Phase(kind, [self._event((goes or denies)[0])])
         goal = next((deed for deed in reversed(goes) if deed.kind in ("pass", "complete")), None)
         if goal is not None:
             phase.goal = "turn_end" if goal.kind == "complete" else goal.landmark or "conflict_point"

@@ -9,7 +9,7 @@ from scenewright.translate.events import EGO_ID, HERO_ID
 from scenewright.translate.gist.names import PERSONAL
 from scenewright.translate.gist.words import Clause, Words
 
-SEES = ("sees", "spots", "notices", "watches", "saw", "spotted", "noticed", "see", "seeing")
+SEES = ("sees", "spots", "notices", "watches", "saw", "spotted", "noticed", "see", "seeing", "finds", "found", "meets", "met", "encounters")
 _BESIDE = frozenset(("determiner", "actor_adjective", "possessive", "heading", "hero", "noun", "unknown", "direction"))
 _OBJECT_OF = frozenset(("to", "of", "for", "by", "between", "across", "into", "in", "on", "at", "out"))
 _TAKES_OBJECT = frozenset(
@@ -50,7 +50,8 @@ def is_object(words: Words, at: int) -> bool:
     if (tags.keys() & {"relation", "separates"} and linked != "when") or preposition in _OBJECT_OF:
         return True
     if verb == "let":  # "lets the ego pass", but not the imperative "let the ego drive"
-        return bool(words.tokens[back].forms & {"s", "ing"}) or words.word(back - 1) in ("to", "and")
+        told = words.word(back - 1) in ("to", "and") or words.has([back - 1], "negation")
+        return told or bool(words.tokens[back].forms & {"s", "ing"})
     return verb in _TAKES_OBJECT
 
 
@@ -94,6 +95,8 @@ def give_subjects(words: Words) -> None:
         if clause.subject is None:
             clause.subject = _unnamed(words, index, last, acting)
         verbs = words.verbs(clause.inside)
+        if clause.subject == EGO_ID and not clause.named and verbs & {"pass", "complete"} and _beats_ego(words, index):
+            clause.subject = HERO_ID
         main = clause.link not in _SUBORDINATE
         acts = verbs & _STRONG or (main and verbs & {"pass", "complete"})
         acting = acting or (clause.subject == HERO_ID and bool(acts))
@@ -102,14 +105,33 @@ def give_subjects(words: Words) -> None:
         last = _goes_on(words, index, last)
 
 
+def _beats_ego(words: Words, index: int) -> bool:
+    """Whether "before the ego does" follows: who passes before the ego is not the ego."""
+    if index + 1 >= len(words.clauses):
+        return False
+    clause, following = words.clauses[index], words.clauses[index + 1]
+    named = words.named(following.inside) == EGO_ID
+    return following.link == "before" and following.sentence == clause.sentence and named
+
+
 def _goes_on(words: Words, index: int, last: int | None) -> int | None:
     """Return whom "it" means in the sentence after "The van goes once the ego has passed": who acts there."""
     clause = words.clauses[index]
     following = words.clauses[index + 1] if index + 1 < len(words.clauses) else clause
-    if clause.link not in ("before", "after", "until") or following.sentence == clause.sentence:
+    if words.has(clause.inside, "comment") and words.named(clause.inside) is None:  # "I'd like to see what the ego does"
+        told = " ".join(words.word(at) for at in clause.inside if "comment" in words.tags(at)).split()
+        last = EGO_ID if "ego" in told else last
+    bound = clause.link in ("before", "after", "until") or (clause.link == "when" and _is_perfect(words, clause))
+    if not bound or following.sentence == clause.sentence:
         return last
     acting = [each for each in words.sentence(clause) if each.link in _MAIN and each.subject is not None]
     return acting[-1].subject if acting else last
+
+
+def _is_perfect(words: Words, clause: Clause) -> bool:
+    """Whether something is over: "once the ego has passed"."""
+    have = words.where(clause.inside, "auxiliary", "have") is not None
+    return have and not words.has(clause.inside, "quantity")
 
 
 def _name_subject(words: Words, clause: Clause) -> None:
@@ -149,7 +171,7 @@ def _agrees_with_two(words: Words, clause: Clause) -> bool:
     actors = words.names.actors
     for at in clause.inside[1:]:
         plural = "verb" in words.tags(at) and words.tokens[at].forms == {"base"} and at - 1 in actors
-        if plural and "let" not in words.verbs(clause.inside):
+        if plural and not words.verbs(clause.inside) & {"let", "make"} and not words.has(clause.inside, "frame"):
             earlier = [each for each in words.sentence(clause) if each.start < clause.start]
             return any(actors.get(i, actors[at - 1]) != actors[at - 1] for each in earlier for i in each.inside)
     return False

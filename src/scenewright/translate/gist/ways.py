@@ -98,7 +98,7 @@ class WayReader:
             self._say("turn", tags["from_side"].removeprefix("on_"), at, clause.subject, clause)
         elif "from_side" in tags:
             self._relate(tags["from_side"].replace("on_", "from_"), self._whose(at, clause), at)
-        elif "oncoming_way" in tags:
+        elif "oncoming_way" in tags or (verb == "come_towards" and self._meets_someone(at)):
             self._relate("oncoming", self._whose(at, clause), at)
         elif tags.get("relation") in ("ahead", "behind"):
             self._in_line(at, clause)
@@ -124,6 +124,10 @@ class WayReader:
                 return
             if "genitive" in before and at - 2 in self.words.names.actors:
                 self._relate(f"from_{value}", clause.subject, at)  # "from the ego's left"
+                return
+            aside = before.get("determiner") == "our" and self.words.tag(at - 2, "preposition") in ("out", "on")
+            if aside and after.keys() & {"end", "comma", "link"}:
+                self._relate(f"from_{value}", clause.subject, at)  # "from my left"
                 return
             verbless = not self.words.has(clause.inside, "verb", "be") and after.get("preposition") in ("out", "into")
             closes = verbless or after.keys() & {"end", "comma", "link"}
@@ -153,6 +157,8 @@ class WayReader:
         opens = self.words.word(at) == "right" and "comma" in after and (not before or "end" in before)
         if opens:
             return True  # "Right, so the ego ..."
+        if before.get("verb") == "turn" and not left_over:
+            return False  # "turns right at the end of it"
         if "determiner" in before and self.words.word(at + 1) in ("thing", "decision", "moment", "time", "order"):
             return True  # "does the right thing"
         if after.get("relation") in ("ahead", "behind") or (just and after.get("preposition") in ("of", "at")):
@@ -196,6 +202,11 @@ class WayReader:
         """Whether the driveway was the area named last: "comes out of it"."""
         back = self.words.where(range(at - 1, -1, -1), "area")
         return back is not None and self.words.tags(back)["area"] == "driveway"
+
+    def _meets_someone(self, at: int) -> bool:
+        """Whether this is "comes towards it"; "comes towards the driveway" is not."""
+        ahead = self.words.skip(at + 1, _BESIDE)
+        return ahead in self.words.names.actors or ahead in self.words.names.pronouns
 
     def _is_beside_driveway(self, at: int, clause: Clause) -> bool:
         """Whether this is "for the driveway on its left", which tells a turn."""
@@ -242,12 +253,16 @@ class WayReader:
         before = self.words.verbs(range(max(clause.start, back - 2), back))
         turned = "turn" in before or self._turned(back, clause)
         bound = preposition == "to" and self.words.word(back - 1).endswith("way")  # "on its way to the driveway"
+        if word == "after" and "be" in self.words.tags(back - 1):
+            return "into"
         if preposition == "into" or verb in ("enter", "want") or word.split()[-1:] in (["for"], ["onto"]) or bound:
             return "into"
         if preposition in ("on", "in") and (before & {"enter"} or (turned and self.words.tag(at, "area") == "road")):
             return "into"  # "enters in the driveway", "turns left on the road"
         if verb == "pull_out" and word.startswith(("join", "merg")):
             return "into"
+        if (preposition == "out" or "relation" in tags) and self.words.has([back - 1], "quantity"):
+            return None  # "66 m from the driveway"
         if verb == "leave" and self.words.tag(at + 1, "preposition") in ("to", "for"):
             return None  # "leaves the driveway to us"
         if preposition == "out" or verb in _LEAVING or word in ("from", "down") or "out of" in word:
@@ -257,6 +272,8 @@ class WayReader:
         if tags.get("relation") == "past" or verb == "pass":
             return "past"
         if preposition == "of" and self.words.has([back - 1], "mouth", "landmark"):
+            if self.words.has(range(back - 5, back), "quantity"):
+                return None  # "55 m from the mouth of the driveway"
             return "on"  # "at the end of the driveway"
         keeps = preposition == "to" and before & {"drive", "keep"} and self.words.tag(at, "area") == "driveway"
         if keeps or verb in ("lane_follow", "follow"):
@@ -274,6 +291,8 @@ class WayReader:
         if back > clause.start and "unknown" in self.words.tags(back - 1) and back - 1 not in self.words.names.actors:
             return None  # "lives up that driveway"
         verbs = self.words.verbs(range(at, clause.end))
+        if begins and "be" in self.words.tags(at + 1) and not verbs & {"enter", "leave"}:
+            return None  # "for which the driveway is of no interest"
         if self.words.has(range(at, clause.end), "be") and verbs & {"enter", "leave"}:
             return "into" if "enter" in verbs else "from"  # "the driveway is entered by a van"
         return "into" if turned and self.words.tag(at, "area") == "road" else "on"
@@ -307,6 +326,9 @@ class WayReader:
 
     def _follows(self, at: int, clause: Clause, verb: str) -> None:
         near = range(at + 1, at + 4)
+        noun = self.words.has([at - 1], "determiner") and self.words.has([at + 1], "colon", "end", "comma")
+        if noun:
+            return  # "I need the following:"
         if self.words.has(near, "through") or self.words.has(range(at + 1, at + 3), "landmark"):
             return  # "then follows it through the conflict point", "stays behind its stop line"
         road = "pronoun" in self.words.tags(at + 1) and self._road_before(at)
@@ -334,6 +356,8 @@ class WayReader:
         )
         to_line = "landmark" in self.words.tags(self.words.skip(at + 1, _BESIDE) + 1)
         enters = self.words.tag(at - 1, "area") == "driveway" and self._role(at - 1, clause) == "into"
+        turned = self.words.where(range(clause.start, at), "direction", "left", "right") is not None
+        crosses = crosses or (turned and "preposition" not in self.words.tags(at - 1))  # "out to the left in front of us"
         if "quantity" in self.words.tags(at - 1) or crosses or strange or to_line or enters:
             return  # "sneaks in ahead of us" tells no order in a lane
         ahead = self.words.skip(at + 1, _BESIDE)
