@@ -237,6 +237,8 @@ def _joined(words: Words, clauses: list[Clause]) -> list[Clause]:
             first = [words.names.actors[at] for at in before.inside if at in words.names.actors]
             second = words.named(clause.inside)
             bare = not words.has(told, "verb", "be", "quantity", "auxiliary")
+            headed = words.has(told[1:], "heading", "direction") and words.has([before.end - 1], "heading", "direction")
+            bare = bare and not headed  # "with the ego eastbound and a hero that comes out of the driveway"
             if bare and first and second is not None and first[-1] != second:
                 joined[-1] = replace(clause, start=before.start, link=before.link, pair=True)
                 continue
@@ -253,6 +255,8 @@ def _parted(words: Words, clause: Clause) -> list[Clause]:
             return [replace(clause, end=at), *_parted(words, replace(clause, start=at, link="main"))]
         if at in words.names.actors and "ing" in words.tokens[at + 1].forms and (seen := _seen_from(words, at, clause)):
             return [replace(clause, end=seen), *_parted(words, replace(clause, start=seen, link="main"))]
+        if clause.link in BOUNDS and at > clause.start + 1 and _inverted(words, at):
+            return [replace(clause, end=at), *_parted(words, replace(clause, start=at, link="then"))]
         if told and words.has([at], "be") and (cue := _cue_of(words, at)):
             return [replace(clause, end=at), *_parted(words, replace(clause, start=cue, link="main"))]
         acts = words.word(at) in ("he", "she", "it") and words.has([at + 1], "verb", "be", "auxiliary")
@@ -265,6 +269,16 @@ def _parted(words: Words, clause: Clause) -> list[Clause]:
             rest = replace(clause, start=first, link="main")
             return [replace(clause, end=first), *_parted(words, rest)]
     return [clause]
+
+
+def _inverted(words: Words, at: int) -> bool:
+    """Whether "does the van move" begins here: "not until it has passed the point does the van move"."""
+    if words.word(at) not in ("does", "did", "do", "will", "shall", "can"):
+        return False
+    name = at + 1
+    while words.has([name], "determiner", "actor_adjective", "heading") and name not in words.names.actors:
+        name += 1
+    return (name in words.names.actors or name in words.names.pronouns) and words.has([name + 1], "verb")
 
 
 def _cue_of(words: Words, at: int) -> int | None:

@@ -122,7 +122,7 @@ class DeedReader:
                     self.words.used.add(negation)
                     negation = None
             elif (verb == "let" and clause.subject == HERO_ID and self._lets(at, clause)) or (
-                verb == "wait" and self.words.word(at + 1) == "for" and self._waits_for(at, clause)
+                verb == "wait" and self._waits_for(at + (self.words.word(at + 1) == "there"), clause)
             ):
                 return
             elif verb in _DEEDS and not self._only_describes(verb, at, clause):
@@ -368,6 +368,8 @@ class DeedReader:
 
     def _waits_for(self, at: int, clause: Clause) -> bool:
         """Read "waits for the ego to complete its turn"."""
+        if self.words.word(at + 1) != "for":
+            return False
         rest = range(at + 2, clause.end)
         named = any(self.words.names.actors.get(each) == EGO_ID for each in rest[:3])
         done = self.words.verbs(rest) & {"complete", "pass"}

@@ -18,6 +18,13 @@ _CHANGES_NOTHING = re.compile(
     r"|no other (?:vehicle|car|road user|traffic)s? (?:is|are))\b",
     re.IGNORECASE,
 )
+# "The test is passed if there is no contact.": a verdict, not what happens
+_VERDICT = re.compile(
+    r"^\s*(?:the |a |this )?(?:test|run|case|scenario) (?:is|counts as|shall be|should be|will be) "
+    r"(?:a )?(?:pass|passed|failed|successful|ok|okay) (?:if|when|as long as) "
+    r"(?:there is |there are |we see )?no (?:contact|collision|crash|accident|touch)s?(?: occurs| happens)?\s*[.!]?$",
+    re.IGNORECASE,
+)
 _TELLS = re.compile(
     r"\d|\b(?:ego|av|sut|hero|npc|pov|under test|our (?:car|vehicle)|brak|accelerat|slow|stop|turn|yield|pass|cross"
     r"|until|when|if|(?:east|west|north|south)|left|right|straight|driveway|conflict|before|after)",
@@ -30,5 +37,6 @@ def disclaimers(text: str) -> list[Span]:
     return [
         Span(*found.span())
         for found in _SENTENCE.finditer(text)
-        if _CHANGES_NOTHING.search(found.group()) and not _TELLS.search(found.group())
+        if _VERDICT.search(found.group())
+        or (_CHANGES_NOTHING.search(found.group()) and not _TELLS.search(found.group()))
     ]

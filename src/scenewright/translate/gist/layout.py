@@ -34,7 +34,7 @@ _PLUS = re.compile(r"(?<= )[+&](?= )")
 def laid_out(text: str, name: str) -> list[Token]:
     """Return the tokens of a text, with its lines and bars as ends and commas."""
     tokens = tokenise(_plain(text), name)
-    tokens = [_bar(_as_written(token)) for token in tokens]
+    tokens = _without_short_names([_bar(_as_written(token)) for token in tokens])
     return same_unit(_with_lines(tokens, text))
 
 
@@ -62,6 +62,25 @@ def _as_written(token: Token) -> Token:
 
 def _bar(token: Token) -> Token:
     return replace(token, tags={"comma": "|"}) if token.text == "|" else token
+
+
+def _without_short_names(tokens: list[Token]) -> list[Token]:
+    """Leave "(CP)" out after "conflict point", and "(TTC)" after "time to collision": they say the same."""
+    kept: list[Token] = []
+    skip = 0
+    for at, token in enumerate(tokens):
+        inside = tokens[at + 1] if at + 2 < len(tokens) and tokens[at + 2].text == ")" else None
+        same = kept and inside is not None and token.text == "(" and _means_same(kept[-1], inside)
+        skip = 3 if same else skip
+        if skip:
+            skip -= 1
+        else:
+            kept.append(token)
+    return kept
+
+
+def _means_same(first: Token, second: Token) -> bool:
+    return any(key in first.tags and first.tags[key] == second.tags.get(key) for key in ("measure", "landmark", "ego"))
 
 
 def _with_lines(tokens: list[Token], text: str) -> list[Token]:

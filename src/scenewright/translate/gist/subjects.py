@@ -27,6 +27,8 @@ _HIS = PERSONAL | {"his", "her"}
 def is_object(words: Words, at: int) -> bool:
     """Whether the name at `at` stands after a preposition, or as the object of a verb."""
     following = words.tags(at + 1)
+    if at - 1 in words.names.actors and words.has([at - 1], "ego"):
+        return is_object(words, at - 1)  # "for the ADS car"
     if "genitive" in following and words.where((at + 1, at + 2), "area", "lane") is not None:
         return True  # "crosses the ego's lane"
     back = _before_name(words, at)
@@ -88,6 +90,9 @@ def give_subjects(words: Words) -> None:
         _name_subject(words, clause)
         clause.both = _is_about_both(words, clause, before)
         if _starts_it(words, clause):
+            following = words.clauses[index + 1] if index + 1 < len(words.clauses) else clause
+            if following.start == clause.end:  # "when the recording began it was 7 s from it"
+                following.labels = [*following.labels, "start"]
             _mark_start(clause, before)
         if clause.aside and not clause.named:
             clause.subject = None

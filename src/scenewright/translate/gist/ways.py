@@ -125,9 +125,11 @@ class WayReader:
             if "genitive" in before and at - 2 in self.words.names.actors:
                 self._relate(f"from_{value}", clause.subject, at)  # "from the ego's left"
                 return
-            aside = before.get("determiner") == "our" and self.words.tag(at - 2, "preposition") in ("out", "on")
-            if aside and after.keys() & {"end", "comma", "link"}:
-                self._relate(f"from_{value}", clause.subject, at)  # "from my left"
+            whose = before.get("determiner") == "our" or self.words.word(at - 1) == "your"
+            aside = whose and self.words.tag(at - 2, "preposition") in ("out", "on")
+            if aside and (after.keys() & {"end", "comma", "link", "determiner"}):
+                other = HERO_ID if clause.subject is None or "determiner" in after else clause.subject
+                self._relate(f"from_{value}", other, at)  # "from my left"
                 return
             verbless = not self.words.has(clause.inside, "verb", "be") and after.get("preposition") in ("out", "into")
             closes = verbless or after.keys() & {"end", "comma", "link"}
