@@ -371,18 +371,19 @@ class AmountReader:
         """Read "the intersection is 6.8 s away" and "the intersection lies 82 m ahead of it"."""
         before = range(made.clause.start, made.at)
         mark = self.words.where(before, "landmark")
+        said = next((i for i in before if self.words.word(i) in ("the intersection is", "the junction is")), None)
         away = self.words.tag(made.at + 1, "relation") in ("from", "ahead")
-        stands = self.words.has(before, "be") or "sit" in self.words.verbs(before)
+        stands = self.words.has(before, "be") or "sit" in self.words.verbs(before) or said is not None
         measured = any(measure_of(self.words, at) is not None for at in before)
-        if mark is None or not away or not stands or measured or self.words.has(before, "quantity"):
+        if (mark is None and said is None) or not away or not stands or measured or self.words.has(before, "quantity"):
             return False
         place = self.place_at(made.at + 2)
         if self.words.named(before) is not None or (place is not None and place[0] != "last"):
             return False
         named = self.words.named(range(made.at + 1, min(made.at + 5, made.clause.end)))
-        made.kind, made.landmark = "place", self.words.tags(mark)["landmark"]
+        made.kind, made.landmark = "place", self.words.tags(mark)["landmark"] if mark is not None else "intersection"
         made.actor = named if named is not None else made.clause.subject
-        self.words.used |= {made.at, mark}
+        self.words.used |= {made.at, mark if mark is not None else made.at}
         return True
 
     def _separates(self, made: Measured, at: int) -> None:
@@ -434,6 +435,15 @@ class AmountReader:
         fallen = self.words.has([at - 1], "falls") and clause.link != "when"  # "so that it is down to 3 m/s"
         return "down to" in before or changes or fallen
 
+    def _is_goal(self, at: int, end: int) -> bool:
+        """Whether a vehicle is at a place before the other one: that is who comes first there."""
+        following = self.words.clauses[-1]
+        for each in self.words.clauses:
+            if each.start == end + 1:
+                following = each
+        named = self.words.named(following.inside) == EGO_ID
+        return self.words.has([at - 1], "be") and following.start == end + 1 and following.link == "before" and named
+
     def _lasts(self, made: Measured) -> bool:
         """Whether a time is how long the hero stands: "stands there for 2 s", "2 s later"."""
         before = range(made.clause.start, made.at)
@@ -449,6 +459,8 @@ class AmountReader:
         if place is None or place[2] or (here and self.words.has(range(max(clause.start, at - 2), at), "quantity")):
             return None
         before = range(clause.start, at)
+        if self._is_goal(at, place[1]):
+            return None  # "accelerates to be at the conflict point before the ego"
         if clause.link in ("before", "after", "until") and clause.subject == EGO_ID:
             return None  # "before we are at the conflict point"
         measured = any(measure_of(self.words, i) in ("length", "time", "own") for i in before)

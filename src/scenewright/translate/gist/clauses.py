@@ -161,6 +161,8 @@ def _link(words: Words, at: int) -> str | None:
         return "that"
     if word == "from there" and "quantity" in words.tags(at - 1):
         return None  # "when it is 2 s from there"
+    if word == "as" and words.tag(at, "frame") == "as" and _names_someone(words, at + 1) and _goes_along(words, at):
+        return "and"  # "a van slows for its turn as the ego comes the other way"
     if word == "where" and (not at or words.has([at - 1], "end")):
         return None  # "Where it comes to rest, 8 m are left"
     if link not in _LINKS:
@@ -208,6 +210,18 @@ def _is_still_to_come(words: Words, at: int) -> bool:
             return False
         if words.word(ahead) == "yet" or words.word(ahead).endswith(" yet"):
             words.used |= set(range(at, ahead + 1))
+            return True
+    return False
+
+
+def _goes_along(words: Words, at: int) -> bool:
+    """Whether "as" is followed by where a vehicle goes, and no moment."""
+    for ahead in range(at + 1, min(at + 8, len(words.tokens))):
+        if words.has([ahead], "end", "comma", "link"):
+            return False
+        if words.has([ahead], "quantity", "landmark"):
+            return False
+        if words.has([ahead], "heading", "oncoming_way", "direction") or words.tag(ahead, "verb") == "lane_follow":
             return True
     return False
 

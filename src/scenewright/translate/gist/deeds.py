@@ -146,6 +146,10 @@ class DeedReader:
         tags = self.words.tags(at)
         if "stop_noun" in tags and "verb" not in tags and negation is None:
             self._add("stop", at, clause)
+        there = tags.get("preposition") == "at" and "be" in self.words.tags(at - 1) and clause.subject == HERO_ID
+        goal = self.words.where(range(at + 1, min(at + 3, clause.end)), "landmark", "conflict_point")
+        if there and goal is not None and goal not in self.words.used:
+            self._add("pass", at, clause)
         over = self.words.word(at) in ("over", "across") or tags.get("relation") == "past"
         across = over and "quantity" not in self.words.tags(at - 1)
         if (across or "through" in tags) and "verb" not in tags and clause.subject == HERO_ID:
@@ -198,7 +202,8 @@ class DeedReader:
         first = at == clause.start and (not at or words.has([at - 1], "end"))
         if first and token.forms == {"base"} and words.tag(at + 1, "preposition") == "for":
             return True  # "Race for the driveway:"
-        by = verb == "pass" and "ing" in token.forms and words.tag(at + 1, "preposition") in ("by", "on")
+        by = verb == "pass" and words.tag(at + 1, "preposition") in ("by", "on")
+        by = by or (verb == "pass" and words.has([at + 1, at + 2], "landmark") and self._is_crossed(at))
         if (by or words.word(at).endswith(" by")) and clause.subject == EGO_ID:
             return True  # "the ego, meanwhile, is passing by on the road"
         if verb in ("yield", "not_yield") and "ing" in token.forms and words.has([at - 1], "determiner"):
@@ -214,6 +219,14 @@ class DeedReader:
             amount = next((i for i in range(at - 1, at - 6, -1) if "quantity" in words.tags(i)), at)
             return state or any(words.word(i) in ("to", "from", "before") for i in range(amount, at))
         return False
+
+    def _is_crossed(self, at: int) -> bool:
+        """Whether this is "crosses the T-junction straight ahead"."""
+        mark = next((i for i in (at + 1, at + 2) if "landmark" in self.words.tags(i)), at)
+        crossed = self.words.tag(mark, "landmark") == "intersection" and "direction" in self.words.tags(mark + 1)
+        if crossed:
+            self.words.used.add(mark)
+        return crossed
 
     def _leads_on(self, at: int, clause: Clause) -> bool:
         """Whether this is "proceeds to slow down"."""

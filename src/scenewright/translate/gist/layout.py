@@ -25,9 +25,12 @@ _BOLD = re.compile(r"\*\*|__(?=\S)|(?<=\S)__")
 _DASHED = re.compile(r"^([ \t]*(?:[-*] )?[A-Za-z][\w ()]{0,30}?) ([-\u2013\u2014])(?= )", re.MULTILINE)
 _CROSSING = re.compile(
     r"(?:point|spot|place) (?:where|at which|in which) (?:their|the|the two|both|our|its|your|these|two) (?:two )?"
-    r"(?:paths|ways|lanes|routes|tracks|trajectories|courses) (?:cross|meet|merge|intersect|join|conflict)\b",
+    r"(?:paths|ways|lanes|routes|tracks|trajectories|courses) (?:cross|meet|merge|intersect|join|conflict|(?:come|run) together)\b",
     re.IGNORECASE,
 )
+_LETTERED = re.compile(r"\b(?:car|vehicle|actor|agent|driver) ([A-D]|\d)\b", re.IGNORECASE)
+_IS_EGO = r"\b(?:car|vehicle|actor|agent|driver) {}(?:,? which is|,? being| is|,|:| =)?\s*\(?(?:the |our )?(?:{})\b"
+_EGOS = r"ego|(?:car|vehicle|one) (?:under test|being tested)|AV|SUT|subject vehicle|test (?:car|vehicle)"
 _PLUS = re.compile(r"(?<= )[+&](?= )")
 
 
@@ -46,11 +49,23 @@ def _plain(text: str) -> str:
     if "\n" in text.strip():
         text = _DASHED.sub(r"\1 :", text)
     text = _PLUS.sub(",", text)
+    text = _with_letters_named(text)
     text = _CROSSING.sub(lambda found: "conflict point".ljust(len(found.group())), text)
     spaced = _KEY.sub(
         lambda found: found.group() if unit_of_name(found.group().strip()) else found.group().replace("_", " "), text
     )
     return re.sub(r"-{2,}", lambda found: " " * len(found.group()), spaced) if "|" in text else spaced
+
+
+def _with_letters_named(text: str) -> str:
+    """Return the text with "car A" and "car B" as ego and hero, where one of two is said to be the ego."""
+    letters = list(dict.fromkeys(found.group(1).upper() for found in _LETTERED.finditer(text)))
+    egos = [each for each in letters if re.search(_IS_EGO.format(each, _EGOS), text, re.IGNORECASE)]
+    if len(letters) != 2 or len(egos) != 1:
+        return text
+    return _LETTERED.sub(
+        lambda found: ("ego" if found.group(1).upper() == egos[0] else "hero").ljust(len(found.group())), text
+    )
 
 
 def _as_written(token: Token) -> Token:

@@ -266,6 +266,8 @@ def _is_hero(tokens: list[Token], at: int) -> bool:
         return False
     if at and tokens[at - 1].tags.keys() & {"be", "adverb", "auxiliary"}:
         return False
+    if following.text.lower() == "one" and at and "determiner" in tokens[at - 1].tags:
+        return True  # "ours is 30 m from it and the oncoming one 22 m"
     acts = "verb" in following.tags and "s" in following.forms
     return acts or bool(following.tags.keys() & {"quantity", "be"}) or following.text.lower() == "down to"
 

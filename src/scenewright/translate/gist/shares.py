@@ -99,6 +99,11 @@ def _in_order(words: Words, found: list[Measured]) -> None:
             continue
         first = words.sentence(clause)[0].start
         named = [at for at in range(first, own[0].at) if at in actors][-2:]
+        they = any(words.word(at) == "they" for at in range(first, own[0].at))
+        after = range(own[1].at, own[1].at + 9)
+        if not named and they and words.has(after, "respectively"):  # in the order in which they came in
+            came = list(dict.fromkeys(actors[at] for at in sorted(actors) if at < first))
+            named = [next(at for at in sorted(actors) if actors[at] == actor) for actor in came]
         between = any(at in actors for at in range(own[0].at, own[1].at))
         if len(named) == 2 and not between and actors[named[0]] != actors[named[1]]:
             own[0].actor, own[1].actor = actors[named[0]], actors[named[1]]

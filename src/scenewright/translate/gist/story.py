@@ -122,8 +122,13 @@ class StoryTeller:
             first = deed.kind == "wait" and deed.actor == HERO_ID and self._is_before(deed)
             if first and _STANDS.search(deed.span.excerpt(self.words.text)):
                 self.facts.standing = self.facts.standing or self._event(deed)
-            elif first and not self._tells_where(deed):
+            elif first and not self._tells_where(deed) and not self._slows_later():
                 raise self.words.refuse("it is not said where the hero waits", deed.span)
+
+    def _slows_later(self) -> bool:
+        """Whether the hero comes to a stop from its trigger on, so that it does not stand before."""
+        later = (d for d in self.deeds if d.actor == HERO_ID and d.clause.sentence >= self.trigger_sentence)
+        return any(d.kind in _SLOWS for d in later)
 
     def _is_before(self, deed: Deed) -> bool:
         """Whether a deed is told before the trigger, or of whom: "a car that is standing at the line sets off when"."""
@@ -213,8 +218,9 @@ class StoryTeller:
 
     def _brakes_again(self, deed: Deed, slows: list[Deed], goes: list[Deed]) -> bool:
         """Whether the hero brakes after its stop, on its way: "stops, then brakes to pass the conflict point"."""
+        first = min(made.at for made in self.moments.of("trigger"))  # what is told before it tells in short what follows
         stopped = any(
-            each.kind in ("stop", "wait") and each.at < deed.at for each in self.deeds if each.actor == HERO_ID
+            each.kind in ("stop", "wait") and first < each.at < deed.at for each in self.deeds if each.actor == HERO_ID
         )
         goal = any(each.at > deed.at and each.kind != "accelerate" for each in goes)
         goal = goal and (

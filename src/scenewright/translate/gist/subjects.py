@@ -6,7 +6,7 @@ What enters: words with names and clauses. What leaves: the clauses, with subjec
 from __future__ import annotations
 
 from scenewright.translate.events import EGO_ID, HERO_ID
-from scenewright.translate.gist.names import PERSONAL
+from scenewright.translate.gist.names import FIRST_PERSON, PERSONAL
 from scenewright.translate.gist.words import Clause, Words
 
 SEES = ("sees", "spots", "notices", "watches", "saw", "spotted", "noticed", "see", "seeing", "finds", "found", "meets", "met", "encounters")
@@ -141,7 +141,8 @@ def _is_perfect(words: Words, clause: Clause) -> bool:
 
 def _name_subject(words: Words, clause: Clause) -> None:
     """Take who is named in a clause: as its subject, "by the ego", or "for the ego" where nothing else is said."""
-    if clause.subject is not None and clause.link not in ("before", "after", "until"):
+    labelled = clause.subject is not None and clause.link not in ("before", "after", "until")
+    if labelled and not _has_own_subject(words, clause):
         return  # told by a label: "Truck: westbound"
     names = [at for at in clause.inside if at in words.names.actors]
     found = next((at for at in names if not is_object(words, at)), None)
@@ -154,6 +155,14 @@ def _name_subject(words: Words, clause: Clause) -> None:
         clause.subject, clause.named = words.names.actors[found], True
     elif clause.link in ("before", "after", "until") and "our" in words.tags(clause.start).values():
         clause.subject, clause.named = EGO_ID, True  # "before our turn begins"
+
+
+def _has_own_subject(words: Words, clause: Clause) -> bool:
+    """Whether a clause under a label is about somebody else: "A test with a van: it goes east, the ego turns"."""
+    at = clause.start
+    while at < clause.end and words.has([at], "determiner", "actor_adjective") and at not in words.names.actors:
+        at += 1
+    return at in words.names.actors and words.has([at + 1], "be", "auxiliary") and "start" not in clause.labels
 
 
 def _stands_after(words: Words, at: int, preposition: str) -> bool:
@@ -244,6 +253,8 @@ def _other_one(words: Words, clause: Clause, earlier: list[Clause]) -> int | Non
     it = words.word(clause.start) in ("it", "he", "she")
     if it and (beside := _told_beside(words, clause)) is not None:
         return 1 - beside
+    if it and earlier and _is_first_person(words, earlier[-1]):
+        return HERO_ID  # "we have closed up to 8 m behind it, it brakes"
     if not it or not earlier:
         return None
     if words.verbs(clause.inside) & _STRONG and earlier[0].subject == HERO_ID and clause.link == "when":
@@ -257,6 +268,12 @@ def _other_one(words: Words, clause: Clause, earlier: list[Clause]) -> int | Non
         return None
     subject = earlier[-1].subject
     return None if subject is None else 1 - subject
+
+
+def _is_first_person(words: Words, clause: Clause) -> bool:
+    """Whether "we" or "I" is whom a clause is about, and the ego."""
+    own = [at for at in clause.inside if at in words.names.actors and not is_object(words, at)]
+    return clause.subject == EGO_ID and bool(own) and words.word(own[0]).split()[0] in FIRST_PERSON
 
 
 def _told_beside(words: Words, clause: Clause) -> int | None:
