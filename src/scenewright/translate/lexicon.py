@@ -19,7 +19,7 @@ from scenewright.translate.numerals import WORDS
 FILES = ("lexicon.toml", "lexicon_routes.toml", "lexicon_triggers.toml", "lexicon_spoken.toml")
 VOWELS = "aeiou"
 SLOT = "~"
-SLOT_WORDS = (("the",), ("its",), ("his",), ("her",), ("their",), ())
+SLOT_WORDS = (("the",), ("its",), ("his",), ("her",), ("their",), ("my",), ("our",), ("your",), ())
 _ALTERNATIVES = re.compile(r"\(([^()]*)\)")
 FORM_NAMES = ("base", "s", "ing", "ed")
 

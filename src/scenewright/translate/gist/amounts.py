@@ -392,9 +392,14 @@ class AmountReader:
         self.words.used |= set(range(made.at, at + 1))
         name = self.words.skip(at + 1, _BESIDE)
         relation = self.relation_at(name + 1) if name in self.words.names.actors else None
+        if name in self.words.names.actors and self.words.word(name + 1) == "and":
+            relation = "before", name + 2  # "70 m lie between the ego and the intersection"
+        if name in self.words.names.pronouns:  # "60 yd separate it from the conflict point"
+            relation = self.relation_at(name + 1)
         place = self.place_at(relation[1]) if relation is not None else None
         if place is not None:
-            made.kind, made.landmark, made.actor = "place", place[0], self.words.names.actors[name]
+            actor = self.words.names.actors.get(name, made.clause.subject)
+            made.kind, made.landmark, made.actor = "place", place[0], actor
             self.words.used |= set(range(at, place[1]))
 
     def _place_in(self, made: Measured) -> str | None:

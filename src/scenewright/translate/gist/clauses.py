@@ -163,6 +163,8 @@ def _link(words: Words, at: int) -> str | None:
         return None  # "when it is 2 s from there"
     if word == "as" and words.tag(at, "frame") == "as" and _names_someone(words, at + 1) and _goes_along(words, at):
         return "and"  # "a van slows for its turn as the ego comes the other way"
+    if word == "where" and "be" in words.tags(at - 1):
+        return None  # "80 m before the intersection is where it begins"
     if word == "where" and (not at or words.has([at - 1], "end")):
         return None  # "Where it comes to rest, 8 m are left"
     if link not in _LINKS:

@@ -109,6 +109,9 @@ class DeedReader:
                 continue
             wanted |= self._is_wish(at)
             self._without_verb(at, clause, negation)
+            if tags.get("verb") == "fail" and at + 1 in self.words.names.actors:
+                self.words.used.add(at)  # "a refuse lorry"
+                continue
             if tags.get("verb") == "fail":
                 if negation is not None:
                     raise self.words.refuse("two negations are hard to read", self.words.span(clause))
@@ -117,6 +120,9 @@ class DeedReader:
             verb = tags.get("verb") or ("brake" if tags.get("event_noun") == "brake" else None)
             if verb is None or "heading" in tags:
                 continue
+            if negation is not None and verb == "let" and self.words.word(at + 1) in ("up", "go", "off"):
+                self.words.used.add(negation)  # "brakes and does not let up until it stands"
+                return
             if negation is not None:
                 if self._denied(verb, at, clause):
                     self.words.used.add(negation)
@@ -124,6 +130,9 @@ class DeedReader:
             elif (verb == "let" and clause.subject == HERO_ID and self._lets(at, clause)) or (
                 verb == "wait" and self._waits_for(at + (self.words.word(at + 1) == "there"), clause)
             ):
+                return
+            elif verb == "leave" and self.words.has(range(at + 1, at + 3), "landmark"):
+                self._add("pass", at, clause)  # "leaving the conflict point behind"
                 return
             elif verb in _DEEDS and not self._only_describes(verb, at, clause):
                 stopped = verb == "complete" and self.words.has(range(at - 2, at + 4), "stop_noun")
@@ -182,7 +191,7 @@ class DeedReader:
         back = at - 1
         while "unknown" in self.words.tags(back):
             back -= 1
-        done = {self.words.word(at + 1), self.words.word(at + 2)} & {"done", "finished", "behind it"}
+        done = {self.words.word(at + 1), self.words.word(at + 2)} & {"done", "finished", "behind it", "over", "is over"}
         return "possessive" in self.words.tags(back) and bool(done)
 
     def _only_describes(self, verb: str, at: int, clause: Clause) -> bool:
@@ -348,7 +357,8 @@ class DeedReader:
             return
         for at in clause.inside:
             beside = words.tag(at, "relation") == "ahead" and at not in words.used
-            if words.tag(at, "relation") == "behind" and "quantity" not in words.tags(at - 1) and deed.kind == "pass":
+            left = words.tag(deed.at, "verb") == "leave"
+            if not left and words.tag(at, "relation") == "behind" and "quantity" not in words.tags(at - 1) and deed.kind == "pass":
                 raise words.refuse("a place in a queue is no order of passing", words.span(clause))
             beats = words.tag(at, "verb") in ("beat", "cut_in_front") or beside
             ego = any(words.names.actors.get(i) == EGO_ID for i in range(at + 1, min(at + 4, clause.end)))
@@ -436,6 +446,8 @@ class DeedReader:
         mark = self.words.where(clause.inside, "landmark")
         if "complete" in verbs:
             return "turn_end"
+        if "enter" in verbs and mark is None and self.words.where(clause.inside, "event_noun", "turn") is not None:
+            return "turn_start"  # "before the ego goes into its turn"
         turns = (
             verbs & {"turn", "pull_out", "begin"} or self.words.where(clause.inside, "event_noun", "turn") is not None
         )

@@ -37,6 +37,7 @@ _PLUS = re.compile(r"(?<= )[+&](?= )")
 def laid_out(text: str, name: str) -> list[Token]:
     """Return the tokens of a text, with its lines and bars as ends and commas."""
     tokens = tokenise(_plain(text), name)
+    tokens = _named_by_letter(tokens, _letters(text))
     tokens = _without_short_names([_bar(_as_written(token)) for token in tokens])
     return same_unit(_with_lines(tokens, text))
 
@@ -49,7 +50,9 @@ def _plain(text: str) -> str:
     if "\n" in text.strip():
         text = _DASHED.sub(r"\1 :", text)
     text = _PLUS.sub(",", text)
-    text = _with_letters_named(text)
+    text = re.sub(r", that is,", lambda found: ",".ljust(len(found.group())), text)
+    if names := _letters(text):
+        text = _LETTERED.sub(lambda found: names[found.group(1).upper()].ljust(len(found.group())), text)
     text = _CROSSING.sub(lambda found: "conflict point".ljust(len(found.group())), text)
     spaced = _KEY.sub(
         lambda found: found.group() if unit_of_name(found.group().strip()) else found.group().replace("_", " "), text
@@ -57,15 +60,25 @@ def _plain(text: str) -> str:
     return re.sub(r"-{2,}", lambda found: " " * len(found.group()), spaced) if "|" in text else spaced
 
 
-def _with_letters_named(text: str) -> str:
-    """Return the text with "car A" and "car B" as ego and hero, where one of two is said to be the ego."""
+def _letters(text: str) -> dict[str, str]:
+    """Return who "car A" and "car B" are, where one of two is said to be the ego."""
     letters = list(dict.fromkeys(found.group(1).upper() for found in _LETTERED.finditer(text)))
     egos = [each for each in letters if re.search(_IS_EGO.format(each, _EGOS), text, re.IGNORECASE)]
     if len(letters) != 2 or len(egos) != 1:
-        return text
-    return _LETTERED.sub(
-        lambda found: ("ego" if found.group(1).upper() == egos[0] else "hero").ljust(len(found.group())), text
-    )
+        return {}
+    return {each: "ego" if each == egos[0] else "hero" for each in letters}
+
+
+def _named_by_letter(tokens: list[Token], names: dict[str, str]) -> list[Token]:
+    """Return the tokens with "A" and "B" as vehicles where they do something: "when A is 19 m from it"."""
+    return [
+        replace(token, tags={names[token.text]: names[token.text]})
+        if token.text in names
+        and at + 1 < len(tokens)
+        and ("be" in tokens[at + 1].tags or "auxiliary" in tokens[at + 1].tags or "s" in tokens[at + 1].forms)
+        else token
+        for at, token in enumerate(tokens)
+    ]
 
 
 def _as_written(token: Token) -> Token:

@@ -125,6 +125,17 @@ def _refuse_unmeasured(words: Words, trigger_sentence: int) -> None:
         strange = any("unknown" in words.tags(at) and at not in words.names.actors for at in told)
         if strange and not measured:
             raise words.refuse("it is not known where this is", words.span(clause), "a landmark of the map")
+        for each in _condition(words, clause)[1:]:
+            _refuse_strange_part(words, each)
+
+
+def _refuse_strange_part(words: Words, clause: Clause) -> None:
+    """Refuse "when the ego is 6 m from it and its computer has understood the offer, ...": that cannot be seen."""
+    known = ("quantity", "landmark", "back_reference", "area", "measure", "heading", "direction", "oncoming_way")
+    finite = words.has(clause.inside, "be", "auxiliary")
+    strange = any("unknown" in words.tags(at) and at not in words.names.actors for at in clause.inside)
+    if clause.link == "and" and clause.named and finite and strange and not words.has(clause.inside, *known):
+        raise words.refuse("it is not known when this is so", words.span(clause))
 
 
 def refuse_third_parties(words: Words, deeds: list[Deed], trigger_sentence: int) -> None:
@@ -159,7 +170,7 @@ def refuse_strange_deeds(words: Words, trigger_sentence: int) -> None:
             continue
         clause = next((each for each in words.clauses if at in each.inside), None)
         acts = at - 1 in words.names.actors or words.has([at - 1], "pronoun")
-        compound = words.has([at + 1], "noun", "hero", "ego")
+        compound = words.has([at + 1], "noun", "hero", "ego") or words.word(at).endswith(("er", "or"))
         if clause is not None and clause.sentence >= trigger_sentence and acts and not compound:
             raise words.refuse(f"'{token.text}' was not understood: it may be what a vehicle does", token.span)
 
@@ -180,7 +191,7 @@ def _denies_nothing(words: Words, at: int, clause: Clause | None) -> bool:
     rest = range(at + 1, clause.end)
     plain = ("unknown", "determiner", "pronoun", "possessive", "preposition", "auxiliary", "link", "adverb")
     known = any(
-        (not words.tags(i).keys() & set(plain) and words.word(i) != "place") or i in words.names.actors for i in rest
+        (not words.tags(i).keys() & set(plain) and words.word(i) not in ("place", "end")) or i in words.names.actors for i in rest
     )
     done = any(words.word(i).endswith("ing") for i in rest) or words.has(rest, "verb", "heading", "direction")
     return len(rest) > 1 and "unknown" not in words.tags(at + 1) and not known and not done
@@ -195,10 +206,20 @@ def _repeats(words: Words, clause: Clause, deeds: list[Deed], trigger_sentence: 
     return way or (clause.link in ("until", "after") and again)
 
 
+def _condition(words: Words, clause: Clause) -> list[Clause]:
+    """Return the clauses of a condition, up to where the hero acts."""
+    found: list[Clause] = []
+    for each in (c for c in words.sentence(clause) if c.start >= clause.start):
+        acts = each.link != "that" and words.verbs(each.inside) & {"brake", "stop", "accelerate", "pass", "complete"}
+        if found and acts and not words.has(range(each.start, each.start + 3), "quantity"):
+            break
+        found.append(each)
+    return found[:6]
+
+
 def _tells_moment(words: Words, clause: Clause) -> bool:
     """Whether a "when" has an amount, or only tells when something begins that is known."""
-    later = [each for each in words.sentence(clause) if each.start >= clause.start][:6]
-    told = any(words.has(each.inside, "quantity") for each in later)
+    told = any(words.has(each.inside, "quantity") for each in _condition(words, clause))
     begins = words.verbs(clause.inside) & {"brake", "stop", "accelerate"} and clause.subject == HERO_ID
     begins = begins and len({words.names.actors[at] for at in clause.inside if at in words.names.actors}) < 2
     return told or bool(begins) or "start" in clause.labels
@@ -274,6 +295,9 @@ def _only_counts(words: Words, at: int) -> bool:
     word = words.word(at)
     if word.isalpha():
         return word == "two" or (word == "one" and "unsupported" not in words.tags(at + 1))
+    span = words.tokens[at].span
+    if words.text[: span.start].endswith("(") and words.text[span.end :].startswith(")"):
+        return True  # "(1) The ego ..."
     if _COUNTED.search(words.text[: words.tokens[at].span.start]):
         return True
     back = at - 1

@@ -184,7 +184,7 @@ class MomentReader:
             return False
         following = self.words.clauses[at + 1]
         own = [d for d in self.deeds if d.clause is following and d.actor == HERO_ID]
-        adjacent = following.sentence == clause.sentence and following.start == clause.end
+        adjacent = following.sentence == clause.sentence and following.start <= clause.end + 1
         early = any(self.moments.get(each.at) == "trigger" for each in self.measured if each.at < made.at)
         return adjacent and early and bool(own) and own[0].kind in ("stop", "wait") and following.link == "main"
 
@@ -207,6 +207,9 @@ class MomentReader:
             return True
         if words.where(clause.inside, "adverb", "initially") is not None:
             return True
+        where = next((at for at in range(made.at, clause.end) if words.word(at) == "where"), None)
+        if where is not None and words.verbs(range(where, clause.end)) == {"begin"}:
+            return True  # "80 m before the intersection is where the ego begins"
         if words.where(clause.inside, "aspect", "start") is not None or any(
             words.word(at) in _SET for at in clause.inside
         ):

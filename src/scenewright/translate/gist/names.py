@@ -18,7 +18,7 @@ PERSONAL = frozenset(("he", "she", "him", "himself", "herself", "hers"))
 _PERSONS = frozenset(
     ["man", "woman", "guy", "chap", "bloke", "fellow", "lady", "gentleman", "kid", "teenager", "somebody", "someone",
      "stranger", "owner", "operator", "commuter", "courier", "trucker", "neighbour", "neighbor", "father", "mother",
-     "uncle", "aunt", "grandmother", "grandma", "granny", "grandfather", "grandpa"]
+     "colleague", "friend", "student", "volunteer", "resident", "visitor", "uncle", "aunt", "grandmother", "grandma", "granny", "grandfather", "grandpa"]
 )  # fmt: skip
 # Kinds of vehicle that can be any vehicle, and names that say how a vehicle lies to the other or what it does.
 _GENERIC = frozenset(("car", "vehicle", "driver", "motorist", "actor", "agent", "traffic_one"))
@@ -46,7 +46,7 @@ def find_names(tokens: list[Token]) -> Names:
         word = token.text.lower()
         if word == "subject" and at + 1 < len(tokens) and "colon" in tokens[at + 1].tags:
             continue  # of a letter
-        if _is_director(tokens, at):
+        if _is_director(tokens, at) or (speaker == HERO_ID and word in ("we", "us")):
             continue
         if word in FIRST_PERSON or word in ("we have", "i have") or _is_own_wish(tokens, at):
             names.actors[at] = speaker
@@ -112,8 +112,11 @@ def _either(tokens: list[Token], names: Names) -> int | None:
 def _speaker(tokens: list[Token]) -> int:
     """Return who "I" am: the ego, or whoever drives "the target car" that I say I am in."""
     for at, token in enumerate(tokens):
-        if token.text.lower() != "i":
+        if token.text.lower() not in ("i", "me"):
             continue
+        named = tokens[at + 1 : at + 4]
+        if len(named) == 3 and "be" in named[0].tags and "determiner" in named[1].tags and "hero" in named[2].tags:
+            return HERO_ID  # "I am the hero"
         for ahead in range(at + 1, min(at + 7, len(tokens))):
             tags = tokens[ahead].tags
             if tags.keys() & {"end", "comma", "ego"}:
@@ -148,7 +151,8 @@ def _unknown_vehicle(tokens: list[Token]) -> str | None:
 def _name_vehicle(tokens: list[Token], at: int, names: Names, ego_kinds: set[str], ego_marks: set[str]) -> None:
     kind = tokens[at].tags["noun"]
     marked = at > 0 and (tokens[at - 1].text.lower() in ego_marks or "ego" in tokens[at - 1].tags)  # "the ADS car"
-    ego = marked or _is_predicate(tokens, at) or kind in ego_kinds or _is_tested(tokens, at) or _is_ours(tokens, at)
+    called = _is_called(tokens, at) and "be" in tokens[at + 1].tags
+    ego = marked or called or _is_predicate(tokens, at) or kind in ego_kinds or _is_tested(tokens, at) or _is_ours(tokens, at)
     names.actors[at] = EGO_ID if ego else HERO_ID
     if kind in _RELATIVE:
         names.relative[at] = _RELATIVE[kind]
@@ -240,7 +244,7 @@ def _our_own_words(tokens: list[Token]) -> set[str]:
 
 def _is_told_later(tokens: list[Token], at: int) -> bool:
     """Whether this says of amounts that they are alike: "3 s and 4 s, both to the line", not "both of them turning"."""
-    acts = at + 1 < len(tokens) and "ing" in tokens[at + 1].forms
+    acts = at + 1 < len(tokens) and ("ing" in tokens[at + 1].forms or "be" in tokens[at + 1].tags)
     return "measured_word" in tokens[at].tags and not acts
 
 

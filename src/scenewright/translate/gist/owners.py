@@ -24,7 +24,7 @@ class Owned(Protocol):
 def measure_of(words: Words, at: int) -> str | None:
     """Return what a word measures: "distance", "times to arrival", also "that" in "and that from the van to it"."""
     if words.word(at) == "that" and words.tag(at + 1, "preposition") in ("out", "of"):
-        return "length"
+        return "own"
     if "genitive" in words.tags(at) and words.has([at + 1], "preposition", "relation", "be"):
         return "own"  # "the ego's time to the line is 2 s, and the target's to the conflict point 3 s"
     if _is_elliptic(words, at):

@@ -80,6 +80,9 @@ class StoryTeller:
     def _state(self, made: Measured) -> None:
         start = self.moments.moments[made.at] == "start"
         beside = [each for each in self.moments.of("trigger") if each is not made and each.actor == made.actor]
+        waits = any(deed.clause is made.clause and deed.kind in ("wait", "stop") for deed in self.deeds)
+        if made.quantity is None and made.relation == "just_before" and not waits and (start or beside):
+            raise self.words.refuse("it is not clear at which moment this holds", made.span)
         if made.quantity is None and (start or beside):
             return  # "stands at the stop line" at first, "at the stop line" beside an amount
         condition = self._condition(made)

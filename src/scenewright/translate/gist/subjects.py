@@ -68,10 +68,12 @@ def _is_owner(words: Words, of: int, at: int) -> bool:
 def _before_name(words: Words, at: int) -> int:
     """Return where the words before a name, its article and its adjectives, end."""
     back = at - 1
+    article = False
     while back >= 0 and back not in words.names.actors and back not in words.names.pronouns:
         tags = words.tags(back)
-        if not tags.keys() & _BESIDE:
-            break
+        if not tags.keys() & _BESIDE or (article and "unknown" in tags):
+            break  # "in this episode the ego": the ego is no object of "in"
+        article |= "determiner" in tags
         if tags.keys() & {"relation", "preposition", "verb", "link"} and not tags.keys() & {
             "determiner",
             "actor_adjective",
@@ -149,7 +151,7 @@ def _name_subject(words: Words, clause: Clause) -> None:
     if found is None:
         found = next((at for at in names if _stands_after(words, at, "by")), None)
     pronoun = any(at in words.names.pronouns for at in clause.inside)
-    if found is None and not pronoun and not words.verbs(clause.inside) & _STRONG:
+    if found is None and not pronoun and not words.verbs(clause.inside) & {*_STRONG, "wait", "let", "yield"}:
         found = next((at for at in names if _stands_after(words, at, "for")), None)
     if found is not None:
         clause.subject, clause.named = words.names.actors[found], True
@@ -185,6 +187,7 @@ def _agrees_with_two(words: Words, clause: Clause) -> bool:
     actors = words.names.actors
     for at in clause.inside[1:]:
         plural = "verb" in words.tags(at) and words.tokens[at].forms == {"base"} and at - 1 in actors
+        plural = plural and words.word(at - 1) not in (*FIRST_PERSON, "you")
         if plural and not words.verbs(clause.inside) & {"let", "make"} and not words.has(clause.inside, "frame"):
             earlier = [each for each in words.sentence(clause) if each.start < clause.start]
             return any(actors.get(i, actors[at - 1]) != actors[at - 1] for each in earlier for i in each.inside)
@@ -193,11 +196,23 @@ def _agrees_with_two(words: Words, clause: Clause) -> bool:
 
 def _starts_it(words: Words, clause: Clause) -> bool:
     """Whether this is "when the observation begins", "when we start", "when things begin"."""
+    earlier = [each for each in words.sentence(clause) if each.end < clause.start]
+    if clause.link == "when" and len(earlier) == 1 and _begins_test(words, earlier[0]):
+        clause.labels, clause.link = [*clause.labels, "start"], "main"  # "We start when the ego is 6.5 s from it."
+        return False
     if clause.link == "when" and words.verbs(clause.inside) & {"begin"} and words.word(clause.end - 1) in _RUNS:
         return not words.has(clause.inside, "quantity")
     begins = words.word(clause.end - 1).split()[-1] in ("begin", "begins", "start", "starts", "began", "started")
     vehicle = words.has(clause.inside, "hero", "noun") or any("ego" in words.word(at) for at in clause.inside)
     return clause.link == "when" and begins and len(clause.inside) <= 3 and not vehicle
+
+
+def _begins_test(words: Words, clause: Clause) -> bool:
+    """Whether nothing is said but "We start", "The recording begins"."""
+    told = [at for at in clause.inside if "determiner" not in words.tags(at)]
+    if len(told) != 2 or words.tag(told[1], "verb") != "begin":
+        return False
+    return words.word(told[0]) in ("we", "i", *_RUNS)
 
 
 def _mark_start(clause: Clause, before: Clause | None) -> None:
@@ -217,6 +232,10 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
         return HERO_ID  # "we" are the ego, so "it" is the other one
     named_last = words.named(range(clause.start - 1, -1, -1))
     relative = clause.link == "that" and words.word(clause.start - 1) in ("which", "who", "that", "where", "whose")
+    before = words.clauses[index - 1] if index else clause
+    own = before.start in words.names.pronouns and words.has([before.start + 1], "event_noun", "onset_noun")
+    if relative and own and before.end <= before.start + 2:
+        return before.subject  # "Its deceleration, which takes it to a stop"
     if relative:
         _check_antecedent(words, index)
     if named_last is not None and (relative or words.has(clause.inside, "latter")):
@@ -235,6 +254,8 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
         return HERO_ID  # "After coming to a stop, it waits"
     deeds = _DEEDS | {"go", "turn", "follow"} if clause.link == "then" or _after_a_moment(earlier) else _DEEDS
     strong = verbs & _STRONG or words.has(clause.inside, "stop_noun")
+    if clause.link == "until" and pronouns and strong and hero_here:
+        return HERO_ID  # "the van brakes as soon as the ego is 3 s from it, until it has stopped"
     if clause.link in _MAIN and ((pronouns and hero_here and strong) or (acting and (verbs & deeds or strong))):
         return HERO_ID
     owned = [at for at in pronouns if not words.has([at - 1], "preposition", "relation", "verb")]

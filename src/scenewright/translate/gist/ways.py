@@ -15,7 +15,7 @@ from scenewright.translate.facts import LaneRelation
 from scenewright.translate.gist.words import Clause, Words
 from scenewright.translate.itineraries import OPPOSITE
 
-Key = Literal["heading", "turn", "origin_kind", "destination_kind"]
+Key = Literal["heading", "origin_heading", "turn", "origin_kind", "destination_kind"]
 _BESIDE = frozenset(("determiner", "possessive", "actor_adjective", "preposition", "unknown", "heading", "direction"))
 _AREA_WORDS = frozenset(("determiner", "possessive", "area_adjective", "same", "side", "adverb", "unknown"))
 _LEAVING = ("leave", "pull_out")
@@ -115,7 +115,9 @@ class WayReader:
         lane = self.words.has([at + 1], "area", "noun", "hero")
         if self.words.word(back).split()[-1:] == ["from"] and not lane:
             value = OPPOSITE[value]  # who comes from the east drives west
-        self._say("heading", value, at, self._whose(at, clause), clause)
+        from_lane = self.words.word(back) == "from" and self.words.tag(at + 1, "area") == "lane"
+        key: Key = "origin_heading" if from_lane else "heading"  # "a right turn from the westbound lane"
+        self._say(key, value, at, self._whose(at, clause), clause)
 
     def _direction(self, at: int, clause: Clause) -> None:
         value, before, after = self.words.tags(at)["direction"], self.words.tags(at - 1), self.words.tags(at + 1)
@@ -138,6 +140,8 @@ class WayReader:
             ):  # "the ego turns right, the car left", "ego left out of it"
                 self._say("turn", value, at, self.words.names.actors[at - 1], clause)
                 return
+            if not self._is_turn(at) and self._is_title(clause) and after.keys() & {"event_noun", "verb"} and clause.subject is None:
+                return  # "Two crossing left turns are studied."
             if not self._is_turn(at):
                 raise self.words.refuse("it is not clear who turns here", self.words.tokens[at].span)
         owner = self._let(at, clause)
@@ -360,6 +364,7 @@ class WayReader:
         enters = self.words.tag(at - 1, "area") == "driveway" and self._role(at - 1, clause) == "into"
         turned = self.words.where(range(clause.start, at), "direction", "left", "right") is not None
         crosses = crosses or (turned and "preposition" not in self.words.tags(at - 1))  # "out to the left in front of us"
+        strange = strange or self.words.has([at - 1], "event_noun", "landmark")  # "with no turn ahead of it"
         if "quantity" in self.words.tags(at - 1) or crosses or strange or to_line or enters:
             return  # "sneaks in ahead of us" tells no order in a lane
         ahead = self.words.skip(at + 1, _BESIDE)

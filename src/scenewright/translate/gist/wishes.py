@@ -64,6 +64,8 @@ def one_each(words: Words, relations: Sequence[LaneRelation]) -> list[LaneRelati
 def _fits(route: Route, way: Way) -> bool:
     if way.key == "heading":
         return way.value in route.headings
+    if way.key == "origin_heading":
+        return way.value == route.headings[0]
     return bool(getattr(route, way.key) == way.value)
 
 
