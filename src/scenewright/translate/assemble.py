@@ -198,7 +198,12 @@ class Assembler(ConditionAssembler):
         aim = self._landmark(name, EGO_ID, event.span)
         self._add(Compare("==", State(EGO_ID, _POSITION, Knot("t2")), aim), event)
         knot = start_knot if at_start and start_knot is not None else hero_knot
-        self._add(Compare("<" if hero_first else ">", Elapsed(HERO_ID, knot), Elapsed(EGO_ID, "t2")), event)
+        hero, ego = Elapsed(HERO_ID, knot), Elapsed(EGO_ID, "t2")
+        if order is None or order.margin is None or order.margin_bound == "<=":
+            self._add(Compare("<" if hero_first else ">", hero, ego), event)
+        if order is not None and order.margin is not None:
+            ahead = Arithmetic("-", ego, hero) if hero_first else Arithmetic("-", hero, ego)
+            self._add(Compare(order.margin_bound, ahead, order.margin.term), event)
 
     def _slow_and_go_on(self, phases: list[Phase]) -> Sketch | None:
         """Build the sketch of a hero that slows to a speed and goes on at will, "without stopping", to its goal."""
@@ -227,7 +232,7 @@ class Assembler(ConditionAssembler):
         self._add(Compare("==", State(HERO_ID, _SPEED, PieceRef("stop")), Number(Fraction(0))), event)
         if phases[0].wait is not None:
             waited = Arithmetic("-", Elapsed(HERO_ID, "t3"), Elapsed(HERO_ID, "t2"))
-            self._add(Compare("==", waited, phases[0].wait.term), phases[0].events[-1])
+            self._add(Compare(phases[0].wait_bound, waited, phases[0].wait.term), phases[0].events[-1])
         order = self.facts.order
         if order is not None and order.at_start:
             self._goal_without_order(phases[1])

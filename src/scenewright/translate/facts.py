@@ -33,6 +33,9 @@ class Condition:
     ttc: Quantity | None = None
 
 
+Bound = Literal["==", "<=", ">="]
+
+
 @dataclass(slots=True)
 class Phase:
     """One thing that the hero does after its trigger."""
@@ -48,6 +51,7 @@ class Phase:
     goal: str | None = None
     goal_event: Event | None = None
     wait: Quantity | None = None
+    wait_bound: Bound = "=="  # "for at least 2 s"
     yields: bool = False
     goal_assumed: str | None = None  # the assumption that gave the goal, where no words did
 
@@ -60,6 +64,8 @@ class Order:
     ego_landmark: str
     event: Event
     at_start: bool = False  # the hero's last phase begins (not ends) after the ego
+    margin: Quantity | None = None  # "1 s before the ego does"
+    margin_bound: Bound = "=="
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 
 from scenewright.errors import Span
 from scenewright.translate.events import EGO_ID, HERO_ID, Relation
+from scenewright.translate.facts import Bound
 from scenewright.translate.gist.owners import measure_of, measure_word, owner_of, told_for
 from scenewright.translate.gist.words import Clause, Words
 from scenewright.translate.tokens import Quantity
@@ -28,7 +29,7 @@ class Measured:
     ----------
     kind
         ``place`` (a distance or a time to a landmark), ``gap`` (between the two, as a distance or a time), ``ttc``,
-        ``speed``, ``rate``, ``duration``, or ``open`` where nothing around it says it.
+        ``speed``, ``rate``, ``duration``, ``margin`` (by how much one is first), or ``open`` where nothing around it says it.
     quantity
         None for a place without one.
     actor
@@ -37,6 +38,8 @@ class Measured:
         The place; `vague` where "the driveway" stands for it. ``last`` is the landmark named before.
     target
         Whether a speed is reached, not had.
+    bound
+        Whether it is the least or the most: "for at least 2 s".
     """
 
     kind: str
@@ -49,6 +52,7 @@ class Measured:
     relation: Relation = "before"
     vague: bool = False
     target: bool = False
+    bound: Bound = "=="
 
 
 @dataclass(slots=True)
@@ -106,6 +110,10 @@ class AmountReader:
 
     def _length_or_time(self, made: Measured) -> None:
         if self._is_same_as_before(made):
+            return
+        timed = made.quantity is not None and made.quantity.dimension == "time" and made.at == made.clause.end - 1
+        if timed and self.words.tag(made.at + 1, "link") in ("before", "after"):
+            made.kind, made.actor = "margin", HERO_ID  # "passes the conflict point 1 s before the ego does"
             return
         measure = measure_word(self.words, made.at, made.clause)
         if measure in ("headway", "ttc"):

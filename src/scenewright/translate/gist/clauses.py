@@ -188,6 +188,8 @@ def _link(words: Words, at: int) -> str | None:
         return None  # "both are after the same driveway"
     if link == "until" and words.has([at - 1], "measure"):
         return None  # "the time until the ego arrives at the conflict point is 4 s"
+    if link in ("before", "after") and words.tag(at - 1, "quantity") == "time" and _is_margin(words, at):
+        return link
     if link in BOUNDS:
         measured = "quantity" in words.tags(at - 1) or words.tag(at - 1, "adverb") == "just"
         return None if measured or _names_place(words, at + 1) else link
@@ -214,6 +216,13 @@ def _is_still_to_come(words: Words, at: int) -> bool:
             words.used |= set(range(at, ahead + 1))
             return True
     return False
+
+
+def _is_margin(words: Words, at: int) -> bool:
+    """Whether a time is by how much a vehicle is first: "passes the conflict point 1 s before the ego does"."""
+    first = next((i + 1 for i in range(at - 1, -1, -1) if words.has([i], "end", "comma")), 0)
+    passes = words.verbs(range(first, at)) & {"pass", "complete"}
+    return bool(passes) and _names_someone(words, at + 1)
 
 
 def _goes_along(words: Words, at: int) -> bool:

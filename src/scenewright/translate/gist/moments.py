@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from scenewright.translate.events import EGO_ID, HERO_ID
+from scenewright.translate.facts import Bound
 from scenewright.translate.gist.amounts import Measured
 from scenewright.translate.gist.deeds import Deed
 from scenewright.translate.gist.words import Clause, Words
@@ -21,6 +22,10 @@ _STATE = ("verb", "be", "auxiliary")
 # What names the moment itself where something comes near: "as soon as it is within 20 m".
 _LIMITS = ("within",)
 _SET = ("released", "spawned", "initialised", "initialized", "dropped")
+_BOUNDS: dict[str, Bound] = {
+    "at least": ">=", "no less than": ">=", "not less than": ">=", "minimum": ">=",
+    "at most": "<=", "no more than": "<=", "not more than": "<=", "maximum": "<=",
+}  # fmt: skip
 _PAST = ("was", "were", "had")
 _THEN = ("then", "by then", "at the time", "at that time", "at that point", "at this point")
 _FAR = 12
@@ -67,6 +72,10 @@ class MomentReader:
         for made in self.measured:
             at = self.words.where(range(made.at - 2, made.at), "bound")
             limit = at is not None and self.words.word(at) in _LIMITS and self.moments[made.at] == "trigger"
+            bound = _BOUNDS.get(self.words.word(at)) if at is not None else None
+            if bound is not None and made.kind in ("duration", "margin"):
+                made.bound = bound
+                continue
             if at is not None and not limit and self.words.word(at) != "up to":
                 raise self.words.refuse("this is a bound, not a value", made.span)
 
@@ -75,7 +84,7 @@ class MomentReader:
         clause = made.clause
         slowed = any(each.kind == "speed" and each.target and each.clause is clause for each in self.measured)
         slowed = slowed or self._slowed_there(made)
-        if made.kind in ("rate", "duration") or (made.kind == "place" and slowed) or self._of_stop(made):
+        if made.kind in ("rate", "duration", "margin") or (made.kind == "place" and slowed) or self._of_stop(made):
             return "deed"
         if self._at_start(made):
             if clause.link == "when" or "trigger" in clause.labels:

@@ -7,7 +7,7 @@ event for each fact, which says where it stands.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place, Relation
@@ -255,7 +255,7 @@ class StoryTeller:
             if made.kind == "place":
                 self._stop_place(phase, made)
             elif made.kind == "duration":
-                phase.wait = made.quantity
+                phase.wait, phase.wait_bound = made.quantity, made.bound
             elif made.kind == "rate" and self._deed_of(made, _MOVES) in _SLOWS:
                 phase.rate, phase.rate_event = made.quantity, self._event_at(made)
             elif made.kind == "speed" and self._deed_of(made, (*_MOVES, "pass", "go")) in _SLOWS:
@@ -361,7 +361,13 @@ class StoryTeller:
             or deed.landmark == "same"
             or (reached and phase.goal_event is not None and phase.goal_event.span.start < deed.span.start)
         )
+        margin = next((m for m in self.moments.of("deed") if m.kind == "margin" and m.clause.end == deed.at - 1), None)
         self.facts.order = Order(first, landmark, event, at_start=not at_end)
+        if margin is not None:
+            if not at_end:
+                raise self.words.refuse("it is not clear between which moments this time is", margin.span)
+            bound = margin.bound
+            self.facts.order = replace(self.facts.order, margin=margin.quantity, margin_bound=bound)
         if phase.goal is None and first:
             phase.goal, phase.goal_event = "conflict_point", event
 

@@ -47,6 +47,8 @@ def is_object(words: Words, at: int) -> bool:
     if following.keys() & {"measure", "quantity"} and preposition in ("at", "with", "of", "to"):
         return preposition in ("of", "to") and "measure" not in following  # "at ego time to arrival 4 s"
     linked = tags.get("link")
+    if linked in ("before", "after") and words.tag(back - 1, "quantity") == "time" and _acts(words, at):
+        return False  # "1 s before the ego passes it"
     if linked not in (None, "to", "by") and "quantity" not in words.tags(back - 1):
         return False
     if (tags.keys() & {"relation", "separates"} and linked != "when") or preposition in _OBJECT_OF:
@@ -55,6 +57,12 @@ def is_object(words: Words, at: int) -> bool:
         told = words.word(back - 1) in ("to", "and") or words.has([back - 1], "negation")
         return told or bool(words.tokens[back].forms & {"s", "ing"})
     return verb in _TAKES_OBJECT
+
+
+def _acts(words: Words, at: int) -> bool:
+    """Whether a vehicle is followed by what it does."""
+    finite = "verb" in words.tags(at + 1) and "ing" not in words.tokens[min(at + 1, len(words.tokens) - 1)].forms
+    return finite or words.has([at + 1], "auxiliary", "be")
 
 
 def _is_owner(words: Words, of: int, at: int) -> bool:
