@@ -285,7 +285,9 @@ class AmountReader:
         tags = self.words.tags(at)
         if "landmark" in tags:
             return tags["landmark"], at + 1, False
-        if "back_reference" in tags or ("mark_noun" in tags and at > first) or self.words.word(at) == "there":
+        if "back_reference" in tags or ("mark_noun" in tags and at > first):
+            return self.words.referred(at) or "last", at + 1, False
+        if self.words.word(at) == "there" or ("latter" in tags and self.words.word(at - 1) in ("short of", "before")):
             return "last", at + 1, False
         if "mouth" in tags and self.words.word(at + 1) == "of":
             mouth = self.place_at(at + 2)
@@ -309,6 +311,8 @@ class AmountReader:
     def _to_vehicle(self, made: Measured) -> bool:
         """Read "12 m behind the hero" and "2 s ahead of it"."""
         at, relation = made.at + 1, None
+        if self.words.word(made.at - 1) == "within" and self.words.tag(at, "preposition") == "of":
+            relation = "from"  # "has come to within 20 yards of the van"
         while self.words.has([at], "relation", "adverb", "left_over") or self.words.tag(at, "preposition") == "of":
             relation = self.words.tag(at, "relation") or relation
             at += 1
@@ -400,9 +404,11 @@ class AmountReader:
         self.words.used |= set(range(made.at, at + 1))
         name = self.words.skip(at + 1, _BESIDE)
         relation = self.relation_at(name + 1) if name in self.words.names.actors else None
-        if name in self.words.names.actors and self.words.word(name + 1) == "and":
+        known = name in self.words.names.actors or name in self.words.names.pronouns
+        pair = known and self.words.word(name + 1) == "and"
+        if pair:
             relation = "before", name + 2  # "70 m lie between the ego and the intersection"
-        if name in self.words.names.pronouns:  # "60 yd separate it from the conflict point"
+        if name in self.words.names.pronouns and not pair:  # "60 yd separate it from the conflict point"
             relation = self.relation_at(name + 1)
         place = self.place_at(relation[1]) if relation is not None else None
         if place is not None:

@@ -85,7 +85,10 @@ class DeedReader:
         for clause in self.words.clauses:
             if clause.aside:
                 self.words.used |= set(clause.inside)
-            elif not (self._is_bound(clause) and self._ego_moment(clause)):
+            elif not (
+                (self._is_bound(clause) or self._is_allowed(clause))
+                and self._ego_moment(clause if self._is_bound(clause) else replace(clause, link="until"))
+            ):
                 self._clause(clause)
         for deed in list(self.deeds):
             self._in_front(deed)
@@ -192,7 +195,8 @@ class DeedReader:
         while "unknown" in self.words.tags(back):
             back -= 1
         done = {self.words.word(at + 1), self.words.word(at + 2)} & {"done", "finished", "behind it", "over", "is over"}
-        return "possessive" in self.words.tags(back) and bool(done)
+        behind = (self.words.word(at + 1), self.words.word(at + 2)) == ("behind", "it")
+        return "possessive" in self.words.tags(back) and (bool(done) or behind)
 
     def _only_describes(self, verb: str, at: int, clause: Clause) -> bool:
         """Whether a verb tells no deed here: "a slow car", "goes west", "needs 3 s to reach the line", "its turn"."""
@@ -213,6 +217,7 @@ class DeedReader:
             return True  # "Race for the driveway:"
         by = verb == "pass" and words.tag(at + 1, "preposition") in ("by", "on")
         by = by or (verb == "pass" and words.has([at + 1, at + 2], "landmark") and self._is_crossed(at))
+        by = by or (verb == "pass" and "heading" in words.tags(at + 1))  # "is passing through eastbound"
         if (by or words.word(at).endswith(" by")) and clause.subject == EGO_ID:
             return True  # "the ego, meanwhile, is passing by on the road"
         if verb in ("yield", "not_yield") and "ing" in token.forms and words.has([at - 1], "determiner"):
@@ -277,8 +282,7 @@ class DeedReader:
             if "landmark" in self.words.tags(ahead):
                 return self._use(ahead)
             if self.words.has([ahead], "back_reference", "mark_noun"):
-                back = self.words.landmark_before(at + 1)
-                return self.words.tags(back)["landmark"] if back is not None else None
+                return self.words.referred(ahead)
             if "quantity" in self.words.tags(ahead):
                 return None
         before = range(clause.start, at)
@@ -350,6 +354,12 @@ class DeedReader:
         which = self.words.word(clause.start - 1) == "after which" and bool(verbs & {"begin", "turn", "pass"})
         return clause.link in BOUNDS or by_then or which or self._releases(clause)
 
+    def _is_allowed(self, clause: Clause) -> bool:
+        """Whether the ego is let go in a sentence of its own: "The ego is allowed to complete its turn. Then ..."."""
+        allowed = any("allowed" in self.words.word(at).split() for at in clause.inside)
+        done = self.words.verbs(clause.inside) & {"complete", "pass"}
+        return allowed and clause.subject == EGO_ID and clause.named and bool(done)
+
     def _in_front(self, deed: Deed) -> None:
         """Read "crosses in front of the ego" and "beats the ego to the conflict point" as passing before the ego."""
         clause, words = deed.clause, self.words
@@ -378,6 +388,10 @@ class DeedReader:
         """Read "lets the ego complete its turn" as what the hero waits for."""
         rest, names = range(at + 1, clause.end), self.words.names
         if not (any(names.actors.get(each) == EGO_ID for each in rest) or at + 1 in names.pronouns):
+            return False
+        way = {word for i in rest for word in self.words.word(i).split()} & {"priority", "precedence", "right-of-way"}
+        if way or any(self.words.word(i) == "right of way" for i in rest):
+            self._add("yield", at, clause)  # "gives the ego the right of way by braking"
             return False
         let = replace(clause, start=at + 1, link="let", subject=EGO_ID, named=True)
         if self.words.has(rest, "landmark", "back_reference", "event_noun") or self.words.verbs(rest) & {

@@ -25,6 +25,13 @@ _VERDICT = re.compile(
     r"(?:there is |there are |we see )?no (?:contact|collision|crash|accident|touch)s?(?: occurs| happens)?\s*[.!]?$",
     re.IGNORECASE,
 )
+# "The point of the test is whether the AV commits too early.": what the test is for
+_PURPOSE = re.compile(r"^\s*(?:the|our) (?:point|purpose|aim|idea|question|interest|goal|focus)\b.*\b(?:whether|how)\b", re.I)
+_ABOUT = re.compile(
+    r"\d|\b(?:hero|npc|pov|target|van|car|bus|truck|lorry|brak|accelerat|slow|stop|yield|until|when|east|west|north|south"
+    r"|left|right|straight|driveway|road|before|after)",
+    re.IGNORECASE,
+)
 _TELLS = re.compile(
     r"\d|\b(?:ego|av|sut|hero|npc|pov|under test|our (?:car|vehicle)|brak|accelerat|slow|stop|turn|yield|pass|cross"
     r"|until|when|if|(?:east|west|north|south)|left|right|straight|driveway|conflict|before|after)",
@@ -38,5 +45,6 @@ def disclaimers(text: str) -> list[Span]:
         Span(*found.span())
         for found in _SENTENCE.finditer(text)
         if _VERDICT.search(found.group())
+        or (_PURPOSE.search(found.group()) and not _ABOUT.search(found.group()))
         or (_CHANGES_NOTHING.search(found.group()) and not _TELLS.search(found.group()))
     ]

@@ -24,8 +24,17 @@ _BOLD = re.compile(r"\*\*|__(?=\S)|(?<=\S)__")
 # "Trigger - ego 3 s from it" at the beginning of a line
 _DASHED = re.compile(r"^([ \t]*(?:[-*] )?[A-Za-z][\w ()]{0,30}?) ([-\u2013\u2014])(?= )", re.MULTILINE)
 _CROSSING = re.compile(
-    r"(?:point|spot|place) (?:where|at which|in which) (?:their|the|the two|both|our|its|your|these|two) (?:two )?"
+    r"(?:(?:point|spot|place) (?:where|at which|in which)|(?<=from )where|(?<=short of )where) (?:their|the|the two|both|our|its|your|these|two) (?:two )?"
     r"(?:paths|ways|lanes|routes|tracks|trajectories|courses) (?:cross|meet|merge|intersect|join|conflict|(?:come|run) together)\b",
+    re.IGNORECASE,
+)
+# "No sooner is the ego 9 m from the line than the van brakes"
+_NO_SOONER = re.compile(r"\bNo sooner((?: \w+)(?:(?!\bthan\b|[;!?]|\.\s).)*?)\bthan\b", re.IGNORECASE)
+# "Once two conditions hold at the same time, ..."
+_HOLD = re.compile(
+    r"\b(?:once|when|as soon as) (?:the following |these |both |two |the )?(?:two )?conditions? "
+    r"(?:holds?|(?:are|is) (?:met|fulfilled|true|satisfied|given))(?: (?:together|at the same time|simultaneously|at once))?"
+    r"(?:,|:| -)?(?: namely(?: that)?,?)?",
     re.IGNORECASE,
 )
 _LETTERED = re.compile(r"\b(?:car|vehicle|actor|agent|driver) ([A-D]|\d)\b", re.IGNORECASE)
@@ -50,6 +59,8 @@ def _plain(text: str) -> str:
     if "\n" in text.strip():
         text = _DASHED.sub(r"\1 :", text)
     text = _PLUS.sub(",", text)
+    text = _HOLD.sub(lambda found: "When".ljust(len(found.group())), text)
+    text = _NO_SOONER.sub(lambda found: "When".ljust(9) + found.group(1) + ",".ljust(4), text)
     text = re.sub(r", that is,", lambda found: ",".ljust(len(found.group())), text)
     if names := _letters(text):
         text = _LETTERED.sub(lambda found: names[found.group(1).upper()].ljust(len(found.group())), text)

@@ -250,6 +250,9 @@ def _is_harmless(words: Words, at: int) -> bool:
         words.used.add(at - 1)
         return True  # "there are no pedestrians"
     if token.text.lower() == "traffic":
+        later = " ".join(words.word(i) for i in range(at + 1, min(at + 9, len(words.tokens))))
+        if re.search(r"\b(?:consists? of|is limited to|amounts to) (?:one|a single|a)\b", later):
+            return True  # "Westbound traffic consists of one van"
         return bool(before.keys() & {"heading", "direction", "actor_adjective"})
     kind = token.tags["unsupported"]
     if (not before or "end" in before) and after.keys() & {"colon", "end"}:

@@ -272,6 +272,7 @@ class MomentReader:
         ways = self.words.verbs(range(clause.start, made.at)) & {"come", "drive", "go", "pull_out", "approach", "leave"}
         whens = [each for each in self.words.sentence(clause) if each.link == "when"]
         first = clause.link == "and" and clause is self.words.sentence(clause)[0]  # "With the ego on its way at 12 m/s"
+        first = first or self.words.word(clause.start - 1) in ("while", "whilst")
         early = all(each.start > clause.start for each in whens) and (first or clause.link in ("main", "colon"))
         early = early and bool(whens)
         done = any(deed.clause is clause and deed.kind != "turn" for deed in self.deeds)
@@ -332,11 +333,24 @@ class MomentReader:
         gaps = [made for made in self.of("open") if made.kind in ("gap", "ttc")]
         if len(gaps) == 1:
             return self._set_trigger(gaps)
+        if (told := self._called_trigger()) is not None:
+            return told
         then = next((each for each in self.words.clauses if each.link == "moment"), None)
         if then is None:
             return self._told_before_a_colon()
         latest = {made.actor: made for made in self.of("open") if made.at < then.start}
         return self._set_trigger(list(latest.values()))
+
+    def _called_trigger(self) -> int | None:
+        """Read "The AV is 3 s from the line, the van 3 s from the point. That is the trigger."."""
+        for clause in self.words.clauses:
+            this = self.words.word(clause.start) in ("this", "that") or self.words.word(clause.start - 1) in ("this", "that")
+            named = self.words.where(clause.inside, "label", "when") is not None or clause.link == "when"
+            told = self.words.has(clause.inside, "quantity")
+            before = [made for made in self.of("open") if made.clause.sentence == clause.sentence - 1]
+            if this and named and before and not told and len(clause.inside) <= 4:
+                return self._set_trigger(before)
+        return None
 
     def _told_before_a_colon(self) -> int | None:
         """Read "Ego 45 m from the conflict point: the car sets off" and "Cond: ego 12 m, van 30 m from it"."""

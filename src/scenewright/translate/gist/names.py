@@ -59,7 +59,7 @@ def find_names(tokens: list[Token]) -> Names:
             names.pronouns.add(at)
         elif "noun" in token.tags and not token.slips and not _is_last_one(tokens, at):
             _name_vehicle(tokens, at, names, kinds, marks)
-        elif word in owners and not _owns(tokens, at):
+        elif (word in owners and not _owns(tokens, at)) or _sits_in_one(tokens, at):
             names.actors[at] = HERO_ID
         elif word in _PERSONS or word == unknown or _is_hero(tokens, at) or ("unknown" in token.tags and word in tails):
             names.actors[at] = HERO_ID
@@ -219,6 +219,15 @@ def _owners(tokens: list[Token]) -> set[str]:
         for at, token in enumerate(tokens)
         if "unknown" in token.tags and _owns(tokens, at) and at and "determiner" in tokens[at - 1].tags
     }
+
+
+def _sits_in_one(tokens: list[Token], at: int) -> bool:
+    """Whether this is "mum" in "a mum in a station wagon"."""
+    rest = tokens[at + 1 : at + 5]
+    if "unknown" not in tokens[at].tags or not at or "determiner" not in tokens[at - 1].tags or len(rest) < 4:
+        return False
+    sits = rest[0].text.lower() == "in" and "determiner" in rest[1].tags
+    return sits and any("noun" in each.tags for each in rest[2:4])
 
 
 def _owns(tokens: list[Token], at: int) -> bool:

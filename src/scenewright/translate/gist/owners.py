@@ -48,7 +48,19 @@ def measure_word(words: Words, at: int, clause: Clause) -> str | None:
             return found
         if "quantity" in words.tags(back):
             return None
-    return None
+    return _resumed(words, at, clause)
+
+
+def _resumed(words: Words, at: int, clause: Clause) -> str | None:
+    """Return the measure between the two that goes on here: "the headway of the ego, which follows, has shrunk to"."""
+    index = next((i for i, each in enumerate(words.clauses) if at in each.inside), 0)
+    if index < 2 or words.clauses[index - 1].link != "that" or not words.has([clause.start], "falls", "be", "auxiliary"):
+        return None
+    before = words.clauses[index - 2]
+    if before.sentence != clause.sentence or words.has(before.inside, "quantity"):
+        return None
+    found = (measure_of(words, back) for back in reversed(before.inside))
+    return next((each for each in found if each in ("headway", "ttc")), None)
 
 
 def owner_of(words: Words, at: int, clause: Clause) -> int | None:

@@ -126,6 +126,10 @@ def _beats_ego(words: Words, index: int) -> bool:
         return False
     clause, following = words.clauses[index], words.clauses[index + 1]
     named = words.named(following.inside) == EGO_ID
+    earlier = [each for each in words.sentence(clause) if each.start < clause.start]
+    told = bool(earlier) and words.has(earlier[-1].inside, "quantity") and any(e.link == "when" for e in earlier)
+    if not told or clause.start in words.names.pronouns:
+        return False  # "the ego pulls away, and completes its turn before the ego ..." is nonsense
     return following.link == "before" and following.sentence == clause.sentence and named
 
 
@@ -212,7 +216,8 @@ def _starts_it(words: Words, clause: Clause) -> bool:
         return not words.has(clause.inside, "quantity")
     begins = words.word(clause.end - 1).split()[-1] in ("begin", "begins", "start", "starts", "began", "started")
     vehicle = words.has(clause.inside, "hero", "noun") or any("ego" in words.word(at) for at in clause.inside)
-    return clause.link == "when" and begins and len(clause.inside) <= 3 and not vehicle
+    told = words.has(clause.inside, "quantity", "pronoun", "possessive")
+    return clause.link == "when" and begins and len(clause.inside) <= 5 and not vehicle and not told
 
 
 def _begins_test(words: Words, clause: Clause) -> bool:
@@ -354,6 +359,8 @@ def _named_later(words: Words, index: int) -> int | None:
     for following in words.clauses[index + 1 :]:
         if following.sentence != clause.sentence or following.link in ("when", "before", "after", "until"):
             return None
+        if words.word(following.start - 1) == "with" and words.has(following.inside, "quantity"):
+            continue  # "Three seconds from it, with the AV 2 s from the line, the van accelerates"
         for at in following.inside:
             if at in words.names.actors and not is_object(words, at):
                 return words.names.actors[at]

@@ -191,6 +191,10 @@ class WayReader:
 
     def _same(self, at: int, clause: Clause) -> None:
         """Read "makes the same turn", "heading the same way", "with the same intention"."""
+        does = self.words.tag(at - 1, "verb") == "make" or self.words.word(at - 2) in ("does", "doing", "do", "did")
+        if does and self.words.has([at + 1], "end", "comma") and clause.subject is not None:
+            self.alike.append((clause.subject, at))  # "does the same"
+            return
         for ahead in (at + 1, at + 2):
             alike = self.words.tag(ahead, "event_noun") == "turn" or self.words.word(ahead) in (
                 "way",
@@ -269,6 +273,9 @@ class WayReader:
             return "into"
         if (preposition == "out" or "relation" in tags) and self.words.has([back - 1], "quantity"):
             return None  # "66 m from the driveway"
+        told = {self.words.word(i) for i in range(clause.start, back)}
+        if "be" in tags and told & {"destination", "goal", "target", "aim"} and self.words.tag(at, "area") == "driveway":
+            return "into"  # "its destination is the driveway"
         if verb == "leave" and self.words.tag(at + 1, "preposition") in ("to", "for"):
             return None  # "leaves the driveway to us"
         if preposition == "out" or verb in _LEAVING or word in ("from", "down") or "out of" in word:

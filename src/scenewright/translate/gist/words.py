@@ -148,6 +148,16 @@ class Words:
         """Return where the last landmark before a token stands: what "that point" means."""
         return self.where(range(at - 1, -1, -1), "landmark")
 
+    def referred(self, at: int) -> str | None:
+        """Return what "that line", "the point", "there" mean: the landmark of that kind, else the one named last."""
+        back = self.landmark_before(at)
+        if back is None:
+            return None
+        kinds = {"line": "stop_line", "point": "conflict_point"}
+        meant = kinds.get(self.word(at).split()[-1]) if self.word(at) else None
+        named = {self.tags(i)["landmark"] for i in range(at) if "landmark" in self.tags(i)}
+        return meant if meant in named else self.tags(back)["landmark"]
+
     def sentence(self, clause: Clause) -> list[Clause]:
         """Return the clauses of the same sentence."""
         return [each for each in self.clauses if each.sentence == clause.sentence]
