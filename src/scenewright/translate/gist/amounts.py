@@ -341,6 +341,8 @@ class AmountReader:
             self._separates(made, separates)
             return True
         between = self.words.where(made.clause.inside, "preposition", "between")
+        if measure is None and between is None and self._arrives_in(made):
+            return True
         if measure is None and between is None:
             return False
         place = self._place_in(made)
@@ -358,6 +360,18 @@ class AmountReader:
             self._who_follows(made)
             return True
         return False
+
+    def _arrives_in(self, made: Measured) -> bool:
+        """Read "would arrive at the stop line in 2.5 s"."""
+        timed = made.quantity is not None and made.quantity.dimension == "time"
+        acts = self.words.verbs(made.clause.inside) & {"stop", "brake", "wait", "accelerate"}
+        if not timed or self.words.word(made.at - 1) != "in" or acts:
+            return False
+        place = self._place_in(made)
+        if place is None:
+            return False
+        made.kind, made.landmark, made.actor = "place", place, owner_of(self.words, made.at, made.clause)
+        return True
 
     def _is_told_of_next(self, made: Measured) -> bool:
         """Whether the place comes with the other vehicle's amount: "at a distance of 21 m, and the hero at one of"."""

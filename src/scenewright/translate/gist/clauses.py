@@ -172,7 +172,8 @@ def _link(words: Words, at: int) -> str | None:
     if word == "following":
         return link if words.word(at + 1) in ("that", "this") else None
     if word in ("ahead of", "in front of"):
-        raced = words.verbs(range(max(0, at - 8), at)) & {"pass", "complete", "accelerate", "reach", "go"}
+        first = next((i + 1 for i in range(at - 1, -1, -1) if "end" in words.tags(i)), 0)
+        raced = words.verbs(range(max(first, at - 8), at)) & {"pass", "complete", "accelerate", "reach", "go"}
         return link if raced else None
     if link == "before" and "ing" in words.tokens[at + 1].forms and words.tag(at + 1, "verb") in ("go", "accelerate"):
         first = next((i + 1 for i in range(at, -1, -1) if "end" in words.tags(i)), 0)

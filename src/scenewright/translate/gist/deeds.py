@@ -83,6 +83,8 @@ class DeedReader:
     def read(self) -> None:
         """Read every clause."""
         for clause in self.words.clauses:
+            if self._follows_hero(clause) or self._is_after_hero(clause):
+                continue
             if clause.aside:
                 self.words.used |= set(clause.inside)
             elif not (
@@ -353,6 +355,31 @@ class DeedReader:
         by_then = self.words.word(clause.start - 1) == "by the time" and not self.words.has(clause.inside, "quantity")
         which = self.words.word(clause.start - 1) == "after which" and bool(verbs & {"begin", "turn", "pass"})
         return clause.link in BOUNDS or by_then or which or self._releases(clause)
+
+    def _follows_hero(self, clause: Clause) -> bool:
+        """Read "the ego begins to turn only after the van has passed the point": the van passes before that."""
+        following = next((each for each in self.words.clauses if each.start > clause.start), None)
+        if following is None or not self._is_after_hero(following) or clause.end > following.start:
+            return False
+        verbs = self.words.verbs(clause.inside)
+        self.words.used |= set(range(clause.start, following.start))
+        span = self.words.span(clause)
+        self._add("pass", self._verb_of(following), following)
+        self.deeds.append(Deed("before", clause.start, clause, span, self._ego_place(clause, verbs), EGO_ID))
+        return True
+
+    def _is_after_hero(self, clause: Clause) -> bool:
+        index = self.words.clauses.index(clause)
+        before = self.words.clauses[index - 1] if index else clause
+        passed = self.words.verbs(clause.inside) == {"pass"} and clause.subject == HERO_ID and clause.named
+        begins = self.words.verbs(before.inside) & {"begin", "turn", "pull_out"}
+        own = before.subject == EGO_ID and before.sentence == clause.sentence
+        only = "only" in self.words.word(before.end - 1).split() or self.words.has(before.inside, "negation")
+        told = self.words.has(clause.inside, "quantity") or self.words.has(before.inside, "quantity")
+        return clause.link == "after" and passed and own and bool(begins) and only and not told
+
+    def _verb_of(self, clause: Clause) -> int:
+        return next(at for at in clause.inside if "verb" in self.words.tags(at))
 
     def _is_allowed(self, clause: Clause) -> bool:
         """Whether the ego is let go in a sentence of its own: "The ego is allowed to complete its turn. Then ..."."""

@@ -86,7 +86,7 @@ def _named_by_letter(tokens: list[Token], names: dict[str, str]) -> list[Token]:
         replace(token, tags={names[token.text]: names[token.text]})
         if token.text in names
         and at + 1 < len(tokens)
-        and ("be" in tokens[at + 1].tags or "auxiliary" in tokens[at + 1].tags or "s" in tokens[at + 1].forms)
+        and (tokens[at + 1].tags.keys() & {"be", "auxiliary", "quantity"} or "s" in tokens[at + 1].forms)
         else token
         for at, token in enumerate(tokens)
     ]

@@ -90,6 +90,8 @@ class MomentReader:
             if clause.link == "when" or "trigger" in clause.labels:
                 raise self.words.refuse("this is told of the start and of the trigger", made.span)
             return "start"
+        if made.kind == "speed" and not made.target and self._at_that_moment(clause):
+            return "trigger"
         if made.kind == "speed" and (self._is_within(made) or (self._is_asked(clause) and self._is_condition(made))):
             return "trigger"
         ways = self.words.verbs(range(clause.start, made.at)) & {"lane_follow", "go", "drive", "come"}
@@ -111,7 +113,7 @@ class MomentReader:
         past = any(self.words.word(at) in _PAST for at in range(clause.start, made.at))
         if asked and clause.link == "that" and past:
             raise self.words.refuse(UNCLEAR, made.span)
-        if clause.link == "moment" and made.kind == "place":
+        if made.kind == "place" and (clause.link == "moment" or self._at_that_moment(clause)):
             return "trigger"
         if made.kind == "place" and (self._when_it_acts(clause) or self._begins_here(made)):
             return "trigger"
@@ -256,7 +258,7 @@ class MomentReader:
         acts = (d.at for d in self.deeds if d.actor == HERO_ID and d.clause.sentence == made.clause.sentence)
         act = min((at for at in acts if at > asked.start), default=sentence[-1].end)
         own = [each for each in self.measured if each.kind == "place" and each.actor == made.actor]
-        before = [self.words.word(at) for at in range(made.clause.start, made.at)]
+        before = [self.words.word(at) for at in range(made.clause.start - 1, made.at)]
         then = {"then", "by then", "at that"} & set(before)
         return bool(then) and any(made.at < each.at < act for each in own)
 
@@ -265,6 +267,13 @@ class MomentReader:
         sentence = self.words.sentence(clause)
         labels = any(self.words.where(each.inside, "label", "when") is not None for each in sentence)
         return labels or any(each.link == "when" for each in sentence)
+
+    def _at_that_moment(self, clause: Clause) -> bool:
+        """Whether a sentence only tells how all stand at the trigger: "At the trigger the ego is ..., and the van ..."."""
+        sentence = self.words.sentence(clause)
+        first = sentence[0].link == "moment" and self.words.word(sentence[0].start - 1).endswith("the trigger")
+        acted = any(d.actor == HERO_ID and d.clause.sentence == clause.sentence and d.kind != "go" for d in self.deeds)
+        return first and not acted
 
     def _on_its_way(self, made: Measured) -> bool:
         """Whether a speed is told with the way, before a moment: "comes down the road at 5 m/s, and brakes when"."""

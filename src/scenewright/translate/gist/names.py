@@ -170,6 +170,9 @@ def _is_predicate(tokens: list[Token], at: int) -> bool:
     if back < 1 or "ego" not in tokens[back - 1].tags:
         return False
     closes = at + 1 >= len(tokens) or bool(tokens[at + 1].tags.keys() & {"comma", "end", "link"})
+    placed = back > 1 and "relation" in tokens[back - 2].tags  # "Ahead of the ego is a car"
+    if placed or any(each.tags.get("determiner") == "another" for each in tokens[back:at]):
+        return False
     return "be" in tokens[back].tags or ("comma" in tokens[back].tags and back < at - 1 and closes)
 
 

@@ -166,7 +166,7 @@ class StoryTeller:
             return clause.sentence >= here or clause.link != "that"
         if deed.kind == "turn" and clause.link == "that" and not self.moments.begins(deed):
             return False  # "a tractor that has been making its way out of the driveway"
-        if deed.kind == "keep":
+        if deed.kind == "keep" or (deed.kind == "turn" and self.moments.begins(deed)):
             return clause.sentence >= here
         first = min(made.at for made in self.moments.of("trigger"))
         return clause.sentence > here or (clause.sentence == here and clause.start > first)

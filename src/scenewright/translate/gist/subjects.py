@@ -35,6 +35,8 @@ def is_object(words: Words, at: int) -> bool:
     if _is_owner(words, back, at):
         return False
     if 0 < back < at and "ing" in words.tokens[back].forms and "determiner" in words.tags(back - 1):
+        if words.word(back - 2) == "of":
+            return True  # "in the presence of a yielding van"
         return False  # "the entering car"
     if words.word(back) in SEES and "ing" in words.tokens[min(at + 1, len(words.tokens) - 1)].forms:
         return False  # "sees the ego driving west"
@@ -164,11 +166,17 @@ def _name_subject(words: Words, clause: Clause) -> None:
         found = next((at for at in names if _stands_after(words, at, "by")), None)
     pronoun = any(at in words.names.pronouns for at in clause.inside)
     if found is None and not pronoun and not words.verbs(clause.inside) & {*_STRONG, "wait", "let", "yield"}:
-        found = next((at for at in names if _stands_after(words, at, "for")), None)
+        found = next((at for at in names if _stands_after(words, at, "for") and _is_for(words, clause, at)), None)
     if found is not None:
         clause.subject, clause.named = words.names.actors[found], True
     elif clause.link in ("before", "after", "until") and "our" in words.tags(clause.start).values():
         clause.subject, clause.named = EGO_ID, True  # "before our turn begins"
+
+
+def _is_for(words: Words, clause: Clause, at: int) -> bool:
+    """Whether nobody else does anything: "A left turn for the ego", "6 m are left for it", not "makes way for it"."""
+    told = range(clause.start, at)
+    return words.has(told, "quantity") or not (words.verbs(told) - {"turn"} or words.has(told, "auxiliary"))
 
 
 def _has_own_subject(words: Words, clause: Clause) -> bool:
