@@ -133,9 +133,25 @@ def cut(words: Words) -> list[Clause]:
     joined = _joined(words, _Cutter(words).run())
     parts = [part for clause in joined for part in _parted(words, clause)]
     _turn_until_to_when(words, parts)
+    _resume(words, parts)
     for part in parts:
         part.aside = _is_aside(words, part)
     return parts
+
+
+def _resume(words: Words, clauses: list[Clause]) -> None:
+    """Read "before the AV, which is turning left, begins its turn" as a bound that goes on after what is put in."""
+    for number, clause in enumerate(clauses):
+        rest = [at for at in clause.inside if not words.tags(at).keys() & {"determiner", "actor_adjective"}]
+        bare = clause.link in BOUNDS and len(rest) == 1 and rest[0] in words.names.actors
+        later = [each for each in clauses[number + 1 : number + 5] if each.sentence == clause.sentence]
+        if not bare or not later or later[0].link != "that":
+            continue
+        goes_on = next((each for each in later[1:] if each.link == "main"), None)
+        if goes_on is not None and words.has([goes_on.start], "verb", "be", "auxiliary"):
+            goes_on.link, goes_on.subject, goes_on.named = clause.link, words.names.actors[rest[0]], True
+            clause.link = "main"
+            words.used.add(clause.start - 1)
 
 
 def _turn_until_to_when(words: Words, clauses: list[Clause]) -> None:

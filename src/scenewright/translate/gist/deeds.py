@@ -132,6 +132,8 @@ class DeedReader:
                 if self._denied(verb, at, clause):
                     self.words.used.add(negation)
                     negation = None
+            elif verb == "let" and at == clause.start and self._is_told_to(clause):
+                continue  # "make the van stop, and only then let it drive on"
             elif (verb == "let" and clause.subject == HERO_ID and self._lets(at, clause)) or (
                 verb == "wait" and self._waits_for(at + (self.words.word(at + 1) == "there"), clause)
             ):
@@ -142,7 +144,8 @@ class DeedReader:
             elif verb in _DEEDS and not self._only_describes(verb, at, clause):
                 stopped = verb == "complete" and self.words.has(range(at - 2, at + 4), "stop_noun")
                 future = {"going", "is going", "are going"} & {self.words.word(i) for i in range(at - 3, at)}
-                if stopped or (wanted and not future and verb in ("brake", "stop", "accelerate")):
+                finite = bool(self.words.tokens[at].forms & {"s", "ed"}) and "base" not in self.words.tokens[at].forms
+                if stopped or (wanted and not future and not finite and verb in ("brake", "stop", "accelerate")):
                     raise self.words.refuse("an intention like this is not read here", self.words.span(clause))
                 self._add(_DEEDS[verb], at, clause)
             elif verb in _MOVES and not wanted and not self._only_describes(verb, at, clause):
@@ -217,6 +220,8 @@ class DeedReader:
         first = at == clause.start and (not at or words.has([at - 1], "end"))
         if first and token.forms == {"base"} and words.tag(at + 1, "preposition") == "for":
             return True  # "Race for the driveway:"
+        if verb == "pass" and "ing" in token.forms and words.has([at - 1], "determiner") and words.has([at + 1], "unknown"):
+            return True  # "a crossing conflict"
         by = verb == "pass" and words.tag(at + 1, "preposition") in ("by", "on")
         by = by or (verb == "pass" and words.has([at + 1, at + 2], "landmark") and self._is_crossed(at))
         by = by or (verb == "pass" and "heading" in words.tags(at + 1))  # "is passing through eastbound"
@@ -226,6 +231,8 @@ class DeedReader:
             return True  # "the yielding set"
         will = words.has(range(at - 2, at), "auxiliary", "wanting")
         into = words.has(range(at + 1, min(at + 4, clause.end)), "area")
+        if verb == "enter" and will and clause.subject == EGO_ID:
+            return True  # "the driveway that the ego is to enter"
         if verb == "enter" and into and (will or clause.both or clause.subject == EGO_ID):
             return True  # "both are going to enter the driveway"
         if "left_over" in token.tags and words.has(range(at - 2, at), "quantity"):
@@ -355,6 +362,18 @@ class DeedReader:
         by_then = self.words.word(clause.start - 1) == "by the time" and not self.words.has(clause.inside, "quantity")
         which = self.words.word(clause.start - 1) == "after which" and bool(verbs & {"begin", "turn", "pass"})
         return clause.link in BOUNDS or by_then or which or self._releases(clause)
+
+    def _is_told_to(self, clause: Clause) -> bool:
+        """Whether the text tells somebody to stage it: "Let the AV ...", "Make the van ..."."""
+        starts = [
+            self.words.word(each.start)
+            for each in self.words.clauses
+            if each.start <= clause.start and not self.words.has([each.start], "determiner")
+        ]
+        firsts = [self.words.word(each.start) for each in self.words.clauses if each.link in ("main", "and", "then")]
+        return clause.link in ("main", "and", "then") and bool(
+            set(starts) & {"have", "make", "put", "send", "run", "keep"} or firsts[0] == "let"
+        )
 
     def _follows_hero(self, clause: Clause) -> bool:
         """Read "the ego begins to turn only after the van has passed the point": the van passes before that."""

@@ -46,7 +46,11 @@ _PLUS = re.compile(r"(?<= )[+&](?= )")
 def laid_out(text: str, name: str) -> list[Token]:
     """Return the tokens of a text, with its lines and bars as ends and commas."""
     tokens = tokenise(_plain(text), name)
-    tokens = _named_by_letter(tokens, _letters(text))
+    if re.search(r"\bmotor ?(?:bike|cycle)", text, re.IGNORECASE):
+        tokens = [
+            replace(token, tags={"noun": "motorcycle"}) if token.text.lower() == "bike" else token for token in tokens
+        ]
+    tokens = _named_by_letter(_brands(tokens), _letters(text))
     tokens = _without_short_names([_bar(_as_written(token)) for token in tokens])
     return same_unit(_with_lines(tokens, text))
 
@@ -60,6 +64,7 @@ def _plain(text: str) -> str:
         text = _DASHED.sub(r"\1 :", text)
     text = _PLUS.sub(",", text)
     text = _HOLD.sub(lambda found: "When".ljust(len(found.group())), text)
+    text = re.sub(r"(?<=[.!?;] )Wait until\b", "When      ", text)
     text = _NO_SOONER.sub(lambda found: "When".ljust(9) + found.group(1) + ",".ljust(4), text)
     text = re.sub(r", that is,", lambda found: ",".ljust(len(found.group())), text)
     if names := _letters(text):
@@ -69,6 +74,20 @@ def _plain(text: str) -> str:
         lambda found: found.group() if unit_of_name(found.group().strip()) else found.group().replace("_", " "), text
     )
     return re.sub(r"-{2,}", lambda found: " " * len(found.group()), spaced) if "|" in text else spaced
+
+
+def _brands(tokens: list[Token]) -> list[Token]:
+    """Return the tokens with "a Transit" as a word that is not known, and no verb."""
+    return [
+        replace(token, tags={"unknown": token.text})
+        if at
+        and token.text[:1].isupper()
+        and token.text[1:].islower()
+        and "verb" in token.tags
+        and "determiner" in tokens[at - 1].tags
+        else token
+        for at, token in enumerate(tokens)
+    ]
 
 
 def _letters(text: str) -> dict[str, str]:

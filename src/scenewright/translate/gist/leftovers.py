@@ -18,7 +18,7 @@ from scenewright.translate.gist.words import Clause, Words
 _DANGERS = frozenset(
     ["exceed", "exceeds", "exceeded", "exceeding", "higher", "lower", "maximum", "minimum", "max", "min", "limit",
      "limited", "cap", "capped", "predicts", "predicted", "says", "said", "twice", "thrice", "repeatedly",
-     "supposedly", "allegedly", "hypothetically"]
+     "backing", "backwards", "backward", "reversing", "supposedly", "allegedly", "hypothetically"]
 )  # fmt: skip
 _EDGE_OF_TURN = re.compile(r"\b(?:start|beginning|end) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b", re.IGNORECASE)
 _COUNTED = re.compile(

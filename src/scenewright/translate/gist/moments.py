@@ -54,6 +54,7 @@ class MomentReader:
                 raise self.words.refuse("it is not clear whose amount this is", made.span)
         first = min((made.at for made in self.of("trigger")), default=None)
         first = first if first is not None else self._told_before()
+        self._just_before_the_moment()
         for made in self.of("open"):
             if first is None or made.at > first:
                 raise self.words.refuse(UNCLEAR, made.span, "'at the start', 'when' or 'as soon as'")
@@ -62,6 +63,19 @@ class MomentReader:
             raise self.words.refuse("there is no trigger: it is not said when the hero reacts", None, "'when ...'")
         self._bounds()
         return self.moments
+
+    def _just_before_the_moment(self) -> None:
+        """Read "The ego gets to 3 s from the line. At this moment the van is 5 s from the point." as one moment."""
+        first = next((each for each in self.words.clauses if each.link == "moment"), None)
+        if first is None or self.words.sentence(first)[0] is not first:
+            return
+        whens = [each for each in self.words.clauses if each.link == "when" and each.sentence < first.sentence]
+        told = [made for made in self.of("trigger") if made.clause.sentence == first.sentence]
+        if not told or any("start" not in each.labels for each in whens):
+            return
+        for made in self.of("open"):
+            if made.clause.sentence == first.sentence - 1 and made.kind in ("place", "gap", "ttc"):
+                self.moments[made.at] = "trigger"
 
     def of(self, moment: Moment) -> list[Measured]:
         """Return the amounts that hold at a moment."""
@@ -226,7 +240,8 @@ class MomentReader:
         ):
             return True  # "its starting position", "was released 80 m before it"
         for at in range(max(clause.start, made.at - 5), made.at):
-            if words.tag(at, "verb") == "begin" and not words.verbs(range(at + 1, made.at)):
+            between = [i for i in range(at + 1, made.at) if "frame_noun" not in words.tags(i)]  # "starts the run 9 s from it"
+            if words.tag(at, "verb") == "begin" and not words.verbs(between):
                 return True
         if words.has(clause.inside, "measure", "landmark") and re.search(r"\bfirst (?:position|place|distance)\b", told):
             return True
@@ -236,6 +251,8 @@ class MomentReader:
         before = words.clauses[at - 1] if at else None
         if before is None or before.sentence != clause.sentence:
             return False
+        if "start" in before.labels and clause.link == "and" and not clause.named:
+            return True  # "when the recording started it was 120 m before it and its speed was 55 km/h"
         alone = all(words.tag(i, "adverb") == "initially" or "determiner" in words.tags(i) for i in before.inside)
         verbless = not words.has(range(clause.start, made.at), "verb", "be")
         earlier = any(each.clause is before and self.moments.get(each.at) == "start" for each in self.measured)

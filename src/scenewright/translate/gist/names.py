@@ -48,7 +48,7 @@ def find_names(tokens: list[Token]) -> Names:
             continue  # of a letter
         if _is_director(tokens, at) or (speaker == HERO_ID and word in ("we", "us")):
             continue
-        if word in FIRST_PERSON or word in ("we have", "i have") or _is_own_wish(tokens, at):
+        if word in FIRST_PERSON or _has_it(word) or _is_own_wish(tokens, at):
             names.actors[at] = speaker
         elif "ego" in token.tags or _is_our_own(tokens, at) or ("unknown" in token.tags and word in ours):
             names.actors[at] = EGO_ID
@@ -71,6 +71,12 @@ def find_names(tokens: list[Token]) -> Names:
     names.guessed = unknown
     names.unclear = _either(tokens, names)
     return names
+
+
+def _has_it(word: str) -> bool:
+    """Whether this is "we have", "I've got"."""
+    words = word.split()
+    return len(words) > 1 and words[0] in ("we", "i") and words[-1] in ("have", "'ve", "\u2019ve", "got")
 
 
 def _is_director(tokens: list[Token], at: int) -> bool:

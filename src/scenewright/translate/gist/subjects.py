@@ -49,6 +49,8 @@ def is_object(words: Words, at: int) -> bool:
     if following.keys() & {"measure", "quantity"} and preposition in ("at", "with", "of", "to"):
         return preposition in ("of", "to") and "measure" not in following  # "at ego time to arrival 4 s"
     linked = tags.get("link")
+    if tags.get("relation") in ("ahead", "behind") and words.has([at + 1], "be") and words.has([at + 2], "determiner"):
+        return True  # "Ahead of us is another car"
     if linked in ("before", "after") and words.tag(back - 1, "quantity") == "time" and _acts(words, at):
         return False  # "1 s before the ego passes it"
     if linked not in (None, "to", "by") and "quantity" not in words.tags(back - 1):
@@ -259,6 +261,11 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
         return before.subject  # "Its deceleration, which takes it to a stop"
     if relative:
         _check_antecedent(words, index)
+    if relative and before.named and named_last != before.subject and before.end == clause.start - 1:
+        objects = [at for at in before.inside if at in words.names.actors][-1:]
+        first_person = [words.word(at) in FIRST_PERSON for at in objects if is_object(words, at)]
+        if any(first_person):
+            return before.subject  # "a van coming towards us that is going to turn left"
     if named_last is not None and (relative or words.has(clause.inside, "latter")):
         return named_last
     bare = words.clauses[index - 1] if index else clause
