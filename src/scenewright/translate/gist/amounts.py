@@ -131,7 +131,7 @@ class AmountReader:
             made.kind, made.actor = "duration", HERO_ID  # "after one second at rest"
             self.words.used.add(made.at - 1)
             return
-        if self._lies(made) or self._to_place(made) or self._to_vehicle(made) or self._around(made, measure):
+        if self._lies(made) or self._before_reaching(made) or self._to_place(made) or self._to_vehicle(made) or self._around(made, measure):
             return
         if made.quantity is not None and made.quantity.dimension == "time" and self._lasts(made):
             made.kind, made.actor = "duration", HERO_ID
@@ -214,6 +214,22 @@ class AmountReader:
         made.relation = relation[0]
         made.actor = told if told is not None else owner
         told_for(self.words, made, place[1])
+        return True
+
+    def _before_reaching(self, made: Measured) -> bool:
+        """Read "Three seconds before the ego would reach the stop line"."""
+        timed = made.quantity is not None and made.quantity.dimension == "time"
+        name = self.words.skip(made.at + 2, _BESIDE | {"heading"})
+        if not timed or self.words.word(made.at + 1) != "before" or name not in self.words.names.actors:
+            return False
+        verb = name + 1
+        while self.words.has([verb], "auxiliary", "adverb"):
+            verb += 1
+        place = self.place_at(verb + 1) if self.words.tag(verb, "verb") == "reach" else None
+        if place is None:
+            return False
+        made.kind, made.landmark, made.actor = "place", place[0], self.words.names.actors[name]
+        self.words.used |= set(range(made.at, place[1]))
         return True
 
     def _is_strange_place(self, at: int) -> bool:

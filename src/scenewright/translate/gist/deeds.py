@@ -511,6 +511,9 @@ class DeedReader:
         turns = (
             verbs & {"turn", "pull_out", "begin"} or self.words.where(clause.inside, "event_noun", "turn") is not None
         )
+        strange = any("unknown" in self.words.tags(at) for at in clause.inside) or self.words.has(clause.inside, "area")
+        if "enter" in verbs and mark is None and strange:
+            raise self.words.refuse("it is not clear which moment of the ego this is", self.words.span(clause))
         if verbs & {"pass", "reach", "enter"} or (mark is not None and "turn" not in verbs):
             return self.words.tags(mark)["landmark"] if mark is not None else "conflict_point"
         if turns and not self._names_turn(clause, verbs):

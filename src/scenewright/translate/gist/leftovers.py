@@ -72,6 +72,7 @@ def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> 
     """Refuse a text in which a word that tells a fact had no part."""
     _refuse_meanwhile(words, deeds, trigger_sentence)
     _refuse_unmeasured(words, trigger_sentence)
+    _refuse_each(words, trigger_sentence)
     for at, token in enumerate(words.tokens):
         if at in words.used:
             continue
@@ -127,6 +128,15 @@ def _refuse_unmeasured(words: Words, trigger_sentence: int) -> None:
             raise words.refuse("it is not known where this is", words.span(clause), "a landmark of the map")
         for each in _condition(words, clause)[1:]:
             _refuse_strange_part(words, each)
+
+
+def _refuse_each(words: Words, trigger_sentence: int) -> None:
+    """Refuse "when each is 30 m from it" where only one of the two was understood."""
+    for clause in (each for each in words.clauses if each.sentence == trigger_sentence and not each.both):
+        for at in clause.inside:
+            alone = words.word(at) == "each" and words.word(at + 1) != "other"
+            if (alone or words.word(at) == "each of them") and words.has(clause.inside, "quantity"):
+                raise words.refuse("it is not clear whose amount this is", words.span(clause))
 
 
 def _refuse_strange_part(words: Words, clause: Clause) -> None:

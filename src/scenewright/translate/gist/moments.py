@@ -58,11 +58,18 @@ class MomentReader:
         for made in self.of("open"):
             if first is None or made.at > first:
                 raise self.words.refuse(UNCLEAR, made.span, "'at the start', 'when' or 'as soon as'")
+            if made.kind == "place" and self._comes_there(made):
+                raise self.words.refuse(UNCLEAR, made.span, "'at the start', 'when' or 'as soon as'")
             self.moments[made.at] = "start"
         if first is None:
             raise self.words.refuse("there is no trigger: it is not said when the hero reacts", None, "'when ...'")
         self._bounds()
         return self.moments
+
+    def _comes_there(self, made: Measured) -> bool:
+        """Whether a vehicle is on its way when it is there: "The ego gets to 12 m from the line."."""
+        told = range(made.clause.start, made.at)
+        return bool(self.words.verbs(told) & {"reach", "get_within"}) or self.words.has(told, "falls")
 
     def _just_before_the_moment(self) -> None:
         """Read "The ego gets to 3 s from the line. At this moment the van is 5 s from the point." as one moment."""

@@ -62,7 +62,7 @@ def _told_after(words: Words, found: list[Measured]) -> None:
 def _same_place(words: Words, found: list[Measured]) -> None:
     """Let one place be that of two amounts next to each other, the one before it or the one after."""
     for first, second in pairwise(found):
-        if first.kind == "open" and _alike(first, second) and second.kind == "place":
+        if first.kind == "open" and _alike(first, second) and second.kind == "place" and _is_short(words, first):
             _take_place(first, second)
     for first, second in pairwise(found):
         if (
@@ -78,6 +78,14 @@ def _same_place(words: Words, found: list[Measured]) -> None:
             told_for(words, second, second.at + 1)
             if first.actor != second.actor:
                 _take_place(second, first)
+
+
+def _is_short(words: Words, made: Measured) -> bool:
+    """Whether an amount ends without a place: "the ego is 12 m [...]", but not "2 s from over there"."""
+    plain = ("adverb", "left_over", "comma", "link", "preposition", "ego", "hero", "noun", "determiner", "measured_word")
+    end = next((i for i in range(made.at + 1, made.clause.end) if "quantity" in words.tags(i)), made.clause.end)
+    known = {*words.names.actors, *words.names.pronouns}
+    return all(at in known or words.word(at) == "one" or words.tags(at).keys() & set(plain) for at in range(made.at + 1, end))
 
 
 def _alike(first: Measured, second: Measured) -> bool:
