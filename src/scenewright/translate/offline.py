@@ -333,11 +333,11 @@ def _complete(facts: Facts, text: str, name: str) -> None:
 def _refuse_at_once(facts: Facts, text: str, name: str) -> None:
     """Refuse "brakes and at the same moment accelerates"."""
     if {phase.kind for phase in facts.phases} >= {"dec", "acc"} and len(_AT_TRIGGER.findall(text)) > 1:
-        found = list(_AT_TRIGGER.finditer(text))[-1]
+        again = list(_AT_TRIGGER.finditer(text))[-1]
         raise TranslationError(
             "the hero is said to slow down and to speed up at one time",
-            place=Place(name, text, Span(*found.span())),
-            found=found.group(),
+            place=Place(name, text, Span(*again.span())),
+            found=again.group(),
             expected="one after the other",
             fix="say which comes first",
         )

@@ -64,8 +64,10 @@ def formulas(text: str) -> list[str]:
             id="a cue",
         ),
         pytest.param(
-            LINE + "No sooner is the AV 45 m from the conflict point, with the van 12 m from the stop line, than "
-            + STOPS + ".",
+            LINE
+            + "No sooner is the AV 45 m from the conflict point, with the van 12 m from the stop line, than "
+            + STOPS
+            + ".",
             "A0x(t1) == conflict_point - 45",
             id="no sooner than",
         ),

@@ -12,13 +12,12 @@ from scenewright.errors import Span
 from scenewright.translate.events import EGO_ID, HERO_ID, Relation
 from scenewright.translate.facts import Bound
 from scenewright.translate.gist.owners import measure_of, measure_word, owner_of, told_for
+from scenewright.translate.gist.places import SKIPPED, PlaceFinder
 from scenewright.translate.gist.words import Clause, Words
 from scenewright.translate.tokens import Quantity
 
-_SKIPPED = frozenset(("determiner", "possessive", "area_adjective", "adverb", "left_over", "starting", "measured_word"))
 _BESIDE = frozenset(("determiner", "actor_adjective", "possessive", "unknown"))
 _STANDS = frozenset(("stop", "wait", "sit"))
-_TO_VERBS = ("go", "drive", "pass", "reach")
 
 
 @dataclass(slots=True)
@@ -29,7 +28,8 @@ class Measured:
     ----------
     kind
         ``place`` (a distance or a time to a landmark), ``gap`` (between the two, as a distance or a time), ``ttc``,
-        ``speed``, ``rate``, ``duration``, ``margin`` (by how much one is first), or ``open`` where nothing around it says it.
+        ``speed``, ``rate``, ``duration``, ``margin`` (by how much one is first), or ``open`` where nothing around it
+        says it.
     quantity
         None for a place without one.
     actor
@@ -61,6 +61,10 @@ class AmountReader:
 
     words: Words
     found: list[Measured] = field(default_factory=list)
+    places: PlaceFinder = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.places = PlaceFinder(self.words)
 
     def read(self) -> list[Measured]:
         """Return all amounts and all places without one, each with what stands around it."""
@@ -126,12 +130,18 @@ class AmountReader:
             self._collision_time(made)
             return
         rests = self.words.tag(made.at + 1, "preposition") in ("at", "of")
-        at = self.words.skip(made.at + 2, _SKIPPED)
+        at = self.words.skip(made.at + 2, SKIPPED)
         if rests and self.words.has([at], "stop_noun") and made.quantity and made.quantity.dimension == "time":
             made.kind, made.actor = "duration", HERO_ID  # "after one second at rest"
             self.words.used.add(made.at - 1)
             return
-        if self._lies(made) or self._before_reaching(made) or self._to_place(made) or self._to_vehicle(made) or self._around(made, measure):
+        if (
+            self._lies(made)
+            or self._before_reaching(made)
+            or self._to_place(made)
+            or self._to_vehicle(made)
+            or self._around(made, measure)
+        ):
             return
         if made.quantity is not None and made.quantity.dimension == "time" and self._lasts(made):
             made.kind, made.actor = "duration", HERO_ID
@@ -191,18 +201,18 @@ class AmountReader:
         if self.words.word(made.at + 1) == "from there":
             made.kind, made.landmark, made.actor = "place", "last", owner_of(self.words, made.at, made.clause)
             return True
-        at, told = self._of_whom(made.at + 1)
-        relation = self.relation_at(at)
-        place = self.place_at(relation[1]) if relation is not None else None
+        at, told = self.places.of_whom(made.at + 1)
+        relation = self.places.relation_at(at)
+        place = self.places.place_at(relation[1]) if relation is not None else None
         if relation is None or place is None:
-            first = self.words.skip(relation[1], _SKIPPED) if relation is not None else -1
-            if relation is not None and self._is_strange_place(first):
+            first = self.words.skip(relation[1], SKIPPED) if relation is not None else -1
+            if relation is not None and self.places.is_strange(first):
                 raise self.words.refuse(
                     "it is not clear up to where this is measured", made.span.union(self.words.tokens[first].span)
                 )
             return False
         stretch = range(made.at + 1, place[1])
-        if "pronoun" in self.words.tags(place[1] - 1) and self._beside(stretch):
+        if "pronoun" in self.words.tags(place[1] - 1) and self.places.lies_beside(stretch):
             return False  # "25 m behind it" is behind the vehicle
         made.span = made.span.union(self.words.tokens[place[1] - 1].span)
         owner = owner_of(self.words, made.at, made.clause)
@@ -225,103 +235,12 @@ class AmountReader:
         verb = name + 1
         while self.words.has([verb], "auxiliary", "adverb"):
             verb += 1
-        place = self.place_at(verb + 1) if self.words.tag(verb, "verb") == "reach" else None
+        place = self.places.place_at(verb + 1) if self.words.tag(verb, "verb") == "reach" else None
         if place is None:
             return False
         made.kind, made.landmark, made.actor = "place", place[0], self.words.names.actors[name]
         self.words.used |= set(range(made.at, place[1]))
         return True
-
-    def _is_strange_place(self, at: int) -> bool:
-        """Whether an amount is measured up to something that is no known place and no vehicle."""
-        names = self.words.names
-        if at in names.actors or at in names.pronouns or at in names.both or at >= len(self.words.tokens):
-            return False
-        goes_on = ("end", "comma", "colon", "link", "quantity", "preposition", "relation", "actor_adjective", "be")
-        return not self.words.has([at], *goes_on)
-
-    def _beside(self, stretch: range) -> bool:
-        return self.words.where(stretch, "relation", "behind", "ahead") is not None
-
-    def _of_whom(self, at: int) -> tuple[int, int | None]:
-        """Step over "left for the ego" in "12 m left for the ego to its stop line"."""
-        names = self.words.names.actors
-        if (bracket := self.words.in_brackets(at)) is not None:
-            return bracket  # "20 m (cab) away from it"
-        ahead = at
-        while (
-            self.words.has([ahead], "left_over", "measure")
-            or self.words.tag(ahead, "verb") == "go"
-            or (self.words.word(ahead) == "to" and self.words.tag(ahead + 1, "verb") == "go")
-        ):
-            ahead += 1
-        if self.words.tag(ahead, "preposition") in ("for", "to", "of"):
-            name = self.words.skip(ahead + 1, _BESIDE | {"heading"})
-            if name in names and self.relation_at(name + 1) is not None:
-                return name + 1, names[name]
-        return at, None
-
-    def relation_at(self, at: int) -> tuple[Relation, int] | None:
-        """Return how an amount lies to what follows, and where that begins."""
-        seen: Relation | None = None
-        parted = self.words.has([at], "comma") and "relation" in self.words.tags(at + 1)
-        at += parted  # "19 m, before the conflict point"
-        while at < len(self.words.tokens):
-            tags, word = self.words.tags(at), self.words.word(at)
-            preposition = tags.get("preposition")
-            if word == "behind" and self.words.tag(at + 1, "preposition") == "of":
-                return None
-            if "relation" in tags:
-                seen = "past" if tags["relation"] == "past" else seen or "before"
-            elif self._leads_to(at) or (preposition == "out" and seen is None):
-                seen = seen or "from"
-            elif not self._passes(at, seen):
-                break
-            at += 1
-        return (seen, at) if seen is not None else None
-
-    def _leads_to(self, at: int) -> bool:
-        tags = self.words.tags(at)
-        linked = tags.get("link") in ("to", "until") or tags.get("preposition") in ("to", "at", "of")
-        return linked or self.words.word(at) in ("at that", "up to")
-
-    def _passes(self, at: int, seen: Relation | None) -> bool:
-        """Whether a word between an amount and its place only fills: "are left to", "from reaching"."""
-        tags = self.words.tags(at)
-        fills = self.words.word(at) == "more" or "left_over" in tags or "measured_word" in tags or tags.get("adverb") in ("filler", "exact", "about")
-        to_go = tags.get("verb") in _TO_VERBS and self.words.word(at - 1) in ("to", "from")
-        left = seen is None and "be" in tags and self.words.has([at + 1], "left_over", "relation")
-        return fills or to_go or left
-
-    def place_at(self, at: int) -> tuple[str, int, bool] | None:
-        """Return the landmark at `at`, the index after it, and whether it is only the mouth of the driveway."""
-        first = at
-        while "landmark" not in self.words.tags(at) and self.words.tags(at).keys() & _SKIPPED:
-            at += 1
-        tags = self.words.tags(at)
-        if "landmark" in tags:
-            return tags["landmark"], at + 1, False
-        if "back_reference" in tags or ("mark_noun" in tags and at > first):
-            return self.words.referred(at) or "last", at + 1, False
-        if self.words.word(at) == "there" or ("latter" in tags and self.words.word(at - 1) in ("short of", "before")):
-            return "last", at + 1, False
-        if "mouth" in tags and self.words.word(at + 1) == "of":
-            mouth = self.place_at(at + 2)
-            return mouth if mouth is not None and mouth[0] == "turn" else None
-        if tags.get("area") == "driveway":
-            return "turn", at + 1, True
-        if tags.get("pronoun") == "it" and at == first and self._named_in_sentence(at):
-            return "last", at + 1, False
-        return None
-
-    def _named_in_sentence(self, at: int) -> bool:
-        """Whether a landmark was named before in this sentence: "80 feet from the stop line ... 65 feet from it"."""
-        back = at - 1
-        while back >= 0 and "end" not in self.words.tags(back):
-            if "landmark" in self.words.tags(back):
-                return True
-            back -= 1
-        return False
 
     # -- up to the other vehicle, or by a measure ------------------------------------------------------------------
     def _to_vehicle(self, made: Measured) -> bool:
@@ -402,11 +321,7 @@ class AmountReader:
         """Refuse "the time to the turn line is 2 s": a measure up to what is no known place and no vehicle."""
         for at in range(made.clause.start, made.at):
             to = self.words.tag(at, "preposition") == "to" or self.words.tag(at, "link") == "until"
-            if (
-                to
-                and "measure" in self.words.tags(at - 1)
-                and self._is_strange_place(self.words.skip(at + 1, _SKIPPED))
-            ):
+            if to and "measure" in self.words.tags(at - 1) and self.places.is_strange(self.words.skip(at + 1, SKIPPED)):
                 raise self.words.refuse("it is not clear up to where this is measured", self.words.span(made.clause))
 
     def _lies(self, made: Measured) -> bool:
@@ -419,7 +334,7 @@ class AmountReader:
         measured = any(measure_of(self.words, at) is not None for at in before)
         if (mark is None and said is None) or not away or not stands or measured or self.words.has(before, "quantity"):
             return False
-        place = self.place_at(made.at + 2)
+        place = self.places.place_at(made.at + 2)
         if self.words.named(before) is not None or (place is not None and place[0] != "last"):
             return False
         named = self.words.named(range(made.at + 1, min(made.at + 5, made.clause.end)))
@@ -433,14 +348,14 @@ class AmountReader:
         made.kind = "gap"
         self.words.used |= set(range(made.at, at + 1))
         name = self.words.skip(at + 1, _BESIDE)
-        relation = self.relation_at(name + 1) if name in self.words.names.actors else None
+        relation = self.places.relation_at(name + 1) if name in self.words.names.actors else None
         known = name in self.words.names.actors or name in self.words.names.pronouns
         pair = known and self.words.word(name + 1) == "and"
         if pair:
             relation = "before", name + 2  # "70 m lie between the ego and the intersection"
         if name in self.words.names.pronouns and not pair:  # "60 yd separate it from the conflict point"
-            relation = self.relation_at(name + 1)
-        place = self.place_at(relation[1]) if relation is not None else None
+            relation = self.places.relation_at(name + 1)
+        place = self.places.place_at(relation[1]) if relation is not None else None
         if place is not None:
             actor = self.words.names.actors.get(name, made.clause.subject)
             made.kind, made.landmark, made.actor = "place", place[0], actor
@@ -504,7 +419,7 @@ class AmountReader:
         """Read "just before the stop line" and "at the stop line"."""
         just = self.words.tag(at, "adverb") == "just" and self.words.tag(at + 1, "relation") == "before"
         here = self.words.tag(at, "preposition") == "at" or self.words.word(at) == "on"
-        place = self.place_at(at + 2 if just else at + 1) if just or here else None
+        place = self.places.place_at(at + 2 if just else at + 1) if just or here else None
         if place is None or place[2] or (here and self.words.has(range(max(clause.start, at - 2), at), "quantity")):
             return None
         before = range(clause.start, at)

@@ -195,7 +195,11 @@ def _link(words: Words, at: int) -> str | None:
         first = next((i + 1 for i in range(at, -1, -1) if "end" in words.tags(i)), 0)
         if "wait" in words.verbs(range(first, at)):
             return "then"  # "waits for the ego to pass before starting off again"
-    if link == "before" and words.tags(at + 1).keys() & {"pronoun"} and words.tag(at + 2, "verb") in ("go", "accelerate"):
+    if (
+        link == "before"
+        and words.tags(at + 1).keys() & {"pronoun"}
+        and words.tag(at + 2, "verb") in ("go", "accelerate")
+    ):
         first = next((i + 1 for i in range(at, -1, -1) if "end" in words.tags(i)), 0)
         if words.verbs(range(first, at)) & {"wait", "let"}:
             return "then"  # "lets the ego pass before it moves off again"

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from scenewright.errors import Span
 from scenewright.translate.events import EGO_ID, HERO_ID
-from scenewright.translate.gist.clauses import BOUNDS, NEGATIVES
-from scenewright.translate.gist.words import Clause, Words
+from scenewright.translate.gist.clauses import NEGATIVES
+from scenewright.translate.gist.describing import TURNS, Describing
+from scenewright.translate.gist.ego_moments import EgoMoments
+from scenewright.translate.gist.words import Clause, Deed, Words
 
 _DEEDS = {
     "brake": "brake",
@@ -38,32 +39,10 @@ _MOVES = {
     "enter": "pass",
 }
 _BESIDE = frozenset(("determiner",))
-_TURNS = ("turn", "pull_out")
 _WAITS = frozenset(("yield", "wait", "stop", "brake", "let"))
 _WISHES = ("wanting", "ready", "intent_noun")
 # "Has to brake" tells what is done.
 _OBLIGES = ("has to", "have to", "needs to", "need to", "had to")
-
-
-@dataclass(frozen=True, slots=True)
-class Deed:
-    """One thing that a vehicle does, or a moment of the ego.
-
-    Attributes
-    ----------
-    kind
-        ``brake``, ``stop``, ``wait``, ``accelerate``, ``go``, ``keep`` (its speed), ``pass``, ``complete`` (its turn),
-        ``turn``, ``yield``, ``not_yield``, ``not_stop``, ``let``; of the ego ``before``, ``after``, ``let_reach``.
-    landmark
-        What is passed; ``same`` for "before the ego does".
-    """
-
-    kind: str
-    at: int
-    clause: Clause
-    span: Span
-    landmark: str | None = None
-    actor: int = HERO_ID
 
 
 @dataclass(slots=True)
@@ -79,17 +58,23 @@ class DeedReader:
     words: Words
     deeds: list[Deed] = field(default_factory=list)
     straight: list[tuple[int, int]] = field(default_factory=list)
+    ego: EgoMoments = field(init=False)
+    describing: Describing = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.ego = EgoMoments(self.words, self.deeds)
+        self.describing = Describing(self.words)
 
     def read(self) -> None:
         """Read every clause."""
         for clause in self.words.clauses:
-            if self._follows_hero(clause) or self._is_after_hero(clause):
+            if self._follows_hero(clause) or self.ego.is_after_hero(clause):
                 continue
             if clause.aside:
                 self.words.used |= set(clause.inside)
             elif not (
-                (self._is_bound(clause) or self._is_allowed(clause))
-                and self._ego_moment(clause if self._is_bound(clause) else replace(clause, link="until"))
+                (self.ego.is_bound(clause) or self.ego.is_allowed(clause))
+                and self.ego.read(clause if self.ego.is_bound(clause) else replace(clause, link="until"))
             ):
                 self._clause(clause)
         for deed in list(self.deeds):
@@ -141,14 +126,14 @@ class DeedReader:
             elif verb == "leave" and self.words.has(range(at + 1, at + 3), "landmark"):
                 self._add("pass", at, clause)  # "leaving the conflict point behind"
                 return
-            elif verb in _DEEDS and not self._only_describes(verb, at, clause):
+            elif verb in _DEEDS and not self.describing.only_describes(verb, at, clause):
                 stopped = verb == "complete" and self.words.has(range(at - 2, at + 4), "stop_noun")
                 future = {"going", "is going", "are going"} & {self.words.word(i) for i in range(at - 3, at)}
                 finite = bool(self.words.tokens[at].forms & {"s", "ed"}) and "base" not in self.words.tokens[at].forms
                 if stopped or (wanted and not future and not finite and verb in ("brake", "stop", "accelerate")):
                     raise self.words.refuse("an intention like this is not read here", self.words.span(clause))
                 self._add(_DEEDS[verb], at, clause)
-            elif verb in _MOVES and not wanted and not self._only_describes(verb, at, clause):
+            elif verb in _MOVES and not wanted and not self.describing.only_describes(verb, at, clause):
                 self._add(_MOVES[verb], at, clause)
 
     def _is_wish(self, at: int) -> bool:
@@ -176,7 +161,7 @@ class DeedReader:
             )
             if mark is not None or back is not None:
                 self._add("pass", at, clause)
-        if tags.get("event_noun") == "turn" and self._is_done(at):
+        if tags.get("event_noun") == "turn" and self.describing.is_done(at):
             self._add("complete", at, clause)
         if "landmark" in tags and self.words.tag(at - 1, "verb") == "approach":
             self.words.used.add(at)
@@ -188,86 +173,13 @@ class DeedReader:
         alone = "negation" in self.words.tags(last) and not self.words.has(clause.inside, "verb", "be", "quantity")
         turn = self.words.where(before.inside, "direction", "left", "right")
         other = None not in (clause.subject, before.subject) and clause.subject != before.subject
-        if not (alone and other and turn is not None and before.sentence == clause.sentence and clause.subject is not None):
+        if not (
+            alone and other and turn is not None and before.sentence == clause.sentence and clause.subject is not None
+        ):
             return False
         self.words.used.add(last)
         self.straight.append((clause.subject, last))
         return True
-
-    def _is_done(self, at: int) -> bool:
-        """Whether this is "gets its whole turn done"."""
-        back = at - 1
-        while "unknown" in self.words.tags(back):
-            back -= 1
-        done = {self.words.word(at + 1), self.words.word(at + 2)} & {"done", "finished", "behind it", "over", "is over"}
-        behind = (self.words.word(at + 1), self.words.word(at + 2)) == ("behind", "it")
-        return "possessive" in self.words.tags(back) and (bool(done) or behind)
-
-    def _only_describes(self, verb: str, at: int, clause: Clause) -> bool:
-        """Whether a verb tells no deed here: "a slow car", "goes west", "needs 3 s to reach the line", "its turn"."""
-        token, words = self.words.tokens[at], self.words
-        if at + 1 in words.names.actors and ("actor_adjective" in token.tags or "ing" in token.forms):
-            return True
-        if verb in _TURNS and self._is_noun(at):
-            return True
-        if verb in ("go", "drive", "keep") and (self._tells_way(at, clause) or self._leads_on(at, clause)):
-            return True
-        if verb == "wait" and clause.subject == EGO_ID and words.word(at + 1) == "to":
-            return True  # "the ego, which is waiting to turn left"
-        ways = ("way", "road", "path", "junction", "lane")
-        if words.word(at) == "clear" and words.word(at - 1).split()[-1:] and words.word(at - 1).split()[-1] in ways:
-            return True  # "leaving the way clear"
-        first = at == clause.start and (not at or words.has([at - 1], "end"))
-        if first and token.forms == {"base"} and words.tag(at + 1, "preposition") == "for":
-            return True  # "Race for the driveway:"
-        if verb == "pass" and "ing" in token.forms and words.has([at - 1], "determiner") and words.has([at + 1], "unknown"):
-            return True  # "a crossing conflict"
-        by = verb == "pass" and words.tag(at + 1, "preposition") in ("by", "on")
-        by = by or (verb == "pass" and words.has([at + 1, at + 2], "landmark") and self._is_crossed(at))
-        by = by or (verb == "pass" and "heading" in words.tags(at + 1))  # "is passing through eastbound"
-        if (by or words.word(at).endswith(" by")) and clause.subject == EGO_ID:
-            return True  # "the ego, meanwhile, is passing by on the road"
-        if verb in ("yield", "not_yield") and "ing" in token.forms and words.has([at - 1], "determiner"):
-            return True  # "the yielding set"
-        will = words.has(range(at - 2, at), "auxiliary", "wanting")
-        into = words.has(range(at + 1, min(at + 4, clause.end)), "area")
-        if verb == "enter" and will and clause.subject == EGO_ID:
-            return True  # "the driveway that the ego is to enter"
-        if verb == "enter" and into and (will or clause.both or clause.subject == EGO_ID):
-            return True  # "both are going to enter the driveway"
-        if "left_over" in token.tags and words.has(range(at - 2, at), "quantity"):
-            return True  # "6 m remain"
-        if verb == "reach":
-            state = clause.subject == EGO_ID or self._landmark(at, clause) is None
-            amount = next((i for i in range(at - 1, at - 6, -1) if "quantity" in words.tags(i)), at)
-            return state or any(words.word(i) in ("to", "from", "before") for i in range(amount, at))
-        return False
-
-    def _is_crossed(self, at: int) -> bool:
-        """Whether this is "crosses the T-junction straight ahead"."""
-        mark = next((i for i in (at + 1, at + 2) if "landmark" in self.words.tags(i)), at)
-        crossed = self.words.tag(mark, "landmark") == "intersection" and "direction" in self.words.tags(mark + 1)
-        if crossed:
-            self.words.used.add(mark)
-        return crossed
-
-    def _leads_on(self, at: int, clause: Clause) -> bool:
-        """Whether this is "proceeds to slow down"."""
-        return self.words.word(at + 1) == "to" and at + 2 < clause.end and "verb" in self.words.tags(at + 2)
-
-    def _is_noun(self, at: int) -> bool:
-        """Whether this is "the turn", of which another verb tells more: "completes its turn"."""
-        before = self.words.tags(at - 1)
-        named = before.keys() & {"determiner", "possessive", "direction", "genitive"} and "verb" not in before
-        return bool(named) and "begin" not in self.words.verbs(range(at - 4, at))
-
-    def _tells_way(self, at: int, clause: Clause) -> bool:
-        for ahead in range(at + 1, min(at + 5, clause.end)):
-            if self.words.has([ahead], "heading", "direction") or self.words.tag(ahead, "area") in ("road", "driveway"):
-                return True
-            if self.words.has([ahead], "quantity", "landmark"):
-                return False
-        return False
 
     def _add(self, kind: str, at: int, clause: Clause) -> None:
         actor = clause.subject if clause.subject is not None else HERO_ID
@@ -278,29 +190,12 @@ class DeedReader:
             actor = named if named is not None else actor
         self.words.used.add(at)
         span = self.words.tokens[at].span
-        passed = self._landmark(at, clause) if kind == "pass" else None
+        passed = self.describing.landmark(at, clause) if kind == "pass" else None
         other = self.words.names.actors.get(self.words.skip(at + 1, _BESIDE))
         overtakes = other == EGO_ID and "genitive" not in self.words.tags(self.words.skip(at + 1, _BESIDE) + 1)
         if kind == "pass" and overtakes and actor == HERO_ID and self.words.tag(at, "verb") == "pass":
             raise self.words.refuse("overtaking cannot be orchestrated", self.words.span(clause))
         self.deeds.append(Deed(kind, at, clause, span, passed, actor))
-
-    def _landmark(self, at: int, clause: Clause) -> str | None:
-        """Return what a deed is done to: the place after it, or before it in "the point is passed by the van"."""
-        for ahead in range(at + 1, clause.end):
-            if "landmark" in self.words.tags(ahead):
-                return self._use(ahead)
-            if self.words.has([ahead], "back_reference", "mark_noun"):
-                return self.words.referred(ahead)
-            if "quantity" in self.words.tags(ahead):
-                return None
-        before = range(clause.start, at)
-        back = self.words.where(before, "landmark") if self.words.has(before, "be") else None
-        return self._use(back) if back is not None else None
-
-    def _use(self, at: int) -> str:
-        self.words.used.add(at)
-        return self.words.tags(at)["landmark"]
 
     # -- denials ------------------------------------------------------------------------------------------------------
     def _denied(self, verb: str, at: int, clause: Clause) -> bool:
@@ -308,7 +203,7 @@ class DeedReader:
         if verb == "attitude" or self.words.has(range(at, clause.end), "quantity"):
             return False
         actors = [EGO_ID, HERO_ID] if clause.both else [clause.subject]
-        if verb in _TURNS and None not in actors:
+        if verb in TURNS and None not in actors:
             self.straight += [(actor, at) for actor in actors if actor is not None]
             return True
         area = self.words.where(range(min(at + 4, clause.end) - 1, -1, -1), "area")
@@ -340,7 +235,7 @@ class DeedReader:
     def _stays(self, at: int, clause: Clause) -> bool:
         """Whether the hero "does not set off until ...", or "sat there, not moving"."""
         later = [each for each in self.words.sentence(clause) if each.start > clause.start]
-        if any(each.link == "until" or (each.link == "before" and self._is_perfect(each)) for each in later):
+        if any(each.link == "until" or (each.link == "before" and self.ego.is_perfect(each)) for each in later):
             self._add("wait", at, clause)
             return True
         stopped = any(deed.kind == "stop" and deed.actor == HERO_ID for deed in self.deeds)
@@ -352,16 +247,6 @@ class DeedReader:
         return still and any(deed.kind in ("wait", "stop") for deed in self.deeds[-2:])
 
     # -- moments of the ego -------------------------------------------------------------------------------------------
-    def _is_perfect(self, clause: Clause) -> bool:
-        have = any(self.words.word(at) in ("we have", "i have") for at in clause.inside)
-        return have or self.words.where(clause.inside, "auxiliary", "have") is not None
-
-    def _is_bound(self, clause: Clause) -> bool:
-        """Whether a clause tells a moment of the ego: "before it turns", "by the time it does"."""
-        verbs = self.words.verbs(clause.inside)
-        by_then = self.words.word(clause.start - 1) == "by the time" and not self.words.has(clause.inside, "quantity")
-        which = self.words.word(clause.start - 1) == "after which" and bool(verbs & {"begin", "turn", "pass"})
-        return clause.link in BOUNDS or by_then or which or self._releases(clause)
 
     def _is_told_to(self, clause: Clause) -> bool:
         """Whether the text tells somebody to stage it: "Let the AV ...", "Make the van ..."."""
@@ -378,33 +263,17 @@ class DeedReader:
     def _follows_hero(self, clause: Clause) -> bool:
         """Read "the ego begins to turn only after the van has passed the point": the van passes before that."""
         following = next((each for each in self.words.clauses if each.start > clause.start), None)
-        if following is None or not self._is_after_hero(following) or clause.end > following.start:
+        if following is None or not self.ego.is_after_hero(following) or clause.end > following.start:
             return False
         verbs = self.words.verbs(clause.inside)
         self.words.used |= set(range(clause.start, following.start))
         span = self.words.span(clause)
         self._add("pass", self._verb_of(following), following)
-        self.deeds.append(Deed("before", clause.start, clause, span, self._ego_place(clause, verbs), EGO_ID))
+        self.deeds.append(Deed("before", clause.start, clause, span, self.ego.place(clause, verbs), EGO_ID))
         return True
-
-    def _is_after_hero(self, clause: Clause) -> bool:
-        index = self.words.clauses.index(clause)
-        before = self.words.clauses[index - 1] if index else clause
-        passed = self.words.verbs(clause.inside) == {"pass"} and clause.subject == HERO_ID and clause.named
-        begins = self.words.verbs(before.inside) & {"begin", "turn", "pull_out"}
-        own = before.subject == EGO_ID and before.sentence == clause.sentence
-        only = "only" in self.words.word(before.end - 1).split() or self.words.has(before.inside, "negation")
-        told = self.words.has(clause.inside, "quantity") or self.words.has(before.inside, "quantity")
-        return clause.link == "after" and passed and own and bool(begins) and only and not told
 
     def _verb_of(self, clause: Clause) -> int:
         return next(at for at in clause.inside if "verb" in self.words.tags(at))
-
-    def _is_allowed(self, clause: Clause) -> bool:
-        """Whether the ego is let go in a sentence of its own: "The ego is allowed to complete its turn. Then ..."."""
-        allowed = any("allowed" in self.words.word(at).split() for at in clause.inside)
-        done = self.words.verbs(clause.inside) & {"complete", "pass"}
-        return allowed and clause.subject == EGO_ID and clause.named and bool(done)
 
     def _in_front(self, deed: Deed) -> None:
         """Read "crosses in front of the ego" and "beats the ego to the conflict point" as passing before the ego."""
@@ -414,7 +283,12 @@ class DeedReader:
         for at in clause.inside:
             beside = words.tag(at, "relation") == "ahead" and at not in words.used
             left = words.tag(deed.at, "verb") == "leave"
-            if not left and words.tag(at, "relation") == "behind" and "quantity" not in words.tags(at - 1) and deed.kind == "pass":
+            if (
+                not left
+                and words.tag(at, "relation") == "behind"
+                and "quantity" not in words.tags(at - 1)
+                and deed.kind == "pass"
+            ):
                 raise words.refuse("a place in a queue is no order of passing", words.span(clause))
             beats = words.tag(at, "verb") in ("beat", "cut_in_front") or beside
             ego = any(words.names.actors.get(i) == EGO_ID for i in range(at + 1, min(at + 4, clause.end)))
@@ -422,13 +296,6 @@ class DeedReader:
                 words.used.add(at)
                 self.deeds.append(Deed("before", at, clause, words.tokens[at].span, "same", EGO_ID))
                 return
-
-    def _releases(self, clause: Clause) -> bool:
-        """Whether "once the ego has completed its turn" is a moment of the ego that the hero waits for."""
-        done = self.words.verbs(clause.inside) & {"complete", "pass"}
-        told = self.words.has(clause.inside, "quantity")
-        of_ego = clause.link == "when" and clause.subject == EGO_ID
-        return of_ego and self._is_perfect(clause) and bool(done) and not told
 
     def _lets(self, at: int, clause: Clause) -> bool:
         """Read "lets the ego complete its turn" as what the hero waits for."""
@@ -444,7 +311,7 @@ class DeedReader:
             "turn",
             "pull_out",
         }:
-            return self._ego_moment(let)
+            return self.ego.read(let)
         self.words.used |= set(rest)  # "lets it pass", "lets the ego go first"
         self.deeds.append(Deed("let_reach", at, let, self.words.tokens[at].span, None, EGO_ID))
         return True
@@ -459,66 +326,4 @@ class DeedReader:
         if clause.subject != HERO_ID or not named or not done:
             return False
         self._add("wait", at, clause)
-        return self._ego_moment(replace(clause, start=at + 2, link="until", subject=EGO_ID, named=True))
-
-    def _ego_moment(self, clause: Clause) -> bool:
-        """Read "before the ego begins to turn", "until it has passed the conflict point", "before us"."""
-        verbs = self.words.verbs(clause.inside)
-        if clause.subject != EGO_ID or (not clause.named and verbs & {"brake", "stop", "accelerate", "wait"}):
-            return False
-        known = {
-            "begin",
-            "turn",
-            "pull_out",
-            "complete",
-            "pass",
-            "reach",
-            "enter",
-            "go",
-            "make",
-            "drive",
-            "cut_in_front",
-        }
-        yet = any("yet" in self.words.word(at).split() for at in clause.inside)
-        if (
-            verbs - known
-            or (self.words.has(clause.inside, "negation") and not yet)
-            or (self.words.has(clause.inside, "stop_noun"))
-        ):
-            raise self.words.refuse("this is no moment of the ego that can be compared", self.words.span(clause))
-        if clause.link == "until" and self.words.word(clause.start - 2) == "not":
-            self.words.used.add(clause.start - 2)  # "not until the ego has passed does it move"
-        first = clause.link == "before" or self.words.word(clause.start - 1) in ("by the time", "after which")
-        kind = "before" if first else "let_reach" if clause.link == "let" else "after"
-        self.words.used |= set(range(clause.start - 1, clause.end))
-        span = self.words.span(clause)
-        self.deeds.append(Deed(kind, clause.start, clause, span, self._ego_place(clause, verbs), EGO_ID))
-        return True
-
-    def _names_turn(self, clause: Clause, verbs: set[str]) -> bool:
-        noun = self.words.where(clause.inside, "event_noun", "turn") is not None
-        ours = self.words.word(clause.end - 1) in ("ours", "its own") and any(d.kind == "complete" for d in self.deeds)
-        return (
-            noun or ours or bool(verbs & {"turn", "pull_out"}) or "own" in " ".join(map(self.words.word, clause.inside))
-        )
-
-    def _ego_place(self, clause: Clause, verbs: set[str]) -> str:
-        mark = self.words.where(clause.inside, "landmark")
-        if "complete" in verbs:
-            return "turn_end"
-        if "enter" in verbs and mark is None and self.words.where(clause.inside, "event_noun", "turn") is not None:
-            return "turn_start"  # "before the ego goes into its turn"
-        turns = (
-            verbs & {"turn", "pull_out", "begin"} or self.words.where(clause.inside, "event_noun", "turn") is not None
-        )
-        strange = any("unknown" in self.words.tags(at) for at in clause.inside) or self.words.has(clause.inside, "area")
-        if "enter" in verbs and mark is None and strange:
-            raise self.words.refuse("it is not clear which moment of the ego this is", self.words.span(clause))
-        if verbs & {"pass", "reach", "enter"} or (mark is not None and "turn" not in verbs):
-            return self.words.tags(mark)["landmark"] if mark is not None else "conflict_point"
-        if turns and not self._names_turn(clause, verbs):
-            raise self.words.refuse("it is not said what the ego begins", self.words.span(clause))
-        if turns:
-            yet = any("yet" in self.words.word(at).split() for at in clause.inside)
-            return "turn_end" if self._is_perfect(clause) and "begin" not in verbs and not yet else "turn_start"
-        return "conflict_point" if self.words.has(clause.inside, "back_reference", "mark_noun") else "same"
+        return self.ego.read(replace(clause, start=at + 2, link="until", subject=EGO_ID, named=True))

@@ -26,7 +26,9 @@ _VERDICT = re.compile(
     re.IGNORECASE,
 )
 # "The point of the test is whether the AV commits too early.": what the test is for
-_PURPOSE = re.compile(r"^\s*(?:the|our) (?:point|purpose|aim|idea|question|interest|goal|focus)\b.*\b(?:whether|how)\b", re.I)
+_PURPOSE = re.compile(
+    r"^\s*(?:the|our) (?:point|purpose|aim|idea|question|interest|goal|focus)\b.*\b(?:whether|how)\b", re.I
+)
 _ABOUT = re.compile(
     r"\d|\b(?:hero|npc|pov|target|van|car|bus|truck|lorry|brak|accelerat|slow|stop|yield|until|when|east|west|north|south"
     r"|left|right|straight|driveway|road|before|after)",

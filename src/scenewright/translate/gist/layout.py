@@ -12,6 +12,7 @@ from dataclasses import replace
 
 from scenewright.errors import Span
 from scenewright.translate.gist.disclaimers import disclaimers
+from scenewright.translate.gist.idioms import letters, without_idioms
 from scenewright.translate.notes import same_unit
 from scenewright.translate.tokens import Token, tokenise
 from scenewright.units import unit_of_name
@@ -23,23 +24,6 @@ _WRAPPED_AT = 70
 _BOLD = re.compile(r"\*\*|__(?=\S)|(?<=\S)__")
 # "Trigger - ego 3 s from it" at the beginning of a line
 _DASHED = re.compile(r"^([ \t]*(?:[-*] )?[A-Za-z][\w ()]{0,30}?) ([-\u2013\u2014])(?= )", re.MULTILINE)
-_CROSSING = re.compile(
-    r"(?:(?:point|spot|place) (?:where|at which|in which)|(?<=from )where|(?<=short of )where) (?:their|the|the two|both|our|its|your|these|two) (?:two )?"
-    r"(?:paths|ways|lanes|routes|tracks|trajectories|courses) (?:cross|meet|merge|intersect|join|conflict|(?:come|run) together)\b",
-    re.IGNORECASE,
-)
-# "No sooner is the ego 9 m from the line than the van brakes"
-_NO_SOONER = re.compile(r"\bNo sooner((?: \w+)(?:(?!\bthan\b|[;!?]|\.\s).)*?)\bthan\b", re.IGNORECASE)
-# "Once two conditions hold at the same time, ..."
-_HOLD = re.compile(
-    r"\b(?:once|when|as soon as) (?:the following |these |both |two |the )?(?:two )?conditions? "
-    r"(?:holds?|(?:are|is) (?:met|fulfilled|true|satisfied|given))(?: (?:together|at the same time|simultaneously|at once))?"
-    r"(?:,|:| -)?(?: namely(?: that)?,?)?",
-    re.IGNORECASE,
-)
-_LETTERED = re.compile(r"\b(?:car|vehicle|actor|agent|driver) ([A-D]|\d)\b", re.IGNORECASE)
-_IS_EGO = r"\b(?:car|vehicle|actor|agent|driver) {}(?:,? which is|,? being| is|,|:| =)?\s*\(?(?:the |our )?(?:{})\b"
-_EGOS = r"ego|(?:car|vehicle|one) (?:under test|being tested)|AV|SUT|subject vehicle|test (?:car|vehicle)"
 _PLUS = re.compile(r"(?<= )[+&](?= )")
 
 
@@ -50,7 +34,7 @@ def laid_out(text: str, name: str) -> list[Token]:
         tokens = [
             replace(token, tags={"noun": "motorcycle"}) if token.text.lower() == "bike" else token for token in tokens
         ]
-    tokens = _named_by_letter(_brands(tokens), _letters(text))
+    tokens = _named_by_letter(_brands(tokens), letters(text))
     tokens = _without_short_names([_bar(_as_written(token)) for token in tokens])
     return same_unit(_with_lines(tokens, text))
 
@@ -63,13 +47,7 @@ def _plain(text: str) -> str:
     if "\n" in text.strip():
         text = _DASHED.sub(r"\1 :", text)
     text = _PLUS.sub(",", text)
-    text = _HOLD.sub(lambda found: "When".ljust(len(found.group())), text)
-    text = re.sub(r"(?<=[.!?;] )Wait until\b", "When      ", text)
-    text = _NO_SOONER.sub(lambda found: "When".ljust(9) + found.group(1) + ",".ljust(4), text)
-    text = re.sub(r", that is,", lambda found: ",".ljust(len(found.group())), text)
-    if names := _letters(text):
-        text = _LETTERED.sub(lambda found: names[found.group(1).upper()].ljust(len(found.group())), text)
-    text = _CROSSING.sub(lambda found: "conflict point".ljust(len(found.group())), text)
+    text = without_idioms(text)
     spaced = _KEY.sub(
         lambda found: found.group() if unit_of_name(found.group().strip()) else found.group().replace("_", " "), text
     )
@@ -88,15 +66,6 @@ def _brands(tokens: list[Token]) -> list[Token]:
         else token
         for at, token in enumerate(tokens)
     ]
-
-
-def _letters(text: str) -> dict[str, str]:
-    """Return who "car A" and "car B" are, where one of two is said to be the ego."""
-    letters = list(dict.fromkeys(found.group(1).upper() for found in _LETTERED.finditer(text)))
-    egos = [each for each in letters if re.search(_IS_EGO.format(each, _EGOS), text, re.IGNORECASE)]
-    if len(letters) != 2 or len(egos) != 1:
-        return {}
-    return {each: "ego" if each == egos[0] else "hero" for each in letters}
 
 
 def _named_by_letter(tokens: list[Token], names: dict[str, str]) -> list[Token]:

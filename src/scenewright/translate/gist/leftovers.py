@@ -11,8 +11,7 @@ import re
 from scenewright.errors import Span
 from scenewright.translate.events import EGO_ID, HERO_ID
 from scenewright.translate.gist.clauses import BOUNDS, NEGATIVES
-from scenewright.translate.gist.deeds import Deed
-from scenewright.translate.gist.words import Clause, Words
+from scenewright.translate.gist.words import Clause, Deed, Words
 
 # Limits that hold for a while, and what did not or will not happen: no reader of facts can tell what follows.
 _DANGERS = frozenset(
@@ -201,7 +200,8 @@ def _denies_nothing(words: Words, at: int, clause: Clause | None) -> bool:
     rest = range(at + 1, clause.end)
     plain = ("unknown", "determiner", "pronoun", "possessive", "preposition", "auxiliary", "link", "adverb")
     known = any(
-        (not words.tags(i).keys() & set(plain) and words.word(i) not in ("place", "end")) or i in words.names.actors for i in rest
+        (not words.tags(i).keys() & set(plain) and words.word(i) not in ("place", "end")) or i in words.names.actors
+        for i in rest
     )
     done = any(words.word(i).endswith("ing") for i in rest) or words.has(rest, "verb", "heading", "direction")
     return len(rest) > 1 and "unknown" not in words.tags(at + 1) and not known and not done

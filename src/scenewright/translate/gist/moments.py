@@ -13,8 +13,7 @@ from typing import Literal
 from scenewright.translate.events import EGO_ID, HERO_ID
 from scenewright.translate.facts import Bound
 from scenewright.translate.gist.amounts import Measured
-from scenewright.translate.gist.deeds import Deed
-from scenewright.translate.gist.words import Clause, Words
+from scenewright.translate.gist.words import Clause, Deed, Words
 
 Moment = Literal["start", "trigger", "deed", "open"]
 UNCLEAR = "it is not clear at which moment this holds"
@@ -212,7 +211,11 @@ class MomentReader:
     def _stops_next(self, made: Measured) -> bool:
         """Whether the deed follows in a clause of its own: "decelerates, and 10 m before the point it stops"."""
         clause, at = made.clause, self.words.clauses.index(made.clause)
-        if at + 1 >= len(self.words.clauses) or clause.named or self.words.has(clause.inside, "verb", "be", "auxiliary"):
+        if (
+            at + 1 >= len(self.words.clauses)
+            or clause.named
+            or self.words.has(clause.inside, "verb", "be", "auxiliary")
+        ):
             return False
         following = self.words.clauses[at + 1]
         own = [d for d in self.deeds if d.clause is following and d.actor == HERO_ID]
@@ -225,7 +228,9 @@ class MomentReader:
         told = [each for each in self.words.sentence(clause) if self.words.has(each.inside, "quantity")]
         stands = [d for d in self.deeds if d.clause.sentence == clause.sentence and d.kind in ("stop", "wait")]
         early = any(self.moments.get(each.at) == "trigger" for each in self.measured)
-        return early and told == [clause] and bool(stands) and stands[0].actor == HERO_ID and stands[0].at < clause.start
+        return (
+            early and told == [clause] and bool(stands) and stands[0].actor == HERO_ID and stands[0].at < clause.start
+        )
 
     def begins(self, deed: Deed) -> bool:
         """Whether a deed is said to begin: "begins to brake"."""
@@ -247,10 +252,14 @@ class MomentReader:
         ):
             return True  # "its starting position", "was released 80 m before it"
         for at in range(max(clause.start, made.at - 5), made.at):
-            between = [i for i in range(at + 1, made.at) if "frame_noun" not in words.tags(i)]  # "starts the run 9 s from it"
+            between = [
+                i for i in range(at + 1, made.at) if "frame_noun" not in words.tags(i)
+            ]  # "starts the run 9 s from it"
             if words.tag(at, "verb") == "begin" and not words.verbs(between):
                 return True
-        if words.has(clause.inside, "measure", "landmark") and re.search(r"\bfirst (?:position|place|distance)\b", told):
+        if words.has(clause.inside, "measure", "landmark") and re.search(
+            r"\bfirst (?:position|place|distance)\b", told
+        ):
             return True
         if "initial" in told:
             return True
@@ -293,7 +302,7 @@ class MomentReader:
         return labels or any(each.link == "when" for each in sentence)
 
     def _at_that_moment(self, clause: Clause) -> bool:
-        """Whether a sentence only tells how all stand at the trigger: "At the trigger the ego is ..., and the van ..."."""
+        """Whether a sentence only tells how all stand: "At the trigger the ego is ..., and the van is ..."."""
         sentence = self.words.sentence(clause)
         first = sentence[0].link == "moment" and self.words.word(sentence[0].start - 1).endswith("the trigger")
         acted = any(d.actor == HERO_ID and d.clause.sentence == clause.sentence and d.kind != "go" for d in self.deeds)
@@ -377,7 +386,10 @@ class MomentReader:
     def _called_trigger(self) -> int | None:
         """Read "The AV is 3 s from the line, the van 3 s from the point. That is the trigger."."""
         for clause in self.words.clauses:
-            this = self.words.word(clause.start) in ("this", "that") or self.words.word(clause.start - 1) in ("this", "that")
+            this = self.words.word(clause.start) in ("this", "that") or self.words.word(clause.start - 1) in (
+                "this",
+                "that",
+            )
             named = self.words.where(clause.inside, "label", "when") is not None or clause.link == "when"
             told = self.words.has(clause.inside, "quantity")
             before = [made for made in self.of("open") if made.clause.sentence == clause.sentence - 1]

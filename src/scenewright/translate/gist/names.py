@@ -18,7 +18,8 @@ PERSONAL = frozenset(("he", "she", "him", "himself", "herself", "hers"))
 _PERSONS = frozenset(
     ["man", "woman", "guy", "chap", "bloke", "fellow", "lady", "gentleman", "kid", "teenager", "somebody", "someone",
      "stranger", "owner", "operator", "commuter", "courier", "trucker", "neighbour", "neighbor", "father", "mother",
-     "colleague", "friend", "student", "volunteer", "resident", "visitor", "uncle", "aunt", "grandmother", "grandma", "granny", "grandfather", "grandpa"]
+     "colleague", "friend", "student", "volunteer", "resident", "visitor", "uncle", "aunt", "grandmother", "grandma",
+     "granny", "grandfather", "grandpa"]
 )  # fmt: skip
 # Kinds of vehicle that can be any vehicle, and names that say how a vehicle lies to the other or what it does.
 _GENERIC = frozenset(("car", "vehicle", "driver", "motorist", "actor", "agent", "traffic_one"))
@@ -92,7 +93,9 @@ def _is_director(tokens: list[Token], at: int) -> bool:
 
 def _is_third_person(tokens: list[Token]) -> bool:
     """Whether the ego has a name that is not the teller's: "the ego", "the AV"."""
-    return any("ego" in each.tags and each.text.lower().split()[0] not in ("our", "my", *FIRST_PERSON) for each in tokens)
+    return any(
+        "ego" in each.tags and each.text.lower().split()[0] not in ("our", "my", *FIRST_PERSON) for each in tokens
+    )
 
 
 def _is_own_wish(tokens: list[Token], at: int) -> bool:
@@ -158,7 +161,14 @@ def _name_vehicle(tokens: list[Token], at: int, names: Names, ego_kinds: set[str
     kind = tokens[at].tags["noun"]
     marked = at > 0 and (tokens[at - 1].text.lower() in ego_marks or "ego" in tokens[at - 1].tags)  # "the ADS car"
     called = _is_called(tokens, at) and "be" in tokens[at + 1].tags
-    ego = marked or called or _is_predicate(tokens, at) or kind in ego_kinds or _is_tested(tokens, at) or _is_ours(tokens, at)
+    ego = (
+        marked
+        or called
+        or _is_predicate(tokens, at)
+        or kind in ego_kinds
+        or _is_tested(tokens, at)
+        or _is_ours(tokens, at)
+    )
     names.actors[at] = EGO_ID if ego else HERO_ID
     if kind in _RELATIVE:
         names.relative[at] = _RELATIVE[kind]
@@ -197,7 +207,11 @@ def _is_third(tokens: list[Token], at: int) -> bool:
 def _is_last_one(tokens: list[Token], at: int) -> bool:
     """Whether this is "Last one for today" and no vehicle."""
     relative = tokens[at].tags["noun"] in _RELATIVE and tokens[at].text.lower().endswith("one")
-    if relative and tokens[at].text.lower() == "last one" and tokens[min(at + 1, len(tokens) - 1)].text.lower() == "for":
+    if (
+        relative
+        and tokens[at].text.lower() == "last one"
+        and tokens[min(at + 1, len(tokens) - 1)].text.lower() == "for"
+    ):
         return not at or "determiner" not in tokens[at - 1].tags
     return relative and (at == 0 or not tokens[at - 1].tags.keys() & {"determiner", "colon", "comma", "link"})
 

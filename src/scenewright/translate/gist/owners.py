@@ -54,7 +54,11 @@ def measure_word(words: Words, at: int, clause: Clause) -> str | None:
 def _resumed(words: Words, at: int, clause: Clause) -> str | None:
     """Return the measure between the two that goes on here: "the headway of the ego, which follows, has shrunk to"."""
     index = next((i for i, each in enumerate(words.clauses) if at in each.inside), 0)
-    if index < 2 or words.clauses[index - 1].link != "that" or not words.has([clause.start], "falls", "be", "auxiliary"):
+    if (
+        index < 2
+        or words.clauses[index - 1].link != "that"
+        or not words.has([clause.start], "falls", "be", "auxiliary")
+    ):
         return None
     before = words.clauses[index - 2]
     if before.sentence != clause.sentence or words.has(before.inside, "quantity"):

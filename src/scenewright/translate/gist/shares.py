@@ -82,10 +82,23 @@ def _same_place(words: Words, found: list[Measured]) -> None:
 
 def _is_short(words: Words, made: Measured) -> bool:
     """Whether an amount ends without a place: "the ego is 12 m [...]", but not "2 s from over there"."""
-    plain = ("adverb", "left_over", "comma", "link", "preposition", "ego", "hero", "noun", "determiner", "measured_word")
+    plain = (
+        "adverb",
+        "left_over",
+        "comma",
+        "link",
+        "preposition",
+        "ego",
+        "hero",
+        "noun",
+        "determiner",
+        "measured_word",
+    )
     end = next((i for i in range(made.at + 1, made.clause.end) if "quantity" in words.tags(i)), made.clause.end)
     known = {*words.names.actors, *words.names.pronouns}
-    return all(at in known or words.word(at) == "one" or words.tags(at).keys() & set(plain) for at in range(made.at + 1, end))
+    return all(
+        at in known or words.word(at) == "one" or words.tags(at).keys() & set(plain) for at in range(made.at + 1, end)
+    )
 
 
 def _alike(first: Measured, second: Measured) -> bool:

@@ -14,10 +14,9 @@ from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place, Relation
 from scenewright.translate.facts import Condition, Facts, Order, Phase
 from scenewright.translate.gist.amounts import Measured
 from scenewright.translate.gist.clauses import BOUNDS
-from scenewright.translate.gist.deeds import Deed
 from scenewright.translate.gist.moments import MomentReader
 from scenewright.translate.gist.owners import is_nobodys
-from scenewright.translate.gist.words import Words
+from scenewright.translate.gist.words import Deed, Words
 
 _SLOWS = ("brake", "stop")
 _GOES = ("accelerate", "pass", "complete", "keep", "go")
@@ -172,7 +171,7 @@ class StoryTeller:
         return clause.sentence > here or (clause.sentence == here and clause.start > first)
 
     def _told_early(self) -> list[Deed]:
-        """Return how the hero goes on where all is told before the trigger: "It stops, and drives on. It brakes when"."""
+        """Return how the hero goes on where it is told before the trigger: "It stops, drives on. It brakes when"."""
         own = [d for d in self.deeds if d.actor == HERO_ID and d.clause.sentence < self.trigger_sentence]
         stops = [d for d in own if d.kind == "stop"]
         return [
@@ -207,8 +206,10 @@ class StoryTeller:
         if {"keep", "accelerate"} <= kinds:
             raise self.words.refuse("the hero is said to speed up and not to", goes[0].span)
         turn = next((deed for deed in told if deed.kind == "turn"), None)
-        if turn is not None and not self._turns_whole(told) and (
-            self.moments.begins(turn) or not kinds & {"complete", "pass"}
+        if (
+            turn is not None
+            and not self._turns_whole(told)
+            and (self.moments.begins(turn) or not kinds & {"complete", "pass"})
         ):
             raise self.words.refuse("it is not clear up to where the hero turns", turn.span)
         self._check_turns()
@@ -221,7 +222,9 @@ class StoryTeller:
 
     def _brakes_again(self, deed: Deed, slows: list[Deed], goes: list[Deed]) -> bool:
         """Whether the hero brakes after its stop, on its way: "stops, then brakes to pass the conflict point"."""
-        first = min(made.at for made in self.moments.of("trigger"))  # what is told before it tells in short what follows
+        first = min(
+            made.at for made in self.moments.of("trigger")
+        )  # what is told before it tells in short what follows
         stopped = any(
             each.kind in ("stop", "wait") and first < each.at < deed.at for each in self.deeds if each.actor == HERO_ID
         )
@@ -326,7 +329,7 @@ class StoryTeller:
             previous = deed
 
     def _is_purpose(self, deed: Deed) -> bool:
-        """Whether it is only said what for: "To let the ego make its turn, a car stops. It begins to brake when ..."."""
+        """Whether it is only said what for: "To let the ego make its turn, a car stops. It brakes when ..."."""
         to = self.words.word(deed.clause.start - 2) == "to"
         return to and deed.clause.sentence < self.trigger_sentence
 

@@ -9,7 +9,22 @@ from scenewright.translate.events import EGO_ID, HERO_ID
 from scenewright.translate.gist.names import FIRST_PERSON, PERSONAL
 from scenewright.translate.gist.words import Clause, Words
 
-SEES = ("sees", "spots", "notices", "watches", "saw", "spotted", "noticed", "see", "seeing", "finds", "found", "meets", "met", "encounters")
+SEES = (
+    "sees",
+    "spots",
+    "notices",
+    "watches",
+    "saw",
+    "spotted",
+    "noticed",
+    "see",
+    "seeing",
+    "finds",
+    "found",
+    "meets",
+    "met",
+    "encounters",
+)
 _BESIDE = frozenset(("determiner", "actor_adjective", "possessive", "heading", "hero", "noun", "unknown", "direction"))
 _OBJECT_OF = frozenset(("to", "of", "for", "by", "between", "across", "into", "in", "on", "at", "out"))
 _TAKES_OBJECT = frozenset(
@@ -35,9 +50,7 @@ def is_object(words: Words, at: int) -> bool:
     if _is_owner(words, back, at):
         return False
     if 0 < back < at and "ing" in words.tokens[back].forms and "determiner" in words.tags(back - 1):
-        if words.word(back - 2) == "of":
-            return True  # "in the presence of a yielding van"
-        return False  # "the entering car"
+        return words.word(back - 2) == "of"  # "the presence of a yielding van", but not "the entering car"
     if words.word(back) in SEES and "ing" in words.tokens[min(at + 1, len(words.tokens) - 1)].forms:
         return False  # "sees the ego driving west"
     if back < 0:
@@ -141,7 +154,9 @@ def _goes_on(words: Words, index: int, last: int | None) -> int | None:
     """Return whom "it" means in the sentence after "The van goes once the ego has passed": who acts there."""
     clause = words.clauses[index]
     following = words.clauses[index + 1] if index + 1 < len(words.clauses) else clause
-    if words.has(clause.inside, "comment") and words.named(clause.inside) is None:  # "I'd like to see what the ego does"
+    if (
+        words.has(clause.inside, "comment") and words.named(clause.inside) is None
+    ):  # "I'd like to see what the ego does"
         told = " ".join(words.word(at) for at in clause.inside if "comment" in words.tags(at)).split()
         last = EGO_ID if "ego" in told else last
     bound = clause.link in ("before", "after", "until") or (clause.link == "when" and _is_perfect(words, clause))
@@ -289,7 +304,9 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     owned = [at for at in pronouns if not words.has([at - 1], "preposition", "relation", "verb")]
     if not owned and not any(each.named or _is_finite(words, each) for each in [*earlier, clause]):
         beside = words.clauses[index + 1] if index + 1 < len(words.clauses) else clause
-        with_it = "with" in (words.word(clause.end), words.word(clause.end + 1)) and words.has([clause.start], "direction")
+        with_it = "with" in (words.word(clause.end), words.word(clause.end + 1)) and words.has(
+            [clause.start], "direction"
+        )
         if with_it and beside.sentence == clause.sentence and words.named(beside.inside) is not None:
             return last  # "Left turn from the driveway, with a westbound truck"
         following = _named_later(words, index)

@@ -12,27 +12,13 @@ from typing import Literal
 from scenewright.errors import Span
 from scenewright.translate.events import EGO_ID, HERO_ID, Event
 from scenewright.translate.facts import LaneRelation
+from scenewright.translate.gist.roles import Roles
 from scenewright.translate.gist.words import Clause, Words
 from scenewright.translate.itineraries import OPPOSITE
 
 Key = Literal["heading", "origin_heading", "turn", "origin_kind", "destination_kind"]
 _BESIDE = frozenset(("determiner", "possessive", "actor_adjective", "preposition", "unknown", "heading", "direction"))
-_AREA_WORDS = frozenset(("determiner", "possessive", "area_adjective", "same", "side", "adverb", "unknown"))
-_LEAVING = ("leave", "pull_out")
 _CROSSING = frozenset(("turn", "pull_out", "cut_in_front", "pass"))
-_WAY_VERBS = frozenset(
-    ["turn", "pull_out", "go", "drive", "make", "come", "want", "keep", "leave", "enter", "begin", "complete",
-     "lane_follow", "sit", "wait", "let", "need", "approach"]
-)  # fmt: skip
-_TURN_AFTER = ("go", "pull_out", "drive", "make", "come", "want")
-_BEFORE_TURN = frozenset(
-    ["determiner", "possessive", "comma", "colon", "end", "link", "area", "heading", "preposition", "wanting",
-     "unknown", "be", "ready", "bound_word"]
-)  # fmt: skip
-_AFTER_TURN = frozenset(
-    ["end", "comma", "heading", "preposition", "link", "event_noun", "verb", "area", "unknown", "colon", "adverb",
-     "pronoun", "relation", "pair", "auxiliary", "be", "negation", "side_noun"]
-)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +49,10 @@ class WayReader:
     titles: list[Way] = field(default_factory=list)
     relations: list[LaneRelation] = field(default_factory=list)
     alike: list[tuple[int, int]] = field(default_factory=list)
+    roles: Roles = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.roles = Roles(self.words)
 
     def read(self) -> None:
         """Read every clause, and what names and adjectives say."""
@@ -86,7 +76,7 @@ class WayReader:
             self._direction(at, clause)
         elif self.words.word(at).startswith("left ") and self.words.tag(at - 1, "verb") == "turn":
             self._say("turn", "left", at, clause.subject, clause)  # "turns left to the road"
-        elif tags.get("pronoun") == "it" and self._driveway_before(at):
+        elif tags.get("pronoun") == "it" and self.roles.driveway_before(at):
             self._into_it(at, clause)
         elif verb == "lane_follow":
             self._say("turn", "straight", at, clause.subject, clause)
@@ -122,7 +112,7 @@ class WayReader:
     def _direction(self, at: int, clause: Clause) -> None:
         value, before, after = self.words.tags(at)["direction"], self.words.tags(at - 1), self.words.tags(at + 1)
         if value != "straight":
-            if self._is_no_turn(at):
+            if self.roles.is_no_turn(at):
                 return
             if "genitive" in before and at - 2 in self.words.names.actors:
                 self._relate(f"from_{value}", clause.subject, at)  # "from the ego's left"
@@ -140,9 +130,14 @@ class WayReader:
             ):  # "the ego turns right, the car left", "ego left out of it"
                 self._say("turn", value, at, self.words.names.actors[at - 1], clause)
                 return
-            if not self._is_turn(at) and self._is_title(clause) and after.keys() & {"event_noun", "verb"} and clause.subject is None:
+            if (
+                not self.roles.is_turn(at)
+                and self.roles.is_title(clause)
+                and after.keys() & {"event_noun", "verb"}
+                and clause.subject is None
+            ):
                 return  # "Two crossing left turns are studied."
-            if not self._is_turn(at):
+            if not self.roles.is_turn(at):
                 raise self.words.refuse("it is not clear who turns here", self.words.tokens[at].span)
         owner = self._let(at, clause)
         if "noun" in after and "verb" not in before:
@@ -154,40 +149,6 @@ class WayReader:
         let = self.words.where(range(clause.start, at), "verb", "let")
         named = self.words.named(range(let + 1, min(let + 4, at))) if let is not None else None
         return named if named is not None else clause.subject
-
-    def _is_no_turn(self, at: int) -> bool:
-        """Whether this is "right in front of", "right of way", "right at the line", "30 m left to it", "left to go"."""
-        before, after = self.words.tags(at - 1), self.words.tags(at + 1)
-        just = self.words.tag(at, "adverb") == "just"
-        left_over = "left_over" in self.words.tags(at)
-        opens = self.words.word(at) == "right" and "comma" in after and (not before or "end" in before)
-        if opens:
-            return True  # "Right, so the ego ..."
-        if before.get("verb") == "turn" and not left_over:
-            return False  # "turns right at the end of it"
-        if "determiner" in before and self.words.word(at + 1) in ("thing", "decision", "moment", "time", "order"):
-            return True  # "does the right thing"
-        if after.get("relation") in ("ahead", "behind") or (just and after.get("preposition") in ("of", "at")):
-            return True
-        if "genitive" in before and "link" in after:
-            return True
-        if just and before.get("verb") in ("brake", "stop", "come"):
-            return True  # "slows right down"
-        if just and "relation" in after and before.keys() & {"noun", "hero", "ego"}:
-            return True
-        measured = self.words.where(range(at - 4, at), "quantity") is not None
-        if "quantity" in before or (left_over and measured and before.keys() & {"landmark", "back_reference"}):
-            return True
-        return left_over and after.get("preposition") == "to" and not before.keys() & {"link", "verb"}
-
-    def _is_turn(self, at: int) -> bool:
-        before, after = self.words.tags(at - 1), self.words.tags(at + 1)
-        others = [tags["verb"] for tags in (before, after) if "verb" in tags and tags["verb"] not in _WAY_VERBS]
-        if others or "stop_noun" in after:
-            return False  # "wants to stop right onto the road"
-        near = (after.get("verb"), after.get("event_noun"), before.get("verb"), before.get("event_noun"))
-        turns = "turn" in near or before.get("verb") in _TURN_AFTER or not before
-        return (turns or bool(before.keys() & _BEFORE_TURN)) and (not after or bool(after.keys() & _AFTER_TURN))
 
     def _same(self, at: int, clause: Clause) -> None:
         """Read "makes the same turn", "heading the same way", "with the same intention"."""
@@ -208,10 +169,6 @@ class WayReader:
                 return
 
     # -- areas --------------------------------------------------------------------------------------------------------
-    def _driveway_before(self, at: int) -> bool:
-        """Whether the driveway was the area named last: "comes out of it"."""
-        back = self.words.where(range(at - 1, -1, -1), "area")
-        return back is not None and self.words.tags(back)["area"] == "driveway"
 
     def _meets_someone(self, at: int) -> bool:
         """Whether this is "comes towards it"; "comes towards the driveway" is not."""
@@ -221,7 +178,7 @@ class WayReader:
     def _is_beside_driveway(self, at: int, clause: Clause) -> bool:
         """Whether this is "for the driveway on its left", which tells a turn."""
         on = self.words.tags(at)["from_side"].startswith("on_") and self.words.tag(at - 1, "area") == "driveway"
-        return on and clause.subject is not None and self._role(at - 1, clause) == "into"
+        return on and clause.subject is not None and self.roles.role(at - 1, clause) == "into"
 
     def _into_it(self, at: int, clause: Clause) -> None:
         before = self.words.tags(at - 1)
@@ -234,7 +191,7 @@ class WayReader:
             self._say("origin_kind", "driveway", at, clause.subject, clause)
 
     def _area(self, at: int, clause: Clause) -> None:
-        kind, role = self.words.tags(at)["area"], self._role(at, clause)
+        kind, role = self.words.tags(at)["area"], self.roles.role(at, clause)
         if role == "past":
             if kind == "driveway" and clause.subject is not None and clause.link not in ("before", "after", "until"):
                 self._say("turn", "straight", at, clause.subject, clause)
@@ -250,77 +207,6 @@ class WayReader:
                 self._say("origin_kind", "driveway", at, clause.subject, clause)
             else:  # "on the road", "leaves the road"
                 self._say("origin_kind", "road", at, clause.subject, clause)
-
-    def _role(self, at: int, clause: Clause) -> str | None:
-        """Return how a vehicle is to do with an area: "into", "from", "on", "past"; None where it is only spoken of."""
-        back = at - 1
-        while self.words.tags(back).keys() & _AREA_WORDS:
-            if "determiner" not in self.words.tags(back) and self.words.has([back], "verb", "preposition", "link"):
-                break
-            back -= 1
-        tags, word = self.words.tags(back), self.words.word(back)
-        verb, preposition = tags.get("verb"), tags.get("preposition")
-        before = self.words.verbs(range(max(clause.start, back - 2), back))
-        turned = "turn" in before or self._turned(back, clause)
-        bound = preposition == "to" and self.words.word(back - 1).endswith("way")  # "on its way to the driveway"
-        if word == "after" and "be" in self.words.tags(back - 1):
-            return "into"
-        if preposition == "into" or verb in ("enter", "want") or word.split()[-1:] in (["for"], ["onto"]) or bound:
-            return "into"
-        if preposition in ("on", "in") and (before & {"enter"} or (turned and self.words.tag(at, "area") == "road")):
-            return "into"  # "enters in the driveway", "turns left on the road"
-        if verb == "pull_out" and word.startswith(("join", "merg")):
-            return "into"
-        if (preposition == "out" or "relation" in tags) and self.words.has([back - 1], "quantity"):
-            return None  # "66 m from the driveway"
-        told = {self.words.word(i) for i in range(clause.start, back)}
-        if "be" in tags and told & {"destination", "goal", "target", "aim"} and self.words.tag(at, "area") == "driveway":
-            return "into"  # "its destination is the driveway"
-        if verb == "leave" and self.words.tag(at + 1, "preposition") in ("to", "for"):
-            return None  # "leaves the driveway to us"
-        if preposition == "out" or verb in _LEAVING or word in ("from", "down") or "out of" in word:
-            return "from"
-        if preposition == "by" and self.words.verbs(clause.inside) & {"leave"}:
-            return "from"  # "leave by the driveway"
-        if tags.get("relation") == "past" or verb == "pass":
-            return "past"
-        if preposition == "of" and self.words.has([back - 1], "mouth", "landmark"):
-            if self.words.has(range(back - 5, back), "quantity"):
-                return None  # "55 m from the mouth of the driveway"
-            return "on"  # "at the end of the driveway"
-        keeps = preposition == "to" and before & {"drive", "keep"} and self.words.tag(at, "area") == "driveway"
-        if keeps or verb in ("lane_follow", "follow"):
-            return "on"
-        if word.endswith(" on") and verb in ("go", "drive", "keep"):
-            return "on"  # "drives on the road"
-        goal = {"destination", "goal", "target", "aim"} & {
-            self.words.word(i) for i in range(max(0, back - 2), back + 1)
-        }
-        if goal and self._is_title(clause):  # "Two vehicles with one destination, the driveway."
-            return "into" if clause.both else None
-        begins = back < clause.start or bool(tags.keys() & {"comma", "end", "colon"})
-        if "relation" in tags or not (preposition in ("on", "in", "with") or begins):
-            return None
-        if back > clause.start and "unknown" in self.words.tags(back - 1) and back - 1 not in self.words.names.actors:
-            return None  # "lives up that driveway"
-        verbs = self.words.verbs(range(at, clause.end))
-        if begins and "be" in self.words.tags(at + 1) and not verbs & {"enter", "leave"}:
-            return None  # "for which the driveway is of no interest"
-        if self.words.has(range(at, clause.end), "be") and verbs & {"enter", "leave"}:
-            return "into" if "enter" in verbs else "from"  # "the driveway is entered by a van"
-        return "into" if turned and self.words.tag(at, "area") == "road" else "on"
-
-    def _turned(self, at: int, clause: Clause) -> bool:
-        """Whether a turn of the same vehicle was told before in the sentence: "turns left to drive along the road"."""
-        stretch = [
-            i
-            for each in self.words.sentence(clause)
-            if each.start <= clause.start and each.subject == clause.subject
-            for i in range(each.start, min(each.end, at))
-        ]
-        sided = any(self.words.word(i) in ("left to", "right to") for i in stretch)
-        own = [i for i in stretch if "genitive" not in self.words.tags(i - 1)]  # not "from the ego's left"
-        return sided or self.words.where(own, "direction", "left", "right") is not None
 
     def _lane(self, at: int, clause: Clause) -> None:
         """Read "into the ego's lane" and "into the lane that the ego is using"."""
@@ -344,7 +230,7 @@ class WayReader:
             return  # "I need the following:"
         if self.words.has(near, "through") or self.words.has(range(at + 1, at + 3), "landmark"):
             return  # "then follows it through the conflict point", "stays behind its stop line"
-        road = "pronoun" in self.words.tags(at + 1) and self._road_before(at)
+        road = "pronoun" in self.words.tags(at + 1) and self.roles.road_before(at)
         if verb == "follow" and road:  # "is on the road and follows it"
             self._say("turn", "straight", at, clause.subject, clause)
         elif clause.subject is not None and any(
@@ -353,24 +239,20 @@ class WayReader:
             ahead = clause.subject if verb == "lead" else 1 - clause.subject
             self._relate("lead" if ahead == HERO_ID else "ego_leads", ahead, at)
 
-    def _road_before(self, at: int) -> bool:
-        back = self.words.where(range(at - 1, -1, -1), "area")
-        between = range(back + 1, at) if back is not None else range(0)
-        named = self.words.named(between)
-        return back is not None and self.words.tags(back)["area"] == "road" and named is None
-
     def _in_line(self, at: int, clause: Clause) -> None:
         """Read "in front of the ego": who is ahead, where both are in one lane."""
         names, value = self.words.names, self.words.tags(at)["relation"]
-        crosses = self.words.verbs(range(clause.start, at)) & _CROSSING
+        crosses = bool(self.words.verbs(range(clause.start, at)) & _CROSSING)
         strange = any(
             "unknown" in self.words.tags(back) and back not in names.actors
             for back in range(max(clause.start, at - 2), at)
         )
         to_line = "landmark" in self.words.tags(self.words.skip(at + 1, _BESIDE) + 1)
-        enters = self.words.tag(at - 1, "area") == "driveway" and self._role(at - 1, clause) == "into"
+        enters = self.words.tag(at - 1, "area") == "driveway" and self.roles.role(at - 1, clause) == "into"
         turned = self.words.where(range(clause.start, at), "direction", "left", "right") is not None
-        crosses = crosses or (turned and "preposition" not in self.words.tags(at - 1))  # "out to the left in front of us"
+        crosses = crosses or (
+            turned and "preposition" not in self.words.tags(at - 1)
+        )  # "out to the left in front of us"
         strange = strange or self.words.has([at - 1], "event_noun", "landmark")  # "with no turn ahead of it"
         if "quantity" in self.words.tags(at - 1) or crosses or strange or to_line or enters:
             return  # "sneaks in ahead of us" tells no order in a lane
@@ -417,19 +299,12 @@ class WayReader:
         marks = [i for i in clause.inside if i in self.words.names.both]
         if clause.pair or (clause.both and (not clause.named or any(mark < at for mark in marks))):
             self.ways += [Way(key, value, at, span, EGO_ID), Way(key, value, at, span, HERO_ID)]
-        elif actor is None and self._is_title(clause):
+        elif actor is None and self.roles.is_title(clause):
             self.titles.append(Way(key, value, at, span, None))
         elif actor is None:
             raise self.words.refuse("it is not clear whose way this is", span)
         else:
             self.ways.append(Way(key, value, at, span, actor))
-
-    def _is_title(self, clause: Clause) -> bool:
-        """Whether nobody is named in the sentence, or nobody was so far."""
-        names = self.words.names
-        named = {*names.actors, *names.pronouns}
-        inside = any(at in named for each in self.words.sentence(clause) for at in each.inside)
-        return not inside or not any(at < clause.end for at in names.actors)
 
     def _relate(self, kind: str, actor: int | None, at: int) -> None:
         if actor is not None:

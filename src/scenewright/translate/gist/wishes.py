@@ -26,8 +26,8 @@ def wishes(words: Words, reader: WayReader, road_map: RoadMap) -> dict[int, dict
     """
     told = {actor: [way for way in reader.ways if way.actor == actor] for actor in (EGO_ID, HERO_ID)}
     if reader.titles and {each.kind for each in reader.relations} & {"lead", "ego_leads"}:
-        for actor in told:  # "Car-following, eastbound. The hero leads, the ego follows."
-            told[actor] = told[actor] or [replace(way, actor=actor) for way in reader.titles]
+        for actor, ways in told.items():  # "Car-following, eastbound. The hero leads, the ego follows."
+            ways += [] if ways else [replace(way, actor=actor) for way in reader.titles]
     for actor in told:
         told[actor] += _by_title(actor, told, reader.titles, road_map)
     for actor, at in reader.alike:

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from scenewright.errors import Place, Span, TranslationError
+from scenewright.translate.events import HERO_ID
 from scenewright.translate.tokens import Token
 
 _NOTHING: Mapping[str, str] = {}
@@ -84,6 +85,27 @@ class Clause:
     def inside(self) -> range:
         """The indices of its tokens."""
         return range(self.start, self.end)
+
+
+@dataclass(frozen=True, slots=True)
+class Deed:
+    """One thing that a vehicle does, or a moment of the ego.
+
+    Attributes
+    ----------
+    kind
+        ``brake``, ``stop``, ``wait``, ``accelerate``, ``go``, ``keep`` (its speed), ``pass``, ``complete`` (its turn),
+        ``turn``, ``yield``, ``not_yield``, ``not_stop``, ``let``; of the ego ``before``, ``after``, ``let_reach``.
+    landmark
+        What is passed; ``same`` for "before the ego does".
+    """
+
+    kind: str
+    at: int
+    clause: Clause
+    span: Span
+    landmark: str | None = None
+    actor: int = HERO_ID
 
 
 @dataclass(slots=True)
