@@ -229,16 +229,25 @@ class AmountReader:
     def _before_reaching(self, made: Measured) -> bool:
         """Read "Three seconds before the ego would reach the stop line"."""
         timed = made.quantity is not None and made.quantity.dimension == "time"
-        name = self.words.skip(made.at + 2, _BESIDE | {"heading"})
-        if not timed or self.words.word(made.at + 1) != "before" or name not in self.words.names.actors:
+        link = made.at + 1
+        while self.words.has([link], "left_over") or self.words.word(link) in ("remain", "remains", "more"):
+            link += 1
+        name = self.words.skip(link + 1, _BESIDE | {"heading"})
+        named = name in self.words.names.actors or name in self.words.names.pronouns
+        if not timed or self.words.word(link) not in ("before", "until") or not named:
             return False
         verb = name + 1
         while self.words.has([verb], "auxiliary", "adverb"):
             verb += 1
-        place = self.places.place_at(verb + 1) if self.words.tag(verb, "verb") == "reach" else None
+        if self.words.tag(verb, "verb") != "reach":
+            return False
+        place = self.places.place_at(verb + 1)
+        if place is None and self.words.word(verb).endswith(" there"):
+            place = "last", verb + 1, False
         if place is None:
             return False
-        made.kind, made.landmark, made.actor = "place", place[0], self.words.names.actors[name]
+        own = self.words.names.actors.get(name, owner_of(self.words, made.at, made.clause))
+        made.kind, made.landmark, made.actor = "place", place[0], own
         self.words.used |= set(range(made.at, place[1]))
         return True
 
@@ -280,7 +289,7 @@ class AmountReader:
             return True
         if measure is None and between is None:
             return False
-        place = self._place_in(made)
+        place = self._place_in(made) or self._approached(made, measure)
         if place is None and measure is not None:
             self._check_known_place(made)
         if place is not None:
@@ -295,6 +304,18 @@ class AmountReader:
             self._who_follows(made)
             return True
         return False
+
+    def _approached(self, made: Measured, measure: str | None) -> str | None:
+        """Return what is approached, in "approaches the intersection, with an initial time to arrival of 6 s"."""
+        at = self.words.clauses.index(made.clause)
+        before = self.words.clauses[at - 1] if at else made.clause
+        alone = measure == "time" and before.sentence == made.clause.sentence and made.clause.subject == before.subject
+        mark = self.words.where(before.inside, "landmark")
+        comes = "approach" in self.words.verbs(before.inside) and not self.words.has(before.inside, "quantity")
+        if not (alone and comes and mark is not None and not made.clause.named):
+            return None
+        self.words.used |= {made.at, mark}
+        return self.words.tags(mark)["landmark"]
 
     def _arrives_in(self, made: Measured) -> bool:
         """Read "would arrive at the stop line in 2.5 s"."""

@@ -207,7 +207,8 @@ def _link(words: Words, at: int) -> str | None:
         return None  # "the van, 25 m from it at the time, brakes", "yields in that it brakes"
     if word == "after" and "be" in words.tags(at - 1) and "determiner" in following:
         return None  # "both are after the same driveway"
-    if link == "until" and words.has([at - 1], "measure"):
+    left = "left_over" in words.tags(at - 1) and words.has(range(at - 4, at), "quantity")
+    if link == "until" and (left or words.has([at - 1], "measure", "quantity")):
         return None  # "the time until the ego arrives at the conflict point is 4 s"
     if link in ("before", "after") and words.tag(at - 1, "quantity") == "time" and _is_margin(words, at):
         return link

@@ -43,6 +43,9 @@ class Describing:
             and words.has([at + 1], "unknown")
         ):
             return True  # "a crossing conflict"
+        path = words.where(range(at + 1, at + 4), "area", "lane") is not None
+        if verb == "pass" and path and clause.subject == EGO_ID:
+            return True  # "the ego has to cross the path of a lorry"
         by = verb == "pass" and words.tag(at + 1, "preposition") in ("by", "on")
         by = by or (verb == "pass" and words.has([at + 1, at + 2], "landmark") and self._is_crossed(at))
         by = by or (verb == "pass" and "heading" in words.tags(at + 1))  # "is passing through eastbound"

@@ -62,6 +62,7 @@ class EgoMoments:
         if clause.subject != EGO_ID or (not clause.named and verbs & {"brake", "stop", "accelerate", "wait"}):
             return False
         known = {
+            "do_so",
             "begin",
             "turn",
             "pull_out",

@@ -114,6 +114,8 @@ class MomentReader:
             return "trigger"
         if made.kind == "speed" and (self._is_within(made) or (self._is_asked(clause) and self._is_condition(made))):
             return "trigger"
+        if made.kind == "speed" and clause.link in ("that", "moment") and self._is_then(made):
+            return "trigger"
         ways = self.words.verbs(range(clause.start, made.at)) & {"lane_follow", "go", "drive", "come"}
         if made.kind == "speed" and clause.link == "that" and ways and not made.target:
             return "start"  # "when the ego, which goes straight on at 14 m/s, is 4 s from it"
@@ -228,6 +230,13 @@ class MomentReader:
         told = [each for each in self.words.sentence(clause) if self.words.has(each.inside, "quantity")]
         stands = [d for d in self.deeds if d.clause.sentence == clause.sentence and d.kind in ("stop", "wait")]
         early = any(self.moments.get(each.at) == "trigger" for each in self.measured)
+        index = self.words.clauses.index(clause)
+        before = self.words.clauses[index - 1] if index else clause
+        own = [d for d in self.deeds if d.clause is before and d.actor == HERO_ID and d.kind in ("stop", "wait")]
+        brakes = any(d.clause is before and d.kind == "brake" for d in self.deeds)
+        alone = early and own and not brakes and before.sentence == clause.sentence
+        if alone and not self.words.has(before.inside, "quantity"):
+            return True  # "slows down and is at a complete stop when it is 8 m before it"
         return (
             early and told == [clause] and bool(stands) and stands[0].actor == HERO_ID and stands[0].at < clause.start
         )
@@ -244,6 +253,9 @@ class MomentReader:
             return True
         if words.where(clause.inside, "adverb", "initially") is not None:
             return True
+        index = words.clauses.index(clause)
+        if index and words.word(clause.start - 1) == "with" and self._opens(words.clauses[index - 1], clause):
+            return True  # "The scenario opens with the ego 9 s from the intersection."
         where = next((at for at in range(made.at, clause.end) if words.word(at) == "where"), None)
         if where is not None and words.verbs(range(where, clause.end)) == {"begin"}:
             return True  # "80 m before the intersection is where the ego begins"
@@ -274,6 +286,15 @@ class MomentReader:
         earlier = any(each.clause is before and self.moments.get(each.at) == "start" for each in self.measured)
         return alone or (earlier and verbless and clause.named and clause.link in ("and", "main"))
 
+    def _opens(self, before: Clause, clause: Clause) -> bool:
+        """Whether nothing is said but "The test begins", "The scene opens"."""
+        words = self.words
+        told = [at for at in before.inside if "determiner" not in words.tags(at)]
+        begins = len(told) == 2 and (
+            words.tag(told[1], "verb") == "begin" or words.word(told[1]) in ("opens", "opened")
+        )
+        return before.sentence == clause.sentence and begins and words.has(told[:1], "frame_noun", "frame")
+
     def _is_condition(self, made: Measured) -> bool:
         """Whether a speed is part of a condition: "when the ego is 12 m from it and the hero's speed is 10 m/s"."""
         clause = made.clause
@@ -281,6 +302,15 @@ class MomentReader:
         acted = any(d.actor == HERO_ID and d.clause.sentence == clause.sentence and d.at < made.at for d in self.deeds)
         first = next(each for each in self.words.sentence(clause) if each.link == "when" or each is clause)
         return measured and not acted and not made.target and first.start <= clause.start
+
+    def _is_then(self, made: Measured) -> bool:
+        """Whether a speed is told of whoever then acts: "the truck, whose speed at that moment is 7 m/s, brakes"."""
+        clause = made.clause
+        at = self.words.clauses.index(clause)
+        told = [i for each in self.words.clauses[max(0, at - 1) : at + 1] for i in each.inside]
+        measured = self.words.where(told, "measure", "speed") is not None
+        acted = any(d.actor == HERO_ID and d.clause.sentence == clause.sentence and d.at < made.at for d in self.deeds)
+        return measured and self._is_asked(clause) and not acted and self._after_trigger(clause) and not made.target
 
     def _is_within(self, made: Measured) -> bool:
         """Whether a speed is told within a condition: "when the van, then doing 30 km/h, is 3 s from it"."""
@@ -352,7 +382,9 @@ class MomentReader:
 
     def _deed_beside(self, clause: Clause) -> bool:
         """Whether the hero does something in the same sentence: "with the ego 12 m from the line, the van brakes"."""
-        kinds = ("brake", "stop", "accelerate")
+        kinds = ["brake", "stop", "accelerate"]
+        if self.words.word(self.words.sentence(clause)[0].start - 1) == "with":
+            kinds.append("not_yield")  # "With the ego 3 s from it, the van does not yield."
         own = [deed for deed in self.deeds if deed.actor == HERO_ID and deed.kind in kinds]
         return any(deed.clause.sentence == clause.sentence for deed in own)
 

@@ -42,6 +42,8 @@ def find_names(tokens: list[Token]) -> Names:
     tails = {t.text.lower().split()[-1] for t in tokens if t.tags.keys() & {"noun", "hero"} and " " in t.text}
     unknown = _unknown_vehicle(tokens)
     owners, ours = _owners(tokens), _our_own_words(tokens)
+    spoken = speaker == EGO_ID and any(each.text.lower() in ("we", "us") for each in tokens)
+    brands = _brands(tokens)
     ours |= {"you"} if _drives_it(tokens) else set()
     for at, token in enumerate(tokens):
         word = token.text.lower()
@@ -53,6 +55,8 @@ def find_names(tokens: list[Token]) -> Names:
             names.actors[at] = speaker
         elif "ego" in token.tags or _is_our_own(tokens, at) or ("unknown" in token.tags and word in ours):
             names.actors[at] = EGO_ID
+        elif word in ("they", "them") and spoken:
+            names.actors[at] = HERO_ID  # "we ... they": whoever it is, it is not the ego
         elif word in ("both", "they", "each") or ("pair" in token.tags and not _is_told_later(tokens, at)):
             if not _one_of_them(tokens, at) and not _both_and(tokens, at):
                 names.both.add(at)
@@ -60,7 +64,7 @@ def find_names(tokens: list[Token]) -> Names:
             names.pronouns.add(at)
         elif "noun" in token.tags and not token.slips and not _is_last_one(tokens, at):
             _name_vehicle(tokens, at, names, kinds, marks)
-        elif (word in owners and not _owns(tokens, at)) or _sits_in_one(tokens, at):
+        elif (word in owners and not _owns(tokens, at)) or _sits_in_one(tokens, at) or token.text in brands:
             names.actors[at] = HERO_ID
         elif word in _PERSONS or word == unknown or _is_hero(tokens, at) or ("unknown" in token.tags and word in tails):
             names.actors[at] = HERO_ID
@@ -235,6 +239,17 @@ def _drives_it(tokens: list[Token]) -> bool:
     return False
 
 
+def _brands(tokens: list[Token]) -> set[str]:
+    """Return names of makes that stand for a vehicle: "a Golf ... the Golf's driver"."""
+    seen: dict[str, set[str]] = {}
+    for before, token in pairwise(tokens):
+        name = token.text[:1].isupper() and token.text.isalpha() and "unknown" in token.tags
+        if name and before.tags.get("determiner") in ("indefinite", "definite"):
+            seen.setdefault(token.text, set()).add(before.tags["determiner"])
+    found = [name for name, articles in seen.items() if articles == {"indefinite", "definite"}]
+    return set(found) if len(found) == 1 else set()
+
+
 def _owners(tokens: list[Token]) -> set[str]:
     """Return who drives the hero by what belongs to them: "resident" in "a resident's car"."""
     return {
@@ -250,7 +265,8 @@ def _sits_in_one(tokens: list[Token], at: int) -> bool:
     if "unknown" not in tokens[at].tags or not at or "determiner" not in tokens[at - 1].tags or len(rest) < 4:
         return False
     sits = rest[0].text.lower() == "in" and "determiner" in rest[1].tags
-    return sits and any("noun" in each.tags for each in rest[2:4])
+    makes = any("unknown" in each.tags and each.text[:1].isupper() for each in rest[2:3])
+    return sits and (makes or any("noun" in each.tags for each in rest[2:4]))
 
 
 def _owns(tokens: list[Token], at: int) -> bool:

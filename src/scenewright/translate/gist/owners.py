@@ -25,6 +25,8 @@ def measure_of(words: Words, at: int) -> str | None:
     """Return what a word measures: "distance", "times to arrival", also "that" in "and that from the van to it"."""
     if words.word(at) == "that" and words.tag(at + 1, "preposition") in ("out", "of"):
         return "own"
+    if words.word(at) in ("its own", "his own", "her own") and words.has([at + 1], "be", "preposition"):
+        return "own"  # "when the ego's time to it is 4 s and its own is 3 s"
     if "genitive" in words.tags(at) and words.has([at + 1], "preposition", "relation", "be"):
         return "own"  # "the ego's time to the line is 2 s, and the target's to the conflict point 3 s"
     if _is_elliptic(words, at):
@@ -87,6 +89,9 @@ def _by_measure(words: Words, at: int, clause: Clause) -> int | None:
             return None
         if measure_of(words, back) is None:
             continue
+        if words.word(back).endswith(" own"):
+            other = words.named(range(back - 1, max(-1, clause.start - 12), -1))
+            return None if other is None else 1 - other
         after = words.named(range(back + 1, at))
         return after if after is not None else words.named(range(back - 1, max(-1, back - 3), -1))
     return None

@@ -49,6 +49,9 @@ class PlaceFinder:
             name = self.words.skip(ahead + 1, _BESIDE | {"heading"})
             if name in names and self.relation_at(name + 1) is not None:
                 return name + 1, names[name]
+        name = self.words.skip(at + 1, _BESIDE | {"heading"})
+        if self.words.word(at) == "from" and name in names and self.words.tag(name + 1, "link") == "to":
+            return name + 1, names[name]  # "when it is 12 m from the ego to the conflict point"
         return at, None
 
     def relation_at(self, at: int) -> tuple[Relation, int] | None:

@@ -110,7 +110,8 @@ class Roles:
         if tags.get("relation") == "past" or verb == "pass":
             return "past"
         if preposition == "of" and self.words.has([back - 1], "mouth", "landmark"):
-            if self.words.has(range(back - 5, back), "quantity"):
+            mouth = "landmark" not in self.words.tags(back - 1)
+            if mouth and self.words.has(range(back - 5, back), "quantity"):
                 return None  # "55 m from the mouth of the driveway"
             return "on"  # "at the end of the driveway"
         keeps = preposition == "to" and before & {"drive", "keep"} and self.words.tag(at, "area") == "driveway"

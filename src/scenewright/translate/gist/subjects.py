@@ -224,7 +224,7 @@ def _agrees_with_two(words: Words, clause: Clause) -> bool:
     actors = words.names.actors
     for at in clause.inside[1:]:
         plural = "verb" in words.tags(at) and words.tokens[at].forms == {"base"} and at - 1 in actors
-        plural = plural and words.word(at - 1) not in (*FIRST_PERSON, "you")
+        plural = plural and words.word(at - 1) not in (*FIRST_PERSON, "you", "they")
         if plural and not words.verbs(clause.inside) & {"let", "make"} and not words.has(clause.inside, "frame"):
             earlier = [each for each in words.sentence(clause) if each.start < clause.start]
             return any(actors.get(i, actors[at - 1]) != actors[at - 1] for each in earlier for i in each.inside)

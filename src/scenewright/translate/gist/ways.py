@@ -94,6 +94,8 @@ class WayReader:
             self._in_line(at, clause)
         elif verb in ("follow", "lead") and "actor_adjective" not in tags and clause.subject is not None:
             self._follows(at, clause, verb)
+        elif "direction_noun" in tags and (named := self._goes_there_too(at)) is not None:
+            self._same_heading(at, named)
         elif "same" in tags or self.words.word(at) == "likewise":
             self._same(at, clause)
 
@@ -102,10 +104,18 @@ class WayReader:
         value, back = self.words.tags(at)["heading"], at - 1
         while "determiner" in self.words.tags(back):
             back -= 1
-        lane = self.words.has([at + 1], "area", "noun", "hero")
+        lane = self.words.has([at + 1], "area", "noun", "hero", "side_noun")
         if self.words.word(back).split()[-1:] == ["from"] and not lane:
             value = OPPOSITE[value]  # who comes from the east drives west
-        from_lane = self.words.word(back) == "from" and self.words.tag(at + 1, "area") == "lane"
+        from_lane = self.words.word(back) == "from" and self.words.has([at + 1], "area", "side_noun")
+        named = self.words.skip(at + 1, frozenset(("actor_adjective",)))
+        if clause.both and len(clause.inside) == 1 and clause.start - 2 in self.words.names.actors:
+            actor = self.words.names.actors[clause.start - 2]  # "a van and the AV, eastbound, have one goal"
+            self.ways.append(Way("heading", value, at, self.words.tokens[at].span, actor))
+            return
+        if clause.both and named in self.words.names.actors:  # "a westbound pickup and the AV have one goal"
+            self.ways.append(Way("heading", value, at, self.words.tokens[at].span, self.words.names.actors[named]))
+            return
         key: Key = "origin_heading" if from_lane else "heading"  # "a right turn from the westbound lane"
         self._say(key, value, at, self._whose(at, clause), clause)
 
@@ -149,6 +159,22 @@ class WayReader:
         let = self.words.where(range(clause.start, at), "verb", "let")
         named = self.words.named(range(let + 1, min(let + 4, at))) if let is not None else None
         return named if named is not None else clause.subject
+
+    def _goes_there_too(self, at: int) -> int | None:
+        """Return who is named in "the direction in which the ego is driving", "the direction of the ego"."""
+        if self.words.word(at + 1) not in ("in which", "of", "that", "which"):
+            return None
+        name = self.words.skip(at + 2, _BESIDE)
+        return self.words.names.actors.get(name) if self.words.has([at - 1], "determiner", "same") else None
+
+    def _same_heading(self, at: int, actor: int) -> None:
+        """Let a vehicle go where the other one was said to go."""
+        back = self.words.where(range(at - 1, -1, -1), "heading")
+        first = next((i + 1 for i in range(at - 1, -1, -1) if "end" in self.words.tags(i)), 0)
+        first = next((i + 1 for i in range(first - 2, -1, -1) if "end" in self.words.tags(i)), 0)
+        if back is not None and back >= first:
+            value, span = self.words.tags(back)["heading"], self.words.tokens[at].span
+            self.ways.append(Way("heading", value, at, span, actor))
 
     def _same(self, at: int, clause: Clause) -> None:
         """Read "makes the same turn", "heading the same way", "with the same intention"."""
