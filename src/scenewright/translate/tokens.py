@@ -237,6 +237,10 @@ def _words(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
         and "ego" in tagger.lexicon.entries.get(tuple(words[length - 1 : length + 1]), {})
     ):
         length, tags, forms = tagger.lexicon.lookup(words[: length - 1], 0)  # "in the test car" is "in", "the test car"
+    if length > 1 and "link" in tags and _is_place_after(tagger, words, length, tokens):
+        length, tags, forms = tagger.lexicon.lookup(
+            words[: length - 1], 0
+        )  # "3 m after the stop line", "after that point"
     if length < 2 and (after := _number_in_words(tagger, index, words, ends, tokens)):
         return after
     if not length:
@@ -250,6 +254,18 @@ def _words(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
     text = " ".join(raw.text for raw in used if raw.kind != "joiner")
     tokens.append(Token(text, span, tags, forms, slips=slips))
     return ends[length - 1]
+
+
+def _is_place_after(tagger: _Tagger, words: list[str], length: int, tokens: list[Token]) -> bool:
+    """Whether a linking phrase ends within a place: "after the stop" in "after the stop line"."""
+    if "landmark" in tagger.lexicon.entries.get(tuple(words[length - 1 : length + 1]), {}):
+        return True
+    measured = bool(tokens) and tokens[-1].quantity is not None
+    return (
+        measured
+        and words[length - 1] in ("that", "this", "the")
+        and words[length : length + 1] in (["point"], ["line"])
+    )
 
 
 def _number_in_words(tagger: _Tagger, index: int, words: list[str], ends: list[int], tokens: list[Token]) -> int | None:

@@ -29,6 +29,16 @@ _UNREAL = re.compile(
     re.IGNORECASE,
 )
 _ALL_BUT = re.compile(r"\b(?:any|every|no)thing (?:but|except|other than)\b|\ball but\b", re.IGNORECASE)
+_DEPENDS = re.compile(
+    r"\b(?:provided|providing|assuming|on (?:the )?condition)(?: that)?\b(?![^,.;]*\d)|\b(?:as|so) long as\b|\bin case\b"
+    r"|\b(?:only|even) if\b|\bexcept (?:when|if|that)\b",
+    re.IGNORECASE,
+)
+_CHANCE = re.compile(
+    r"\b(?:half|most|some|many|few|a third|one|two|\d+ ?%|per ?cent)(?: out)? of (?:the |all )?"
+    r"(?:runs|cases|times?|trials|tests|drivers)\b|\b(?:sometimes|occasionally|now and then|every other)\b",
+    re.IGNORECASE,
+)
 _DEEDS = frozenset(
     ["brake", "stop", "accelerate", "pass", "complete", "yield", "not_yield", "turn", "pull_out", "wait", "reach",
      "enter"]
@@ -41,6 +51,8 @@ def refuse_dangers(words: Words) -> None:
         (_EDGE_OF_TURN, "a place within a turn is not read here"),
         (_UNREAL, "what did not happen is not read here"),
         (_ALL_BUT, "what does not happen is no scenario"),
+        (_DEPENDS, "a condition like this cannot be orchestrated"),
+        (_CHANCE, "what happens at times cannot be orchestrated"),
     ):
         if found := pattern.search(words.text):
             raise words.refuse(message, Span(*found.span()))
@@ -92,7 +104,9 @@ def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> 
         elif following is not None and following.link in BOUNDS:
             lost = not _repeats(words, following, deeds, trigger_sentence)
         elif following is not None and following.link == "when" and following.sentence >= trigger_sentence:
-            denied = all("negation" in words.tags(i) for i in following.inside)  # "If not, please build it."
+            denied = words.word(at) == "if" and all(
+                "negation" in words.tags(i) for i in following.inside
+            )  # "If not, please build it."
             lost = not _tells_moment(words, following) and not denied
         elif clause is not None and ("unknown" in token.tags or token.tags.get("verb") == "attitude"):
             lost = _is_strange_condition(words, at, clause)
@@ -195,12 +209,14 @@ def _denies_nothing(words: Words, at: int, clause: Clause | None) -> bool:
     """Whether a denial tells nothing of a drive: "it won't have the place to itself", "without regard for anybody"."""
     if clause is None or "negation" not in words.tags(at):
         return False
-    if clause.link == "when" and len(clause.inside) == 1:
+    if clause.link == "when" and len(clause.inside) == 1 and words.word(clause.start - 1) == "if":
         return True  # "If not, please build it."
     rest = range(at + 1, clause.end)
     plain = ("unknown", "determiner", "pronoun", "possessive", "preposition", "auxiliary", "link", "adverb")
     known = any(
-        (not words.tags(i).keys() & set(plain) and words.word(i) not in ("place", "end")) or i in words.names.actors
+        "relation" in words.tags(i)
+        or (not words.tags(i).keys() & set(plain) and words.word(i) not in ("place", "end"))
+        or i in words.names.actors
         for i in rest
     )
     done = any(words.word(i).endswith("ing") for i in rest) or words.has(rest, "verb", "heading", "direction")

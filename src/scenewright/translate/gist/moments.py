@@ -92,6 +92,8 @@ class MomentReader:
         for made in self.measured:
             at = self.words.where(range(made.at - 2, made.at), "bound")
             limit = at is not None and self.words.word(at) in _LIMITS and self.moments[made.at] == "trigger"
+            if self.words.has(range(made.at + 1, made.at + 2), "bound") and "or" in self.words.word(made.at + 1):
+                raise self.words.refuse("this is a bound, not a value", made.span)  # "12 m or more"
             bound = _BOUNDS.get(self.words.word(at)) if at is not None else None
             if bound is not None and made.kind in ("duration", "margin"):
                 made.bound = bound

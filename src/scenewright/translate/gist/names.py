@@ -63,6 +63,8 @@ def find_names(tokens: list[Token]) -> Names:
         elif word in PERSONAL or token.tags.keys() & {"latter", "pronoun", "possessive"}:
             names.pronouns.add(at)
         elif "noun" in token.tags and not token.slips and not _is_last_one(tokens, at):
+            if _is_one_more(tokens, at) and HERO_ID in names.actors.values():
+                names.kinds |= {"hero", "another"}
             _name_vehicle(tokens, at, names, kinds, marks)
         elif (word in owners and not _owns(tokens, at)) or _sits_in_one(tokens, at) or token.text in brands:
             names.actors[at] = HERO_ID
@@ -111,6 +113,12 @@ def _is_own_wish(tokens: list[Token], at: int) -> bool:
         return False
     ways = bool(tokens[verb + 1].tags.keys() & {"direction", "preposition", "heading", "relation"})
     return tokens[verb].tags["verb"] in _GOES or (tokens[verb].tags["verb"] == "come" and ways)
+
+
+def _is_one_more(tokens: list[Token], at: int) -> bool:
+    """Whether this is "a second van": after the hero that is a third vehicle."""
+    before = [each.text.lower() for each in tokens[max(0, at - 3) : at]]
+    return any(first in ("a", "one") and more in ("second", "third", "further") for first, more in pairwise(before))
 
 
 def _either(tokens: list[Token], names: Names) -> int | None:

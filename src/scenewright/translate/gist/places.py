@@ -64,7 +64,9 @@ class PlaceFinder:
             preposition = tags.get("preposition")
             if word == "behind" and self.words.tag(at + 1, "preposition") == "of":
                 return None
-            if "relation" in tags:
+            if word == "after" and seen is None and self.words.tag(at - 1, "quantity") == "length":
+                seen = "past"  # "stops 3 m after the stop line"
+            elif "relation" in tags:
                 seen = "past" if tags["relation"] == "past" else seen or "before"
             elif self._leads_to(at) or (preposition == "out" and seen is None):
                 seen = seen or "from"
