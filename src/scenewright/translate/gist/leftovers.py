@@ -163,6 +163,9 @@ def _refuse_strange_part(words: Words, clause: Clause) -> None:
 
 def refuse_third_parties(words: Words, deeds: list[Deed], trigger_sentence: int) -> None:
     """Refuse "... while a llama sings": somebody who is not known does something while it all happens."""
+    for clause in (each for each in words.clauses if each.sentence >= trigger_sentence):
+        _refuse_strange_subject(words, clause)
+        _refuse_strange_cause(words, clause)
     acting = {deed.clause.sentence for deed in deeds if deed.clause.sentence >= trigger_sentence}
     for clause in (each for each in words.clauses if each.sentence in acting):
         for at in clause.inside:
@@ -179,6 +182,52 @@ def refuse_third_parties(words: Words, deeds: list[Deed], trigger_sentence: int)
         only_is = len(clause.inside) == 3 and "be" in words.tags(clause.end - 1)  # "The decision is then revised"
         if begins and not known and not only_is and (clause.aside or len(unknown) > 1):
             raise words.refuse("it is not known who this is and what it changes", words.span(clause))
+
+
+def _refuse_strange_subject(words: Words, clause: Clause) -> None:
+    """Refuse "the green arrow having gone out", "its trailer coming loose", "when the ego's planner has decided"."""
+    others = [each for each in words.sentence(clause) if each is not clause]
+    following = next((each for each in others if each.start > clause.start), None)
+    told = following is not None and following.link in ("when", "colon")  # "Its policy is cooperative: ..."
+    if not others or told or "start" in clause.labels:
+        return
+    at = clause.start
+    while at < clause.end and words.has([at], "link", "adverb", "comma"):
+        at += 1
+    article = words.tags(at).keys() & {"determiner", "possessive"}
+    if at in words.names.actors and "genitive" in words.tags(at + 1):
+        at, article = at + 1, {"genitive"}
+    if not article or at in words.names.actors:
+        return
+    at += 1
+    while (
+        at < clause.end
+        and words.has([at], "actor_adjective", "area_adjective", "unknown")
+        and "unknown" not in words.tags(at)
+    ):
+        at += 1
+    first = at
+    while at < clause.end and "unknown" in words.tags(at) and at not in words.names.actors:
+        at += 1
+    if at == first or at >= clause.end or at in words.names.actors:
+        return
+    acts = words.has([at], "be", "auxiliary") or ("verb" in words.tags(at) and "base" not in words.tokens[at].forms)
+    if acts or words.word(at) == "having" or "ing" in words.tokens[at].forms:
+        raise words.refuse("it is not known who this is and what it changes", words.span(clause))
+
+
+def _refuse_strange_cause(words: Words, clause: Clause) -> None:
+    """Refuse "at the first sound of its horn it starts off", "the hero waits for the bus to go by"."""
+    at = clause.start
+    cause = words.word(at) in ("at", "on", "upon") and "determiner" in words.tags(at + 1)
+    strange = any("unknown" in words.tags(i) and i not in words.names.actors for i in range(at + 2, at + 4))
+    told = words.has(range(at, min(at + 6, clause.end)), "quantity", "measure", "landmark", "area")
+    if cause and strange and not told:
+        raise words.refuse("it is not known when this is", words.span(clause))
+    for wait in clause.inside:
+        if words.tag(wait, "verb") == "wait" and words.word(wait + 1) == "for" and clause.subject == HERO_ID:
+            if words.named(range(wait + 2, min(wait + 5, clause.end))) == HERO_ID:
+                raise words.refuse("it is not known for whom this one waits", words.span(clause))
 
 
 def _denies_something(words: Words, at: int) -> bool:
