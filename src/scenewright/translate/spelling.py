@@ -11,6 +11,12 @@ import difflib
 from collections.abc import Iterable
 from functools import lru_cache
 
+# Words of their own, one letter from words that are known.
+_NO_SLIPS = frozenset(
+    ["planner", "planners", "loader", "worries", "singing", "tired", "compete", "competes", "competing", "thinks",
+     "contest", "product", "products", "rising", "saying", "drafts", "fro", "possible", "comfortable", "sings",
+     "arises", "arise", "policy", "learner", "reader", "later", "sight", "light", "night", "tern"]
+)  # fmt: skip
 VOWELS = frozenset("aeiouy")
 _LONG = 7
 _VERY_LONG = 10
@@ -25,7 +31,7 @@ def correction(word: str, vocabulary: frozenset[str]) -> str | None:
     >>> correction("intersecton", frozenset({"intersection", "into"}))
     'intersection'
     """
-    if len(word) < 3 or not word.isalpha():
+    if len(word) < 3 or not word.isalpha() or word in _NO_SLIPS:
         return None
     near = {each for each in vocabulary if abs(len(each) - len(word)) <= 2 and _is_slip(word, each)}
     if len(near) > 1:  # forms of one word are told apart by the better fit; different words are not

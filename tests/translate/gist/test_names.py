@@ -25,7 +25,7 @@ def named(text: str) -> list[tuple[str, int]]:
         ("The one behind is the ego.", [("one behind", EGO_ID), ("ego", EGO_ID)]),
         ("The ego is an old van.", [("ego", EGO_ID), ("van", EGO_ID)]),
         ("I am in the target car, the ego is not.", [("i", HERO_ID), ("target car", HERO_ID), ("ego", EGO_ID)]),
-        ("We turn; they meet us.", [("we", EGO_ID), ("us", EGO_ID)]),
+        ("We turn; they meet us.", [("we", EGO_ID), ("they", HERO_ID), ("us", EGO_ID)]),
     ],
 )
 def test_every_name_stands_for_one_of_two(text: str, expected: list[tuple[str, int]]) -> None:

@@ -415,6 +415,9 @@ class AmountReader:
         before = [self.words.word(i) for i in range(at - 3, at)]
         to = any(each in ("to", "down to", "until", "is") for each in before)
         changes = bool(self.words.verbs(range(clause.start, at)) & {"brake", "accelerate"})
+        verbs = [self.words.tag(i, "verb") for i in range(clause.start, at) if self.words.tag(i, "verb")]
+        if changes and not to and "at" in before and verbs[-1] == "pass":
+            return True  # "accelerates so that it passes the conflict point at 9 m/s"
         if changes and not to and "at" in before:
             raise self.words.refuse("it is not clear what this speed means", self.words.tokens[at].span, "to 5 m/s")
         fallen = self.words.has([at - 1], "falls") and clause.link != "when"  # "so that it is down to 3 m/s"

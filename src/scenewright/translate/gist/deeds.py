@@ -161,8 +161,11 @@ class DeedReader:
             )
             if mark is not None or back is not None:
                 self._add("pass", at, clause)
-        if tags.get("event_noun") == "turn" and self.describing.is_done(at):
-            self._add("complete", at, clause)
+        makes = self.words.tag(at - 2, "verb") == "make" and "possessive" in self.words.tags(at - 1)
+        stopped = any(deed.kind in ("stop", "wait") and deed.actor == HERO_ID for deed in self.deeds)
+        whole = makes and stopped and clause.link in ("then", "and") and clause.subject == HERO_ID
+        if tags.get("event_noun") == "turn" and (whole or self.describing.is_done(at)):
+            self._add("complete", at, clause)  # "then it makes its turn"
         if "landmark" in tags and self.words.tag(at - 1, "verb") == "approach":
             self.words.used.add(at)
 

@@ -30,7 +30,8 @@ _UNREAL = re.compile(
 )
 _ALL_BUT = re.compile(r"\b(?:any|every|no)thing (?:but|except|other than)\b|\ball but\b", re.IGNORECASE)
 _DEPENDS = re.compile(
-    r"\b(?:provided|providing|assuming|on (?:the )?condition)(?: that)?\b(?![^,.;]*\d)|\b(?:as|so) long as\b|\bin case\b"
+    r"\b(?:provided|providing|assuming|on (?:the )?condition)(?: that)?\b(?![^,.;]*\d)"
+    r"|\b(?:as|so) long as\b|\bin case\b"
     r"|\b(?:only|even) if\b|\bexcept (?:when|if|that)\b",
     re.IGNORECASE,
 )
@@ -57,7 +58,8 @@ def refuse_dangers(words: Words) -> None:
         if found := pattern.search(words.text):
             raise words.refuse(message, Span(*found.span()))
     for at, token in enumerate(words.tokens):
-        if token.text.lower() in _DANGERS and words.tag(at + 1, "verb") != "want":
+        said = token.text.lower() == "said" and words.has([at + 1], "area", "noun", "landmark")  # "along said road"
+        if token.text.lower() in _DANGERS and words.tag(at + 1, "verb") != "want" and not said:
             raise words.refuse(f"'{token.text}' was not understood", token.span)
         if "unsupported" in token.tags and not _is_harmless(words, at):
             raise words.refuse(f"'{token.text}' cannot be orchestrated", token.span)
@@ -195,8 +197,9 @@ def _refuse_strange_subject(words: Words, clause: Clause) -> None:
     while at < clause.end and words.has([at], "link", "adverb", "comma"):
         at += 1
     article = words.tags(at).keys() & {"determiner", "possessive"}
-    if at in words.names.actors and "genitive" in words.tags(at + 1):
-        at, article = at + 1, {"genitive"}
+    name = at + bool(article)
+    if name in words.names.actors and "genitive" in words.tags(name + 1):
+        at, article = name + 1, {"genitive"}
     if not article or at in words.names.actors:
         return
     at += 1
@@ -225,9 +228,9 @@ def _refuse_strange_cause(words: Words, clause: Clause) -> None:
     if cause and strange and not told:
         raise words.refuse("it is not known when this is", words.span(clause))
     for wait in clause.inside:
-        if words.tag(wait, "verb") == "wait" and words.word(wait + 1) == "for" and clause.subject == HERO_ID:
-            if words.named(range(wait + 2, min(wait + 5, clause.end))) == HERO_ID:
-                raise words.refuse("it is not known for whom this one waits", words.span(clause))
+        waits = words.tag(wait, "verb") == "wait" and words.word(wait + 1) == "for" and clause.subject == HERO_ID
+        if waits and words.named(range(wait + 2, min(wait + 5, clause.end))) == HERO_ID:
+            raise words.refuse("it is not known for whom this one waits", words.span(clause))
 
 
 def _denies_something(words: Words, at: int) -> bool:
@@ -243,6 +246,7 @@ def refuse_strange_deeds(words: Words, trigger_sentence: int) -> None:
         clause = next((each for each in words.clauses if at in each.inside), None)
         acts = at - 1 in words.names.actors or words.has([at - 1], "pronoun")
         compound = words.has([at + 1], "noun", "hero", "ego") or words.word(at).endswith(("er", "or"))
+        compound = compound or words.tag(at - 2, "verb") == "leave"  # "should leave the ego undisturbed"
         if clause is not None and clause.sentence >= trigger_sentence and acts and not compound:
             raise words.refuse(f"'{token.text}' was not understood: it may be what a vehicle does", token.span)
 
@@ -260,6 +264,8 @@ def _denies_nothing(words: Words, at: int, clause: Clause | None) -> bool:
         return False
     if clause.link == "when" and len(clause.inside) == 1 and words.word(clause.start - 1) == "if":
         return True  # "If not, please build it."
+    if words.word(at + 1) in ("care", "mind", "bother"):
+        return True  # "it does not care about us"
     rest = range(at + 1, clause.end)
     plain = ("unknown", "determiner", "pronoun", "possessive", "preposition", "auxiliary", "link", "adverb")
     known = any(
@@ -314,6 +320,8 @@ def _is_strange_condition(words: Words, at: int, clause: Clause) -> bool:
     word = words.word(at)
     if at in words.names.pronouns or (clause is asked and len(clause.inside) == 1):
         return False
+    if "start" in asked.labels:
+        return False  # "when we press start"
     alone = not words.has([at + 1], "noun", "hero", "ego", "landmark", "area", "unknown")
     return not acted and not main and alone and len(word) > 3 and word.endswith("s")
 

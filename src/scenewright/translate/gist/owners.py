@@ -89,7 +89,7 @@ def _by_measure(words: Words, at: int, clause: Clause) -> int | None:
             return None
         if measure_of(words, back) is None:
             continue
-        if words.word(back).endswith(" own"):
+        if words.word(back).endswith(" own") or words.word(back - 1).endswith(" own"):
             other = words.named(range(back - 1, max(-1, clause.start - 12), -1))
             return None if other is None else 1 - other
         after = words.named(range(back + 1, at))

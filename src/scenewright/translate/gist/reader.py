@@ -32,7 +32,7 @@ from scenewright.translate.gist.shares import share
 from scenewright.translate.gist.story import StoryTeller
 from scenewright.translate.gist.subjects import give_subjects
 from scenewright.translate.gist.ways import Way, WayReader
-from scenewright.translate.gist.wishes import one_each, wishes
+from scenewright.translate.gist.wishes import fits, one_each, wishes
 from scenewright.translate.gist.words import Words
 from scenewright.translate.itineraries import Itineraries
 from scenewright.translate.tokens import Token
@@ -52,6 +52,8 @@ class Gist:
         What was read, without a title.
     told
         Headings, turns and areas that are told of no vehicle, in titles, with where: one vehicle must fit each.
+    titles
+        Ways told of no vehicle in a sentence: one vehicle must go all of them.
     meets
         Where it is said that the two ways meet.
     assumptions
@@ -62,6 +64,7 @@ class Gist:
     events: list[Event]
     tokens: list[Token]
     told: list[tuple[str, Span]]
+    titles: list[list[Way]]
     meets: list[Span]
     assumptions: tuple[str, ...]
 
@@ -96,6 +99,9 @@ def check_told(gist: Gist, routes: Itineraries, text: str, name: str) -> None:
     for value, span in gist.told:
         if not any(value in way for way in ways):
             raise words.refuse("neither vehicle does this", span)
+    for title in gist.titles:
+        if not any(all(fits(route, way) for way in title) for route in (routes.ego, routes.hero)):
+            raise words.refuse("neither vehicle does this", title[0].span)
     if gist.meets and find_conflict(routes.ego, routes.hero) is None:
         raise words.refuse("it is said that the ways of the two vehicles meet, but they do not", gist.meets[0])
     if find_conflict(routes.ego, routes.hero) is None and (near := _near_conflict(gist.facts)) is not None:
@@ -144,10 +150,13 @@ def _read(words: Words, title: tuple[Token, ...], road_map: RoadMap) -> Gist:
     refuse_third_parties(words, acts.deeds, teller.trigger_sentence)
     refuse_left_over(words, acts.deeds, teller.trigger_sentence)
     events = [*(said.event for each in facts.wishes.values() for said in each.values()), *teller.events]
-    told = [(way.value, way.span) for way in ways.titles]
+    titles: dict[int, list[Way]] = {}
+    for way in ways.titles:
+        titles.setdefault(next(each.sentence for each in words.clauses if way.at in each.inside), []).append(way)
+    told: list[tuple[str, Span]] = []
     told += [(token.tags[key], token.span) for token in title for key in _told_by(token)]
     events = sorted({id(event): event for event in events}.values(), key=lambda event: event.span.start)
-    return Gist(facts, events, words.tokens, told, meets, _assumptions(words, title))
+    return Gist(facts, events, words.tokens, told, list(titles.values()), meets, _assumptions(words, title))
 
 
 def _set_remarks_aside(words: Words) -> list[Span]:

@@ -108,6 +108,14 @@ class WayReader:
         if self.words.word(back).split()[-1:] == ["from"] and not lane:
             value = OPPOSITE[value]  # who comes from the east drives west
         from_lane = self.words.word(back) == "from" and self.words.has([at + 1], "area", "side_noun")
+        comes = "ing" in self.words.tokens[at - 1].forms and at - 2 in self.words.names.actors
+        if at > 1 and comes and self.words.has([at - 1], "verb"):  # "across a target coming westbound"
+            owner = self.words.names.actors[at - 2]
+            self.ways.append(Way("heading", value, at, self.words.tokens[at].span, owner))
+            return
+        over = self.words.tag(back, "verb") == "pass" or self.words.word(back).split()[-1:] in (["across"], ["over"])
+        if over and self.words.tag(at + 1, "area") == "lane":
+            return  # "has to cross the westbound lane"
         named = self.words.skip(at + 1, frozenset(("actor_adjective",)))
         if clause.both and len(clause.inside) == 1 and clause.start - 2 in self.words.names.actors:
             actor = self.words.names.actors[clause.start - 2]  # "a van and the AV, eastbound, have one goal"
@@ -224,6 +232,10 @@ class WayReader:
         elif self._let(at, clause) != clause.subject and role is not None and kind == "driveway":
             key: Key = "destination_kind" if role == "into" else "origin_kind"
             self.ways.append(Way(key, "driveway", at, self.words.tokens[at].span, self._let(at, clause)))
+        elif role in ("into", "from") and kind == "driveway" and clause.subject is None and not clause.both:
+            if self.roles.is_title(clause):  # "It has to wait with its left turn into the driveway."
+                place: Key = "destination_kind" if role == "into" else "origin_kind"
+                self.titles.append(Way(place, "driveway", at, self.words.tokens[at].span, None))
         elif role is not None and (clause.subject is not None or clause.both):
             if kind == "driveway":
                 self._say(
@@ -280,6 +292,13 @@ class WayReader:
             turned and "preposition" not in self.words.tags(at - 1)
         )  # "out to the left in front of us"
         strange = strange or self.words.has([at - 1], "event_noun", "landmark")  # "with no turn ahead of it"
+        index = self.words.clauses.index(clause)
+        before = self.words.clauses[index - 1] if index else clause
+        if at == clause.start and before.sentence == clause.sentence and before is not clause:
+            turns = self.words.where(before.inside, "direction", "left", "right") is not None
+            crosses = crosses or (
+                turns and self.words.named(clause.inside) is not None
+            )  # "turn right, ahead of the van"
         if "quantity" in self.words.tags(at - 1) or crosses or strange or to_line or enters:
             return  # "sneaks in ahead of us" tells no order in a lane
         ahead = self.words.skip(at + 1, _BESIDE)

@@ -27,7 +27,9 @@ def wishes(words: Words, reader: WayReader, road_map: RoadMap) -> dict[int, dict
     told = {actor: [way for way in reader.ways if way.actor == actor] for actor in (EGO_ID, HERO_ID)}
     if reader.titles and {each.kind for each in reader.relations} & {"lead", "ego_leads"}:
         for actor, ways in told.items():  # "Car-following, eastbound. The hero leads, the ego follows."
-            ways += [] if ways else [replace(way, actor=actor) for way in reader.titles]
+            both = [*ways, *(replace(way, actor=actor) for way in reader.titles)]
+            possible = any(all(fits(route, way) for way in both) for route in all_routes(road_map))
+            ways[:] = both if possible else ways
     for actor in told:
         told[actor] += _by_title(actor, told, reader.titles, road_map)
     for actor, at in reader.alike:
@@ -36,7 +38,7 @@ def wishes(words: Words, reader: WayReader, road_map: RoadMap) -> dict[int, dict
             told[actor] += [Way(way.key, way.value, at, span, actor) for way in told[1 - actor]]
     found: dict[int, dict[WishKey, Said]] = {}
     for actor, ways in told.items():
-        options = [route for route in all_routes(road_map) if all(_fits(route, way) for way in ways)]
+        options = [route for route in all_routes(road_map) if all(fits(route, way) for way in ways)]
         if not options:
             raise words.refuse(f"no route fits what is said about the {ACTOR_NAMES[actor]}", ways[-1].span)
         found[actor] = {
@@ -49,7 +51,7 @@ def _by_title(actor: int, told: dict[int, list[Way]], titles: list[Way], road_ma
     """Return the ways of a title for the vehicle of which none are told, if the other cannot go them."""
     if told[actor] or not titles or not told[1 - actor]:
         return []
-    other = [route for route in all_routes(road_map) if all(_fits(route, way) for way in [*told[1 - actor], *titles])]
+    other = [route for route in all_routes(road_map) if all(fits(route, way) for way in [*told[1 - actor], *titles])]
     return [] if other else [replace(way, actor=actor) for way in titles]
 
 
@@ -61,7 +63,8 @@ def one_each(words: Words, relations: Sequence[LaneRelation]) -> list[LaneRelati
     return kept
 
 
-def _fits(route: Route, way: Way) -> bool:
+def fits(route: Route, way: Way) -> bool:
+    """Whether a route is as a way says."""
     if way.key == "heading":
         return way.value in route.headings
     if way.key == "origin_heading":
