@@ -140,7 +140,8 @@ class ConditionAssembler:
             self.assumptions.append(sentence)
 
     def _gap(self, place: Place, actor: int, other: int, knot: str) -> Formula:
-        assert place.amount is not None
+        if place.amount is None:
+            raise self._refuse("it is not said how far the two vehicles are apart", place.span, "12 m behind the hero")
         if actor == other:
             raise self._refuse("a vehicle has no distance to itself", place.span)
         if place.relation in ("behind", "ahead"):

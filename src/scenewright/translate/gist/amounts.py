@@ -260,6 +260,11 @@ class AmountReader:
         while self.words.has([at], "relation", "adverb", "left_over") or self.words.tag(at, "preposition") == "of":
             relation = self.words.tag(at, "relation") or relation
             at += 1
+        if relation is None and self.words.tag(at - 1, "preposition") == "of" and self._each_other(at):
+            relation = "from"  # "within 25 m of each other"
+        if relation == "from" and self._each_other(at):
+            made.kind = "gap"
+            return True
         if relation not in ("behind", "ahead", "from"):
             return False
         at = self.words.skip(at, _BESIDE)
@@ -277,6 +282,12 @@ class AmountReader:
         made.kind = "gap"
         made.actor = None if relation == "from" else (1 - other if relation == "behind" else other)
         return True
+
+    def _each_other(self, at: int) -> bool:
+        """Whether "each other" stands here."""
+        return self.words.word(at) in ("each other", "one another") or (
+            self.words.word(at) == "each" and self.words.word(at + 1) == "other"
+        )
 
     def _around(self, made: Measured, measure: str | None) -> bool:
         """Read "the gap has fallen to 12 m", "9 m separate the two", "the distance between it and the line is 30 m"."""
@@ -351,7 +362,8 @@ class AmountReader:
         mark = self.words.where(before, "landmark")
         said = next((i for i in before if self.words.word(i) in ("the intersection is", "the junction is")), None)
         away = self.words.tag(made.at + 1, "relation") in ("from", "ahead")
-        stands = self.words.has(before, "be") or "sit" in self.words.verbs(before) or said is not None
+        elliptic = made.clause.link == "and" and self.words.tag(made.at + 1, "relation") == "ahead"
+        stands = elliptic or self.words.has(before, "be") or "sit" in self.words.verbs(before) or said is not None
         measured = any(measure_of(self.words, at) is not None for at in before)
         if (mark is None and said is None) or not away or not stands or measured or self.words.has(before, "quantity"):
             return False

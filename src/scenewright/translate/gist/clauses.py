@@ -302,6 +302,8 @@ def _parted(words: Words, clause: Clause) -> list[Clause]:
             return [replace(clause, end=at), *_parted(words, replace(clause, start=at, link="main"))]
         if at in words.names.actors and "ing" in words.tokens[at + 1].forms and (seen := _seen_from(words, at, clause)):
             return [replace(clause, end=seen), *_parted(words, replace(clause, start=seen, link="main"))]
+        if words.word(at) in ("so that", "so") and at > clause.start and _may(words, at + 1):
+            return [replace(clause, end=at), replace(clause, start=at + 1, link="main")]
         if clause.link in BOUNDS and at > clause.start + 1 and _inverted(words, at):
             return [replace(clause, end=at), *_parted(words, replace(clause, start=at, link="then"))]
         if told and words.has([at], "be") and (cue := _cue_of(words, at)):
@@ -316,6 +318,13 @@ def _parted(words: Words, clause: Clause) -> list[Clause]:
             rest = replace(clause, start=first, link="main")
             return [replace(clause, end=first), *_parted(words, rest)]
     return [clause]
+
+
+def _may(words: Words, at: int) -> bool:
+    """Whether this is "the ego can go first", after "so that"."""
+    while words.has([at], "determiner", "actor_adjective", "heading") and at not in words.names.actors:
+        at += 1
+    return at in words.names.actors and words.word(at + 1) in ("can", "could", "may")
 
 
 def _inverted(words: Words, at: int) -> bool:

@@ -39,7 +39,10 @@ class EgoMoments:
         passed = self.words.verbs(clause.inside) == {"pass"} and clause.subject == HERO_ID and clause.named
         begins = self.words.verbs(before.inside) & {"begin", "turn", "pull_out"}
         own = before.subject == EGO_ID and before.sentence == clause.sentence
-        only = "only" in self.words.word(before.end - 1).split() or self.words.has(before.inside, "negation")
+        last = {word for at in (before.end - 1, before.end) for word in self.words.word(at).split()}
+        denied = self.words.has(before.inside, "negation")
+        until = self.words.word(clause.start - 2) == "until"
+        only = ("only" in last and not denied) or (denied and until)  # "does not begin until after the van has passed"
         told = self.words.has(clause.inside, "quantity") or self.words.has(before.inside, "quantity")
         return clause.link == "after" and passed and own and bool(begins) and only and not told
 

@@ -40,6 +40,7 @@ _CHANCE = re.compile(
     r"(?:runs|cases|times?|trials|tests|drivers)\b|\b(?:sometimes|occasionally|now and then|every other)\b",
     re.IGNORECASE,
 )
+_WHICH = re.compile(r"\bwhich of (?:the two|them|the (?:vehicles|cars)|these)\b", re.IGNORECASE)
 _DEEDS = frozenset(
     ["brake", "stop", "accelerate", "pass", "complete", "yield", "not_yield", "turn", "pull_out", "wait", "reach",
      "enter"]
@@ -53,6 +54,7 @@ def refuse_dangers(words: Words) -> None:
         (_UNREAL, "what did not happen is not read here"),
         (_ALL_BUT, "what does not happen is no scenario"),
         (_DEPENDS, "a condition like this cannot be orchestrated"),
+        (_WHICH, "this is left open"),
         (_CHANCE, "what happens at times cannot be orchestrated"),
     ):
         if found := pattern.search(words.text):
@@ -93,7 +95,7 @@ def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> 
         following = next((each for each in words.clauses if each.start == at + 1), None)
         lost = "negation" in token.tags or "respectively" in token.tags or token.tags.get("verb") == "fail"
         lost = lost or (token.text.lower() in NEGATIVES and _denies_something(words, at))
-        lost = lost and not _denies_nothing(words, at, clause)
+        lost = lost and not _denies_nothing(words, at, clause, trigger_sentence)
         if "landmark" in token.tags:
             before = clause is not None and clause.sentence < trigger_sentence
             quiet = clause is not None and not words.has(clause.inside, "quantity")
@@ -106,7 +108,7 @@ def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> 
         elif following is not None and following.link in BOUNDS:
             lost = not _repeats(words, following, deeds, trigger_sentence)
         elif following is not None and following.link == "when" and following.sentence >= trigger_sentence:
-            denied = words.word(at) == "if" and all(
+            denied = _asks_otherwise(words, at) and all(
                 "negation" in words.tags(i) for i in following.inside
             )  # "If not, please build it."
             lost = not _tells_moment(words, following) and not denied
@@ -258,12 +260,14 @@ def _is_stranger(words: Words, at: int) -> bool:
     return words.has([at + 1], "unknown", "verb", "auxiliary", "be") and at + 1 not in words.names.actors
 
 
-def _denies_nothing(words: Words, at: int, clause: Clause | None) -> bool:
+def _denies_nothing(words: Words, at: int, clause: Clause | None, trigger_sentence: int) -> bool:
     """Whether a denial tells nothing of a drive: "it won't have the place to itself", "without regard for anybody"."""
     if clause is None or "negation" not in words.tags(at):
         return False
-    if clause.link == "when" and len(clause.inside) == 1 and words.word(clause.start - 1) == "if":
+    if clause.link == "when" and len(clause.inside) == 1 and _asks_otherwise(words, clause.start - 1):
         return True  # "If not, please build it."
+    if clause.link == "then" and at == clause.end - 1 and clause.sentence < trigger_sentence:
+        return True  # "at first it yields and then does not: when ..."
     if words.word(at + 1) in ("care", "mind", "bother"):
         return True  # "it does not care about us"
     rest = range(at + 1, clause.end)
@@ -276,6 +280,12 @@ def _denies_nothing(words: Words, at: int, clause: Clause | None) -> bool:
     )
     done = any(words.word(i).endswith("ing") for i in rest) or words.has(rest, "verb", "heading", "direction")
     return len(rest) > 1 and "unknown" not in words.tags(at + 1) and not known and not done
+
+
+def _asks_otherwise(words: Words, at: int) -> bool:
+    """Whether this is the "If" of "If not, please build it."."""
+    first = not at or "end" in words.tags(at - 1)
+    return words.word(at) == "if" and first and "comma" in words.tags(at + 2)
 
 
 def _repeats(words: Words, clause: Clause, deeds: list[Deed], trigger_sentence: int) -> bool:

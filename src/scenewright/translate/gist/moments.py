@@ -350,7 +350,9 @@ class MomentReader:
         early = all(each.start > clause.start for each in whens) and (first or clause.link in ("main", "colon"))
         early = early and bool(whens)
         done = any(deed.clause is clause and deed.kind != "turn" for deed in self.deeds)
-        verbless = not self.words.has(clause.inside, "verb", "be")
+        earlier = [each for each in self.words.sentence(clause) if each.start < clause.start]
+        way = any(self.words.has(each.inside, "heading", "direction", "area") for each in [*earlier, clause])
+        verbless = way and not self.words.has(clause.inside, "verb", "be")
         return early and (bool(ways) or verbless) and not done
 
     def _goes_until(self, clause: Clause) -> bool:

@@ -15,7 +15,7 @@ from scenewright.translate.tokens import Token
 FIRST_PERSON = frozenset(("i", "me", "we", "us", "myself", "ourselves", "mine", "ours"))
 PERSONAL = frozenset(("he", "she", "him", "himself", "herself", "hers"))
 # Whoever these are, in a text about two vehicles they drive the one that is not under test.
-_PERSONS = frozenset(
+PERSONS = frozenset(
     ["man", "woman", "guy", "chap", "bloke", "fellow", "lady", "gentleman", "kid", "teenager", "somebody", "someone",
      "stranger", "owner", "operator", "commuter", "courier", "trucker", "neighbour", "neighbor", "father", "mother",
      "human",
@@ -69,7 +69,7 @@ def find_names(tokens: list[Token]) -> Names:
             _name_vehicle(tokens, at, names, kinds, marks)
         elif (word in owners and not _owns(tokens, at)) or _sits_in_one(tokens, at) or token.text in brands:
             names.actors[at] = HERO_ID
-        elif word in _PERSONS or word == unknown or _is_hero(tokens, at) or ("unknown" in token.tags and word in tails):
+        elif word in PERSONS or word == unknown or _is_hero(tokens, at) or ("unknown" in token.tags and word in tails):
             names.actors[at] = HERO_ID
             another = at > 0 and tokens[at - 1].tags.get("determiner") == "another"
             if another and list(names.actors.values()).count(HERO_ID) > 1:

@@ -62,7 +62,9 @@ def _told_after(words: Words, found: list[Measured]) -> None:
 def _same_place(words: Words, found: list[Measured]) -> None:
     """Let one place be that of two amounts next to each other, the one before it or the one after."""
     for first, second in pairwise(found):
-        if first.kind == "open" and _alike(first, second) and second.kind == "place" and _is_short(words, first):
+        acts = words.verbs(range(first.at, second.at)) & {"brake", "stop", "accelerate", "pass", "complete", "wait"}
+        shared = first.kind == "open" and second.kind == "place" and _alike(first, second)
+        if shared and not acts and _is_short(words, first):
             _take_place(first, second)
     for first, second in pairwise(found):
         if (

@@ -269,6 +269,11 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     if words.names.spoken and words.has(pronouns, "pronoun", "possessive"):
         return HERO_ID  # "we" are the ego, so "it" is the other one
     named_last = words.named(range(clause.start - 1, -1, -1))
+    if words.where(clause.inside, "latter", "former") is not None:
+        first = next((c.start for c in words.clauses if c.sentence >= clause.sentence - 1), 0)
+        own = words.sentence(clause)[0].start
+        former = words.named(range(own, clause.start))
+        return former if former is not None else words.named(range(first, clause.start))
     relative = clause.link == "that" and words.word(clause.start - 1) in ("which", "who", "that", "where", "whose")
     before = words.clauses[index - 1] if index else clause
     own = before.start in words.names.pronouns and words.has([before.start + 1], "event_noun", "onset_noun")
