@@ -248,6 +248,7 @@ def refuse_strange_deeds(words: Words, trigger_sentence: int) -> None:
         clause = next((each for each in words.clauses if at in each.inside), None)
         acts = at - 1 in words.names.actors or words.has([at - 1], "pronoun")
         compound = words.has([at + 1], "noun", "hero", "ego") or words.word(at).endswith(("er", "or"))
+        compound = compound or words.word(at) in ("priority", "precedence")  # "giving the ego priority"
         compound = compound or words.tag(at - 2, "verb") == "leave"  # "should leave the ego undisturbed"
         if clause is not None and clause.sentence >= trigger_sentence and acts and not compound:
             raise words.refuse(f"'{token.text}' was not understood: it may be what a vehicle does", token.span)

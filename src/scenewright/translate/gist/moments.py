@@ -325,6 +325,8 @@ class MomentReader:
         own = [each for each in self.measured if each.kind == "place" and each.actor == made.actor]
         before = [self.words.word(at) for at in range(made.clause.start - 1, made.at)]
         then = {"then", "by then", "at that"} & set(before)
+        if made.clause.link == "and" and any(word in ("doing", "moving", "going") for word in before):
+            return made.at < act and any(asked.start < each.at < made.clause.start for each in own[-1:])
         return bool(then) and any(made.at < each.at < act for each in own)
 
     def _is_asked(self, clause: Clause) -> bool:

@@ -71,7 +71,7 @@ def is_object(words: Words, at: int) -> bool:
     if (tags.keys() & {"relation", "separates"} and linked != "when") or preposition in _OBJECT_OF:
         return True
     if verb == "let":  # "lets the ego pass", but not the imperative "let the ego drive"
-        told = words.word(back - 1) in ("to", "and") or words.has([back - 1], "negation")
+        told = words.word(back - 1) in ("to", "and") or words.has([back - 1], "negation", "auxiliary")
         return told or bool(words.tokens[back].forms & {"s", "ing"})
     return verb in _TAKES_OBJECT
 
