@@ -141,6 +141,11 @@ def test_a_fact_is_read_however_it_is_said(text: str, expected: str) -> None:
             id="two deeds at one trigger",
         ),
         pytest.param(
+            LINE + "When the AV is 45 m from the conflict point and the van 12 m from the stop line, the van usually "
+            "brakes and halts just before the stop line.",
+            id="a habit",
+        ),
+        pytest.param(
             LINE + "When the AV is 3 s from the conflict point and the van 2 s from its stop line, the van slows down "
             "to a speed of 0.2 g.",
             id="a speed in g",

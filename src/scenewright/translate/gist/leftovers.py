@@ -40,6 +40,10 @@ _CHANCE = re.compile(
     r"(?:runs|cases|times?|trials|tests|drivers)\b|\b(?:sometimes|occasionally|now and then|every other)\b",
     re.IGNORECASE,
 )
+_AT_TIMES = frozenset(
+    ["usually", "normally", "often", "probably", "maybe", "perhaps", "likely", "typically", "generally", "mostly",
+     "rarely", "seldom", "possibly", "hardly", "barely", "nearly", "almost"]
+)  # fmt: skip
 _WHICH = re.compile(r"\bwhich of (?:the two|them|the (?:vehicles|cars)|these)\b", re.IGNORECASE)
 _DEEDS = frozenset(
     ["brake", "stop", "accelerate", "pass", "complete", "yield", "not_yield", "turn", "pull_out", "wait", "reach",
@@ -243,6 +247,10 @@ def _denies_something(words: Words, at: int) -> bool:
 def refuse_strange_deeds(words: Words, trigger_sentence: int) -> None:
     """Refuse "the hero stups": what a vehicle does from the trigger on has to be known."""
     for at, token in enumerate(words.tokens):
+        if token.text.lower() in _AT_TIMES and words.verbs(range(at + 1, at + 4)) & _DEEDS:
+            clause = next((each for each in words.clauses if at in each.inside), None)
+            if clause is not None and clause.sentence >= trigger_sentence:
+                raise words.refuse("what happens at times cannot be orchestrated", token.span)
         if "unknown" not in token.tags or at in words.names.actors or token.text.lower().endswith("ly"):
             continue
         clause = next((each for each in words.clauses if at in each.inside), None)
