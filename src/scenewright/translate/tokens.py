@@ -238,9 +238,8 @@ def _words(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
     ):
         length, tags, forms = tagger.lexicon.lookup(words[: length - 1], 0)  # "in the test car" is "in", "the test car"
     if length > 1 and "link" in tags and _is_place_after(tagger, words, length, tokens):
-        length, tags, forms = tagger.lexicon.lookup(
-            words[: length - 1], 0
-        )  # "3 m after the stop line", "after that point"
+        # "3 m after the stop line" is no "after the stop"
+        length, tags, forms = tagger.lexicon.lookup(words[: length - 1], 0)
     if length < 2 and (after := _number_in_words(tagger, index, words, ends, tokens)):
         return after
     if not length:

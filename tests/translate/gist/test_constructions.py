@@ -141,6 +141,11 @@ def test_a_fact_is_read_however_it_is_said(text: str, expected: str) -> None:
             id="two deeds at one trigger",
         ),
         pytest.param(
+            LINE + "When the AV is 45 m from the conflict point and the van 12 m from the stop line, the van brakes "
+            "and halts just before the stop line. It simply does not bother to complete its nice turn.",
+            id="a denial of the turn",
+        ),
+        pytest.param(
             LINE + "When the AV is 45 m from the conflict point and the van 12 m from the stop line, the van usually "
             "brakes and halts just before the stop line.",
             id="a habit",

@@ -8,7 +8,7 @@ import pytest
 
 from scenewright.errors import TranslationError
 from scenewright.program.printer import print_expression
-from scenewright.program.types import Program
+from scenewright.program.types import HeadingsRoute, Program
 from scenewright.translate import offline
 from scenewright.translate.confidence import Basis
 from scenewright.translate.itineraries import default_map
@@ -55,7 +55,7 @@ def read(text: str) -> Translation:
 
 
 def routes(program: Program) -> list[tuple[str, ...]]:
-    return [actor.route.headings for actor in program.actors]  # type: ignore[union-attr]
+    return [actor.route.headings for actor in program.actors if isinstance(actor.route, HeadingsRoute)]
 
 
 def formulas(program: Program) -> list[str]:

@@ -188,11 +188,11 @@ def _link(words: Words, at: int) -> str | None:
     if word == "following":
         return link if words.word(at + 1) in ("that", "this") else None
     if word in ("ahead of", "in front of"):
-        first = next((i + 1 for i in range(at - 1, -1, -1) if "end" in words.tags(i)), 0)
+        first = words.sentence_at(at).start
         raced = words.verbs(range(max(first, at - 8), at)) & {"pass", "complete", "accelerate", "reach", "go"}
         return link if raced else None
     if link == "before" and "ing" in words.tokens[at + 1].forms and words.tag(at + 1, "verb") in ("go", "accelerate"):
-        first = next((i + 1 for i in range(at, -1, -1) if "end" in words.tags(i)), 0)
+        first = words.sentence_at(at).start
         if "wait" in words.verbs(range(first, at)):
             return "then"  # "waits for the ego to pass before starting off again"
     if (
@@ -200,7 +200,7 @@ def _link(words: Words, at: int) -> str | None:
         and words.tags(at + 1).keys() & {"pronoun"}
         and words.tag(at + 2, "verb") in ("go", "accelerate")
     ):
-        first = next((i + 1 for i in range(at, -1, -1) if "end" in words.tags(i)), 0)
+        first = words.sentence_at(at).start
         if words.verbs(range(first, at)) & {"wait", "let"}:
             return "then"  # "lets the ego pass before it moves off again"
     if (word == "at the time" and words.has([at + 1], "comma")) or (word == "that" and words.word(at - 1) == "in"):

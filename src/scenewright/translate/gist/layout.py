@@ -34,7 +34,7 @@ def laid_out(text: str, name: str) -> list[Token]:
         tokens = [
             replace(token, tags={"noun": "motorcycle"}) if token.text.lower() == "bike" else token for token in tokens
         ]
-    tokens = _named_by_letter(_brands(tokens), letters(text))
+    tokens = _named_by_letter(_makes(tokens), letters(text))
     tokens = _without_short_names([_bar(_as_written(token)) for token in tokens])
     return same_unit(_with_lines(tokens, text))
 
@@ -54,7 +54,7 @@ def _plain(text: str) -> str:
     return re.sub(r"-{2,}", lambda found: " " * len(found.group()), spaced) if "|" in text else spaced
 
 
-def _brands(tokens: list[Token]) -> list[Token]:
+def _makes(tokens: list[Token]) -> list[Token]:
     """Return the tokens with "a Transit" as a word that is not known, and no verb."""
     return [
         replace(token, tags={"unknown": token.text})

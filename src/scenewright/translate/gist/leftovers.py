@@ -277,9 +277,9 @@ def _denies_nothing(words: Words, at: int, clause: Clause | None, trigger_senten
         return True  # "If not, please build it."
     if clause.link == "then" and at == clause.end - 1 and clause.sentence < trigger_sentence:
         return True  # "at first it yields and then does not: when ..."
-    if words.word(at + 1) in ("care", "mind", "bother"):
-        return True  # "it does not care about us"
     rest = range(at + 1, clause.end)
+    if words.word(at + 1) in ("care", "mind", "bother") and not words.verbs(rest):
+        return True  # "it does not care about us", but not "it does not bother to complete its turn"
     plain = ("unknown", "determiner", "pronoun", "possessive", "preposition", "auxiliary", "link", "adverb")
     known = any(
         "relation" in words.tags(i)
@@ -366,14 +366,9 @@ def _is_harmless(words: Words, at: int) -> bool:
     return kind == "more than one other actor" and before.get("bare_number", "").lower() == "two"
 
 
-def _sentence_of(words: Words, at: int) -> range:
-    first = next((i + 1 for i in range(at - 1, -1, -1) if "end" in words.tags(i)), 0)
-    return range(first, next((i for i in range(at, len(words.tokens)) if "end" in words.tags(i)), len(words.tokens)))
-
-
 def _only_goes_first(words: Words, at: int) -> bool:
     """Whether "cuts in" is what is told again: "accelerates and cuts in, passing the point before the ego does"."""
-    rest = [i for i in _sentence_of(words, at) if i > at]
+    rest = [i for i in words.sentence_at(at) if i > at]
     before = words.where(rest, "link", "before") is not None
     passes = "pass" in words.verbs(rest)
     return words.word(at) in ("cuts in", "cut in") and "comma" in words.tags(at + 1) and passes and before
@@ -381,18 +376,17 @@ def _only_goes_first(words: Words, at: int) -> bool:
 
 def _asks_people(words: Words, at: int) -> bool:
     """Whether a sentence tells nothing of a drive: "Could one of you take this?"."""
-    sentence = _sentence_of(words, at)
+    sentence = words.sentence_at(at)
     told = words.has(sentence, "quantity", "ego", "hero", "noun", "landmark", "pronoun", "area", "latter", "stop_noun")
     return not told and not words.verbs(sentence) & _DEEDS
 
 
 def _is_remark(words: Words, at: int, kind: str) -> bool:
     """Whether a sentence speaks of the test: "you might expect"; or "either" only stresses a denial."""
-    first = next((i + 1 for i in range(at - 1, -1, -1) if "end" in words.tags(i)), 0)
-    last = next((i for i in range(at, len(words.tokens)) if "end" in words.tags(i)), len(words.tokens))
-    if words.word(first) == "you" or (words.word(at) == "either" and words.has([at + 1], "end", "comma")):
+    sentence = words.sentence_at(at)
+    if words.word(sentence.start) == "you" or (words.word(at) == "either" and words.has([at + 1], "end", "comma")):
         return True
-    return kind == "collisions" and not words.has(range(first, last), "quantity", "ego")
+    return kind == "collisions" and not words.has(sentence, "quantity", "ego")
 
 
 def _only_counts(words: Words, at: int) -> bool:
@@ -403,7 +397,7 @@ def _only_counts(words: Words, at: int) -> bool:
     span = words.tokens[at].span
     if words.text[: span.start].endswith("(") and words.text[span.end :].startswith(")"):
         return True  # "(1) The ego ..."
-    if _COUNTED.search(words.text[: words.tokens[at].span.start]):
+    if _COUNTED.search(words.text[: span.start]):
         return True
     back = at - 1
     while words.has([back], "unknown", "numbered", "bare_number", "label") and "end" not in words.tags(back):

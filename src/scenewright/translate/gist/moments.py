@@ -22,8 +22,8 @@ _STATE = ("verb", "be", "auxiliary")
 _LIMITS = ("within",)
 _SET = ("released", "spawned", "initialised", "initialized", "dropped")
 _BOUNDS: dict[str, Bound] = {
-    "at least": ">=", "no less than": ">=", "not less than": ">=", "minimum": ">=",
-    "at most": "<=", "no more than": "<=", "not more than": "<=", "maximum": "<=",
+    "at least": ">=", "no less than": ">=", "not less than": ">=",
+    "at most": "<=", "no more than": "<=", "not more than": "<=",
 }  # fmt: skip
 _PAST = ("was", "were", "had")
 _THEN = ("then", "by then", "at the time", "at that time", "at that point", "at this point")
@@ -92,7 +92,9 @@ class MomentReader:
         for made in self.measured:
             at = self.words.where(range(made.at - 2, made.at), "bound")
             limit = at is not None and self.words.word(at) in _LIMITS and self.moments[made.at] == "trigger"
-            if self.words.has(range(made.at + 1, made.at + 2), "bound") and "or" in self.words.word(made.at + 1):
+            if self.words.has(range(made.at + 1, made.at + 2), "bound") and self.words.word(made.at + 1).startswith(
+                "or "
+            ):
                 raise self.words.refuse("this is a bound, not a value", made.span)  # "12 m or more"
             bound = _BOUNDS.get(self.words.word(at)) if at is not None else None
             if bound is not None and made.kind in ("duration", "margin"):
@@ -290,12 +292,9 @@ class MomentReader:
 
     def _opens(self, before: Clause, clause: Clause) -> bool:
         """Whether nothing is said but "The test begins", "The scene opens"."""
-        words = self.words
-        told = [at for at in before.inside if "determiner" not in words.tags(at)]
-        begins = len(told) == 2 and (
-            words.tag(told[1], "verb") == "begin" or words.word(told[1]) in ("opens", "opened")
-        )
-        return before.sentence == clause.sentence and begins and words.has(told[:1], "frame_noun", "frame")
+        begins = self.words.who_begins(before)
+        own = begins is not None and self.words.has([begins], "frame_noun", "frame")
+        return before.sentence == clause.sentence and own
 
     def _is_condition(self, made: Measured) -> bool:
         """Whether a speed is part of a condition: "when the ego is 12 m from it and the hero's speed is 10 m/s"."""

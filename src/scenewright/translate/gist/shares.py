@@ -35,7 +35,7 @@ def _respectively(words: Words, found: list[Measured]) -> None:
     for at in range(len(words.tokens)):
         if "respectively" not in words.tags(at):
             continue
-        first = next((i + 1 for i in range(at - 1, -1, -1) if "end" in words.tags(i)), 0)
+        first = words.sentence_at(at).start
         own = [made for made in found if first <= made.at < at and made.quantity is not None][-2:]
         marks = [i for i in range(own[-1].at, at) if "landmark" in words.tags(i)] if len(own) == 2 else []
         if len(marks) == 2:

@@ -247,10 +247,8 @@ def _starts_it(words: Words, clause: Clause) -> bool:
 
 def _begins_test(words: Words, clause: Clause) -> bool:
     """Whether nothing is said but "We start", "The recording begins"."""
-    told = [at for at in clause.inside if "determiner" not in words.tags(at)]
-    if len(told) != 2 or words.tag(told[1], "verb") != "begin":
-        return False
-    return words.word(told[0]) in ("we", "i", *_RUNS)
+    begins = words.who_begins(clause)
+    return begins is not None and words.word(begins) in ("we", "i", *_RUNS)
 
 
 def _mark_start(clause: Clause, before: Clause | None) -> None:

@@ -178,8 +178,7 @@ class WayReader:
     def _same_heading(self, at: int, actor: int) -> None:
         """Let a vehicle go where the other one was said to go."""
         back = self.words.where(range(at - 1, -1, -1), "heading")
-        first = next((i + 1 for i in range(at - 1, -1, -1) if "end" in self.words.tags(i)), 0)
-        first = next((i + 1 for i in range(first - 2, -1, -1) if "end" in self.words.tags(i)), 0)
+        first = self.words.sentence_at(max(0, self.words.sentence_at(at).start - 1)).start
         if back is not None and back >= first:
             value, span = self.words.tags(back)["heading"], self.words.tokens[at].span
             self.ways.append(Way("heading", value, at, span, actor))

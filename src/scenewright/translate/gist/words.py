@@ -180,6 +180,17 @@ class Words:
         named = {self.tags(i)["landmark"] for i in range(at) if "landmark" in self.tags(i)}
         return meant if meant in named else self.tags(back)["landmark"]
 
+    def sentence_at(self, at: int) -> range:
+        """Return the tokens of the sentence around a token, without what ends it."""
+        first = next((i + 1 for i in range(at - 1, -1, -1) if "end" in self.tags(i)), 0)
+        return range(first, next((i for i in range(at, len(self.tokens)) if "end" in self.tags(i)), len(self.tokens)))
+
+    def who_begins(self, clause: Clause) -> int | None:
+        """Return what begins in a clause that says nothing else: "The test begins", "We start"."""
+        told = [at for at in clause.inside if "determiner" not in self.tags(at)]
+        begins = len(told) == 2 and (self.tag(told[1], "verb") == "begin" or self.word(told[1]) in ("opens", "opened"))
+        return told[0] if begins else None
+
     def sentence(self, clause: Clause) -> list[Clause]:
         """Return the clauses of the same sentence."""
         return [each for each in self.clauses if each.sentence == clause.sentence]
