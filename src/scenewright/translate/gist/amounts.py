@@ -255,7 +255,7 @@ class AmountReader:
     def _to_vehicle(self, made: Measured) -> bool:
         """Read "12 m behind the hero" and "2 s ahead of it"."""
         at, relation = made.at + 1, None
-        if self.words.word(made.at - 1) == "within" and self.words.tag(at, "preposition") == "of":
+        if self.words.word(made.at - 1).endswith("within") and self.words.tag(at, "preposition") == "of":
             relation = "from"  # "has come to within 20 yards of the van"
         while self.words.has([at], "relation", "adverb", "left_over") or self.words.tag(at, "preposition") == "of":
             relation = self.words.tag(at, "relation") or relation
@@ -359,10 +359,14 @@ class AmountReader:
     def _lies(self, made: Measured) -> bool:
         """Read "the intersection is 6.8 s away" and "the intersection lies 82 m ahead of it"."""
         before = range(made.clause.start, made.at)
+        joint = next((i for i in reversed(before) if self.words.has([i], "quantity") or self.words.word(i) == "and"), 0)
+        joined = self.words.word(joint) == "and" and self.words.has(range(made.clause.start, joint), "quantity")
+        if joined:  # "the conflict point is 38 m ahead of us and the stop line 11 m ahead of the van"
+            before = range(joint + 1, made.at)
         mark = self.words.where(before, "landmark")
         said = next((i for i in before if self.words.word(i) in ("the intersection is", "the junction is")), None)
         away = self.words.tag(made.at + 1, "relation") in ("from", "ahead")
-        elliptic = made.clause.link == "and" and self.words.tag(made.at + 1, "relation") == "ahead"
+        elliptic = (made.clause.link == "and" or joined) and self.words.tag(made.at + 1, "relation") == "ahead"
         stands = elliptic or self.words.has(before, "be") or "sit" in self.words.verbs(before) or said is not None
         measured = any(measure_of(self.words, at) is not None for at in before)
         if (mark is None and said is None) or not away or not stands or measured or self.words.has(before, "quantity"):

@@ -208,7 +208,7 @@ def _link(words: Words, at: int) -> str | None:
     if word == "after" and "be" in words.tags(at - 1) and "determiner" in following:
         return None  # "both are after the same driveway"
     left = "left_over" in words.tags(at - 1) and words.has(range(at - 4, at), "quantity")
-    if link == "until" and (left or words.has([at - 1], "measure", "quantity")):
+    if link == "until" and (left or words.has([at - 1], "measure", "quantity") or _measures_until(words, at)):
         return None  # "the time until the ego arrives at the conflict point is 4 s"
     if link in ("before", "after") and words.tag(at - 1, "quantity") == "time" and _is_margin(words, at):
         return link
@@ -227,6 +227,14 @@ def _link(words: Words, at: int) -> str | None:
         points = "determiner" in words.tags(at) and words.has([at + 1], "mark_noun", "noun", *_PLACES)
         return None if measures or points else link
     return None if link == "when" and "label" in words.tags(at) and "colon" in following else link
+
+
+def _measures_until(words: Words, at: int) -> bool:
+    """Whether a measure goes on to a place: "the TTA of the ego until the stop line amounts to 3 s"."""
+    first = words.sentence_at(at).start
+    measure = words.where(range(at - 1, max(first, at - 6) - 1, -1), "measure")
+    told = measure is not None and words.has(range(measure, at), "quantity", "verb", "be")
+    return measure is not None and not told and _names_place(words, at + 1)
 
 
 def _is_still_to_come(words: Words, at: int) -> bool:

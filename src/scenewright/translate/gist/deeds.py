@@ -108,8 +108,9 @@ class DeedReader:
                 negation = at
                 continue
             verb = tags.get("verb") or ("brake" if tags.get("event_noun") == "brake" else None)
-            if verb is None or "heading" in tags:
-                continue
+            wholly = self.words.word(at) == "complete" and self.words.tag(at - 1, "verb") == "stop"
+            if verb is None or "heading" in tags or wholly or self.words.word(at).startswith(("finds ", "found ")):
+                continue  # "it stops complete", "finds itself 85 m before it"
             if negation is not None and verb == "let" and self.words.word(at + 1) in ("up", "go", "off"):
                 self.words.used.add(negation)  # "brakes and does not let up until it stands"
                 return
@@ -186,8 +187,12 @@ class DeedReader:
 
     def _add(self, kind: str, at: int, clause: Clause) -> None:
         actor = clause.subject if clause.subject is not None else HERO_ID
-        if kind in ("yield", "not_yield") and self.words.named(range(at + 1, min(at + 5, clause.end))) == actor:
-            raise self.words.refuse("a vehicle does not yield to itself", self.words.span(clause))
+        if kind in ("yield", "not_yield"):
+            name = next((i for i in range(at + 1, min(at + 5, clause.end)) if i in self.words.names.actors), None)
+            acts = name is not None and self._acts_on(name)
+            of = self.words.tag(at + 1, "preposition") == "of"  # "Yielding of the van was modelled"
+            if name is not None and self.words.names.actors[name] == actor and not acts and not of:
+                raise self.words.refuse("a vehicle does not yield to itself", self.words.span(clause))
         if at + 1 < clause.end and self.words.tag(at + 1, "preposition") == "of":
             named = self.words.named(range(at + 2, min(at + 5, clause.end)))  # "the braking of the ego"
             actor = named if named is not None else actor
@@ -196,9 +201,18 @@ class DeedReader:
         passed = self.describing.landmark(at, clause) if kind == "pass" else None
         other = self.words.names.actors.get(self.words.skip(at + 1, _BESIDE))
         overtakes = other == EGO_ID and "genitive" not in self.words.tags(self.words.skip(at + 1, _BESIDE) + 1)
+        if kind == "pass" and overtakes and self.words.word(at) in ("cuts across", "cut across", "cutting across"):
+            return  # across its path: that is how the ways lie
         if kind == "pass" and overtakes and actor == HERO_ID and self.words.tag(at, "verb") == "pass":
             raise self.words.refuse("overtaking cannot be orchestrated", self.words.span(clause))
         self.deeds.append(Deed(kind, at, clause, span, passed, actor))
+
+    def _acts_on(self, name: int) -> bool:
+        """Whether a name is followed by what it does: "Instead of giving way the van then accelerates"."""
+        at = name + 1
+        while self.words.has([at], "adverb") or self.words.word(at) in ("then", "instead"):
+            at += 1
+        return "s" in self.words.tokens[min(at, len(self.words.tokens) - 1)].forms
 
     # -- denials ------------------------------------------------------------------------------------------------------
     def _denied(self, verb: str, at: int, clause: Clause) -> bool:
@@ -306,7 +320,8 @@ class DeedReader:
         if not (any(names.actors.get(each) == EGO_ID for each in rest) or at + 1 in names.pronouns):
             return False
         way = {word for i in rest for word in self.words.word(i).split()} & {"priority", "precedence", "right-of-way"}
-        if way or any(self.words.word(i) == "right of way" for i in rest):
+        apart = any([self.words.word(i + step) for step in range(3)] == ["right", "of", "way"] for i in rest)
+        if way or apart or any(self.words.word(i) == "right of way" for i in rest):
             self._add("yield", at, clause)  # "gives the ego the right of way by braking"
             return False
         let = replace(clause, start=at + 1, link="let", subject=EGO_ID, named=True)

@@ -1,6 +1,6 @@
 """Finds sentences that say of themselves that they change nothing: "It has rained, which makes no difference".
 
-What enters: the text. What leaves: where such sentences stand. One that tells what a vehicle does, or holds an amount,
+So do thanks and greetings. What enters: the text. What leaves: where such sentences stand. One that tells what a vehicle does, or holds an amount,
 is none of them.
 """
 
@@ -29,6 +29,19 @@ _VERDICT = re.compile(
 _PURPOSE = re.compile(
     r"^\s*(?:the|our) (?:point|purpose|aim|idea|question|interest|goal|focus)\b.*\b(?:whether|how)\b", re.I
 )
+# "Many thanks in advance!", "Sorry for my English.", "I hope that makes sense"
+_POLITE = re.compile(
+    r"^\W*(?:(?:many |a lot of |with )?(?:thanks|thank you|thx|cheers|regards|best regards|kind regards|sincerely"
+    r"|sorry|apologies|excuse (?:me|my)|hello|hi|hey|dear|good (?:morning|afternoon|day)|not sure (?:if|whether)"
+    r"|i hope|hope (?:this|that|it)|let me know|that's (?:all|it)|that is (?:all|it)|just (?:asking|checking)|fight over"
+    r"|many thanks|please (?:note|find|forgive)))\b",
+    re.IGNORECASE,
+)
+_NAMES = re.compile(
+    r"\d|\b(?:ego|av|sut|vut|sv|hero|npc|pov|vehicles?|cars?|van|bus|truck|lorry|brak|accelerat|slow|stop|turn|when|until"
+    r"|driveway|road)",
+    re.IGNORECASE,
+)
 _ABOUT = re.compile(
     r"\d|\b(?:hero|npc|pov|target|van|car|bus|truck|lorry|brak|accelerat|slow|stop|yield|until|when|east|west|north|south"
     r"|left|right|straight|driveway|road|before|after)",
@@ -48,5 +61,6 @@ def disclaimers(text: str) -> list[Span]:
         for found in _SENTENCE.finditer(text)
         if _VERDICT.search(found.group())
         or (_PURPOSE.search(found.group()) and not _ABOUT.search(found.group()))
+        or (_POLITE.search(found.group()) and not _NAMES.search(found.group()))
         or (_CHANGES_NOTHING.search(found.group()) and not _TELLS.search(found.group()))
     ]

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import re
 
+from scenewright.translate.gist.aliases import without_aliases
+
 _WAYS = r"(?:paths|ways|lanes|routes|tracks|trajectories|courses)"
 _MEET = r"(?:cross|meet|merge|intersect|join|conflict|(?:come|run) together)"
 _CROSSING = re.compile(
@@ -26,10 +28,45 @@ _HOLD = re.compile(
     r"(?: (?:together|at the same time|simultaneously|at once))?(?:,|:| -)?(?: namely(?: that)?,?)?",
     re.IGNORECASE,
 )
+# "Triggering event. The ego is ..." is a heading that ends like a sentence
+_HEADED = re.compile(
+    r"(?:(?<=[.!?]\s)|(?<=\n)|^)((?:(?:initial|starting|start|triggering|trigger) )?"
+    r"(?:conditions?|events?|states?|situation|trigger|setup|set-up|start|scene|outcome|end)"
+    r"|(?:[A-Za-z]+ )?(?:response|reaction|behaviou?r|action))\.(?=\s+[A-Z])",
+    re.IGNORECASE,
+)
+_EQUALS = re.compile(r"\b(turn|route|direction|heading|lane|goal|maneuver|manoeuvre)\s*=+(?=\s*[A-Za-z])", re.IGNORECASE)
+_IS_EQUAL = re.compile(r"(?<= )==(?= )")
+_DIGITS = {word: digit for digit, word in enumerate("one two three four five six seven eight nine".split(), 1)}
+_TENTHS = re.compile(rf"\b({'|'.join(_DIGITS)}|\d) tenths? of an? (second|g)\b", re.IGNORECASE)
+_AHEAD_OF_MOMENT = re.compile(r"\bahead of the (?:moment|time|instant|point)(?: (?:when|at which|that|where))?\b", re.IGNORECASE)
+# "the ego would hit the van in 3 s": the time to collision
+_WOULD_HIT = re.compile(
+    r"\bwould (hit|run into|collide with|crash into|drive into|bump into)((?: [\w-]+){1,4}?) in (?=[\d.]+ ?s\b|\w+ seconds?\b)",
+    re.IGNORECASE,
+)
+# "..., I hope that makes sense", "and stops, like it should": what changes nothing
+_TAILS = re.compile(
+    r",? (?:(?:and )?(?:i|we) hope (?:that|this|it) (?:makes sense|is clear|helps)|if (?:that|this) makes sense"
+    r"|(?:just )?(?:as|like) (?:it|he|she|they|one|you) (?:should|ought to|would expect|might expect|must)"
+    r"|or (?:anything|something)(?: like (?:that|this))?|(?:which|and that,?) i (?:think|believe|suppose|guess)[^.,;!?]*"
+    r"|as (?:is )?(?:expected|required|prescribed)|if (?:that|this) is (?:possible|ok|okay))(?=\s*[.,;!?)]|\s*$)",
+    re.IGNORECASE,
+)
+_I_THINK = re.compile(r"(?<![\w-])(?:i (?:think|believe|guess|suppose)|so yeah),? ?", re.IGNORECASE)
+# "The response of the van to the trigger is to brake"
+_RESPONSE = re.compile(
+    r"\bthe (?:response|reaction|answer) of (the [\w-]+|[A-Z]\w+) to (?:the trigger|this|that|it) is to\b", re.IGNORECASE
+)
+# "The trigger is the conjunction of two conditions, namely that the ego ..."
+_CONJUNCTION = re.compile(
+    r"\bthe trigger (?:is|consists of) (?:the (?:conjunction|combination|coincidence) of )?(?:the following )?two conditions"
+    r"(?:,|:)? ?(?:namely )?(?:that )?(?=the |an? |[A-Z])",
+    re.IGNORECASE,
+)
+_AFTER_THIS = re.compile(r"\b(complete[sd]?|finishe?[sd]?) (after (?:this|that)|then|afterwards) ((?:its|his|her|the) turn)\b", re.I)
+_UNDERSCORE = re.compile(r"\b(ego|hero|npc|target|other|opponent|lead)_(vehicle|car|actor|agent)\b", re.IGNORECASE)
 _THAT_IS = re.compile(r", that is,")
-_LETTERED = re.compile(r"\b(?:car|vehicle|actor|agent|driver) ([A-D]|\d)\b", re.IGNORECASE)
-_IS_EGO = r"\b(?:car|vehicle|actor|agent|driver) {}(?:,? which is|,? being| is|,|:| =)?\s*\(?(?:the |our )?(?:{})\b"
-_EGOS = r"ego|(?:car|vehicle|one) (?:under test|being tested)|AV|SUT|subject vehicle|test (?:car|vehicle)"
 
 
 def without_idioms(text: str) -> str:
@@ -38,18 +75,31 @@ def without_idioms(text: str) -> str:
     text = _WAIT_UNTIL.sub(lambda found: _padded("When", found), text)
     text = _NO_SOONER.sub(lambda found: "When".ljust(9) + found.group(1) + ",".ljust(4), text)
     text = _THAT_IS.sub(lambda found: _padded(",", found), text)
-    if names := letters(text):
-        text = _LETTERED.sub(lambda found: _padded(names[found.group(1).upper()], found), text)
+    text = _HEADED.sub(lambda found: f"{found.group(1)}:", text)
+    text = _EQUALS.sub(lambda found: found.group(1).ljust(len(found.group())), text)
+    text = _IS_EQUAL.sub("= ", text)
+    text = _TENTHS.sub(_in_tenths, text)
+    text = _AHEAD_OF_MOMENT.sub(lambda found: _padded("before", found), text)
+    text = _WOULD_HIT.sub(_collision_time, text)
+    text = _TAILS.sub(lambda found: _padded("", found), text)
+    text = _I_THINK.sub(lambda found: _padded("", found), text)
+    text = _RESPONSE.sub(lambda found: _padded(f"{found.group(1)} then shall", found), text)
+    text = _CONJUNCTION.sub(lambda found: _padded("When", found), text)
+    text = _AFTER_THIS.sub(lambda found: _padded(f"{found.group(1)} {found.group(3)}", found), text)
+    text = _UNDERSCORE.sub(r"\1 \2", text)
+    text = without_aliases(text)
     return _CROSSING.sub(lambda found: _padded("conflict point", found), text)
 
 
-def letters(text: str) -> dict[str, str]:
-    """Return who "car A" and "car B" are, where one of two is said to be the ego."""
-    found = list(dict.fromkeys(each.group(1).upper() for each in _LETTERED.finditer(text)))
-    egos = [each for each in found if re.search(_IS_EGO.format(each, _EGOS), text, re.IGNORECASE)]
-    if len(found) != 2 or len(egos) != 1:
-        return {}
-    return {each: "ego" if each == egos[0] else "hero" for each in found}
+def _in_tenths(found: re.Match[str]) -> str:
+    """Return "nine tenths of a second" as "0.9 s"."""
+    digit = _DIGITS.get(found.group(1).lower()) or found.group(1)
+    return _padded(f"0.{digit} {'g' if found.group(2).lower() == 'g' else 's'}", found)
+
+
+def _collision_time(found: re.Match[str]) -> str:
+    """Return "would hit the van in" as "'s TTC to the van is"."""
+    return f"'s TTC to{found.group(2)} is ".ljust(len(found.group()))
 
 
 def _padded(words: str, found: re.Match[str]) -> str:

@@ -11,8 +11,9 @@ import re
 from dataclasses import replace
 
 from scenewright.errors import Span
+from scenewright.translate.gist.aliases import letters
 from scenewright.translate.gist.disclaimers import disclaimers
-from scenewright.translate.gist.idioms import letters, without_idioms
+from scenewright.translate.gist.idioms import without_idioms
 from scenewright.translate.notes import same_unit
 from scenewright.translate.tokens import Token, tokenise
 from scenewright.units import unit_of_name
@@ -74,7 +75,7 @@ def _named_by_letter(tokens: list[Token], names: dict[str, str]) -> list[Token]:
         replace(token, tags={names[token.text]: names[token.text]})
         if token.text in names
         and at + 1 < len(tokens)
-        and (tokens[at + 1].tags.keys() & {"be", "auxiliary", "quantity"} or "s" in tokens[at + 1].forms)
+        and (tokens[at + 1].tags.keys() & {"be", "auxiliary", "quantity", "genitive"} or "s" in tokens[at + 1].forms)
         else token
         for at, token in enumerate(tokens)
     ]

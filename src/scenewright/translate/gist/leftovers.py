@@ -363,7 +363,7 @@ def _is_harmless(words: Words, at: int) -> bool:
         return _only_goes_first(words, at)
     if kind in ("collisions", "alternatives and chance"):
         return _is_remark(words, at, kind) or (kind != "collisions" and _asks_people(words, at))
-    return kind == "more than one other actor" and before.get("bare_number", "").lower() == "two"
+    return kind == "more than one other actor" and (before.get("bare_number", "").lower() == "two" or at in words.names.both)
 
 
 def _only_goes_first(words: Words, at: int) -> bool:

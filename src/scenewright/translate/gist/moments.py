@@ -266,6 +266,10 @@ class MomentReader:
         if words.where(clause.inside, "aspect", "start") is not None or any(
             words.word(at) in _SET for at in clause.inside
         ):
+            return True
+        if words.word(clause.start) in ("place", "put", "start", "spawn", "position") and "sit" not in words.verbs(
+            clause.inside
+        ):
             return True  # "its starting position", "was released 80 m before it"
         for at in range(max(clause.start, made.at - 5), made.at):
             between = [
@@ -432,7 +436,17 @@ class MomentReader:
             before = [made for made in self.of("open") if made.clause.sentence == clause.sentence - 1]
             if this and named and before and not told and len(clause.inside) <= 4:
                 return self._set_trigger(before)
+            if this and before and self._is_when(clause):
+                return self._set_trigger(before)
         return None
+
+    def _is_when(self, clause: Clause) -> bool:
+        """Whether this is the "That is" of "That is when the van brakes"."""
+        following = next((each for each in self.words.clauses if each.start > clause.start), clause)
+        acts = any(d.clause is following and d.actor == HERO_ID for d in self.deeds)
+        told = self.words.has(following.inside, "quantity")
+        alone = len(clause.inside) <= 2 and self.words.has(clause.inside, "be")
+        return alone and following.link == "when" and following.start == clause.end + 1 and acts and not told
 
     def _told_before_a_colon(self) -> int | None:
         """Read "Ego 45 m from the conflict point: the car sets off" and "Cond: ego 12 m, van 30 m from it"."""

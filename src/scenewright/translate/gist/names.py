@@ -58,6 +58,8 @@ def find_names(tokens: list[Token]) -> Names:
             names.actors[at] = EGO_ID
         elif word in ("they", "them") and spoken:
             names.actors[at] = HERO_ID  # "we ... they": whoever it is, it is not the ego
+        elif word in ("cars", "vehicles") and _is_two(tokens, at):
+            names.both.add(at)
         elif word in ("both", "they", "each") or ("pair" in token.tags and not _is_told_later(tokens, at)):
             if not _one_of_them(tokens, at) and not _both_and(tokens, at):
                 names.both.add(at)
@@ -215,6 +217,14 @@ def _is_third(tokens: list[Token], at: int) -> bool:
     if tokens[back - 1].tags.keys() & {"be", "comma", "colon"} or tokens[at + 1].tags.keys() & {"comma"}:
         return False  # "the hero, a truck,", "Hero: a truck"
     return any("hero" in each.tags and not each.tags.keys() & {"actor_adjective"} for each in tokens[:back])
+
+
+def _is_two(tokens: list[Token], at: int) -> bool:
+    """Whether this is "two eastbound cars"."""
+    back = at - 1
+    while back > 0 and tokens[back].tags.keys() & {"heading", "actor_adjective"}:
+        back -= 1
+    return 0 <= back < at - 1 and tokens[back].text.lower() == "two"
 
 
 def _is_last_one(tokens: list[Token], at: int) -> bool:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scenewright.translate.events import Relation
+from scenewright.translate.events import HERO_ID, Relation
 from scenewright.translate.gist.words import Words
 
 SKIPPED = frozenset(("determiner", "possessive", "area_adjective", "adverb", "left_over", "starting", "measured_word"))
@@ -52,6 +52,8 @@ class PlaceFinder:
         name = self.words.skip(at + 1, _BESIDE | {"heading"})
         if self.words.word(at) == "from" and name in names and self.words.tag(name + 1, "link") == "to":
             return name + 1, names[name]  # "when it is 12 m from the ego to the conflict point"
+        if self.words.word(at) == "from" and self.words.word(at + 1) == "him" and self.words.word(at + 2) == "to":
+            return at + 2, HERO_ID
         return at, None
 
     def relation_at(self, at: int) -> tuple[Relation, int] | None:
@@ -115,9 +117,9 @@ class PlaceFinder:
         return None
 
     def _named_in_sentence(self, at: int) -> bool:
-        """Whether a landmark was named before in this sentence: "80 feet from the stop line ... 65 feet from it"."""
+        """Whether a landmark was named before in this sentence: "80 feet from the stop line; ... 65 feet from it"."""
         back = at - 1
-        while back >= 0 and "end" not in self.words.tags(back):
+        while back >= 0 and ("end" not in self.words.tags(back) or self.words.word(back) == ";"):
             if "landmark" in self.words.tags(back):
                 return True
             back -= 1

@@ -38,8 +38,8 @@ class Roles:
         just = self.words.tag(at, "adverb") == "just"
         left_over = "left_over" in self.words.tags(at)
         opens = self.words.word(at) == "right" and "comma" in after and (not before or "end" in before)
-        if opens:
-            return True  # "Right, so the ego ..."
+        if opens or (self.words.word(at) == "right" and self.words.word(at + 1) in ("there", "then", "here", "where")):
+            return True  # "Right, so the ego ...", "Right there it brakes"
         if before.get("verb") == "turn" and not left_over:
             return False  # "turns right at the end of it"
         if "determiner" in before and self.words.word(at + 1) in ("thing", "decision", "moment", "time", "order"):
@@ -59,7 +59,10 @@ class Roles:
 
     def is_turn(self, at: int) -> bool:
         """Whether this is "turns left", "a left turn", "left onto the road"."""
-        before, after = self.words.tags(at - 1), self.words.tags(at + 1)
+        back = at - 1
+        while self.words.tag(back, "adverb") == "filler":
+            back -= 1  # "turns likewise left"
+        before, after = self.words.tags(back), self.words.tags(at + 1)
         others = [tags["verb"] for tags in (before, after) if "verb" in tags and tags["verb"] not in _WAY_VERBS]
         if others or "stop_noun" in after:
             return False  # "wants to stop right onto the road"
@@ -82,7 +85,7 @@ class Roles:
         tags, word = self.words.tags(back), self.words.word(back)
         verb, preposition = tags.get("verb"), tags.get("preposition")
         before = self.words.verbs(range(max(clause.start, back - 2), back))
-        turned = "turn" in before or self._turned(back, clause)
+        turned = "turn" in before or (self._turned(back, clause) and not self._comes(back, clause))
         bound = preposition == "to" and self.words.word(back - 1).endswith("way")  # "on its way to the driveway"
         if word == "after" and "be" in self.words.tags(back - 1):
             return "into"
@@ -122,7 +125,7 @@ class Roles:
         goal = {"destination", "goal", "target", "aim"} & {
             self.words.word(i) for i in range(max(0, back - 2), back + 1)
         }
-        if goal and self.is_title(clause):  # "Two vehicles with one destination, the driveway."
+        if goal and (clause.both or self.is_title(clause)):  # "Two vehicles with one destination, the driveway."
             return "into" if clause.both else None
         begins = back < clause.start or bool(tags.keys() & {"comma", "end", "colon"})
         if "relation" in tags or not (preposition in ("on", "in", "with") or begins):
@@ -145,8 +148,18 @@ class Roles:
             for i in range(each.start, min(each.end, at))
         ]
         sided = any(self.words.word(i) in ("left to", "right to") for i in stretch)
-        own = [i for i in stretch if "genitive" not in self.words.tags(i - 1)]  # not "from the ego's left"
+        own = [  # not "from the ego's left", "from our left"
+            i
+            for i in stretch
+            if "genitive" not in self.words.tags(i - 1) and self.words.word(i - 1) not in ("our", "your", "my")
+        ]
         return sided or self.words.where(own, "direction", "left", "right") is not None
+
+    def _comes(self, at: int, clause: Clause) -> bool:
+        """Whether a vehicle is on its way where an area follows: "a left turn, coming eastbound on the road"."""
+        last = next((i for i in range(at - 1, clause.start - 1, -1) if "verb" in self.words.tags(i)), None)
+        ways = ("come", "drive", "go", "approach")
+        return last is not None and self.words.tag(last, "verb") in ways and "ing" in self.words.tokens[last].forms
 
     def road_before(self, at: int) -> bool:
         """Whether the road was spoken of last: "is on the road and follows it"."""

@@ -47,8 +47,8 @@ def is_object(words: Words, at: int) -> bool:
     if "genitive" in following and words.where((at + 1, at + 2), "area", "lane") is not None:
         return True  # "crosses the ego's lane"
     back = _before_name(words, at)
-    if _is_owner(words, back, at):
-        return False
+    if _is_owner(words, back, at) or words.word(back - 1) in ("consists", "consist", "consisting"):
+        return False  # "Traffic consists of one van"
     if 0 < back < at and "ing" in words.tokens[back].forms and "determiner" in words.tags(back - 1):
         return words.word(back - 2) == "of"  # "the presence of a yielding van", but not "the entering car"
     if words.word(back) in SEES and "ing" in words.tokens[min(at + 1, len(words.tokens) - 1)].forms:
@@ -70,6 +70,8 @@ def is_object(words: Words, at: int) -> bool:
         return False
     if (tags.keys() & {"relation", "separates"} and linked != "when") or preposition in _OBJECT_OF:
         return True
+    if "opposed" in tags and words.named(range(words.sentence_at(at).start, back)) is not None:
+        return True  # "a left turn of the ego against an eastbound van"
     if verb == "let":  # "lets the ego pass", but not the imperative "let the ego drive"
         told = words.word(back - 1) in ("to", "and") or words.has([back - 1], "negation", "auxiliary")
         return told or bool(words.tokens[back].forms & {"s", "ing"})
@@ -184,10 +186,22 @@ def _name_subject(words: Words, clause: Clause) -> None:
     pronoun = any(at in words.names.pronouns for at in clause.inside)
     if found is None and not pronoun and not words.verbs(clause.inside) & {*_STRONG, "wait", "let", "yield"}:
         found = next((at for at in names if _stands_after(words, at, "for") and _is_for(words, clause, at)), None)
+    if found is None:
+        found = next((at for at in names if _is_turner(words, clause, at)), None)
     if found is not None:
         clause.subject, clause.named = words.names.actors[found], True
     elif clause.link in ("before", "after", "until") and "our" in words.tags(clause.start).values():
         clause.subject, clause.named = EGO_ID, True  # "before our turn begins"
+
+
+def _is_turner(words: Words, clause: Clause, at: int) -> bool:
+    """Whether a turn is told to be of this vehicle: "a left turn of the ego", "before the beginning of A's turn"."""
+    if "genitive" in words.tags(at + 1):
+        return clause.link in ("before", "after", "until") and words.tag(at + 2, "event_noun") == "turn"
+    back = at - 1
+    while words.has([back], "determiner", "actor_adjective"):
+        back -= 1
+    return words.word(back) == "of" and words.tag(back - 1, "event_noun") == "turn"
 
 
 def _is_for(words: Words, clause: Clause, at: int) -> bool:
@@ -239,7 +253,11 @@ def _starts_it(words: Words, clause: Clause) -> bool:
         return False
     if clause.link == "when" and words.verbs(clause.inside) & {"begin"} and words.word(clause.end - 1) in _RUNS:
         return not words.has(clause.inside, "quantity")
-    begins = words.word(clause.end - 1).split()[-1] in ("begin", "begins", "start", "starts", "began", "started")
+    last = words.word(clause.end - 1).split()[-1]
+    begins = last in ("begin", "begins", "start", "starts", "began", "started") or (
+        last in ("initiated", "launched") and words.has([clause.end - 2], "be")
+    )
+    begins = begins or (words.word(clause.end - 2) in ("press", "hit", "push") and last in ("play", "start", "go", "run"))
     vehicle = words.has(clause.inside, "hero", "noun") or any("ego" in words.word(at) for at in clause.inside)
     told = words.has(clause.inside, "quantity", "pronoun", "possessive")
     return clause.link == "when" and begins and len(clause.inside) <= 5 and not vehicle and not told
@@ -277,6 +295,12 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     own = before.start in words.names.pronouns and words.has([before.start + 1], "event_noun", "onset_noun")
     if relative and own and before.end <= before.start + 2:
         return before.subject  # "Its deceleration, which takes it to a stop"
+    again = words.word(clause.start - 2) == "and" and words.word(clause.start - 1) in ("which", "who")
+    which = words.word(clause.start - 1)
+    alike = [each for each in words.sentence(clause) if each.start < clause.start]
+    alike = [each for each in alike if words.word(each.start - 1) == which or words.word(each.start) == f"{which} begins"]
+    if again and alike:
+        return alike[-1].subject  # "a van comes, which brakes when ..., and which stops 6 m before it"
     if relative:
         _check_antecedent(words, index)
     if relative and before.named and named_last != before.subject and before.end == clause.start - 1:
@@ -291,6 +315,10 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     if bare.named and bare.sentence == clause.sentence and not told and clause.link == "then":
         return bare.subject  # "The ego then passes it"
     earlier = [each for each in words.sentence(clause) if each.start < clause.start]
+    if pronouns and clause.link in ("after", "until") and bare in earlier and "let" in words.verbs(bare.inside):
+        named = words.named(range(bare.start, bare.end))
+        if _is_perfect(words, clause) and named == EGO_ID:
+            return named  # "He lets our car go by, and after it has passed ..."
     if (other := _other_one(words, clause, earlier)) is not None:
         return other
     first_of_two = bool(earlier) and earlier[0].subject == HERO_ID and earlier[0].link == "main"

@@ -76,9 +76,9 @@ class WayReader:
             self._direction(at, clause)
         elif self.words.word(at).startswith("left ") and self.words.tag(at - 1, "verb") == "turn":
             self._say("turn", "left", at, clause.subject, clause)  # "turns left to the road"
-        elif tags.get("pronoun") == "it" and self.roles.driveway_before(at):
+        elif (tags.get("pronoun") == "it" or self.words.word(at) == "there") and self.roles.driveway_before(at):
             self._into_it(at, clause)
-        elif verb == "lane_follow":
+        elif verb == "lane_follow" or (verb == "go" and self._goes_along(at, clause)):
             self._say("turn", "straight", at, clause.subject, clause)
         elif area == "lane":
             self._lane(at, clause)
@@ -98,6 +98,14 @@ class WayReader:
             self._same_heading(at, named)
         elif "same" in tags or self.words.word(at) == "likewise":
             self._same(at, clause)
+
+    def _goes_along(self, at: int, clause: Clause) -> bool:
+        """Whether this is "carries on along the road"."""
+        ahead = self.words.skip(at + 2, _BESIDE)
+        road = self.words.tag(ahead, "area") == "road" and ahead < clause.end
+        return road and self.words.word(at + 1) in ("along", "down") and self.words.word(at).split()[0][:4] in (
+            "carr", "cont", "goes", "keep", "driv", "proc"
+        )
 
     # -- headings and turns -------------------------------------------------------------------------------------------
     def _heading(self, at: int, clause: Clause) -> None:

@@ -1,0 +1,62 @@
+"""Finds who "car A", "V2" and "Party B" are, where a text says which of two such names is the ego.
+
+What enters: the text. What leaves: the text with plain names in their place ("AV", "OV", "ego", "hero"), every other
+character where it was; and single letters with whom they stand for, which `layout` names where they act.
+"""
+
+from __future__ import annotations
+
+import re
+
+_KINDS = r"(?:car|vehicle|actor|agent|driver|party|participant|player|unit)"
+_LETTERED = re.compile(rf"\b(?:the )?{_KINDS} ([A-D]|\d)\b(?! ?(?:m|s|ft|yd|km/h|mph)\b)", re.IGNORECASE)
+_NUMBERED = re.compile(r"\b(?!T\d)([A-Z][A-Za-z]{0,3}[-_]?\d)\b(?!\s*=\s*\d)")
+_EGOS = (
+    r"(?:ego(?: vehicle| car)?|(?:car|vehicle|one) (?:under test|being tested)|AV|ADS|SUT|VUT|"
+    r"(?:subject|test|tested|host|own) (?:car|vehicle))"
+)
+_IS = r"(?:,? which is|,? being| is|,|:| =|)\s*\(?(?:the |our )?"
+
+
+def without_aliases(text: str) -> str:
+    """Return the text in which numbered and lettered vehicles have plain names.
+
+    >>> without_aliases("V1 (vehicle under test) goes west. V2 turns left. V2 brakes.")
+    'AV                      goes west. OV turns left. OV brakes.'
+    """
+    if names := letters(text):
+        text = _defined(text, _LETTERED, {name: name for name in names})
+        text = _LETTERED.sub(lambda found: _padded(names[found.group(1).upper()], found), text)
+    numbered = list(dict.fromkeys(found.group(1) for found in _NUMBERED.finditer(text)))
+    egos = [each for each in numbered if _is_ego(re.escape(each), text)]
+    if len(numbered) != 2 or len(egos) != 1:
+        return text
+    text = _defined(text, _NUMBERED, {name: name for name in numbered})
+    return _NUMBERED.sub(lambda found: _padded("AV" if found.group(1) == egos[0] else "OV", found), text)
+
+
+def letters(text: str) -> dict[str, str]:
+    """Return who "car A" and "car B" are, where one of two is said to be the ego."""
+    found = list(dict.fromkeys(each.group(1).upper() for each in _LETTERED.finditer(text)))
+    egos = [each for each in found if _is_ego(f"{_KINDS} {each}", text)]
+    if len(found) != 2 or len(egos) != 1:
+        return {}
+    return {each: "ego" if each == egos[0] else "hero" for each in found}
+
+
+def _is_ego(name: str, text: str) -> bool:
+    """Whether a name is said to be the ego: "V1 (vehicle under test)", "the vehicle under test (V1)"."""
+    said = rf"\b{name}{_IS}{_EGOS}\b|\b{_EGOS},? (?:\(|is |called |which is )(?:the )?{name}\b"
+    return re.search(said, text, re.IGNORECASE) is not None
+
+
+def _defined(text: str, pattern: re.Pattern[str], names: dict[str, str]) -> str:
+    """Return the text without what says who a name is: "V1 (vehicle under test)" is "V1", "the van (V2)" the van."""
+    brackets = re.compile(rf"(?<=\w) \({pattern.pattern}\)", pattern.flags)
+    text = brackets.sub(lambda found: " " * len(found.group()) if found.group(1) in names else found.group(), text)
+    after = re.compile(rf"({pattern.pattern})(?: \((?:the |our )?{_EGOS}\)|, (?:the |our ){_EGOS},)", re.IGNORECASE)
+    return after.sub(lambda found: found.group(1).ljust(len(found.group())), text)
+
+
+def _padded(words: str, found: re.Match[str]) -> str:
+    return words.ljust(len(found.group()))
