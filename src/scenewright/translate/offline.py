@@ -49,7 +49,7 @@ _ROLES = {
 }
 
 _AT_ONCE = re.compile(
-    r"\b(?:at|in) the (?:very )?same (?:moment|time|instant|second)|\bsimultaneously\b|\bconcurrently\b", re.IGNORECASE
+    r"\b(?:at|in) the (?:very )?same (?:moment|time|instant|second)|\buses? (?:that|this) (?:very )?moment|\bsimultaneously\b|\bconcurrently\b", re.IGNORECASE
 )
 
 _AT_TRIGGER = re.compile(r"\b(?:at|on|upon) (?:the )?trigger\b", re.IGNORECASE)

@@ -85,6 +85,10 @@ class EgoMoments:
             or (self.words.has(clause.inside, "stop_noun"))
         ):
             raise self.words.refuse("this is no moment of the ego that can be compared", self.words.span(clause))
+        if (strange := self._strange(clause)) is not None:
+            raise self.words.refuse(
+                "it is not clear which moment of the ego this is", self.words.tokens[strange].span, "a known place"
+            )
         if clause.link == "until" and self.words.word(clause.start - 2) == "not":
             self.words.used.add(clause.start - 2)  # "not until the ego has passed does it move"
         first = clause.link == "before" or self.words.word(clause.start - 1) in ("by the time", "after which")
@@ -93,6 +97,16 @@ class EgoMoments:
         span = self.words.span(clause)
         self.deeds.append(Deed(kind, clause.start, clause, span, self.place(clause, verbs), EGO_ID))
         return True
+
+    def _strange(self, clause: Clause) -> int | None:
+        """Return where something stands that is not known: "before the ego passes the bus shelter"."""
+        words = self.words
+        for at in clause.inside:
+            free = "unknown" in words.tags(at) and at not in words.names.actors and not words.word(at).endswith("ly")
+            beside = at + 1 in words.names.actors or words.has([at + 1], "unknown", "landmark", "event_noun")
+            if free and not beside and words.word(at) not in ("much", "own", "anything"):
+                return at
+        return None
 
     def _names_turn(self, clause: Clause, verbs: set[str]) -> bool:
         noun = self.words.where(clause.inside, "event_noun", "turn") is not None

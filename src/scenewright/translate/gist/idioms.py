@@ -23,7 +23,8 @@ _NO_SOONER = re.compile(r"\bNo sooner((?: \w+)(?:(?!\bthan\b|[;!?]|\.\s).)*?)\bt
 _WAIT_UNTIL = re.compile(r"(?<=[.!?;] )Wait until\b")
 # "Once two conditions hold at the same time, ..."
 _HOLD = re.compile(
-    r"\b(?:once|when|as soon as) (?:the following |these |both |two |the )?(?:two )?conditions? "
+    r"\b(?:once|when|as soon as|the (?:instant|moment)) (?:the following |these |both |two |the )?(?:two )?"
+    r"(?:conditions?|things|requirements) "
     r"(?:holds?|(?:are|is) (?:met|fulfilled|true|satisfied|given))"
     r"(?: (?:together|at the same time|simultaneously|at once))?(?:,|:| -)?(?: namely(?: that)?,?)?",
     re.IGNORECASE,

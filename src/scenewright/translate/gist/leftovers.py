@@ -17,7 +17,9 @@ from scenewright.translate.gist.words import Clause, Deed, Words
 _DANGERS = frozenset(
     ["exceed", "exceeds", "exceeded", "exceeding", "higher", "lower", "maximum", "minimum", "max", "min", "limit",
      "limited", "cap", "capped", "predicts", "predicted", "says", "said", "twice", "thrice", "repeatedly",
-     "backing", "backwards", "backward", "reversing", "supposedly", "allegedly", "hypothetically"]
+     "backing", "backwards", "backward", "reversing", "supposedly", "allegedly", "hypothetically",
+     "withdrawn", "deleted", "vanishes", "disappears", "cancelled", "canceled", "retracted",
+     "superseded", "flyover", "overpass", "underpass", "viaduct", "tunnel", "roundabout"]
 )  # fmt: skip
 _EDGE_OF_TURN = re.compile(r"\b(?:start|beginning|end) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b", re.IGNORECASE)
 _COUNTED = re.compile(
@@ -40,10 +42,21 @@ _CHANCE = re.compile(
     r"(?:runs|cases|times?|trials|tests|drivers)\b|\b(?:sometimes|occasionally|now and then|every other)\b",
     re.IGNORECASE,
 )
+_AGAIN_AND_AGAIN = re.compile(
+    r"\b(?:as a rule|by and large|more often than not|over and over|again and again|time and again|keeps? up this"
+    r"|scrap (?:that|this|the|it)|for the rest of the|and so on|on the verge of|thinks? better of)\b",
+    re.IGNORECASE,
+)
+_ROLLS_BACK = re.compile(r"\broll(?:s|ing|ed)? back\b", re.IGNORECASE)
+_TOUCHES = re.compile(
+    r"(?<!the )\b(?:brush|clip|graz|scrap|touch|bump|scratch)(?:e?s|ing|ed|ping|ped)? (?:the|its|our|against|into)\b(?! (?:brake|pedal|stop))",
+    re.IGNORECASE,
+)
 _AT_TIMES = frozenset(
     ["usually", "normally", "often", "probably", "maybe", "perhaps", "likely", "typically", "generally", "mostly",
      "rarely", "seldom", "possibly", "hardly", "barely", "nearly", "almost"]
 )  # fmt: skip
+_HARMLESS = ("interest", "matters", "own", "more", "further", "still")
 _WHICH = re.compile(r"\bwhich of (?:the two|them|the (?:vehicles|cars)|these)\b", re.IGNORECASE)
 _DEEDS = frozenset(
     ["brake", "stop", "accelerate", "pass", "complete", "yield", "not_yield", "turn", "pull_out", "wait", "reach",
@@ -60,6 +73,9 @@ def refuse_dangers(words: Words) -> None:
         (_DEPENDS, "a condition like this cannot be orchestrated"),
         (_WHICH, "this is left open"),
         (_CHANCE, "what happens at times cannot be orchestrated"),
+        (_AGAIN_AND_AGAIN, "this is not read here"),
+        (_ROLLS_BACK, "driving backwards cannot be orchestrated"),
+        (_TOUCHES, "contact cannot be orchestrated"),
     ):
         if found := pattern.search(words.text):
             raise words.refuse(message, Span(*found.span()))
@@ -85,6 +101,38 @@ def refuse_strangers(words: Words) -> None:
         acts = words.verbs(clause.inside) & {*_DEEDS, "lane_follow"} or words.has(clause.inside, "quantity")
         if clause.aside and acts:
             raise words.refuse("it is not clear who does this", words.span(clause))
+
+
+def refuse_strange_conditions(words: Words, last: int) -> None:
+    """Refuse "when the ego is 15 m from it, its indicator has come on and the hero is 33 m from it".
+
+    `last` is where the last amount of the trigger stands: whatever is told before it has to be known.
+    """
+    sentence = words.sentence_at(last).start
+    first = next((each.start for each in words.clauses if each.link == "when" and sentence <= each.start <= last), None)
+    if first is None:
+        return
+    for at in range(first, last):
+        if "unknown" not in words.tags(at) or at in words.names.actors or words.word(at).endswith("ly"):
+            continue
+        if any(words.has([near], "landmark") for near in (at + 1, at - 1)) or words.word(at) in _HARMLESS:
+            continue
+        clause = next((each for each in words.clauses if at in each.inside), None)
+        if clause is not None and not clause.aside and not _is_part_of_name(words, at):
+            raise words.refuse(f"'{words.word(at)}' was not understood: it may be a condition", words.tokens[at].span)
+
+
+def _is_part_of_name(words: Words, at: int) -> bool:
+    """Whether this is "ice cream" in "the ice cream van", or "trailer" in "the car with the trailer"."""
+    ahead, back = at + 1, at - 1
+    while "unknown" in words.tags(ahead) and ahead not in words.names.actors:
+        ahead += 1
+    while "unknown" in words.tags(back) or "determiner" in words.tags(back) or words.word(back) == "with":
+        if back in words.names.actors:
+            break
+        back -= 1
+    ahead += "genitive" in words.tags(ahead)  # "the learner's car"
+    return ahead in words.names.actors or back in words.names.actors
 
 
 def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> None:
@@ -258,8 +306,19 @@ def refuse_strange_deeds(words: Words, trigger_sentence: int) -> None:
         compound = words.has([at + 1], "noun", "hero", "ego") or words.word(at).endswith(("er", "or"))
         compound = compound or words.word(at) in ("priority", "precedence")  # "giving the ego priority"
         compound = compound or words.tag(at - 2, "verb") == "leave"  # "should leave the ego undisturbed"
+        acts = acts or _is_done(words, at, clause)
         if clause is not None and clause.sentence >= trigger_sentence and acts and not compound:
             raise words.refuse(f"'{token.text}' was not understood: it may be what a vehicle does", token.span)
+
+
+def _is_done(words: Words, at: int, clause: Clause | None) -> bool:
+    """Whether a word that is not known is what a vehicle does or what is done to it: "but thinks", "it is deleted"."""
+    word = words.word(at)
+    if clause is None or clause.aside or clause.subject is None:
+        return False
+    passive = word.endswith("ed") and words.has([at - 1], "be") and words.has(range(clause.start, at), "pronoun")
+    joined = words.word(at - 1) in ("but", "then") and word.endswith("s") and not word.endswith("ss")
+    return passive or joined
 
 
 def _is_stranger(words: Words, at: int) -> bool:

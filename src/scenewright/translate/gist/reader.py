@@ -22,6 +22,7 @@ from scenewright.translate.gist.layout import laid_out
 from scenewright.translate.gist.leftovers import (
     refuse_dangers,
     refuse_left_over,
+    refuse_strange_conditions,
     refuse_strange_deeds,
     refuse_strangers,
     refuse_third_parties,
@@ -147,6 +148,7 @@ def _read(words: Words, title: tuple[Token, ...], road_map: RoadMap) -> Gist:
     facts.relations = one_each(words, ways.relations)
     facts.mentioned |= {EGO_ID, HERO_ID}
     refuse_strange_deeds(words, teller.trigger_sentence)
+    refuse_strange_conditions(words, max(made.at for made in moments.of("trigger")))
     refuse_third_parties(words, acts.deeds, teller.trigger_sentence)
     refuse_left_over(words, acts.deeds, teller.trigger_sentence)
     events = [*(said.event for each in facts.wishes.values() for said in each.values()), *teller.events]
