@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from scenewright.errors import Span
 from scenewright.translate.events import EGO_ID, HERO_ID, Relation
 from scenewright.translate.facts import Bound
-from scenewright.translate.gist.owners import measure_of, measure_word, owner_of, told_for
+from scenewright.translate.gist.owners import measure_of, measure_word, owner_of, told_by_for, told_for
 from scenewright.translate.gist.places import SKIPPED, PlaceFinder
 from scenewright.translate.gist.words import Clause, Words
 from scenewright.translate.tokens import Quantity
@@ -62,6 +62,7 @@ class AmountReader:
     words: Words
     found: list[Measured] = field(default_factory=list)
     places: PlaceFinder = field(init=False)
+    lying: Measured | None = None  # the last place that itself was said to lie somewhere: "the stop line is 6 s away"
 
     def __post_init__(self) -> None:
         self.places = PlaceFinder(self.words)
@@ -359,25 +360,35 @@ class AmountReader:
     def _lies(self, made: Measured) -> bool:
         """Read "the intersection is 6.8 s away" and "the intersection lies 82 m ahead of it"."""
         before = range(made.clause.start, made.at)
+        away = self.words.tag(made.at + 1, "relation") in ("from", "ahead")
+        it = self.words.word(made.clause.start) == "it" and self.words.named(before) is None
+        if it and away and self.lying is not None and self.lying.clause.sentence == made.clause.sentence - 1:
+            place = self.places.place_at(made.at + 2)
+            if place is None and self.words.named(range(made.at, made.clause.end)) is None:
+                made.kind, made.landmark, made.actor = "place", self.lying.landmark, self.lying.actor
+                return True  # "The stop line is 6 s away. When it is only 2 s away ..."
         joint = next((i for i in reversed(before) if self.words.has([i], "quantity") or self.words.word(i) == "and"), 0)
         joined = self.words.word(joint) == "and" and self.words.has(range(made.clause.start, joint), "quantity")
         if joined:  # "the conflict point is 38 m ahead of us and the stop line 11 m ahead of the van"
             before = range(joint + 1, made.at)
         mark = self.words.where(before, "landmark")
         said = next((i for i in before if self.words.word(i) in ("the intersection is", "the junction is")), None)
-        away = self.words.tag(made.at + 1, "relation") in ("from", "ahead")
         elliptic = (made.clause.link == "and" or joined) and self.words.tag(made.at + 1, "relation") == "ahead"
         stands = elliptic or self.words.has(before, "be") or "sit" in self.words.verbs(before) or said is not None
         measured = any(measure_of(self.words, at) is not None for at in before)
         if (mark is None and said is None) or not away or not stands or measured or self.words.has(before, "quantity"):
             return False
         place = self.places.place_at(made.at + 2)
+        name = next((i for i in before if i in self.words.names.actors), None)
+        if name is not None and told_by_for(self.words, name, made.clause):  # "For the ego the stop line is 6 s away."
+            made.actor, before = self.words.names.actors[name], range(name + 1, made.at)
         if self.words.named(before) is not None or (place is not None and place[0] != "last"):
             return False
         named = self.words.named(range(made.at + 1, min(made.at + 5, made.clause.end)))
         made.kind, made.landmark = "place", self.words.tags(mark)["landmark"] if mark is not None else "intersection"
-        made.actor = named if named is not None else made.clause.subject
+        made.actor = named if named is not None else made.actor if made.actor is not None else made.clause.subject
         self.words.used |= {made.at, mark if mark is not None else made.at}
+        self.lying = made
         return True
 
     def _separates(self, made: Measured, at: int) -> None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from scenewright.translate.gist.subjects import SEES, is_object
+from scenewright.translate.gist.subjects import SEES, SHARES, is_object
 from scenewright.translate.gist.words import Clause, Words
 
 NEGATIVES = frozenset(("neither", "nor", "none", "no", "cannot", "nobody", "shall not", "must not", "should not"))
@@ -82,13 +82,17 @@ class _Cutter:
         self.labels = [label] if fresh and label != "who" else [*self.labels, label]
         named = self.words.named(stretch)
         self.labelled = named if named is not None else self.labelled
+        if label == "trigger" and self.words.has(stretch, "landmark", "measure", "measures"):
+            self._close(at, "colon")  # "Trigger on the time to arrival at the conflict point: ego 4 s"
+            return
         self.start, self.link = at + 1, "main"
 
     def _label(self, at: int) -> str | None:
         """Return what a short stretch before a colon announces."""
         stretch = [i for i in range(self.start, at) if "determiner" not in self.words.tags(i)]
-        if not stretch or len(stretch) > 3 or self.words.has(stretch, "quantity"):
-            return None
+        measured = bool(stretch) and "label" in self.words.tags(stretch[0]) and self.words.has(stretch, "measure")
+        if not stretch or (len(stretch) > 3 and not measured) or self.words.has(stretch, "quantity"):
+            return None  # "Trigger on the time to arrival at the conflict point: ego 4 s, ..."
         if (told := self.words.where(stretch, "label")) is not None:
             said = self.words.tags(told)["label"]
             return _LABELS.get(said, said)
@@ -113,7 +117,9 @@ class _Cutter:
             or "measure" in self.words.tags(at - 1)  # "the time to collision with the van"
             or self._has_something(at)
         )
-        return self._begins_clause(at + 1) and not self._between(at) and not begins
+        first = max(self.start, at - 5)
+        shared = self.words.word(at) == "with" and any(self.words.word(i) in SHARES for i in range(first, at))
+        return self._begins_clause(at + 1) and not self._between(at) and not begins and not shared
 
     def _has_something(self, at: int) -> bool:
         """Whether this is the "with" of "a car with a trailer"."""
@@ -234,7 +240,10 @@ def _measures_until(words: Words, at: int) -> bool:
     first = words.sentence_at(at).start
     measure = words.where(range(at - 1, max(first, at - 6) - 1, -1), "measure")
     told = measure is not None and words.has(range(measure, at), "quantity", "verb", "be")
-    return measure is not None and not told and _names_place(words, at + 1)
+    place = at + 1
+    while words.has([place], "determiner", "possessive", "area_adjective"):
+        place += 1
+    return measure is not None and not told and words.has([place], "landmark", "back_reference")
 
 
 def _is_still_to_come(words: Words, at: int) -> bool:

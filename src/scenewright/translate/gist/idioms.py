@@ -65,6 +65,8 @@ _CONJUNCTION = re.compile(
     r"(?:,|:)? ?(?:namely )?(?:that )?(?=the |an? |[A-Z])",
     re.IGNORECASE,
 )
+# "Is it 2 s away from the line, then the van brakes" is a condition in German
+_IS_IT = re.compile(r"(?:(?<=[.!?]\s)|^)Is (?=(?:it|he|she|the [a-z]+) (?:[^.?!]|\.\d)*\bthen\b)")
 _AFTER_THIS = re.compile(r"\b(complete[sd]?|finishe?[sd]?) (after (?:this|that)|then|afterwards) ((?:its|his|her|the) turn)\b", re.I)
 _UNDERSCORE = re.compile(r"\b(ego|hero|npc|target|other|opponent|lead)_(vehicle|car|actor|agent)\b", re.IGNORECASE)
 _THAT_IS = re.compile(r", that is,")
@@ -86,6 +88,7 @@ def without_idioms(text: str) -> str:
     text = _I_THINK.sub(lambda found: _padded("", found), text)
     text = _RESPONSE.sub(lambda found: _padded(f"{found.group(1)} then shall", found), text)
     text = _CONJUNCTION.sub(lambda found: _padded("When", found), text)
+    text = _IS_IT.sub("If ", text)
     text = _AFTER_THIS.sub(lambda found: _padded(f"{found.group(1)} {found.group(3)}", found), text)
     text = _UNDERSCORE.sub(r"\1 \2", text)
     text = without_aliases(text)

@@ -13,6 +13,7 @@ from typing import Literal
 from scenewright.translate.events import EGO_ID, HERO_ID
 from scenewright.translate.facts import Bound
 from scenewright.translate.gist.amounts import Measured
+from scenewright.translate.gist.bare_triggers import BareTriggers
 from scenewright.translate.gist.words import Clause, Deed, Words
 
 Moment = Literal["start", "trigger", "deed", "open"]
@@ -52,7 +53,10 @@ class MomentReader:
             if self.moments[made.at] == "trigger" and self._of_no_one(made):
                 raise self.words.refuse("it is not clear whose amount this is", made.span)
         first = min((made.at for made in self.of("trigger")), default=None)
-        first = first if first is not None else self._told_before()
+        if first is None:
+            triggers = BareTriggers(self.words, self.deeds, self.of("open")).find()
+            self.moments |= {made.at: "trigger" for made in triggers}
+            first = min((made.at for made in triggers), default=None)
         self._just_before_the_moment()
         for made in self.of("open"):
             if first is None or made.at > first:
@@ -409,57 +413,3 @@ class MomentReader:
             return False
         first = self.words.sentence(clause)[0].start
         return self.words.named(range(first, made.at + _FAR + 1)) is None
-
-    # -- triggers without a "when" ------------------------------------------------------------------------------------
-    def _told_before(self) -> int | None:
-        """Read "The ego gets to 12 m before the line. At that moment the hero brakes", and return where that begins."""
-        gaps = [made for made in self.of("open") if made.kind in ("gap", "ttc")]
-        if len(gaps) == 1:
-            return self._set_trigger(gaps)
-        if (told := self._called_trigger()) is not None:
-            return told
-        then = next((each for each in self.words.clauses if each.link == "moment"), None)
-        if then is None:
-            return self._told_before_a_colon()
-        latest = {made.actor: made for made in self.of("open") if made.at < then.start}
-        return self._set_trigger(list(latest.values()))
-
-    def _called_trigger(self) -> int | None:
-        """Read "The AV is 3 s from the line, the van 3 s from the point. That is the trigger."."""
-        for clause in self.words.clauses:
-            this = self.words.word(clause.start) in ("this", "that") or self.words.word(clause.start - 1) in (
-                "this",
-                "that",
-            )
-            named = self.words.where(clause.inside, "label", "when") is not None or clause.link == "when"
-            told = self.words.has(clause.inside, "quantity")
-            before = [made for made in self.of("open") if made.clause.sentence == clause.sentence - 1]
-            if this and named and before and not told and len(clause.inside) <= 4:
-                return self._set_trigger(before)
-            if this and before and self._is_when(clause):
-                return self._set_trigger(before)
-        return None
-
-    def _is_when(self, clause: Clause) -> bool:
-        """Whether this is the "That is" of "That is when the van brakes"."""
-        following = next((each for each in self.words.clauses if each.start > clause.start), clause)
-        acts = any(d.clause is following and d.actor == HERO_ID for d in self.deeds)
-        told = self.words.has(following.inside, "quantity")
-        alone = len(clause.inside) <= 2 and self.words.has(clause.inside, "be")
-        return alone and following.link == "when" and following.start == clause.end + 1 and acts and not told
-
-    def _told_before_a_colon(self) -> int | None:
-        """Read "Ego 45 m from the conflict point: the car sets off" and "Cond: ego 12 m, van 30 m from it"."""
-        opens = self.of("open")
-        if len({made.clause.sentence for made in opens}) != 1:
-            return None
-        colons = [each for each in self.words.sentence(opens[0].clause) if each.link == "colon"]
-        after = any(each.start > opens[-1].at for each in colons)
-        before = any(each.start <= opens[0].at for each in colons)
-        both = {made.actor for made in opens} >= {EGO_ID, HERO_ID}
-        return self._set_trigger(opens) if after or (before and both) else None
-
-    def _set_trigger(self, amounts: list[Measured]) -> int | None:
-        for made in amounts:
-            self.moments[made.at] = "trigger"
-        return min((made.at for made in amounts), default=None)

@@ -118,6 +118,14 @@ def _between(words: Words, at: int, clause: Clause) -> int | None:
     return clause.subject
 
 
+def told_by_for(words: Words, name: int, clause: Clause) -> bool:
+    """Whether a name opens its clause after "for": "For the ego the stop line is 6 s away"."""
+    back = name - 1
+    while words.has([back], "determiner", "actor_adjective"):
+        back -= 1
+    return words.word(back) == "for" and back <= clause.start
+
+
 def told_for(words: Words, made: Owned, at: int) -> None:
     """Read "3 s for the ego and 2 s for the van" and "25 m (ego)": whose it is stands after it."""
     if (bracket := words.in_brackets(made.at + 1)) is not None:

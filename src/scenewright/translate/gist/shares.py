@@ -17,6 +17,7 @@ def share(words: Words, found: list[Measured]) -> None:
     _back_references(words, found)
     _respectively(words, found)
     _told_after(words, found)
+    _told_before_colon(words, found)
     _same_place(words, found)
     _in_order(words, found)
 
@@ -57,6 +58,25 @@ def _told_after(words: Words, found: list[Measured]) -> None:
         for made in opens:
             made.kind, made.landmark = "place", words.tags(mark)["landmark"]
         words.used |= set(clause.inside)
+
+
+def _told_before_colon(words: Words, found: list[Measured]) -> None:
+    """Read "Trigger on the time to arrival at the conflict point: ego 4 s, van 2.5 s"."""
+    for clause in words.clauses:
+        measure = words.where(clause.inside, "measure", "time", "length")
+        measure = measure if measure is not None else words.where(clause.inside, "measures")
+        mark = words.where(clause.inside, "landmark")
+        rest = [each for each in words.sentence(clause) if each.start > clause.start]
+        if measure is None or mark is None or not rest or rest[0].link != "colon" or clause.end + 1 != rest[0].start:
+            continue
+        if words.has(clause.inside, "quantity"):
+            continue
+        dimension = words.tag(measure, "measure") or words.tag(measure, "measures")
+        for made in found:
+            own = made.kind == "open" and made.clause.sentence == clause.sentence and made.at > clause.end
+            if own and made.quantity is not None and made.quantity.dimension == dimension:
+                made.kind, made.landmark = "place", words.tags(mark)["landmark"]
+                words.used.add(mark)
 
 
 def _same_place(words: Words, found: list[Measured]) -> None:

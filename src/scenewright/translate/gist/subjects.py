@@ -25,6 +25,7 @@ SEES = (
     "met",
     "encounters",
 )
+SHARES = ("shares", "share", "sharing", "shared")
 _BESIDE = frozenset(("determiner", "actor_adjective", "possessive", "heading", "hero", "noun", "unknown", "direction"))
 _OBJECT_OF = frozenset(("to", "of", "for", "by", "between", "across", "into", "in", "on", "at", "out"))
 _TAKES_OBJECT = frozenset(
@@ -70,6 +71,8 @@ def is_object(words: Words, at: int) -> bool:
         return False
     if (tags.keys() & {"relation", "separates"} and linked != "when") or preposition in _OBJECT_OF:
         return True
+    if words.word(back) == "with" and any(words.word(i) in SHARES for i in range(max(0, back - 6), back)):
+        return True  # "It shares the lane with the ego"
     if "opposed" in tags and words.named(range(words.sentence_at(at).start, back)) is not None:
         return True  # "a left turn of the ego against an eastbound van"
     if verb == "let":  # "lets the ego pass", but not the imperative "let the ego drive"
@@ -257,10 +260,17 @@ def _starts_it(words: Words, clause: Clause) -> bool:
     begins = last in ("begin", "begins", "start", "starts", "began", "started") or (
         last in ("initiated", "launched") and words.has([clause.end - 2], "be")
     )
+    begins = begins or _we_go(words, clause)
     begins = begins or (words.word(clause.end - 2) in ("press", "hit", "push") and last in ("play", "start", "go", "run"))
     vehicle = words.has(clause.inside, "hero", "noun") or any("ego" in words.word(at) for at in clause.inside)
     told = words.has(clause.inside, "quantity", "pronoun", "possessive")
     return clause.link == "when" and begins and len(clause.inside) <= 5 and not vehicle and not told
+
+
+def _we_go(words: Words, clause: Clause) -> bool:
+    """Whether this is "when we get going", which is no deed of the story."""
+    first = clause.start in words.names.actors and words.word(clause.start) in FIRST_PERSON
+    return first and len(clause.inside) == 2 and words.verbs(clause.inside) == {"go"}
 
 
 def _begins_test(words: Words, clause: Clause) -> bool:

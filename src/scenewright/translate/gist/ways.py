@@ -132,6 +132,10 @@ class WayReader:
         if clause.both and named in self.words.names.actors:  # "a westbound pickup and the AV have one goal"
             self.ways.append(Way("heading", value, at, self.words.tokens[at].span, self.words.names.actors[named]))
             return
+        shared = any(self.words.word(i).startswith("shar") for i in range(clause.start, at))
+        if shared and self.words.named(range(at, clause.end)) is not None:  # "shares the westbound lane with the ego"
+            self.ways += [Way("origin_heading", value, at, self.words.tokens[at].span, each) for each in (EGO_ID, HERO_ID)]
+            return
         key: Key = "origin_heading" if from_lane else "heading"  # "a right turn from the westbound lane"
         self._say(key, value, at, self._whose(at, clause), clause)
 

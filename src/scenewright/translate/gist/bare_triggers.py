@@ -1,0 +1,101 @@
+"""Finds the trigger of a text that has no "when": "The ego gets to 12 m from the line. At that moment the van brakes".
+
+What enters: words, deeds, the amounts whose moment no word decides. What leaves: those of them that are the trigger.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from scenewright.translate.events import EGO_ID, HERO_ID
+from scenewright.translate.gist.amounts import Measured
+from scenewright.translate.gist.words import Clause, Deed, Words
+
+_TRIGGERS = ("trigger", "triggers", "triggered", "triggering", "cue", "event", "signal")
+_ACTS = ("brake", "accelerate", "stop")
+
+
+@dataclass(slots=True)
+class BareTriggers:
+    """Finds it in one text.
+
+    Attributes
+    ----------
+    opens
+        Amounts whose moment is open, in the order of the text.
+    """
+
+    words: Words
+    deeds: Sequence[Deed]
+    opens: list[Measured]
+
+    def find(self) -> list[Measured]:
+        """Return the amounts of the trigger; none where there is none."""
+        gaps = [made for made in self.opens if made.kind in ("gap", "ttc")]
+        if len(gaps) == 1:
+            return gaps
+        if told := self._called() or self._named() or self._come_there():
+            return told
+        then = next((each for each in self.words.clauses if each.link == "moment"), None)
+        if then is None:
+            return self._before_a_colon()
+        return list({made.actor: made for made in self.opens if made.at < then.start}.values())
+
+    def _called(self) -> list[Measured]:
+        """Read "The AV is 3 s from the line, the van 3 s from the point. That is the trigger."."""
+        for clause in self.words.clauses:
+            this = self.words.word(clause.start) in ("this", "that") or self.words.word(clause.start - 1) in (
+                "this",
+                "that",
+            )
+            named = self.words.where(clause.inside, "label", "when") is not None or clause.link == "when"
+            told = self.words.has(clause.inside, "quantity")
+            before = [made for made in self.opens if made.clause.sentence == clause.sentence - 1]
+            own = [each for each in self.opens if each.clause.sentence == clause.sentence and each.at < clause.start]
+            if this and named and before and not told and len(clause.inside) <= 4:
+                return before
+            if this and (own or before) and self._is_when(clause):
+                return own or before
+        return []
+
+    def _is_when(self, clause: Clause) -> bool:
+        """Whether this is the "That is" of "That is when the van brakes"."""
+        following = next((each for each in self.words.clauses if each.start > clause.start), clause)
+        acts = any(d.clause is following and d.actor == HERO_ID for d in self.deeds)
+        told = self.words.has(following.inside, "quantity")
+        alone = len(clause.inside) <= 2 and self.words.has(clause.inside, "be")
+        return alone and following.link == "when" and following.start == clause.end + 1 and acts and not told
+
+    def _named(self) -> list[Measured]:
+        """Read "A pair of times is the trigger, namely 3 s for the ego and 2 s for the van to the conflict point"."""
+        for made in self.opens:
+            sentence = self.words.sentence_at(made.at)
+            called = any(self.words.word(at).split()[-1] in _TRIGGERS for at in sentence if self.words.word(at))
+            own = [each for each in self.opens if each.at in sentence]
+            acts = any(d.at in sentence and d.actor == HERO_ID for d in self.deeds)
+            both = {each.actor for each in own} == {EGO_ID, HERO_ID} and len(own) == 2
+            if called and both and not acts and all(each.kind == "place" for each in own):
+                return own
+        return []
+
+    def _come_there(self) -> list[Measured]:
+        """Read "The AV gets to 25 ft from the line, the van is 60 ft from the point, and it just goes for it"."""
+        for made in self.opens:
+            sentence = self.words.sentence_at(made.at)
+            comes = "reach" in self.words.verbs(range(made.clause.start, made.at)) and made.clause.link == "main"
+            own = [each for each in self.opens if each.at in sentence and each.kind == "place"]
+            acts = [d for d in self.deeds if d.at in sentence and d.actor == HERO_ID and d.kind in _ACTS]
+            if comes and acts and acts[0].at > own[-1].at and made is own[0] and made.actor == EGO_ID:
+                return own
+        return []
+
+    def _before_a_colon(self) -> list[Measured]:
+        """Read "Ego 45 m from the conflict point: the car sets off" and "Cond: ego 12 m, van 30 m from it"."""
+        if len({made.clause.sentence for made in self.opens}) != 1:
+            return []
+        colons = [each for each in self.words.sentence(self.opens[0].clause) if each.link == "colon"]
+        after = any(each.start > self.opens[-1].at for each in colons)
+        before = any(each.start <= self.opens[0].at for each in colons)
+        both = {made.actor for made in self.opens} >= {EGO_ID, HERO_ID}
+        return self.opens if after or (before and both) else []
