@@ -211,6 +211,8 @@ def _link(words: Words, at: int) -> str | None:
             return "then"  # "lets the ego pass before it moves off again"
     if (word == "at the time" and words.has([at + 1], "comma")) or (word == "that" and words.word(at - 1) == "in"):
         return None  # "the van, 25 m from it at the time, brakes", "yields in that it brakes"
+    if word == "after" and words.word(at + 1) in ("starting", "beginning") and words.has([at + 2], "quantity"):
+        return "and"  # "passes eastbound after starting 88 m from the intersection"
     if word == "after" and "be" in words.tags(at - 1) and "determiner" in following:
         return None  # "both are after the same driveway"
     left = "left_over" in words.tags(at - 1) and words.has(range(at - 4, at), "quantity")

@@ -261,6 +261,9 @@ def _starts_it(words: Words, clause: Clause) -> bool:
         last in ("initiated", "launched") and words.has([clause.end - 2], "be")
     )
     begins = begins or _we_go(words, clause)
+    out = any(words.word(at) in ("sets out", "starts out", "set out", "started out") for at in clause.inside[:3])
+    if out and earlier and words.has(earlier[-1].inside, "quantity") and not words.has(clause.inside, "quantity"):
+        return clause.link == "when"  # "its time to arrival is 8 s when it sets out eastbound"
     begins = begins or (words.word(clause.end - 2) in ("press", "hit", "push") and last in ("play", "start", "go", "run"))
     vehicle = words.has(clause.inside, "hero", "noun") or any("ego" in words.word(at) for at in clause.inside)
     told = words.has(clause.inside, "quantity", "pronoun", "possessive")

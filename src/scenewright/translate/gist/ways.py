@@ -18,6 +18,8 @@ from scenewright.translate.itineraries import OPPOSITE
 
 Key = Literal["heading", "origin_heading", "turn", "origin_kind", "destination_kind"]
 _BESIDE = frozenset(("determiner", "possessive", "actor_adjective", "preposition", "unknown", "heading", "direction"))
+_ALONG = ("in", "on", "along")
+_DOES = ("does", "doing", "do", "did")
 _CROSSING = frozenset(("turn", "pull_out", "cut_in_front", "pass"))
 
 
@@ -59,6 +61,8 @@ class WayReader:
         for clause in self.words.clauses:
             for at in clause.inside if not clause.aside else ():
                 self._word(at, clause)
+        for at in range(len(self.words.tokens)):
+            self._same_lane(at)
         for at, said in self.words.names.relative.items():
             self._by_name(said, self.words.names.actors[at], at)
         for at in range(len(self.words.tokens)):
@@ -98,6 +102,22 @@ class WayReader:
             self._same_heading(at, named)
         elif "same" in tags or self.words.word(at) == "likewise":
             self._same(at, clause)
+
+    def _same_lane(self, at: int) -> None:
+        """Read "the eastbound lane, in which the ego is already driving": both go that way."""
+        words = self.words
+        which = words.word(at).endswith(" which") or (words.word(at) == "which" and words.word(at - 1) in _ALONG)
+        if not which or words.word(at).split()[0] not in (*_ALONG, "which"):
+            return
+        back = next((i for i in range(at - 1, max(-1, at - 6), -1) if words.has([i], "heading", "end", "quantity")), at)
+        clause = next((each for each in words.clauses if at < each.end and each.end > at + 1), None)
+        if "heading" not in words.tags(back) or clause is None or words.has(clause.inside, "heading", "quantity"):
+            return
+        rest = range(max(at + 1, clause.start), clause.end)
+        actor = words.named(rest)
+        going = any(words.word(i).endswith(("going", "travelling", "traveling")) for i in rest)
+        if actor is not None and (going or words.verbs(rest) & {"drive", "go", "come", "lane_follow", "approach"}):
+            self.ways.append(Way("origin_heading", words.tags(back)["heading"], at, words.tokens[at].span, actor))
 
     def _goes_along(self, at: int, clause: Clause) -> bool:
         """Whether this is "carries on along the road"."""
@@ -197,7 +217,8 @@ class WayReader:
 
     def _same(self, at: int, clause: Clause) -> None:
         """Read "makes the same turn", "heading the same way", "with the same intention"."""
-        does = self.words.tag(at - 1, "verb") == "make" or self.words.word(at - 2) in ("does", "doing", "do", "did")
+        does = self.words.tag(at - 1, "verb") == "make" or self.words.word(at - 2) in _DOES
+        does = does or (self.words.tag(at - 2, "adverb") == "exact" and self.words.word(at - 3) in _DOES)
         if does and self.words.has([at + 1], "end", "comma") and clause.subject is not None:
             self.alike.append((clause.subject, at))  # "does the same"
             return
