@@ -190,10 +190,11 @@ def same_unit(tokens: list[Token]) -> list[Token]:
             last = None
         last = token if token.quantity is not None else last
         back = at - 1
-        while back > 0 and tokens[back].text.lower() in ("has", "got", "has got"):
+        while back > 0 and tokens[back].text.lower() in ("has", "got", "has got", "'s", "\u2019s", "is", "'s got"):
             back -= 1
         named = back >= 0 and bool(tokens[back].tags.keys() & _NAMES)
         closes = bool(tokens[at + 1].tags.keys() & {"comma", "end", "colon"})
+        closes = closes or (named and tokens[at + 1].text.lower() in ("to", "from") and _leads_to_place(tokens, at + 2))
         if "bare_number" not in token.tags or last is None or last.quantity is None or not (named and closes):
             continue
         factor, value = _factor(last), _value(token.text)
@@ -203,6 +204,13 @@ def same_unit(tokens: list[Token]) -> list[Token]:
         tags = {"quantity": last.quantity.dimension, "unit_before": "x"}
         read[at] = replace(token, tags=tags, quantity=quantity)
     return read
+
+
+def _leads_to_place(tokens: list[Token], at: int) -> bool:
+    """Whether a place stands here: "and he has got 30 to the conflict point"."""
+    while at < len(tokens) and "determiner" in tokens[at].tags:
+        at += 1
+    return at < len(tokens) and "landmark" in tokens[at].tags
 
 
 def _factor(token: Token) -> Fraction | None:

@@ -8,12 +8,18 @@ from __future__ import annotations
 
 import re
 
-_KINDS = r"(?:car|vehicle|actor|agent|driver|party|participant|player|unit)"
+_KINDS = r"(?:car|vehicle|actor|agent|driver|party|participant|player|unit|road user)"
 _LETTERED = re.compile(rf"\b(?:the )?{_KINDS} ([A-D]|\d)\b(?! ?(?:m|s|ft|yd|km/h|mph)\b)", re.IGNORECASE)
 _NUMBERED = re.compile(r"\b(?!T\d)([A-Z][A-Za-z]{0,3}[-_]?\d)\b(?!\s*=\s*\d)")
 _EGOS = (
     r"(?:ego(?: vehicle| car)?|(?:car|vehicle|one) (?:under test|being tested)|AV|ADS|SUT|VUT|"
     r"(?:subject|test|tested|host|own) (?:car|vehicle))"
+)
+# "The exiting vehicle, which is the ego, ...", "The right-turner (the ego; westbound)", "Rear car = vehicle under test"
+_CALLED = re.compile(
+    r"\b((?:[a-z]+ing |[a-z]+-turning |rear |front |first |second |lead )(?:vehicle|car)|(?:left|right)-turner)"
+    rf"(?:,? which is (?:the |our )?|,? being (?:the |our )?| ?= ?(?:the |our )?| \((?:the |our )?){_EGOS}\b",
+    re.IGNORECASE,
 )
 _IS = r"(?:,? which is|,? being| is|,|:| =|)\s*\(?(?:the |our )?"
 
@@ -24,6 +30,9 @@ def without_aliases(text: str) -> str:
     >>> without_aliases("V1 (vehicle under test) goes west. V2 turns left. V2 brakes.")
     'AV                      goes west. OV turns left. OV brakes.'
     """
+    for name in {found.group(1).lower() for found in _CALLED.finditer(text)}:
+        if name not in ("oncoming vehicle", "oncoming car"):
+            text = re.sub(rf"\b{re.escape(name)}\b", lambda found: _padded("ego", found), text, flags=re.IGNORECASE)
     if names := letters(text):
         text = _defined(text, _LETTERED, {name: name for name in names})
         text = _LETTERED.sub(lambda found: _padded(names[found.group(1).upper()], found), text)

@@ -121,6 +121,8 @@ class AmountReader:
             made.kind, made.actor = "margin", HERO_ID  # "passes the conflict point 1 s before the ego does"
             return
         measure = measure_word(self.words, made.at, made.clause)
+        if measure is None and self.words.word(made.at + 1) == "of":  # "1.8 s of headway separate the two"
+            measure = "headway" if self.words.tag(made.at + 2, "measure") == "headway" else None
         if measure in ("headway", "ttc"):
             self._check_two(made)
         if measure == "headway":

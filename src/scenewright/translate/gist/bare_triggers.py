@@ -12,7 +12,7 @@ from scenewright.translate.events import EGO_ID, HERO_ID
 from scenewright.translate.gist.amounts import Measured
 from scenewright.translate.gist.words import Clause, Deed, Words
 
-_TRIGGERS = ("trigger", "triggers", "triggered", "triggering", "cue", "event", "signal")
+_TRIGGERS = ("trigger", "triggers", "triggered", "triggering", "cue", "event", "signal", "condition")
 _ACTS = ("brake", "accelerate", "stop")
 
 
@@ -51,13 +51,20 @@ class BareTriggers:
             )
             named = self.words.where(clause.inside, "label", "when") is not None or clause.link == "when"
             told = self.words.has(clause.inside, "quantity")
-            before = [made for made in self.opens if made.clause.sentence == clause.sentence - 1]
+            before = [made for made in self.opens if self._just_before(made, clause)]
             own = [each for each in self.opens if each.clause.sentence == clause.sentence and each.at < clause.start]
-            if this and named and before and not told and len(clause.inside) <= 4:
-                return before
+            if this and named and (own or before) and not told and len(clause.inside) <= 4:
+                return own or before
             if this and (own or before) and self._is_when(clause):
                 return own or before
         return []
+
+    def _just_before(self, made: Measured, clause: Clause) -> bool:
+        """Whether an amount stands in the sentence before; a semicolon only parts one."""
+        parted = made.clause.sentence == clause.sentence - 2 and self.words.word(
+            self.words.sentence_at(made.at).stop
+        ) == ";"
+        return made.clause.sentence == clause.sentence - 1 or parted
 
     def _is_when(self, clause: Clause) -> bool:
         """Whether this is the "That is" of "That is when the van brakes"."""

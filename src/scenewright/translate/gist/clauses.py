@@ -175,6 +175,8 @@ def _link(words: Words, at: int) -> str | None:
     link, word, following = words.tag(at, "link"), words.word(at), words.tags(at + 1)
     if word == "yet":
         return None
+    if word == "when" and _is_over(words, at):
+        return "before"
     if word in _DURING and _is_still_to_come(words, at):
         return "before"
     if word == "as" and (not at or words.has([at - 1], "end", "comma")) and _names_someone(words, at + 1):
@@ -257,6 +259,15 @@ def _is_still_to_come(words: Words, at: int) -> bool:
             words.used |= set(range(at, ahead + 1))
             return True
     return False
+
+
+def _is_over(words: Words, at: int) -> bool:
+    """Whether something has happened by then: "so that it is already past the point when the ego begins to turn"."""
+    first = next((i + 1 for i in range(at - 1, -1, -1) if words.has([i], "end", "comma")), 0)
+    told = [words.word(i) for i in range(first, at)]
+    passed = words.verbs(range(first, at)) & {"pass", "complete"} or words.has(range(first, at), "through")
+    begins = words.verbs(range(at + 1, at + 7)) & {"begin", "turn", "pass", "reach"}
+    return "already" in told and bool(passed) and bool(begins) and not words.has(range(first, at + 7), "quantity")
 
 
 def _is_margin(words: Words, at: int) -> bool:
@@ -385,6 +396,11 @@ def _is_aside(words: Words, clause: Clause) -> bool:
     at, names = clause.start, words.names
     if clause.link == "that" and words.word(at - 1) in ("which", "who", "that"):
         return False  # "which therefore goes straight" has its subject
+    if words.word(at) in ("i", "we") and words.word(at + 1) in ("have", "let", "had", "make", "made"):
+        return words.named(clause.inside) is None  # "I have the ego begin 8 s away"
+    by = words.where(clause.inside, "link", "by")
+    if by is not None and words.named(range(by, min(by + 5, clause.end))) is not None:
+        return False  # "Priority is not conceded by the van"
     if words.word(at) in ("you", "everyone") and at not in names.actors:
         return True
     while at < clause.end and words.has([at], "determiner", "actor_adjective", "area_adjective", "adverb"):

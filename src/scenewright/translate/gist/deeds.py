@@ -70,6 +70,11 @@ class DeedReader:
         for clause in self.words.clauses:
             if self._follows_hero(clause) or self.ego.is_after_hero(clause):
                 continue
+            if self.ego.is_not_yet(clause):
+                self.words.used |= set(clause.inside)
+                span = self.words.span(clause)
+                self.deeds.append(Deed("before", clause.start, clause, span, "turn_start", EGO_ID))
+                continue
             if clause.aside:
                 self.words.used |= set(clause.inside)
             elif not (
@@ -149,6 +154,8 @@ class DeedReader:
         tags = self.words.tags(at)
         if "stop_noun" in tags and "verb" not in tags and negation is None:
             self._add("stop", at, clause)
+        if tags.get("adverb") == "steady" and clause.subject == HERO_ID and negation is None:
+            self._add("keep", at, clause)  # "passes it without any acceleration"
         there = tags.get("preposition") == "at" and "be" in self.words.tags(at - 1) and clause.subject == HERO_ID
         goal = self.words.where(range(at + 1, min(at + 3, clause.end)), "landmark", "conflict_point")
         if there and goal is not None and goal not in self.words.used:

@@ -12,6 +12,8 @@ from scenewright.translate.events import EGO_ID, HERO_ID
 from scenewright.translate.gist.clauses import BOUNDS
 from scenewright.translate.gist.words import Clause, Deed, Words
 
+_HARMLESS = ("much", "own", "anything", "initiation", "onset", "commencement", "'d", "\u2019d")
+
 
 @dataclass(slots=True)
 class EgoMoments:
@@ -45,6 +47,18 @@ class EgoMoments:
         only = ("only" in last and not denied) or (denied and until)  # "does not begin until after the van has passed"
         told = self.words.has(clause.inside, "quantity") or self.words.has(before.inside, "quantity")
         return clause.link == "after" and passed and own and bool(begins) and only and not told
+
+    def is_not_yet(self, clause: Clause) -> bool:
+        """Whether "and the ego should not have started its turn by then" says that the hero was first."""
+        passed = any(
+            each.kind in ("pass", "complete") and each.actor == HERO_ID and each.clause.sentence == clause.sentence
+            for each in self.deeds
+        )
+        own = clause.subject == EGO_ID and clause.named and self.words.has(clause.inside, "negation", "expected")
+        words = {word for at in clause.inside for word in self.words.word(at).split()}
+        told = self.words.has(clause.inside, "quantity")
+        perfect = self.is_perfect(clause) and bool(self.words.verbs(clause.inside) & {"begin", "turn"})
+        return passed and own and perfect and bool(words & {"not", "n't"}) and not told
 
     def is_allowed(self, clause: Clause) -> bool:
         """Whether the ego is let go in a sentence of its own: "The ego is allowed to complete its turn. Then ..."."""
@@ -104,7 +118,7 @@ class EgoMoments:
         for at in clause.inside:
             free = "unknown" in words.tags(at) and at not in words.names.actors and not words.word(at).endswith("ly")
             beside = at + 1 in words.names.actors or words.has([at + 1], "unknown", "landmark", "event_noun")
-            if free and not beside and words.word(at) not in ("much", "own", "anything"):
+            if free and not beside and words.word(at) not in _HARMLESS:
                 return at
         return None
 

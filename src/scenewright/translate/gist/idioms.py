@@ -14,7 +14,7 @@ from scenewright.translate.gist.aliases import without_aliases
 _WAYS = r"(?:paths|ways|lanes|routes|tracks|trajectories|courses)"
 _MEET = r"(?:cross|meet|merge|intersect|join|conflict|(?:come|run) together)"
 _CROSSING = re.compile(
-    r"(?:(?:point|spot|place) (?:where|at which|in which)|(?<=from )where|(?<=short of )where) "
+    r"(?:(?:point|spot|place|bit) (?:where|at which|in which)|(?<=from )where|(?<=short of )where) "
     rf"(?:their|the|the two|both|our|its|your|these|two) (?:two )?{_WAYS} {_MEET}\b",
     re.IGNORECASE,
 )
@@ -51,9 +51,10 @@ _TAILS = re.compile(
     r",? (?:(?:and )?(?:i|we) hope (?:that|this|it) (?:makes sense|is clear|helps)|if (?:that|this) makes sense"
     r"|(?:just )?(?:as|like) (?:it|he|she|they|one|you) (?:should|ought to|would expect|might expect|must)"
     r"|or (?:anything|something)(?: like (?:that|this))?|(?:which|and that,?) i (?:think|believe|suppose|guess)[^.,;!?]*"
-    r"|as (?:is )?(?:expected|required|prescribed)|if (?:that|this) is (?:possible|ok|okay))(?=\s*[.,;!?)]|\s*$)",
+    r"|as (?:is )?(?:expected|required|prescribed)|if (?:that|this) is (?:possible|ok|okay)|nae bother|no bother)(?=\s*[.,;!?)]|\s*$)",
     re.IGNORECASE,
 )
+_VERDICT = re.compile(r"(?:(?<=[.!?]\s)|(?<=\n))[A-Z][a-z]+(?: [a-z]+){0,3},? (?:i|we|they) call (?:that|this|it)\s*(?=[.!])", re.I)
 _I_THINK = re.compile(r"(?<![\w-])(?:i (?:think|believe|guess|suppose)|so yeah),? ?", re.IGNORECASE)
 # "The response of the van to the trigger is to brake"
 _RESPONSE = re.compile(
@@ -67,6 +68,19 @@ _CONJUNCTION = re.compile(
 )
 # "Is it 2 s away from the line, then the van brakes" is a condition in German
 _IS_IT = re.compile(r"(?:(?<=[.!?]\s)|^)Is (?=(?:it|he|she|the [a-z]+) (?:[^.?!]|\.\d)*\bthen\b)")
+# "NPC1" where there is no second one
+_FIRST_ONE = re.compile(r"\b(NPC|Target|Hero|Actor|Agent|POV|Adversary|Opponent|TV)[_-]?1\b(?![.\d])", re.IGNORECASE)
+_MOTION_ENDS = re.compile(r"\b(?:its|his|her) (?:motion|movement|ride|drive) ends\b", re.IGNORECASE)
+_BEFORE_THAT = re.compile(r"\bbefore that (?=(?:the|our|it|he|she) )", re.IGNORECASE)
+_TO_NOUGHT = re.compile(r"\bto 0 ?(?:km/h|mph|m/s|kph)(?![\w/])", re.IGNORECASE)
+# "When both are met, the van brakes": what was told before is the trigger
+_BOTH_MET = re.compile(
+    r"\b(?:when|once|as soon as|if) (?:both|these|all|both of (?:these|them)|(?:the|these|both|all) (?:two )?conditions"
+    r"|\(1\) and \(2\)|\(a\) and \(b\))(?: of them)? (?:(?:are|have been|become) (?:satisfied|met|true|fulfilled|given|reached)|hold)"
+    r"(?: (?:together|at (?:the )?same time|simultaneously|at once))?(?=[, ])",
+    re.IGNORECASE,
+)
+_PLACED = re.compile(r"[\d_](?:m|s|ft|yd| ?[a-z]+)? (?:from|before|short of|away|off|to|behind)\b")
 _AFTER_THIS = re.compile(r"\b(complete[sd]?|finishe?[sd]?) (after (?:this|that)|then|afterwards) ((?:its|his|her|the) turn)\b", re.I)
 _UNDERSCORE = re.compile(r"\b(ego|hero|npc|target|other|opponent|lead)_(vehicle|car|actor|agent)\b", re.IGNORECASE)
 _THAT_IS = re.compile(r", that is,")
@@ -74,6 +88,7 @@ _THAT_IS = re.compile(r", that is,")
 
 def without_idioms(text: str) -> str:
     """Return the text in plain words."""
+    text = _BOTH_MET.sub(_then_or_when, text)
     text = _HOLD.sub(lambda found: _padded("When", found), text)
     text = _WAIT_UNTIL.sub(lambda found: _padded("When", found), text)
     text = _NO_SOONER.sub(lambda found: "When".ljust(9) + found.group(1) + ",".ljust(4), text)
@@ -85,14 +100,27 @@ def without_idioms(text: str) -> str:
     text = _AHEAD_OF_MOMENT.sub(lambda found: _padded("before", found), text)
     text = _WOULD_HIT.sub(_collision_time, text)
     text = _TAILS.sub(lambda found: _padded("", found), text)
+    text = _VERDICT.sub(lambda found: _padded("", found), text)
     text = _I_THINK.sub(lambda found: _padded("", found), text)
     text = _RESPONSE.sub(lambda found: _padded(f"{found.group(1)} then shall", found), text)
     text = _CONJUNCTION.sub(lambda found: _padded("When", found), text)
+    if not re.search(r"\b(?:NPC|Target|Hero|Actor|Agent|POV|Adversary|Opponent|TV)[_-]?2\b(?![.\d])", text, re.IGNORECASE):
+        text = _FIRST_ONE.sub(lambda found: _padded(found.group(1), found), text)
+    text = _MOTION_ENDS.sub(lambda found: _padded("it stops", found), text)
+    text = _BEFORE_THAT.sub(lambda found: _padded("before", found), text)
+    text = _TO_NOUGHT.sub(lambda found: _padded("to a stop", found), text)
     text = _IS_IT.sub("If ", text)
     text = _AFTER_THIS.sub(lambda found: _padded(f"{found.group(1)} {found.group(3)}", found), text)
     text = _UNDERSCORE.sub(r"\1 \2", text)
     text = without_aliases(text)
     return _CROSSING.sub(lambda found: _padded("conflict point", found), text)
+
+
+def _then_or_when(found: re.Match[str]) -> str:
+    """Return "When" where the conditions follow, else "At that time": they were told before."""
+    rest = re.split(r"[.;!?](?:\s|$)", found.string[found.end() :], maxsplit=1)[0]
+    first = re.split(r",| (?:brakes|stops|accelerates|slows|decelerates)", rest.lstrip(", "), maxsplit=1)[0]
+    return found.group() if _PLACED.search(first) else _padded("at that time", found)
 
 
 def _in_tenths(found: re.Match[str]) -> str:

@@ -27,7 +27,7 @@ _COUNTED = re.compile(
 )
 _UNREAL = re.compile(
     r"(?:^|[.;!?]\s+|,\s+)(?:had|were) (?:the|it|a|an)\b"
-    r"|(?<!as )\bif \w+(?: \w+)? (?:were|had)\b|\bwould(?: not|n't)? have\b",
+    r"|(?<!as )\bif \w+(?: \w+)? (?:were|had)\b|(?<!\bi )(?<!\bwe )\bwould(?: not|n't)? have\b",
     re.IGNORECASE,
 )
 _ALL_BUT = re.compile(r"\b(?:any|every|no)thing (?:but|except|other than)\b|\ball but\b", re.IGNORECASE)
@@ -44,7 +44,7 @@ _CHANCE = re.compile(
 )
 _AGAIN_AND_AGAIN = re.compile(
     r"\b(?:as a rule|by and large|more often than not|over and over|again and again|time and again|keeps? up this"
-    r"|scrap (?:that|this|the|it)|for the rest of the|and so on|on the verge of|thinks? better of)\b",
+    r"|scrap (?:that|this|the|it)|for the rest of the|and so on|on the verge of|but thinks? better of)\b",
     re.IGNORECASE,
 )
 _ROLLS_BACK = re.compile(r"\broll(?:s|ing|ed)? back\b", re.IGNORECASE)
@@ -339,6 +339,8 @@ def _denies_nothing(words: Words, at: int, clause: Clause | None, trigger_senten
     rest = range(at + 1, clause.end)
     if words.word(at + 1) in ("care", "mind", "bother") and not words.verbs(rest):
         return True  # "it does not care about us", but not "it does not bother to complete its turn"
+    if words.word(at) == "rather than" and words.has([at + 1], "measure", "measures"):
+        return True  # "We used times rather than distances here."
     plain = ("unknown", "determiner", "pronoun", "possessive", "preposition", "auxiliary", "link", "adverb")
     known = any(
         "relation" in words.tags(i)
@@ -416,6 +418,8 @@ def _is_harmless(words: Words, at: int) -> bool:
             return True  # "Westbound traffic consists of one van"
         return bool(before.keys() & {"heading", "direction", "actor_adjective"})
     kind = token.tags["unsupported"]
+    if kind == "collisions" and "quantity" in after:
+        return True  # "the AV hits 35 m to the conflict point"
     if (not before or "end" in before) and after.keys() & {"colon", "end"}:
         return kind == "more than one other actor"  # "Actors:"
     if kind == "lateral manoeuvres":
@@ -454,6 +458,8 @@ def _only_counts(words: Words, at: int) -> bool:
     if word.isalpha():
         return word == "two" or (word == "one" and "unsupported" not in words.tags(at + 1))
     span = words.tokens[at].span
+    if words.text[span.end : span.end + 2] == ". " and (not at or words.has([at - 1], "end", "colon", "comma")):
+        return True  # "Sequence: 1. The ego starts ..."
     if words.text[: span.start].endswith("(") and words.text[span.end :].startswith(")"):
         return True  # "(1) The ego ..."
     if _COUNTED.search(words.text[: span.start]):

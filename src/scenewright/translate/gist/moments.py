@@ -125,6 +125,8 @@ class MomentReader:
         if made.kind == "speed" and clause.link in ("that", "moment") and self._is_then(made):
             return "trigger"
         ways = self.words.verbs(range(clause.start, made.at)) & {"lane_follow", "go", "drive", "come"}
+        if made.kind == "speed" and made.actor == EGO_ID and not made.target and clause.link == "main" and ways:
+            return "start"  # "The AV, for its part, follows the road at 25 mph": told after all else
         if made.kind == "speed" and clause.link == "that" and ways and not made.target:
             return "start"  # "when the ego, which goes straight on at 14 m/s, is 4 s from it"
         if made.kind == "speed":
@@ -194,9 +196,7 @@ class MomentReader:
         own = [deed for deed in self.deeds if deed.clause is clause and deed.actor == HERO_ID]
         if any(deed.kind in ("stop", "wait") for deed in own):
             return True
-        if clause.link == "that" and "reach" in self.words.verbs(
-            clause.inside
-        ):  # "to a stop, which it reaches 9 m before"
+        if clause.link == "that" and self.words.verbs(clause.inside) & {"reach", "make"}:  # "to a stop, which it reaches 9 m before"
             earlier = [deed for deed in self.deeds if deed.at < clause.start and deed.actor == HERO_ID]
             if earlier and earlier[-1].kind == "stop" and earlier[-1].clause.sentence == clause.sentence:
                 return True
@@ -209,7 +209,8 @@ class MomentReader:
         if self._stops_next(made):
             return True
         goes_on = before.sentence == clause.sentence and not clause.named
-        verbless = not self.words.has(range(clause.start, made.at), "verb", "be")
+        first = clause.start + ("be" in self.words.tags(clause.start))  # "its final position, at zero speed, is 5 m"
+        verbless = not self.words.has(range(first, made.at), "verb", "be")
         return (
             goes_on
             and verbless

@@ -18,7 +18,7 @@ PERSONAL = frozenset(("he", "she", "him", "himself", "herself", "hers"))
 PERSONS = frozenset(
     ["man", "woman", "guy", "chap", "bloke", "fellow", "lady", "gentleman", "kid", "teenager", "somebody", "someone",
      "stranger", "owner", "operator", "commuter", "courier", "trucker", "neighbour", "neighbor", "father", "mother",
-     "human",
+     "human", "lad", "lass", "girl", "boy", "mate", "pal", "dude", "fella",
      "colleague", "friend", "student", "volunteer", "resident", "visitor", "uncle", "aunt", "grandmother", "grandma",
      "granny", "grandfather", "grandpa"]
 )  # fmt: skip

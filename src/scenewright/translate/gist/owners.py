@@ -10,6 +10,7 @@ from typing import Protocol
 from scenewright.translate.gist.subjects import is_object
 from scenewright.translate.gist.words import Clause, Words
 
+_ARTICLES = frozenset(("determiner", "possessive", "area_adjective"))
 _MEASURES = ("length", "time", "ttc", "headway", "own")
 
 
@@ -137,6 +138,8 @@ def told_for(words: Words, made: Owned, at: int) -> None:
             return
         to = preposition == "to" and made.kind == "open"
         if preposition == "for" or to or (preposition == "of" and ahead <= made.at + 2):
+            if words.has([words.skip(ahead + 1, _ARTICLES)], "landmark"):
+                return  # "needs 3 s more for the conflict point"
             named = words.named(range(ahead + 1, ahead + 5))
             made.actor = named if named is not None else made.actor
             return

@@ -72,10 +72,17 @@ class PlaceFinder:
                 seen = "past" if tags["relation"] == "past" else seen or "before"
             elif self._leads_to(at) or (preposition == "out" and seen is None):
                 seen = seen or "from"
+            elif preposition == "for" and seen is None and self._is_mark(at + 1):
+                seen = "from"  # "needs 3 s more for the conflict point"
             elif not self._passes(at, seen):
                 break
             at += 1
         return (seen, at) if seen is not None else None
+
+    def _is_mark(self, at: int) -> bool:
+        """Whether a place follows that is no area."""
+        at = self.words.skip(at, SKIPPED)
+        return self.words.has([at], "landmark")
 
     def _leads_to(self, at: int) -> bool:
         tags = self.words.tags(at)
@@ -105,6 +112,8 @@ class PlaceFinder:
             return tags["landmark"], at + 1, False
         if "back_reference" in tags or ("mark_noun" in tags and at > first):
             return self.words.referred(at) or "last", at + 1, False
+        if self.words.word(at) == "same" and at > first and self.words.has([at + 1], "comma", "end", "link"):
+            return "last", at + 1, False  # "2.3 s from the same"
         if self.words.word(at) == "there" or ("latter" in tags and self.words.word(at - 1) in ("short of", "before")):
             return "last", at + 1, False
         if "mouth" in tags and self.words.word(at + 1) == "of":

@@ -18,6 +18,7 @@ def share(words: Words, found: list[Measured]) -> None:
     _respectively(words, found)
     _told_after(words, found)
     _told_before_colon(words, found)
+    _told_in_front(words, found)
     _same_place(words, found)
     _in_order(words, found)
 
@@ -77,6 +78,20 @@ def _told_before_colon(words: Words, found: list[Measured]) -> None:
             if own and made.quantity is not None and made.quantity.dimension == dimension:
                 made.kind, made.landmark = "place", words.tags(mark)["landmark"]
                 words.used.add(mark)
+
+
+def _told_in_front(words: Words, found: list[Measured]) -> None:
+    """Read "With respect to the stop line, the ego is 6.5 s out and the van 4 s out"."""
+    for clause in words.clauses:
+        rest = [at for at in clause.inside if not words.tags(at).keys() & {"determiner", "area_adjective"}]
+        opens = len(rest) == 2 and words.has(rest[:1], "measured_word", "preposition") and words.has(rest[1:], "landmark")
+        if not opens or words.sentence(clause)[0] is not clause:
+            continue
+        own = [made for made in found if made.clause.sentence == clause.sentence and made.quantity is not None]
+        if own and all(made.kind == "open" for made in own):
+            for made in own:
+                made.kind, made.landmark = "place", words.tags(rest[1])["landmark"]
+            words.used |= set(clause.inside)
 
 
 def _same_place(words: Words, found: list[Measured]) -> None:

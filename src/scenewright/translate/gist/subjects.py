@@ -123,7 +123,8 @@ def give_subjects(words: Words) -> None:
         clause.both = _is_about_both(words, clause, before)
         if _starts_it(words, clause):
             following = words.clauses[index + 1] if index + 1 < len(words.clauses) else clause
-            if following.start == clause.end:  # "when the recording began it was 7 s from it"
+            opens = words.sentence(clause)[0] is clause
+            if following.start == clause.end or (opens and following.start == clause.end + 1):  # "when the recording began it was 7 s from it"
                 following.labels = [*following.labels, "start"]
             _mark_start(clause, before)
         if clause.aside and not clause.named:
@@ -272,8 +273,10 @@ def _starts_it(words: Words, clause: Clause) -> bool:
 
 def _we_go(words: Words, clause: Clause) -> bool:
     """Whether this is "when we get going", which is no deed of the story."""
-    first = clause.start in words.names.actors and words.word(clause.start) in FIRST_PERSON
-    return first and len(clause.inside) == 2 and words.verbs(clause.inside) == {"go"}
+    first = words.word(clause.start) in FIRST_PERSON
+    told = [words.word(at) for at in clause.inside]
+    lets = first and words.verbs(clause.inside) <= {"let", "go"} and told[1:2] == ["let"] and told[-1] == "go"
+    return lets or (first and len(clause.inside) == 2 and words.verbs(clause.inside) == {"go"})
 
 
 def _begins_test(words: Words, clause: Clause) -> bool:
@@ -295,13 +298,20 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     verbs = words.verbs(clause.inside)
     if any(words.word(at) in _HIS for at in pronouns):
         return HERO_ID
-    if words.names.spoken and words.has(pronouns, "pronoun", "possessive"):
+    own = [at for at in pronouns if not words.has([at - 1], "preposition")]
+    if words.names.spoken and words.has(own, "pronoun", "possessive"):
         return HERO_ID  # "we" are the ego, so "it" is the other one
     named_last = words.named(range(clause.start - 1, -1, -1))
     if words.where(clause.inside, "latter", "former") is not None:
         first = next((c.start for c in words.clauses if c.sentence >= clause.sentence - 1), 0)
         own = words.sentence(clause)[0].start
         former = words.named(range(own, clause.start))
+        latter = words.where(range(own, words.sentence_at(clause.start).stop), "latter", "x")
+        again = [c.subject for c in words.clauses[:index] if words.where(c.inside, "latter", "former") is not None]
+        if former is None and again:
+            return again[-1]
+        if former is None and latter is not None and named_last is not None:
+            return 1 - named_last  # "the former is 3 s from the line and the latter 4 s from the point"
         return former if former is not None else words.named(range(first, clause.start))
     relative = clause.link == "that" and words.word(clause.start - 1) in ("which", "who", "that", "where", "whose")
     before = words.clauses[index - 1] if index else clause
@@ -323,6 +333,12 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
             return before.subject  # "a van coming towards us that is going to turn left"
     if named_last is not None and (relative or words.has(clause.inside, "latter")):
         return named_last
+    first = words.sentence(clause)[0]
+    alone = first.named and not words.has(first.inside, "verb", "be", "quantity", "auxiliary") and first is not clause
+    goes_on = clause.link == "main" and bool(words.tokens[clause.start].forms & {"s", "ed"}) and not pronouns
+    put_in = [each for each in words.sentence(clause) if first.start < each.start < clause.start]
+    if alone and goes_on and put_in and words.has(put_in[0].inside, "quantity") and "base" not in words.tokens[clause.start].forms:
+        return first.subject  # "The van, at 2 s from the line, with the ego at 3 s from the point, starts to brake"
     bare = words.clauses[index - 1] if index else clause
     told = words.has(bare.inside, "verb", "be", "quantity")
     if bare.named and bare.sentence == clause.sentence and not told and clause.link == "then":

@@ -187,6 +187,10 @@ class WayReader:
                 and clause.subject is None
             ):
                 return  # "Two crossing left turns are studied."
+            title = "actor_adjective" in before and not any(i < at for i in self.words.names.actors)
+            if title and not self.roles.is_turn(at):  # "This is the classic unprotected left where ..."
+                self.titles.append(Way("turn", value, at, self.words.tokens[at].span, None))
+                return
             if not self.roles.is_turn(at):
                 raise self.words.refuse("it is not clear who turns here", self.words.tokens[at].span)
         owner = self._let(at, clause)
