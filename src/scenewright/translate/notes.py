@@ -192,7 +192,7 @@ def same_unit(tokens: list[Token]) -> list[Token]:
         back = at - 1
         while back > 0 and tokens[back].text.lower() in ("has", "got", "has got", "'s", "\u2019s", "is", "'s got"):
             back -= 1
-        named = back >= 0 and bool(tokens[back].tags.keys() & _NAMES)
+        named = back >= 0 and bool(tokens[back].tags.keys() & {*_NAMES, "pronoun"})
         closes = bool(tokens[at + 1].tags.keys() & {"comma", "end", "colon"})
         closes = closes or (named and tokens[at + 1].text.lower() in ("to", "from") and _leads_to_place(tokens, at + 2))
         if "bare_number" not in token.tags or last is None or last.quantity is None or not (named and closes):

@@ -15,9 +15,9 @@ _EGOS = (
     r"(?:ego(?: vehicle| car)?|(?:car|vehicle|one) (?:under test|being tested)|AV|ADS|SUT|VUT|"
     r"(?:subject|test|tested|host|own) (?:car|vehicle))"
 )
-# "The exiting vehicle, which is the ego, ...", "The right-turner (the ego; westbound)", "Rear car = vehicle under test"
+# "The exiting vehicle, which is the ego, ...", "Rear car = vehicle under test"
 _CALLED = re.compile(
-    r"\b((?:[a-z]+ing |[a-z]+-turning |rear |front |first |second |lead )(?:vehicle|car)|(?:left|right)-turner)"
+    r"\b((?:[a-z]+ing |[a-z]+-turning |rear |front |first |second |lead )(?:vehicle|car))"
     rf"(?:,? which is (?:the |our )?|,? being (?:the |our )?| ?= ?(?:the |our )?| \((?:the |our )?){_EGOS}\b",
     re.IGNORECASE,
 )

@@ -265,7 +265,8 @@ def _is_over(words: Words, at: int) -> bool:
     """Whether something has happened by then: "so that it is already past the point when the ego begins to turn"."""
     first = next((i + 1 for i in range(at - 1, -1, -1) if words.has([i], "end", "comma")), 0)
     told = [words.word(i) for i in range(first, at)]
-    passed = words.verbs(range(first, at)) & {"pass", "complete"} or words.has(range(first, at), "through")
+    beyond = words.has(range(first, at), "through") or words.where(range(first, at), "relation", "past") is not None
+    passed = words.verbs(range(first, at)) & {"pass", "complete"} or beyond
     begins = words.verbs(range(at + 1, at + 7)) & {"begin", "turn", "pass", "reach"}
     return "already" in told and bool(passed) and bool(begins) and not words.has(range(first, at + 7), "quantity")
 

@@ -70,7 +70,7 @@ class DeedReader:
         for clause in self.words.clauses:
             if self._follows_hero(clause) or self.ego.is_after_hero(clause):
                 continue
-            if self.ego.is_not_yet(clause):
+            if self.ego.is_not_yet(clause) or self.ego.is_next(clause):
                 self.words.used |= set(clause.inside)
                 span = self.words.span(clause)
                 self.deeds.append(Deed("before", clause.start, clause, span, "turn_start", EGO_ID))
@@ -197,7 +197,7 @@ class DeedReader:
         if kind in ("yield", "not_yield"):
             name = next((i for i in range(at + 1, min(at + 5, clause.end)) if i in self.words.names.actors), None)
             acts = name is not None and self._acts_on(name)
-            of = self.words.tag(at + 1, "preposition") == "of"  # "Yielding of the van was modelled"
+            of = self.words.word(at + 1) in ("of", "by")  # "Yielding of the van was modelled"
             if name is not None and self.words.names.actors[name] == actor and not acts and not of:
                 raise self.words.refuse("a vehicle does not yield to itself", self.words.span(clause))
         if at + 1 < clause.end and self.words.tag(at + 1, "preposition") == "of":

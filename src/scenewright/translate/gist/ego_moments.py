@@ -60,6 +60,15 @@ class EgoMoments:
         perfect = self.is_perfect(clause) and bool(self.words.verbs(clause.inside) & {"begin", "turn"})
         return passed and own and perfect and bool(words & {"not", "n't"}) and not told
 
+    def is_next(self, clause: Clause) -> bool:
+        """Whether "After that, the ego starts its turn" says that the hero has passed by then."""
+        own = [each for each in self.deeds if each.actor == HERO_ID]
+        passed = bool(own) and own[-1].kind in ("pass", "complete") and own[-1].clause.sentence >= clause.sentence - 1
+        verbs = self.words.verbs(clause.inside)
+        begins = "begin" in verbs and (verbs & {"turn"} or self.words.has(clause.inside, "event_noun"))
+        told = self.words.has(clause.inside, "quantity", "negation")
+        return clause.link == "then" and clause.subject == EGO_ID and clause.named and passed and bool(begins) and not told
+
     def is_allowed(self, clause: Clause) -> bool:
         """Whether the ego is let go in a sentence of its own: "The ego is allowed to complete its turn. Then ..."."""
         allowed = any("allowed" in self.words.word(at).split() for at in clause.inside)

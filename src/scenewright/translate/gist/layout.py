@@ -37,7 +37,7 @@ def laid_out(text: str, name: str) -> list[Token]:
         ]
     tokens = _named_by_letter(_makes(tokens), letters(text))
     tokens = _without_short_names([_bar(_as_written(token)) for token in tokens])
-    return same_unit(_with_lines(tokens, text))
+    return same_unit(_with_lines(_nought(tokens), text))
 
 
 def _plain(text: str) -> str:
@@ -56,17 +56,20 @@ def _plain(text: str) -> str:
 
 
 def _makes(tokens: list[Token]) -> list[Token]:
-    """Return the tokens with "a Transit" as a word that is not known, and no verb."""
-    return [
-        replace(token, tags={"unknown": token.text})
-        if at
-        and token.text[:1].isupper()
-        and token.text[1:].islower()
-        and "verb" in token.tags
-        and "determiner" in tokens[at - 1].tags
-        else token
-        for at, token in enumerate(tokens)
-    ]
+    """Return the tokens with "a white Transit" as a word that is not known, and no verb."""
+    makes = set()
+    for at, token in enumerate(tokens):
+        back = at - 1
+        while back > 0 and "actor_adjective" in tokens[back].tags and "verb" not in tokens[back].tags:
+            back -= 1
+        if _is_capital(token) and back >= 0 and "determiner" in tokens[back].tags:
+            makes.add(token.text)
+    return [replace(each, tags={"unknown": each.text}) if each.text in makes else each for each in tokens]
+
+
+def _is_capital(token: Token) -> bool:
+    """Whether a verb is written like a name."""
+    return token.text[:1].isupper() and token.text[1:].islower() and "verb" in token.tags
 
 
 def _named_by_letter(tokens: list[Token], names: dict[str, str]) -> list[Token]:
@@ -86,6 +89,16 @@ def _as_written(token: Token) -> Token:
     if token.slips and token.tags.keys() & {"noun", "hero", "ego", "actor_adjective", "unsupported"}:
         return replace(token, text=token.slips[0][0], tags={"unknown": token.slips[0][0]}, slips=())
     return token
+
+
+def _nought(tokens: list[Token]) -> list[Token]:
+    """Return the tokens with "brakes to 0" and "stays at 0" as a stop."""
+    return [
+        replace(token, tags={"stop_noun": "stop"})
+        if token.text == "0" and "bare_number" in token.tags and at and tokens[at - 1].text.lower() in ("to", "at")
+        else token
+        for at, token in enumerate(tokens)
+    ]
 
 
 def _bar(token: Token) -> Token:

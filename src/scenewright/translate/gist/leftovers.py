@@ -140,6 +140,7 @@ def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> 
     _refuse_meanwhile(words, deeds, trigger_sentence)
     _refuse_unmeasured(words, trigger_sentence)
     _refuse_each(words, trigger_sentence)
+    _refuse_turns_of_ego(words, trigger_sentence)
     for at, token in enumerate(words.tokens):
         if at in words.used:
             continue
@@ -197,6 +198,17 @@ def _refuse_unmeasured(words: Words, trigger_sentence: int) -> None:
             raise words.refuse("it is not known where this is", words.span(clause), "a landmark of the map")
         for each in _condition(words, clause)[1:]:
             _refuse_strange_part(words, each)
+
+
+def _refuse_turns_of_ego(words: Words, trigger_sentence: int) -> None:
+    """Refuse "... precedes the beginning of the ego's turn": told after the trigger, it orders something."""
+    for at in range(2, len(words.tokens)):
+        owned = words.tag(at, "event_noun") == "turn" and "genitive" in words.tags(at - 1)
+        if not owned or words.names.actors.get(at - 2) != EGO_ID or at in words.used:
+            continue
+        clause = next((each for each in words.clauses if at in each.inside), None)
+        if clause is not None and clause.sentence > trigger_sentence and not clause.aside:
+            raise words.refuse("it is not clear what this orders", words.span(clause))
 
 
 def _refuse_each(words: Words, trigger_sentence: int) -> None:

@@ -79,6 +79,7 @@ def find_names(tokens: list[Token]) -> Names:
     egos = [tokens[at].text.lower() for at, actor in names.actors.items() if actor == EGO_ID]
     names.spoken = bool(egos) and all(each.split()[0] in FIRST_PERSON for each in egos)
     names.guessed = unknown
+    _name_by_kind(tokens, names)
     names.unclear = _either(tokens, names)
     return names
 
@@ -122,6 +123,17 @@ def _is_one_more(tokens: list[Token], at: int) -> bool:
     """Whether this is "a second van": after the hero that is a third vehicle."""
     before = [each.text.lower() for each in tokens[max(0, at - 3) : at]]
     return any(first in ("a", "one") and more in ("second", "third", "further") for first, more in pairwise(before))
+
+
+def _name_by_kind(tokens: list[Token], names: Names) -> None:
+    """Let "the car" be the ego where that is "the car being tested", and the other one is a lorry."""
+    words = {each for at, actor in names.actors.items() if actor == EGO_ID for each in tokens[at].text.lower().split()}
+    generic = [at for at, actor in names.actors.items() if actor == HERO_ID and tokens[at].text.lower() in words]
+    brought = [at for at in generic if at and tokens[at - 1].tags.get("determiner") != "definite"]
+    if not names.kinds or brought or not words & {"car", "vehicle", "truck", "van"}:
+        return
+    for at in generic:
+        names.actors[at] = EGO_ID
 
 
 def _either(tokens: list[Token], names: Names) -> int | None:
@@ -261,11 +273,18 @@ def _drives_it(tokens: list[Token]) -> bool:
 def _brands(tokens: list[Token]) -> set[str]:
     """Return names of makes that stand for a vehicle: "a Golf ... the Golf's driver"."""
     seen: dict[str, set[str]] = {}
-    for before, token in pairwise(tokens):
-        name = token.text[:1].isupper() and token.text.isalpha() and "unknown" in token.tags
-        if name and before.tags.get("determiner") in ("indefinite", "definite"):
-            seen.setdefault(token.text, set()).add(before.tags["determiner"])
-    found = [name for name, articles in seen.items() if articles == {"indefinite", "definite"}]
+    for at, token in enumerate(tokens):
+        if not (token.text[:1].isupper() and token.text.isalpha() and "unknown" in token.tags):
+            continue
+        back = at - 1
+        while back > 0 and "actor_adjective" in tokens[back].tags:
+            back -= 1
+        article = tokens[back].tags.get("determiner") if back >= 0 else None
+        if article in ("indefinite", "definite"):
+            seen.setdefault(token.text, set()).add(article)
+        elif tokens[at + 1].tags.keys() & {"verb", "be", "quantity", "auxiliary"}:
+            seen.setdefault(token.text, set()).add("bare")
+    found = [name for name, articles in seen.items() if "indefinite" in articles and len(articles) > 1]
     return set(found) if len(found) == 1 else set()
 
 
@@ -349,7 +368,8 @@ def _is_tested(tokens: list[Token], at: int) -> bool:
     ahead = [each.text.lower() for each in tokens[at + 1 : at + 6]]
     short = ahead[:1] == ["we"] and "testing" in ahead[1:3]  # "the car we're testing"
     apposed = ahead[1:3] == ["the", "one"] and any("comment" in each.tags for each in tokens[at + 4 : at + 5])
-    return following == ["under", "test"] or bool(tested) or short or (apposed and "test" in " ".join(ahead[3:]))
+    under = ahead[1:] == ["the", "one", "under", "test"]  # "the robot car, the one under test,"
+    return under or following == ["under", "test"] or bool(tested) or short or (apposed and "test" in " ".join(ahead[3:]))
 
 
 def _is_ours(tokens: list[Token], at: int) -> bool:

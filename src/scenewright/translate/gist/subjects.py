@@ -257,11 +257,12 @@ def _starts_it(words: Words, clause: Clause) -> bool:
         return False
     if clause.link == "when" and words.verbs(clause.inside) & {"begin"} and words.word(clause.end - 1) in _RUNS:
         return not words.has(clause.inside, "quantity")
+    if clause.link == "when" and _we_go(words, clause):
+        return True
     last = words.word(clause.end - 1).split()[-1]
     begins = last in ("begin", "begins", "start", "starts", "began", "started") or (
         last in ("initiated", "launched") and words.has([clause.end - 2], "be")
     )
-    begins = begins or _we_go(words, clause)
     out = any(words.word(at) in ("sets out", "starts out", "set out", "started out") for at in clause.inside[:3])
     if out and earlier and words.has(earlier[-1].inside, "quantity") and not words.has(clause.inside, "quantity"):
         return clause.link == "when"  # "its time to arrival is 8 s when it sets out eastbound"
@@ -335,9 +336,10 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
         return named_last
     first = words.sentence(clause)[0]
     alone = first.named and not words.has(first.inside, "verb", "be", "quantity", "auxiliary") and first is not clause
-    goes_on = clause.link == "main" and bool(words.tokens[clause.start].forms & {"s", "ed"}) and not pronouns
+    goes_on = clause.link == "main" and bool(words.tokens[clause.start].forms & {"s", "ed"}) and clause.start not in pronouns
     put_in = [each for each in words.sentence(clause) if first.start < each.start < clause.start]
-    if alone and goes_on and put_in and words.has(put_in[0].inside, "quantity") and "base" not in words.tokens[clause.start].forms:
+    placed = put_in and all(words.has(each.inside, "quantity") for each in put_in)
+    if alone and goes_on and placed and "base" not in words.tokens[clause.start].forms:
         return first.subject  # "The van, at 2 s from the line, with the ego at 3 s from the point, starts to brake"
     bare = words.clauses[index - 1] if index else clause
     told = words.has(bare.inside, "verb", "be", "quantity")
