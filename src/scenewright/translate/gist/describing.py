@@ -96,11 +96,13 @@ class Describing:
     def is_done(self, at: int) -> bool:
         """Whether this is "gets its whole turn done"."""
         back = at - 1
-        while "unknown" in self.words.tags(back):
+        while "unknown" in self.words.tags(back) or "direction" in self.words.tags(back):
             back -= 1
         done = {self.words.word(at + 1), self.words.word(at + 2)} & {"done", "finished", "behind it", "over", "is over"}
         behind = (self.words.word(at + 1), self.words.word(at + 2)) == ("behind", "it")
-        return "possessive" in self.words.tags(back) and (bool(done) or behind)
+        has = self.words.word(back - 1) in ("has", "have", "gets", "get", "had", "got", "having", "getting")
+        owned = "possessive" in self.words.tags(back) or (has and "determiner" in self.words.tags(back))
+        return owned and (bool(done) or behind)
 
     def landmark(self, at: int, clause: Clause) -> str | None:
         """Return what a deed is done to: the place after it, or before it in "the point is passed by the van"."""

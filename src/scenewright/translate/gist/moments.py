@@ -386,6 +386,8 @@ class MomentReader:
         acted = [d for d in done if d.kind in ("brake", "stop", "accelerate", "pass") and d.clause.link != "when"]
         if acted and not any(each.link == "when" and each.start > acted[-1].at for each in before):
             raise self.words.refuse(UNCLEAR, made.span)
+        rest = [each for each in self.words.sentence(clause) if each.start > clause.start and each.link == "that"]
+        follows = follows or any(self.words.where(each.inside, "label", "when") is not None for each in rest)
         then = any(self.words.word(at) in _THEN for at in clause.inside) and self._deed_beside(clause)
         if clause.link == "main" and not self.words.has(clause.inside, *_STATE) and not follows and not then:
             raise self.words.refuse(UNCLEAR, made.span)

@@ -245,7 +245,8 @@ class StoryTeller:
             if clause.sentence < self.trigger_sentence or clause.subject != HERO_ID or bound:
                 continue
             for at in clause.inside:
-                owned = self.words.tag(at, "event_noun") == "turn" and "possessive" in self.words.tags(at - 1)
+                back = at - 1 - ("direction" in self.words.tags(at - 1))
+                owned = self.words.tag(at, "event_noun") == "turn" and self.words.has([back], "possessive")
                 own = [deed for deed in self.deeds if at in deed.clause.inside]
                 done = any(deed.kind in ("complete", "turn", "before", "after", "let_reach") for deed in own)
                 if owned and not done:

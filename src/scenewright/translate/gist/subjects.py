@@ -335,7 +335,9 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     if named_last is not None and (relative or words.has(clause.inside, "latter")):
         return named_last
     first = words.sentence(clause)[0]
-    alone = first.named and not words.has(first.inside, "verb", "be", "quantity", "auxiliary") and first is not clause
+    finite = any("verb" in words.tags(i) and "ing" not in words.tokens[i].forms for i in first.inside)
+    alone = first.named and not finite and not words.has(first.inside, "be", "quantity", "auxiliary")
+    alone = alone and first is not clause
     goes_on = clause.link == "main" and bool(words.tokens[clause.start].forms & {"s", "ed"}) and clause.start not in pronouns
     put_in = [each for each in words.sentence(clause) if first.start < each.start < clause.start]
     placed = put_in and all(words.has(each.inside, "quantity") for each in put_in)

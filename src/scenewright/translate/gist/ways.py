@@ -61,6 +61,7 @@ class WayReader:
         for clause in self.words.clauses:
             for at in clause.inside if not clause.aside else ():
                 self._word(at, clause)
+            self._comes_from_there(clause)
         for at in range(len(self.words.tokens)):
             self._same_lane(at)
         for at, said in self.words.names.relative.items():
@@ -102,6 +103,16 @@ class WayReader:
             self._same_heading(at, named)
         elif "same" in tags or self.words.word(at) == "likewise":
             self._same(at, clause)
+
+    def _comes_from_there(self, clause: Clause) -> None:
+        """Read "into the driveway [that] I am coming out of"."""
+        words, before = self.words, clause.start - 1
+        before -= words.word(before) in ("that", "which")
+        driveway = clause.link == "that" and words.tag(before, "area") == "driveway"
+        last = clause.end - 1
+        out = words.tag(last, "verb") in ("pull_out", "leave") or words.word(last).split()[-1] in ("from", "of")
+        if driveway and out and clause.subject is not None and words.verbs(clause.inside) & {"pull_out", "come", "leave"}:
+            self.ways.append(Way("origin_kind", "driveway", last, words.tokens[last].span, clause.subject))
 
     def _same_lane(self, at: int) -> None:
         """Read "the eastbound lane, in which the ego is already driving": both go that way."""
