@@ -225,7 +225,7 @@ def test_what_is_yet_to_come_is_an_order(end: str, last: list[str]) -> None:
         (
             f"{ROUTES}When the shuttle is level with the mailbox and the lorry 40 m from the conflict point, the lorry "
             "brakes to a stop 5 m before the conflict point.",
-            "where this is",
+            "it may be a condition",
         ),
         (
             f"{ROUTES}{ACTS}the lorry brakes at 3 m/s^2 and at the same moment accelerates at 2 m/s^2 to pass the "

@@ -39,6 +39,7 @@ _POLITE = re.compile(
 )
 _NAMES = re.compile(
     r"\d|\b(?:ego|av|sut|vut|sv|hero|npc|pov|vehicles?|cars?|van|bus|truck|lorry|brak|accelerat|slow|stop|turn|when|until"
+    r"|nobody|no one|way|yield|priority|wait|let|goes|drives?|pass"
     r"|driveway|road)",
     re.IGNORECASE,
 )

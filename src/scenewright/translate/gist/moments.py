@@ -126,7 +126,8 @@ class MomentReader:
             return "trigger"
         ways = self.words.verbs(range(clause.start, made.at)) & {"lane_follow", "go", "drive", "come"}
         if made.kind == "speed" and made.actor == EGO_ID and not made.target and clause.link == "main" and ways:
-            return "start"  # "The AV, for its part, follows the road at 25 mph": told after all else
+            if not any(each.link == "when" for each in self.words.sentence(clause)):
+                return "start"  # "The AV, for its part, follows the road at 25 mph": told after all else
         if made.kind == "speed" and clause.link == "that" and ways and not made.target:
             return "start"  # "when the ego, which goes straight on at 14 m/s, is 4 s from it"
         if made.kind == "speed":
