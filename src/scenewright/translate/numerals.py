@@ -36,6 +36,9 @@ def number_in_words(words: Sequence[str], start: int, values: Mapping[str, int])
     >>> number_in_words("two and a half seconds".split(), 0, {"two": 2})
     (Fraction(5, 2), 4)
     """
+    if tuple(words[start : start + 2]) == ("a", "hundred") and "hundred" in values:
+        rest, used = _whole(["one", *words[start + 1 :]], 0, {**values, "one": 1})
+        return Fraction(rest), used
     for table in (FRACTIONS, MULTIPLES):
         for phrase, value in table.items():
             if tuple(words[start : start + len(phrase)]) == phrase:

@@ -20,6 +20,7 @@ from scenewright.program.printer import print_expression
 from scenewright.program.structure import Role, read_structure
 from scenewright.program.types import Program
 from scenewright.roads import find_conflict
+from scenewright.translate.aliases import without_short_names
 from scenewright.translate.assemble import Assembler
 from scenewright.translate.clauses import ClauseReader
 from scenewright.translate.commentary import denied, without_commentary
@@ -40,6 +41,7 @@ from scenewright.translate.relatives import related
 from scenewright.translate.rewording import reworded
 from scenewright.translate.speech import spoken
 from scenewright.translate.tokens import Token, refuse_unknown, tokenise
+from scenewright.translate.unsayable import refuse_unsayable
 
 _ROLES = {
     Role.INITIAL: "at the start",
@@ -125,6 +127,7 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     [('S', 'W'), ('W',)]
     """
     chosen_map = road_map if road_map is not None else default_map()
+    refuse_unsayable(text, name)
     if _NESTED.search(text):
         return _by_facts(text, chosen_map, name)
     try:
@@ -149,7 +152,7 @@ def _joined(first: TranslationError, second: TranslationError) -> TranslationErr
 
 def _by_grammar(text: str, road_map: RoadMap, name: str) -> Translation:
     """Translate clause by clause; every word has to be understood."""
-    tokens = unfronted(reworded(related(spoken(noted(tokenise(text, name))))))
+    tokens = unfronted(reworded(related(spoken(noted(tokenise(without_short_names(text), name))))))
     tokens, comments = without_commentary(tokens)
     tokens, titles = lay_out(tokens)
     refuse_unknown(tokens, text, name)

@@ -33,9 +33,11 @@ class BareTriggers:
     def find(self) -> list[Measured]:
         """Return the amounts of the trigger; none where there is none."""
         gaps = [made for made in self.opens if made.kind in ("gap", "ttc")]
+        if told := self._called():
+            return told
         if len(gaps) == 1:
             return gaps
-        if told := self._called() or self._named() or self._come_there():
+        if told := self._named() or self._come_there():
             return told
         then = next((each for each in self.words.clauses if each.link == "moment"), None)
         if then is None:
@@ -52,9 +54,15 @@ class BareTriggers:
             named = self.words.where(clause.inside, "label", "when") is not None or clause.link == "when"
             told = self.words.has(clause.inside, "quantity")
             before = [made for made in self.opens if self._just_before(made, clause)]
+            if before and {made.actor for made in before} != {EGO_ID, HERO_ID} and before[0].kind == "place":
+                earlier = [each for each in self.opens if each.clause.sentence == clause.sentence - 2]
+                before = [*(each for each in earlier if each.actor != before[0].actor), *before]
             own = [each for each in self.opens if each.clause.sentence == clause.sentence and each.at < clause.start]
             if this and named and (own or before) and not told and len(clause.inside) <= 4:
                 return own or before
+            alone = self.words.word(clause.start) in ("this", "that") or "be" in self.words.tags(clause.start)
+            if this and named and alone and not told and len(clause.inside) <= 4 and clause.link != "when":
+                raise self.words.refuse("it is not known what this is", self.words.span(clause))
             if this and (own or before) and self._is_when(clause):
                 return own or before
         return []

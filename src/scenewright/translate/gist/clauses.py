@@ -5,9 +5,10 @@ What enters: words with names. What leaves: clauses without subjects; `subjects`
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, field, replace
 
-from scenewright.translate.gist.subjects import SEES, SHARES, is_object
+from scenewright.translate.gist.subjects import RUNS, SEES, SHARES, is_object
 from scenewright.translate.gist.words import Clause, Words
 
 NEGATIVES = frozenset(("neither", "nor", "none", "no", "cannot", "nobody", "shall not", "must not", "should not"))
@@ -223,7 +224,7 @@ def _link(words: Words, at: int) -> str | None:
     if link in ("before", "after") and words.tag(at - 1, "quantity") == "time" and _is_margin(words, at):
         return link
     if link in BOUNDS:
-        measured = "quantity" in words.tags(at - 1) or words.tag(at - 1, "adverb") == "just"
+        measured = words.tag(at - 1, "quantity") in ("length", "time") or words.tag(at - 1, "adverb") == "just"
         return None if measured or _names_place(words, at + 1) else link
     if word == "at that" and following.keys() & {"landmark", "mark_noun", "back_reference"}:
         return None
@@ -398,6 +399,10 @@ def _begun(words: Words, clause: Clause, at: int) -> bool:
 def _is_aside(words: Words, clause: Clause) -> bool:
     """Whether a clause is about something else: "The courtesy did not last", "you might expect"."""
     at, names = clause.start, words.names
+    told = [words.word(i) for i in clause.inside]
+    begins = ("starts", "begins", "opens", "started", "began", "opened")
+    if any(first in RUNS and second in begins for first, second in itertools.pairwise(told[:4])):
+        return False  # "The video starts with our vehicle 7 s from the line"
     if clause.link == "that" and words.word(at - 1) in ("which", "who", "that"):
         return False  # "which therefore goes straight" has its subject
     if words.word(at) in ("i", "we") and words.word(at + 1) in ("have", "let", "had", "make", "made"):

@@ -42,6 +42,7 @@ _BESIDE = frozenset(("determiner",))
 _WAITS = frozenset(("yield", "wait", "stop", "brake", "let"))
 _WISHES = ("wanting", "ready", "intent_noun")
 # "Has to brake" tells what is done.
+_NOUNS_AFTER = ("traffic", "reaction", "pedal", "test")
 _OBLIGES = ("has to", "have to", "needs to", "need to", "had to")
 
 
@@ -103,6 +104,7 @@ class DeedReader:
                     return
                 continue
             wanted |= self._is_wish(at)
+            wanted &= self.words.word(at) not in ("made to", "is made", "forced to")
             self._without_verb(at, clause, negation)
             if tags.get("verb") == "fail" and at + 1 in self.words.names.actors:
                 self.words.used.add(at)  # "a refuse lorry"
@@ -113,6 +115,8 @@ class DeedReader:
                 negation = at
                 continue
             verb = tags.get("verb") or ("brake" if tags.get("event_noun") == "brake" else None)
+            if verb in ("pass", "brake") and self.words.word(at + 1) in _NOUNS_AFTER:
+                continue  # "the cross traffic", "the brake reaction time"
             wholly = self.words.word(at) == "complete" and self.words.tag(at - 1, "verb") == "stop"
             if verb is None or "heading" in tags or wholly or self.words.word(at).startswith(("finds ", "found ")):
                 continue  # "it stops complete", "finds itself 85 m before it"
@@ -200,7 +204,7 @@ class DeedReader:
             of = self.words.word(at + 1) in ("of", "by")  # "Yielding of the van was modelled"
             if name is not None and self.words.names.actors[name] == actor and not acts and not of:
                 raise self.words.refuse("a vehicle does not yield to itself", self.words.span(clause))
-        if at + 1 < clause.end and self.words.tag(at + 1, "preposition") == "of":
+        if at + 1 < clause.end and self.words.tag(at + 1, "preposition") == "of" and kind != "not_yield":
             named = self.words.named(range(at + 2, min(at + 5, clause.end)))  # "the braking of the ego"
             actor = named if named is not None else actor
         self.words.used.add(at)

@@ -133,7 +133,7 @@ class EgoMoments:
 
     def _names_turn(self, clause: Clause, verbs: set[str]) -> bool:
         noun = self.words.where(clause.inside, "event_noun", "turn") is not None
-        ours = self.words.word(clause.end - 1) in ("ours", "its own") and any(d.kind == "complete" for d in self.deeds)
+        ours = self.words.word(clause.end - 1) in ("ours", "mine", "its own") and any(d.kind == "complete" for d in self.deeds)
         return (
             noun or ours or bool(verbs & {"turn", "pull_out"}) or "own" in " ".join(map(self.words.word, clause.inside))
         )

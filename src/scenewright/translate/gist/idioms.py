@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import re
 
-from scenewright.translate.gist.aliases import without_aliases
+from scenewright.translate.aliases import without_aliases
 
 _WAYS = r"(?:paths|ways|lanes|routes|tracks|trajectories|courses)"
 _MEET = r"(?:cross|meet|merge|intersect|join|conflict|(?:come|run) together)"
 _CROSSING = re.compile(
     r"(?:(?:point|spot|place|bit) (?:where|at which|in which)|(?<=from )where|(?<=short of )where) "
-    rf"(?:their|the|the two|both|our|its|your|these|two) (?:two )?{_WAYS} {_MEET}\b",
+    rf"(?:their|the|the two|both|our|its|your|these|two) (?:two )?{_WAYS} (?:would |will )?{_MEET}\b"
+    r"|(?:point|spot|place|bit) (?:where|at which) (?:they|the two|both)(?:['\u2019]d| would| will)? (?:meet|cross|collide|merge)\b",
     re.IGNORECASE,
 )
 # "No sooner is the ego 9 m from the line than the van brakes"
@@ -23,7 +24,7 @@ _NO_SOONER = re.compile(r"\bNo sooner((?: \w+)(?:(?!\bthan\b|[;!?]|\.\s).)*?)\bt
 _WAIT_UNTIL = re.compile(r"(?<=[.!?;] )Wait until\b")
 # "Once two conditions hold at the same time, ..."
 _HOLD = re.compile(
-    r"\b(?:once|when|as soon as|the (?:instant|moment)) (?:the following |these |both |two |the )?(?:two )?"
+    r"\b(?:once|when|as soon as|the (?:instant|moment)) (?:(?:both|all|of|the|these|two|following) )*"
     r"(?:conditions?|things|requirements) "
     r"(?:holds?|(?:are|is) (?:met|fulfilled|true|satisfied|given))"
     r"(?: (?:together|at the same time|simultaneously|at once))?(?:,|:| -)?(?: namely(?: that)?,?)?",
@@ -70,9 +71,19 @@ _CONJUNCTION = re.compile(
 _IS_IT = re.compile(r"(?:(?<=[.!?]\s)|^)Is (?=(?:it|he|she|the [a-z]+) (?:[^.?!]|\.\d)*\bthen\b)")
 # "NPC1" where there is no second one
 _FIRST_ONE = re.compile(r"\b(NPC|Target|Hero|Actor|Agent|POV|Adversary|Opponent|TV)[_-]?1\b(?![.\d])", re.IGNORECASE)
+_ENUMERATED = re.compile(r"(?<=[ ,;])\((?:i{1,3}|iv|[a-d]|[1-4])\) ", re.IGNORECASE)
+_PART_OF = re.compile(
+    r"\bthe (?:centre|center|front|nose|front bumper|bumper|front end|reference point|middle) of (?=the )", re.IGNORECASE
+)
+_TURNS_ON = re.compile(r"\b(turn(?:s|ing|ed)?) on (?=the (?:left|right)\b)", re.IGNORECASE)
+_AFTER_COMMA = re.compile(r"(?<=[.!?]\s)After,")
+_BEFORE_OF = re.compile(r"\bbefore of (?=the )")
+_WAIT_FOR = re.compile(r"(?:(?<=[.!?;:]\s)|(?<=\d\.\s))Wait (?:for|until) ((?:the )?\w+) to be\b")
+_CHAT = re.compile(r",? ?\b(?:lol|haha|btw|tbh|imo|imho)\b,?", re.IGNORECASE)
+_SAID_POINT = re.compile(r"\bthe said (?=point|line|place|spot)", re.IGNORECASE)
 _MOTION_ENDS = re.compile(r"\b(?:its|his|her) (?:motion|movement|ride|drive) ends\b", re.IGNORECASE)
 _BEFORE_THAT = re.compile(r"\bbefore that (?=(?:the|our|it|he|she) )", re.IGNORECASE)
-_TO_NOUGHT = re.compile(r"\bto 0 ?(?:km/h|mph|m/s|kph)(?![\w/])", re.IGNORECASE)
+_TO_NOUGHT = re.compile(r"\bto (?:v ?= ?0(?: ?(?:km/h|mph|m/s|kph))?|0 ?(?:km/h|mph|m/s|kph))(?![\w/.])", re.IGNORECASE)
 # "When both are met, the van brakes": what was told before is the trigger
 _BOTH_MET = re.compile(
     r"\b(?:when|once|as soon as|if) (?:both|these|all|both of (?:these|them)|(?:the|these|both|all) (?:two )?conditions"
@@ -106,9 +117,17 @@ def without_idioms(text: str) -> str:
     text = _CONJUNCTION.sub(lambda found: _padded("When", found), text)
     if not re.search(r"\b(?:NPC|Target|Hero|Actor|Agent|POV|Adversary|Opponent|TV)[_-]?2\b(?![.\d])", text, re.IGNORECASE):
         text = _FIRST_ONE.sub(lambda found: _padded(found.group(1), found), text)
+    text = _ENUMERATED.sub(lambda found: _padded("", found), text)
+    text = _PART_OF.sub(lambda found: _padded("", found), text)
+    text = _TURNS_ON.sub(r"\1 to ", text)
+    text = _AFTER_COMMA.sub("Then ,", text)
+    text = _BEFORE_OF.sub(lambda found: _padded("before", found), text)
+    text = _WAIT_FOR.sub(lambda found: _padded(f"When {found.group(1)} is", found), text)
+    text = _CHAT.sub(lambda found: _padded("", found), text)
+    text = _SAID_POINT.sub(lambda found: _padded("that", found), text)
     text = _MOTION_ENDS.sub(lambda found: _padded("it stops", found), text)
     text = _BEFORE_THAT.sub(lambda found: _padded("before", found), text)
-    text = _TO_NOUGHT.sub(lambda found: _padded("to a stop", found), text)
+    text = _TO_NOUGHT.sub(lambda found: _padded("to a stop" if len(found.group()) > 8 else "to zero", found), text)
     text = _IS_IT.sub("If ", text)
     text = _AFTER_THIS.sub(lambda found: _padded(f"{found.group(1)} {found.group(3)}", found), text)
     text = _UNDERSCORE.sub(r"\1 \2", text)

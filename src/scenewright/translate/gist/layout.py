@@ -11,7 +11,7 @@ import re
 from dataclasses import replace
 
 from scenewright.errors import Span
-from scenewright.translate.gist.aliases import letters
+from scenewright.translate.aliases import letters
 from scenewright.translate.gist.disclaimers import disclaimers
 from scenewright.translate.gist.idioms import without_idioms
 from scenewright.translate.notes import same_unit
@@ -37,7 +37,7 @@ def laid_out(text: str, name: str) -> list[Token]:
         ]
     tokens = _named_by_letter(_makes(tokens), letters(text))
     tokens = _without_short_names([_bar(_as_written(token)) for token in tokens])
-    return same_unit(_with_lines(_nought(tokens), text))
+    return same_unit(_with_lines(_is(_nought(tokens)), text))
 
 
 def _plain(text: str) -> str:
@@ -89,6 +89,16 @@ def _as_written(token: Token) -> Token:
     if token.slips and token.tags.keys() & {"noun", "hero", "ego", "actor_adjective", "unsupported"}:
         return replace(token, text=token.slips[0][0], tags={"unknown": token.slips[0][0]}, slips=())
     return token
+
+
+def _is(tokens: list[Token]) -> list[Token]:
+    """Return the tokens with "the Chevy's 11 m from it" as "is 11 m"."""
+    return [
+        replace(token, tags={"be": "be"})
+        if "genitive" in token.tags and at + 1 < len(tokens) and tokens[at + 1].quantity is not None
+        else token
+        for at, token in enumerate(tokens)
+    ]
 
 
 def _nought(tokens: list[Token]) -> list[Token]:

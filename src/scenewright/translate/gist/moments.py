@@ -296,7 +296,8 @@ class MomentReader:
         if "start" in before.labels and clause.link == "and" and not clause.named:
             return True  # "when the recording started it was 120 m before it and its speed was 55 km/h"
         alone = all(words.tag(i, "adverb") == "initially" or "determiner" in words.tags(i) for i in before.inside)
-        verbless = not words.has(range(clause.start, made.at), "verb", "be")
+        plain = [i for i in range(clause.start, made.at) if "actor_adjective" not in words.tags(i)]
+        verbless = not words.has(plain, "verb", "be")  # "and the lead vehicle 22 m from it"
         earlier = any(each.clause is before and self.moments.get(each.at) == "start" for each in self.measured)
         return alone or (earlier and verbless and clause.named and clause.link in ("and", "main"))
 

@@ -226,7 +226,8 @@ def _is_third(tokens: list[Token], at: int) -> bool:
         back -= 1
     if back < 1 or tokens[back].tags.get("determiner") not in ("indefinite", "another"):
         return False
-    if tokens[back - 1].tags.keys() & {"be", "comma", "colon"} or tokens[at + 1].tags.keys() & {"comma"}:
+    opens = "end" in tokens[back - 1].tags
+    if tokens[back - 1].tags.keys() & {"be", "comma", "colon"} or ("comma" in tokens[at + 1].tags and not opens):
         return False  # "the hero, a truck,", "Hero: a truck"
     return any("hero" in each.tags and not each.tags.keys() & {"actor_adjective"} for each in tokens[:back])
 
@@ -284,8 +285,20 @@ def _brands(tokens: list[Token]) -> set[str]:
             seen.setdefault(token.text, set()).add(article)
         elif tokens[at + 1].tags.keys() & {"verb", "be", "quantity", "auxiliary"}:
             seen.setdefault(token.text, set()).add("bare")
-    found = [name for name, articles in seen.items() if "indefinite" in articles and len(articles) > 1]
+    told = {token.text for token in tokens if token.text in seen and _acts_next(token, tokens)}
+    found = [
+        name
+        for name, articles in seen.items()
+        if ("indefinite" in articles and len(articles) > 1) or (articles == {"definite"} and name in told)
+    ]
     return set(found) if len(found) == 1 else set()
+
+
+def _acts_next(token: Token, tokens: list[Token]) -> bool:
+    """Whether a name that stands after "the" several times does something: "the old Chevy ... the Chevy brakes"."""
+    places = [at for at, each in enumerate(tokens[:-1]) if each.text == token.text]
+    acts = any(tokens[at + 1].tags.keys() & {"quantity", "be"} or "s" in tokens[at + 1].forms for at in places)
+    return len(places) > 1 and acts
 
 
 def _owners(tokens: list[Token]) -> set[str]:
@@ -368,7 +381,9 @@ def _is_tested(tokens: list[Token], at: int) -> bool:
     ahead = [each.text.lower() for each in tokens[at + 1 : at + 6]]
     short = ahead[:1] == ["we"] and "testing" in ahead[1:3]  # "the car we're testing"
     apposed = ahead[1:3] == ["the", "one"] and any("comment" in each.tags for each in tokens[at + 4 : at + 5])
-    under = ahead[1:] == ["the", "one", "under", "test"]  # "the robot car, the one under test,"
+    being = " ".join(ahead[:4]).startswith(("that 's being tested", "that is being tested", "being tested"))
+    being = being or " ".join(ahead[:4]).startswith(("that's being tested", "in the test", "on test"))
+    under = being or ahead[1:] == ["the", "one", "under", "test"]  # "the robot car, the one under test,"
     return under or following == ["under", "test"] or bool(tested) or short or (apposed and "test" in " ".join(ahead[3:]))
 
 

@@ -76,11 +76,20 @@ def owner_of(words: Words, at: int, clause: Clause) -> int | None:
     if told is not None:
         return told
     for back in range(at - 1, clause.start - 1, -1):
-        if back in words.names.actors and not is_object(words, back):
+        if back in words.names.actors and (not is_object(words, back) or _just_for(words, back, at, clause)):
             return words.names.actors[back]
         if "quantity" in words.tags(back):
             break
     return _between(words, at, clause)
+
+
+def _just_for(words: Words, name: int, at: int, clause: Clause) -> bool:
+    """Whether an amount follows "for the hero": "and for the hero 2.7 s", "there are for the ego still 4 s"."""
+    back = name - 1
+    while words.has([back], "determiner", "actor_adjective"):
+        back -= 1
+    first = not words.has(range(clause.start, back), "quantity", "verb") and words.has([at], "quantity")
+    return words.word(back) == "for" and first and all("adverb" in words.tags(i) for i in range(name + 1, at))
 
 
 def _by_measure(words: Words, at: int, clause: Clause) -> int | None:

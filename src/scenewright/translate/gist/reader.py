@@ -24,6 +24,7 @@ from scenewright.translate.gist.leftovers import (
     refuse_left_over,
     refuse_strange_conditions,
     refuse_strange_deeds,
+    refuse_strange_places,
     refuse_strangers,
     refuse_third_parties,
 )
@@ -148,6 +149,7 @@ def _read(words: Words, title: tuple[Token, ...], road_map: RoadMap) -> Gist:
     facts.relations = one_each(words, ways.relations)
     facts.mentioned |= {EGO_ID, HERO_ID}
     refuse_strange_deeds(words, teller.trigger_sentence)
+    refuse_strange_places(words, acts.deeds, teller.trigger_sentence)
     refuse_strange_conditions(words, max(made.at for made in moments.of("trigger")))
     refuse_third_parties(words, acts.deeds, teller.trigger_sentence)
     refuse_left_over(words, acts.deeds, teller.trigger_sentence)
@@ -182,6 +184,9 @@ def _title_end(tokens: list[Token], text: str) -> int | None:
     ends = (at for at, token in enumerate(tokens) if "end" in token.tags and not token.text.startswith(";"))
     end = next(ends, 0)
     telling = ("quantity", "unsupported", "colon")
+    named = end > 2 and tokens[0].tags.get("label") == "none" and "colon" in tokens[1].tags
+    if named and not any(token.tags.keys() & {"quantity", "unsupported"} for token in tokens[:end]):
+        return end  # "Test: left turn in front of the SUT."
     if not 0 < end < len(tokens) - 2 or any(token.tags.keys() & set(telling) for token in tokens[:end]):
         return None
     line = "\n" in text[tokens[end].span.start : tokens[end + 1].span.start]

@@ -104,6 +104,8 @@ class StoryTeller:
         if made.kind == "speed":
             return Condition(made.actor, event, speed=made.quantity)
         assert made.landmark is not None
+        if made.landmark == "last":
+            raise self.words.refuse("it is not clear which place this is", made.span)
         place = Place(made.relation, made.landmark, made.quantity, made.span, vague=made.vague)
         return Condition(made.actor, event, place)
 
@@ -270,6 +272,8 @@ class StoryTeller:
 
     def _stop_place(self, phase: Phase, made: Measured) -> None:
         assert made.landmark is not None
+        if made.landmark == "last":
+            raise self.words.refuse("it is not clear which place this is", made.span)
         if phase.place is not None and made.quantity is None and made.relation != "just_before":
             return
         if phase.place is not None and (phase.place.amount is not None or phase.place.relation == "just_before"):

@@ -25,6 +25,7 @@ SEES = (
     "met",
     "encounters",
 )
+_CUED = ("triggered", "activated", "acts", "reacts", "cued")
 SHARES = ("shares", "share", "sharing", "shared")
 _BESIDE = frozenset(("determiner", "actor_adjective", "possessive", "heading", "hero", "noun", "unknown", "direction"))
 _OBJECT_OF = frozenset(("to", "of", "for", "by", "between", "across", "into", "in", "on", "at", "out"))
@@ -36,7 +37,7 @@ _MAIN = ("main", "and", "then", "moment", "colon")
 _SUBORDINATE = ("before", "after", "until", "when", "that")
 _STRONG = frozenset(("brake", "stop", "accelerate"))  # nobody tells the ego to do these
 _DEEDS = _STRONG | {"pass", "complete", "wait", "keep"}
-_RUNS = ("clock", "run", "test", "recording", "simulation", "scene", "log", "scenario", "measurement")
+RUNS = ("clock", "video", "clip", "film", "footage", "trial", "run", "test", "recording", "simulation", "scene", "log", "scenario", "measurement")
 _HIS = PERSONAL | {"his", "her"}
 
 
@@ -48,6 +49,9 @@ def is_object(words: Words, at: int) -> bool:
     if "genitive" in following and words.where((at + 1, at + 2), "area", "lane") is not None:
         return True  # "crosses the ego's lane"
     back = _before_name(words, at)
+    if words.word(back) in ("ahead of", "in front of") and words.has([at + 1], "link", "comma", "end") and back:
+        if words.has([back - 1], "comma", "be", "adverb"):
+            return True  # "is in the driveway as well, ahead of the AV and 30 m upstream of the line"
     if _is_owner(words, back, at) or words.word(back - 1) in ("consists", "consist", "consisting"):
         return False  # "Traffic consists of one van"
     if 0 < back < at and "ing" in words.tokens[back].forms and "determiner" in words.tags(back - 1):
@@ -67,7 +71,7 @@ def is_object(words: Words, at: int) -> bool:
         return True  # "Ahead of us is another car"
     if linked in ("before", "after") and words.tag(back - 1, "quantity") == "time" and _acts(words, at):
         return False  # "1 s before the ego passes it"
-    if linked not in (None, "to", "by") and "quantity" not in words.tags(back - 1):
+    if linked not in (None, "to", "by") and words.tag(back - 1, "quantity") not in ("length", "time"):
         return False
     if (tags.keys() & {"relation", "separates"} and linked != "when") or preposition in _OBJECT_OF:
         return True
@@ -126,7 +130,7 @@ def give_subjects(words: Words) -> None:
             opens = words.sentence(clause)[0] is clause
             if following.start == clause.end or (opens and following.start == clause.end + 1):  # "when the recording began it was 7 s from it"
                 following.labels = [*following.labels, "start"]
-            _mark_start(clause, before)
+            _mark_start(words, clause, before)
         if clause.aside and not clause.named:
             clause.subject = None
             continue
@@ -166,8 +170,10 @@ def _goes_on(words: Words, index: int, last: int | None) -> int | None:
         told = " ".join(words.word(at) for at in clause.inside if "comment" in words.tags(at)).split()
         last = EGO_ID if "ego" in told else last
     bound = clause.link in ("before", "after", "until") or (clause.link == "when" and _is_perfect(words, clause))
-    if not bound or following.sentence == clause.sentence:
-        return last
+    first = words.sentence(clause)[0]
+    cued = clause.link == "when" and any(words.word(at).split()[-1] in _CUED for at in first.inside)
+    if not (bound or cued) or following.sentence == clause.sentence:
+        return last  # "The van is triggered when the ego is 12 m behind it. It brakes"
     acting = [each for each in words.sentence(clause) if each.link in _MAIN and each.subject is not None]
     return acting[-1].subject if acting else last
 
@@ -255,7 +261,7 @@ def _starts_it(words: Words, clause: Clause) -> bool:
     if clause.link == "when" and len(earlier) == 1 and _begins_test(words, earlier[0]):
         clause.labels, clause.link = [*clause.labels, "start"], "main"  # "We start when the ego is 6.5 s from it."
         return False
-    if clause.link == "when" and words.verbs(clause.inside) & {"begin"} and words.word(clause.end - 1) in _RUNS:
+    if clause.link == "when" and words.verbs(clause.inside) & {"begin"} and words.word(clause.end - 1) in RUNS:
         return not words.has(clause.inside, "quantity")
     if clause.link == "when" and _we_go(words, clause):
         return True
@@ -277,19 +283,21 @@ def _we_go(words: Words, clause: Clause) -> bool:
     first = words.word(clause.start) in FIRST_PERSON
     told = [words.word(at) for at in clause.inside]
     lets = first and words.verbs(clause.inside) <= {"let", "go"} and told[1:2] == ["let"] and told[-1] == "go"
-    return lets or (first and len(clause.inside) == 2 and words.verbs(clause.inside) == {"go"})
+    return lets or (first and len(clause.inside) == 2 and words.verbs(clause.inside) in ({"go"}, {"begin"}))
 
 
 def _begins_test(words: Words, clause: Clause) -> bool:
     """Whether nothing is said but "We start", "The recording begins"."""
     begins = words.who_begins(clause)
-    return begins is not None and words.word(begins) in ("we", "i", *_RUNS)
+    return begins is not None and words.word(begins) in ("we", "i", *RUNS)
 
 
-def _mark_start(clause: Clause, before: Clause | None) -> None:
+def _mark_start(words: Words, clause: Clause, before: Clause | None) -> None:
     clause.labels = [*clause.labels, "start"]
-    if before is not None and before.sentence == clause.sentence:
+    while before is not None and before.sentence == clause.sentence:
         before.labels = [*before.labels, "start"]
+        index = words.clauses.index(before)
+        before = words.clauses[index - 1] if index and before.link in ("main", "and") and not before.named else None
 
 
 def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | None:

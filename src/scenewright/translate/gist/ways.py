@@ -144,7 +144,7 @@ class WayReader:
         while "determiner" in self.words.tags(back):
             back -= 1
         lane = self.words.has([at + 1], "area", "noun", "hero", "side_noun")
-        if self.words.word(back).split()[-1:] == ["from"] and not lane:
+        if self.words.word(back).split()[-1:] == ["from"] and not lane and not self.words.word(at).endswith("bound"):
             value = OPPOSITE[value]  # who comes from the east drives west
         from_lane = self.words.word(back) == "from" and self.words.has([at + 1], "area", "side_noun")
         comes = "ing" in self.words.tokens[at - 1].forms and at - 2 in self.words.names.actors

@@ -12,7 +12,7 @@ _KINDS = r"(?:car|vehicle|actor|agent|driver|party|participant|player|unit|road 
 _LETTERED = re.compile(rf"\b(?:the )?{_KINDS} ([A-D]|\d)\b(?! ?(?:m|s|ft|yd|km/h|mph)\b)", re.IGNORECASE)
 _NUMBERED = re.compile(r"\b(?!T\d)([A-Z][A-Za-z]{0,3}[-_]?\d)\b(?!\s*=\s*\d)")
 _EGOS = (
-    r"(?:ego(?: vehicle| car)?|(?:car|vehicle|one) (?:under test|being tested)|AV|ADS|SUT|VUT|"
+    r"(?:ego(?: vehicle| car)?|subject|(?:car|vehicle|one) (?:under test|being tested)|AV|ADS|SUT|VUT|"
     r"(?:subject|test|tested|host|own) (?:car|vehicle))"
 )
 # "The exiting vehicle, which is the ego, ...", "Rear car = vehicle under test"
@@ -21,6 +21,8 @@ _CALLED = re.compile(
     rf"(?:,? which is (?:the |our )?|,? being (?:the |our )?| ?= ?(?:the |our )?| \((?:the |our )?){_EGOS}\b",
     re.IGNORECASE,
 )
+# "An interacting vehicle (IV)"
+_BROUGHT_IN = re.compile(r"\b((?:[a-z-]+ ){0,3}(?:vehicle|car|agent|actor|user|driver|party|test|target|van|truck)) \(([A-Z]{2,4})\)", re.I)
 _IS = r"(?:,? which is|,? being| is|,|:| =|)\s*\(?(?:the |our )?"
 
 
@@ -30,6 +32,7 @@ def without_aliases(text: str) -> str:
     >>> without_aliases("V1 (vehicle under test) goes west. V2 turns left. V2 brakes.")
     'AV                      goes west. OV turns left. OV brakes.'
     """
+    text = without_short_names(text)
     for name in {found.group(1).lower() for found in _CALLED.finditer(text)}:
         if name not in ("oncoming vehicle", "oncoming car"):
             text = re.sub(rf"\b{re.escape(name)}\b", lambda found: _padded("ego", found), text, flags=re.IGNORECASE)
@@ -42,6 +45,23 @@ def without_aliases(text: str) -> str:
         return text
     text = _defined(text, _NUMBERED, {name: name for name in numbered})
     return _NUMBERED.sub(lambda found: _padded("AV" if found.group(1) == egos[0] else "OV", found), text)
+
+
+def without_short_names(text: str) -> str:
+    """Return the text in which an abbreviation that it brings in for a vehicle is one that everybody knows.
+
+    >>> without_short_names("An interacting vehicle (IV) goes west. The IV brakes.")
+    'An interacting vehicle      goes west. The OV brakes.'
+    """
+    for found in _BROUGHT_IN.finditer(text):
+        short, ego = found.group(2), re.search(rf"{_EGOS}$", found.group(1), re.IGNORECASE) is not None
+        if short in ("AV", "OV", "SV", "POV", "NPC", "EGO", "VUT", "SUT", "GVT", "TTC", "TTA", "CP", "SL"):
+            continue
+        name = {2: "AV" if ego else "OV", 3: "ego" if ego else "POV", 4: "ego " if ego else "hero"}[len(short)]
+        first = re.compile(rf" \({short}\)")
+        text = first.sub(lambda each: " " * len(each.group()), text, count=1)
+        text = re.sub(rf"\b{short}\b", name, text)
+    return text
 
 
 def letters(text: str) -> dict[str, str]:

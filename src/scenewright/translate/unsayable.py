@@ -1,0 +1,70 @@
+"""Refuses turns of phrase that no program can say, before any reader steps over them.
+
+What enters: a description. What leaves: nothing, or a refusal that names the words. Each phrase is made of common
+words, so that a reader who knows the words alone would lose what they say together.
+"""
+
+from __future__ import annotations
+
+import re
+
+from scenewright.errors import Place, Span, TranslationError
+
+_VEHICLES = r"(?:hero|npc|pov|target|opponent|adversary|challenger|ego|av|sut|vut|car|van|bus|truck|lorry|vehicle)"
+_TAKEN_BACK = r"(?:withdrawn|deleted|cancell?ed|retracted|superseded|void|obsolete|dropped|scrapped|crossed out|removed)"
+_PHRASES = tuple(
+    (re.compile(pattern, re.IGNORECASE), message)
+    for pattern, message in (
+        (
+            rf"\bthere (?:is|are|was|were) no (?!other|second|further|third)(?:\w+ )?{_VEHICLES}\b(?! (?:but|other))",
+            "a vehicle that is not there can do nothing",
+        ),
+        (r"\bfor the (?:first|second|third|fourth|last|\d+(?:st|nd|rd|th)) time\b", "what happens several times"),
+        (
+            r"\bsampled\b|\b(?:normal|uniform|random|gaussian) (?:distribution|number|value|draw)s?\b|\brandom(?:ly|ised|ized)?\b"
+            r"|\bdrawn from\b|\bon average\b|\bdice\b|\bcoin\b",
+            "chance",
+        ),
+        (
+            r"\baccelerat\w+ (?:at|with) (?:an? )?(?:unchanging|unchanged|constant|steady|the same) (?:speed|velocity)\b",
+            "a vehicle that accelerates does not keep its speed",
+        ),
+        (
+            r"\b(?:narrowest|smallest|tightest|slimmest|widest|largest|biggest|least|greatest) (?:possible )?"
+            r"(?:margin|gap|distance)\b|\bas (?:late|early|close|near|far|little|narrowly|soon) as (?:possible|it can|it dares)\b",
+            "the most and the least",
+        ),
+        (r"\bwait(?:s|ed|ing)? for (?:a|the|any|some) (?:gap|break|lull|clear road)\b", "traffic that is not described"),
+        (
+            r"\b(?:applies|apply|holds|valid|true) (?:any longer|any more|anymore)\b|\bno longer (?:applies|apply|valid)\b"
+            rf"|\b(?:sentence|text|description|line|paragraph|sheet|plan|all (?:of )?(?:this|that)) (?:has been|have been|is|was|were)"
+            rf" (?:now )?{_TAKEN_BACK}\b|\b(?:not a word|none|nothing) of (?:this|that|it) (?:applies|holds|counts)\b"
+            r"|\b(?:scrap|forget|disregard|ignore|strike|delete) (?:that|this|the (?:above|last|previous)|all (?:of )?(?:this|that))\b",
+            "what is taken back",
+        ),
+        (
+            r"\bon the wrong side\b|\bwrong[- ]way\b|\bside wrong\b|\bghost driver\b|\bagainst the (?:flow|traffic)\b",
+            "driving on the wrong side",
+        ),
+        (r"\broll(?:s|ing|ed)? back\b|\bin reverse\b|\bbacks up\b", "driving backwards"),
+    )
+)
+
+
+def refuse_unsayable(text: str, name: str) -> None:
+    """Refuse a text in which a phrase stands that no program can say.
+
+    Raises
+    ------
+    TranslationError
+        With the phrase.
+    """
+    for pattern, what in _PHRASES:
+        if found := pattern.search(text):
+            raise TranslationError(
+                f"this cannot be orchestrated: {what}",
+                place=Place(name, text, Span(*found.span())),
+                found=found.group(),
+                expected="what two vehicles on the map do, once, with amounts that are told",
+                fix="leave it out where it changes nothing, or say it in other words",
+            )
