@@ -29,11 +29,12 @@ from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, Event
 from scenewright.translate.facts import Facts
 from scenewright.translate.fronting import unfronted
 from scenewright.translate.geometry import is_remark
-from scenewright.translate.gist.reader import check_told, read_gist
+from scenewright.translate.gist.reader import check_told, names_in, read_gist
 from scenewright.translate.headlines import untold
 from scenewright.translate.interpret import Interpreter
 from scenewright.translate.itineraries import Itineraries, choose_routes, default_map
 from scenewright.translate.layout import lay_out
+from scenewright.translate.limits import owner_of_limit, refuse_limit, take_limits
 from scenewright.translate.notes import noted
 from scenewright.translate.phrases import Phrases
 from scenewright.translate.references import Referents
@@ -128,7 +129,7 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     """
     chosen_map = road_map if road_map is not None else default_map()
     refuse_unsayable(text, name)
-    if _NESTED.search(text):
+    if _NESTED.search(text) or take_limits(text, name)[1]:
         return _by_facts(text, chosen_map, name)
     try:
         read = _by_grammar(text, chosen_map, name)
@@ -172,7 +173,15 @@ def _by_grammar(text: str, road_map: RoadMap, name: str) -> Translation:
 
 def _by_facts(text: str, road_map: RoadMap, name: str) -> Translation:
     """Translate by the facts alone that a free text tells."""
-    gist = read_gist(text, name, road_map)
+    rest, limits = take_limits(text, name)
+    gist = read_gist(rest, name, road_map)
+    named = names_in(text, name) if limits else {}
+    for limit in limits:
+        if owner_of_limit(limit, text, named) != HERO_ID:
+            raise refuse_limit(limit, "it is not one of the other vehicle", text, name)
+        event = Event("be", HERO_ID, limit.span, -1)
+        gist.facts.limits.append((limit, event))
+        gist.events.append(event)
     _complete(gist.facts, text, name)
     routes = choose_routes(gist.facts, road_map, text, name)
     check_told(gist, routes, text, name)

@@ -92,6 +92,12 @@ def read_gist(text: str, name: str, road_map: RoadMap) -> Gist:
             raise error from None
 
 
+def names_in(text: str, name: str) -> dict[int, int]:
+    """Return who is named where in a text: actors by where their names begin."""
+    tokens = laid_out(text, name)
+    return {tokens[at].span.start: actor for at, actor in find_names(tokens).actors.items()}
+
+
 def check_told(gist: Gist, routes: Itineraries, text: str, name: str) -> None:
     """Refuse a title that tells a way which neither vehicle goes, and amounts that the routes do not allow."""
     words = Words(text, name, gist.tokens)
