@@ -30,6 +30,16 @@ _PHRASES = tuple(
             "a vehicle that accelerates does not keep its speed",
         ),
         (
+            r"\b(?:decelerat|brak|slow)\w*(?: down)?,? (?:at|with) (?:an? )?(?:unchanging|unchanged|constant|steady|the same)"
+            r" (?:speed|velocity)\b",
+            "a vehicle that brakes does not keep its speed",
+        ),
+        (
+            r"\b(?:zebra|pedestrian|level|railway|rail) crossing\b|\bcross ?walk\b|\bbus (?:stop|shelter|lane)\b|\broundabout\b",
+            "a place that the map does not have",
+        ),
+        (r"\bneither (?:on|in|from|out of) the (?:road|driveway)\b", "a vehicle that is nowhere"),
+        (
             r"\b(?:narrowest|smallest|tightest|slimmest|widest|largest|biggest|least|greatest) (?:possible )?"
             r"(?:margin|gap|distance)\b|\bas (?:late|early|close|near|far|little|narrowly|soon) as (?:possible|it can|it dares)\b",
             "the most and the least",

@@ -356,6 +356,9 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     if bare.named and bare.sentence == clause.sentence and not told and clause.link == "then":
         return bare.subject  # "The ego then passes it"
     earlier = [each for each in words.sentence(clause) if each.start < clause.start]
+    led = [at for at in clause.inside if at in words.names.actors]
+    if clause.start in pronouns and led and verbs & {"lead", "follow"} and all(is_object(words, at) for at in led):
+        return 1 - words.names.actors[led[0]]  # "It precedes the ego"
     if pronouns and clause.link in ("after", "until") and bare in earlier and "let" in words.verbs(bare.inside):
         named = words.named(range(bare.start, bare.end))
         if _is_perfect(words, clause) and named == EGO_ID:
