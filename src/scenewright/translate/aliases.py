@@ -54,6 +54,8 @@ def without_short_names(text: str) -> str:
     'An interacting vehicle      goes west. The OV brakes.'
     """
     for found in _BROUGHT_IN.finditer(text):
+        brought = re.compile(rf" \\({found.group(2)}\\)")
+        text = brought.sub(lambda each: " " * len(each.group()), text, count=1)
         short, ego = found.group(2), re.search(rf"{_EGOS}$", found.group(1), re.IGNORECASE) is not None
         if short in ("AV", "OV", "SV", "POV", "NPC", "EGO", "VUT", "SUT", "GVT", "TTC", "TTA", "CP", "SL"):
             continue

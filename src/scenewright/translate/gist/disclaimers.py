@@ -25,6 +25,12 @@ _VERDICT = re.compile(
     r"(?:there is |there are |we see )?no (?:contact|collision|crash|accident|touch)s?(?: occurs| happens)?\s*[.!]?$",
     re.IGNORECASE,
 )
+# "Order: not specified."
+_UNSPECIFIED = re.compile(
+    r"^\s*(?:[a-z]+ ){0,3}[a-z]+ ?(?::|is|are)(?: (?:is|are|left))? ?(?:not specified|unspecified|not prescribed|free|none|n/a|irrelevant)"
+    r"\s*[.;]?$",
+    re.IGNORECASE,
+)
 # "The point of the test is whether the AV commits too early.": what the test is for
 _PURPOSE = re.compile(
     r"^\s*(?:the|our) (?:point|purpose|aim|idea|question|interest|goal|focus)\b.*\b(?:whether|how)\b", re.I
@@ -61,6 +67,7 @@ def disclaimers(text: str) -> list[Span]:
         Span(*found.span())
         for found in _SENTENCE.finditer(text)
         if _VERDICT.search(found.group())
+        or (_UNSPECIFIED.search(found.group()) and not _NAMES.search(found.group()))
         or (_PURPOSE.search(found.group()) and not _ABOUT.search(found.group()))
         or (_POLITE.search(found.group()) and not _NAMES.search(found.group()))
         or (_CHANGES_NOTHING.search(found.group()) and not _TELLS.search(found.group()))

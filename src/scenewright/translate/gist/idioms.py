@@ -71,7 +71,7 @@ _CONJUNCTION = re.compile(
 _IS_IT = re.compile(r"(?:(?<=[.!?]\s)|^)Is (?=(?:it|he|she|the [a-z]+) (?:[^.?!]|\.\d)*\bthen\b)")
 # "NPC1" where there is no second one
 _FIRST_ONE = re.compile(r"\b(NPC|Target|Hero|Actor|Agent|POV|Adversary|Opponent|TV)[_-]?1\b(?![.\d])", re.IGNORECASE)
-_ENUMERATED = re.compile(r"(?<=[ ,;])\((?:i{1,3}|iv|[a-d]|[1-4])\) ", re.IGNORECASE)
+_ENUMERATED = re.compile(r"(?<=[ ,;])\((?:i{1,3}|iv|[a-d]|[1-4])\) ")
 _PART_OF = re.compile(
     r"\bthe (?:centre|center|front|nose|front bumper|bumper|front end|reference point|middle) of (?=the )", re.IGNORECASE
 )
@@ -92,6 +92,18 @@ _BOTH_MET = re.compile(
     re.IGNORECASE,
 )
 _PLACED = re.compile(r"[\d_](?:m|s|ft|yd| ?[a-z]+)? (?:from|before|short of|away|off|to|behind)\b")
+# "The hero's passage of the conflict point precedes the beginning of the ego's turn"
+_WHO = r"(?:its|his|her|(?:the )?[\w-]+(?: vehicle| car)?['\u2019]s)"
+_WHOM = r"(?:(?:the )?[\w-]+(?: vehicle| car)?)"
+_PRECEDES = re.compile(
+    rf"\b(?:(?P<passer>{_WHO}) passage (?:of|through|across|past) the conflict point"
+    rf"|the passage of (?P<passing>{_WHOM}) (?:through|across|past|over) the conflict point"
+    rf"|the completion of (?P<turner>{_WHO}) turn) (?:precedes|comes before|takes place before|occurs before|is before) "
+    rf"(?:the (?:beginning|start|onset|commencement) of (?P<beginner>{_WHO}) turn|that of (?P<other>{_WHOM})"
+    rf"|(?P<later>{_WHO}) passage (?:of|through|across|past) the conflict point"
+    rf"|the passage of (?P<latter>{_WHOM}) (?:through|across|past|over) the conflict point)",
+    re.IGNORECASE,
+)
 _AFTER_THIS = re.compile(r"\b(complete[sd]?|finishe?[sd]?) (after (?:this|that)|then|afterwards) ((?:its|his|her|the) turn)\b", re.I)
 _UNDERSCORE = re.compile(r"\b(ego|hero|npc|target|other|opponent|lead)_(vehicle|car|actor|agent)\b", re.IGNORECASE)
 _THAT_IS = re.compile(r", that is,")
@@ -99,6 +111,7 @@ _THAT_IS = re.compile(r", that is,")
 
 def without_idioms(text: str) -> str:
     """Return the text in plain words."""
+    text = _PRECEDES.sub(_comes_before, without_aliases(text))
     text = _BOTH_MET.sub(_then_or_when, text)
     text = _HOLD.sub(lambda found: _padded("When", found), text)
     text = _WAIT_UNTIL.sub(lambda found: _padded("When", found), text)
@@ -131,8 +144,25 @@ def without_idioms(text: str) -> str:
     text = _IS_IT.sub("If ", text)
     text = _AFTER_THIS.sub(lambda found: _padded(f"{found.group(1)} {found.group(3)}", found), text)
     text = _UNDERSCORE.sub(r"\1 \2", text)
-    text = without_aliases(text)
     return _CROSSING.sub(lambda found: _padded("conflict point", found), text)
+
+
+def _comes_before(found: re.Match[str]) -> str:
+    """Return "the hero passes the conflict point before the ego begins its turn" for its nouns."""
+
+    def owner(said: str) -> str:
+        return {"its": "it", "his": "he", "her": "she"}.get(said.lower()) or re.sub(r"['\u2019]s$", "", said)
+
+    first = found["passer"] or found["passing"] or found["turner"]
+    does = "completes its turn" if found["turner"] else "passes the conflict point"
+    if found["beginner"]:
+        second = f"{owner(found['beginner'])} begins its turn"
+    elif found["other"]:
+        second = found["other"]
+    else:
+        second = f"{owner(found['later'] or found['latter'])} passes the conflict point"
+    said = f"{owner(first)} {does} before {second}"
+    return said.ljust(len(found.group())) if len(said) <= len(found.group()) else found.group()
 
 
 def _then_or_when(found: re.Match[str]) -> str:

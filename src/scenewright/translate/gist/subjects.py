@@ -25,6 +25,7 @@ SEES = (
     "met",
     "encounters",
 )
+_CLOSES = ("link", "comma", "end", "preposition")
 _CUED = ("triggered", "activated", "acts", "reacts", "cued")
 SHARES = ("shares", "share", "sharing", "shared")
 _BESIDE = frozenset(("determiner", "actor_adjective", "possessive", "heading", "hero", "noun", "unknown", "direction"))
@@ -49,7 +50,7 @@ def is_object(words: Words, at: int) -> bool:
     if "genitive" in following and words.where((at + 1, at + 2), "area", "lane") is not None:
         return True  # "crosses the ego's lane"
     back = _before_name(words, at)
-    if words.word(back) in ("ahead of", "in front of") and words.has([at + 1], "link", "comma", "end") and back:
+    if words.word(back) in ("ahead of", "in front of") and words.has([at + 1], *_CLOSES) and back:
         if words.has([back - 1], "comma", "be", "adverb"):
             return True  # "is in the driveway as well, ahead of the AV and 30 m upstream of the line"
     if _is_owner(words, back, at) or words.word(back - 1) in ("consists", "consist", "consisting"):
