@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 _KINDS = r"(?:car|vehicle|actor|agent|driver|party|participant|player|unit|road user)"
-_LETTERED = re.compile(rf"\b(?:the )?{_KINDS} ([A-D]|\d)\b(?! ?(?:m|s|ft|yd|km/h|mph)\b)", re.IGNORECASE)
+_LETTERED = re.compile(rf"\b(?:the )?{_KINDS} ([A-D]|\d|one|two)\b(?! ?(?:m|s|ft|yd|km/h|mph)\b)", re.IGNORECASE)
 _NUMBERED = re.compile(r"\b(?!T\d)([A-Z][A-Za-z]{0,3}[-_]?\d)\b(?!\s*=\s*\d)")
 _EGOS = (
     r"(?:ego(?: vehicle| car)?|subject|(?:car|vehicle|one) (?:under test|being tested)|AV|ADS|SUT|VUT|"

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from scenewright.errors import Place, Span, TranslationError
@@ -299,6 +299,8 @@ def _quantity(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
     unit, after = _unit(tagger, index + 1)
     span = raw.span.union(tagger.raw[after - 1].span)
     if raw.kind == "number":
+        if unit is not None and re.fullmatch(r"\d{1,3},\d{1,2}", raw.text):
+            raw = replace(raw, text=raw.text.replace(",", "."))  # "2,5 s": no thousands have one or two digits
         if "," in raw.text or "/" in raw.text:
             raise TranslationError(
                 f"'{raw.text}' can be read in more than one way",

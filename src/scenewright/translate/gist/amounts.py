@@ -123,6 +123,7 @@ class AmountReader:
         measure = measure_word(self.words, made.at, made.clause)
         if measure is None and self.words.word(made.at + 1) == "of":  # "1.8 s of headway separate the two"
             measure = "headway" if self.words.tag(made.at + 2, "measure") == "headway" else None
+            measure = "ttc" if self.words.tag(made.at + 2, "measure") == "ttc" else measure
         if measure in ("headway", "ttc"):
             self._check_two(made)
         if measure == "headway":

@@ -152,7 +152,8 @@ def _resume(words: Words, clauses: list[Clause]) -> None:
         rest = [at for at in clause.inside if not words.tags(at).keys() & {"determiner", "actor_adjective"}]
         bare = clause.link in BOUNDS and len(rest) == 1 and rest[0] in words.names.actors
         later = [each for each in clauses[number + 1 : number + 5] if each.sentence == clause.sentence]
-        if not bare or not later or later[0].link != "that":
+        put_in = bool(later) and (later[0].link == "that" or "ing" in words.tokens[later[0].start].forms)
+        if not bare or not put_in:
             continue
         goes_on = next((each for each in later[1:] if each.link == "main"), None)
         if goes_on is not None and words.has([goes_on.start], "verb", "be", "auxiliary"):

@@ -104,7 +104,8 @@ class DeedReader:
                     return
                 continue
             wanted |= self._is_wish(at)
-            wanted &= self.words.word(at) not in ("made to", "is made", "forced to")
+            told = self.words.word(at) in ("made to", "is made", "forced to", "told", "asked", "commanded", "ordered")
+            wanted &= not told
             self._without_verb(at, clause, negation)
             if tags.get("verb") == "fail" and at + 1 in self.words.names.actors:
                 self.words.used.add(at)  # "a refuse lorry"
@@ -117,6 +118,8 @@ class DeedReader:
             verb = tags.get("verb") or ("brake" if tags.get("event_noun") == "brake" else None)
             if verb in ("pass", "brake") and self.words.word(at + 1) in _NOUNS_AFTER:
                 continue  # "the cross traffic", "the brake reaction time"
+            if verb == "go" and self.words.word(at) == "continued" and self.words.has([at - 1], "be"):
+                continue  # "braking is continued until it is at rest"
             wholly = self.words.word(at) == "complete" and self.words.tag(at - 1, "verb") == "stop"
             if verb is None or "heading" in tags or wholly or self.words.word(at).startswith(("finds ", "found ")):
                 continue  # "it stops complete", "finds itself 85 m before it"

@@ -81,6 +81,15 @@ _BEFORE_OF = re.compile(r"\bbefore of (?=the )")
 _WAIT_FOR = re.compile(r"(?:(?<=[.!?;:]\s)|(?<=\d\.\s))Wait (?:for|until) ((?:the )?\w+) to be\b")
 _CHAT = re.compile(r",? ?\b(?:lol|haha|btw|tbh|imo|imho)\b,?", re.IGNORECASE)
 _SAID_POINT = re.compile(r"\bthe said (?=point|line|place|spot)", re.IGNORECASE)
+# "TTA(ego, stop line) = 2.5 s"
+_FUNCTION = re.compile(
+    r"\b(tta|time|distance|dist)\((?:the )?([\w ]+?)(?:,| to) ?(?:the |its )?(stop line|conflict point|intersection)\)", re.IGNORECASE
+)
+_MORE = re.compile(r"\b([\d.]+|[a-z]+) more (seconds?|metres?|meters?|feet|yards)\b", re.IGNORECASE)
+_AND_TENTHS = re.compile(rf"\b(\d+) (seconds?) and (\d|{'|'.join(_DIGITS)}) tenths?\b", re.IGNORECASE)
+_FOUND_TO_BE = re.compile(r"\b(?:is|are) found to be\b", re.IGNORECASE)
+_CENTRES = re.compile(r",? measured (?:centre|center|bumper|nose) to (?:centre|center|bumper|nose|tail),?", re.IGNORECASE)
+_UNTIL_NOUGHT = re.compile(r"\buntil v ?= ?0\b")
 _MOTION_ENDS = re.compile(r"\b(?:its|his|her) (?:motion|movement|ride|drive) ends\b", re.IGNORECASE)
 _BEFORE_THAT = re.compile(r"\bbefore that (?=(?:the|our|it|he|she) )", re.IGNORECASE)
 _TO_NOUGHT = re.compile(r"\bto (?:v ?= ?0(?: ?(?:km/h|mph|m/s|kph))?|0 ?(?:km/h|mph|m/s|kph))(?![\w/.])", re.IGNORECASE)
@@ -138,6 +147,12 @@ def without_idioms(text: str) -> str:
     text = _WAIT_FOR.sub(lambda found: _padded(f"When {found.group(1)} is", found), text)
     text = _CHAT.sub(lambda found: _padded("", found), text)
     text = _SAID_POINT.sub(lambda found: _padded("that", found), text)
+    text = _FUNCTION.sub(lambda found: _padded(f"{found.group(1)} {found.group(2)} {found.group(3)}", found), text)
+    text = _MORE.sub(r"\1 \2 more", text)
+    text = _AND_TENTHS.sub(_seconds_and_tenths, text)
+    text = _FOUND_TO_BE.sub(lambda found: _padded("is", found), text)
+    text = _CENTRES.sub(lambda found: _padded("", found), text)
+    text = _UNTIL_NOUGHT.sub(lambda found: _padded("to zero", found), text)
     text = _MOTION_ENDS.sub(lambda found: _padded("it stops", found), text)
     text = _BEFORE_THAT.sub(lambda found: _padded("before", found), text)
     text = _TO_NOUGHT.sub(lambda found: _padded("to a stop" if len(found.group()) > 8 else "to zero", found), text)
@@ -170,6 +185,12 @@ def _then_or_when(found: re.Match[str]) -> str:
     rest = re.split(r"[.;!?](?:\s|$)", found.string[found.end() :], maxsplit=1)[0]
     first = re.split(r",| (?:brakes|stops|accelerates|slows|decelerates)", rest.lstrip(", "), maxsplit=1)[0]
     return found.group() if _PLACED.search(first) else _padded("at that time", found)
+
+
+def _seconds_and_tenths(found: re.Match[str]) -> str:
+    """Return "3 seconds and 4 tenths" as "3.4 s"."""
+    digit = _DIGITS.get(found.group(3).lower()) or found.group(3)
+    return _padded(f"{found.group(1)}.{digit} s", found)
 
 
 def _in_tenths(found: re.Match[str]) -> str:

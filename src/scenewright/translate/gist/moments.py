@@ -14,6 +14,7 @@ from scenewright.translate.events import EGO_ID, HERO_ID
 from scenewright.translate.facts import Bound
 from scenewright.translate.gist.amounts import Measured
 from scenewright.translate.gist.bare_triggers import BareTriggers
+from scenewright.translate.gist.subjects import RUNS
 from scenewright.translate.gist.words import Clause, Deed, Words
 
 Moment = Literal["start", "trigger", "deed", "open"]
@@ -233,6 +234,7 @@ class MomentReader:
         own = [d for d in self.deeds if d.clause is following and d.actor == HERO_ID]
         adjacent = following.sentence == clause.sentence and following.start <= clause.end + 1
         early = any(self.moments.get(each.at) == "trigger" for each in self.measured if each.at < made.at)
+        early = early or made.quantity is None  # "Just before its stop line, the car comes to a complete stop"
         return adjacent and early and bool(own) and own[0].kind in ("stop", "wait") and following.link == "main"
 
     def _stands_once(self, clause: Clause) -> bool:
@@ -253,7 +255,10 @@ class MomentReader:
 
     def begins(self, deed: Deed) -> bool:
         """Whether a deed is said to begin: "begins to brake"."""
-        return "begin" in self.words.verbs(range(deed.clause.start, deed.at))
+        noun = self.words.tag(deed.at, "event_noun") in ("brake", "accelerate")
+        noun = noun and self.words.has([deed.at - 1], "determiner", "end", "possessive")
+        stretch = range(deed.clause.start, deed.clause.end if noun else deed.at)
+        return "begin" in self.words.verbs(stretch) or (noun and self.words.has(stretch, "onset_verb"))
 
     def _at_start(self, made: Measured) -> bool:
         """Whether an amount is told of the start: "at first", "begins 40 m before", "its initial distance"."""
@@ -281,7 +286,8 @@ class MomentReader:
             between = [
                 i for i in range(at + 1, made.at) if "frame_noun" not in words.tags(i)
             ]  # "starts the run 9 s from it"
-            if words.tag(at, "verb") == "begin" and not words.verbs(between):
+            acts = any(d.clause is clause and d.at < made.at and d.kind in ("brake", "accelerate") for d in self.deeds)
+            if words.tag(at, "verb") == "begin" and not words.verbs(between) and not acts:
                 return True
         if words.has(clause.inside, "measure", "landmark") and re.search(
             r"\bfirst (?:position|place|distance)\b", told
@@ -304,6 +310,11 @@ class MomentReader:
     def _opens(self, before: Clause, clause: Clause) -> bool:
         """Whether nothing is said but "The test begins", "The scene opens"."""
         begins = self.words.who_begins(before)
+        told = [self.words.word(at) for at in before.inside]
+        run = self.words.verbs(before.inside) == {"begin"} and bool(set(told) & {*RUNS, "this", "everything", "we", "i"})
+        run = run and self.words.named(i for i in before.inside if told[0] not in ("we", "i")) is None
+        if run and before.sentence == clause.sentence and not self.words.has(before.inside, "quantity"):
+            return True  # "We begin each run with the ego 5 s from it", "All this starts with ..."
         own = begins is not None and self.words.has([begins], "frame_noun", "frame")
         return before.sentence == clause.sentence and own
 

@@ -56,7 +56,7 @@ def find_names(tokens: list[Token]) -> Names:
             names.actors[at] = speaker
         elif "ego" in token.tags or _is_our_own(tokens, at) or ("unknown" in token.tags and word in ours):
             names.actors[at] = EGO_ID
-        elif word in ("they", "them") and spoken:
+        elif word in ("they", "them") and (spoken or _somebody(tokens, at)):
             names.actors[at] = HERO_ID  # "we ... they": whoever it is, it is not the ego
         elif word in ("cars", "vehicles") and _is_two(tokens, at):
             names.both.add(at)
@@ -238,6 +238,11 @@ def _is_two(tokens: list[Token], at: int) -> bool:
     while back > 0 and tokens[back].tags.keys() & {"heading", "actor_adjective"}:
         back -= 1
     return 0 <= back < at - 1 and tokens[back].text.lower() == "two"
+
+
+def _somebody(tokens: list[Token], at: int) -> bool:
+    """Whether "they" are the somebody who was brought in: "Somebody is on the road ... they brake"."""
+    return any(each.text.lower() in ("somebody", "someone") for each in tokens[:at])
 
 
 def _is_last_one(tokens: list[Token], at: int) -> bool:

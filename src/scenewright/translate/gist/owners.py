@@ -97,7 +97,7 @@ def _by_measure(words: Words, at: int, clause: Clause) -> int | None:
     for back in range(at - 1, clause.start - 1, -1):
         if "quantity" in words.tags(back):
             return None
-        if measure_of(words, back) is None:
+        if measure_of(words, back) in (None, "rate"):
             continue
         if words.word(back).endswith(" own") or words.word(back - 1).endswith(" own"):
             other = words.named(range(back - 1, max(-1, clause.start - 12), -1))

@@ -89,6 +89,8 @@ class Roles:
         bound = preposition == "to" and self.words.word(back - 1).endswith("way")  # "on its way to the driveway"
         if word == "after" and "be" in self.words.tags(back - 1):
             return "into"
+        if word in ("->", "-->", "=>", "\u2192", "\u21d2") and self.words.has([back - 1], "direction", "event_noun"):
+            return "into"  # "eastbound -> left turn -> driveway"
         if word == "(" and self.words.word(at + 1) == ")" and self.words.has([back - 1], "direction", "event_noun"):
             return None  # "turn: left (driveway)" may be into it or out of it
         if preposition == "into" or verb in ("enter", "want") or word.split()[-1:] in (["for"], ["onto"]) or bound:
