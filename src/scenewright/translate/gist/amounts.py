@@ -126,6 +126,9 @@ class AmountReader:
             measure = "ttc" if self.words.tag(made.at + 2, "measure") == "ttc" else measure
         if measure in ("headway", "ttc"):
             self._check_two(made)
+        if measure == "ttc" and self.words.word(made.at + 1) == "of":
+            made.kind = "ttc"
+            return
         if measure == "headway":
             made.kind = "gap"
             self._who_follows(made)

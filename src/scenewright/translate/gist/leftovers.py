@@ -258,6 +258,7 @@ def refuse_third_parties(words: Words, deeds: list[Deed], trigger_sentence: int)
         begins = "determiner" in words.tags(clause.start) and clause.start + 1 in unknown
         known = words.has(clause.inside, "landmark", "quantity", "direction", "heading", "area")
         only_is = len(clause.inside) == 3 and "be" in words.tags(clause.end - 1)  # "The decision is then revised"
+        only_is = only_is or (words.word(clause.end) == ":" and words.has(clause.inside, "be") and clause.aside)
         if begins and not known and not only_is and (clause.aside or len(unknown) > 1):
             raise words.refuse("it is not known who this is and what it changes", words.span(clause))
 

@@ -275,7 +275,7 @@ class MomentReader:
         if where is not None and words.verbs(range(where, clause.end)) == {"begin"}:
             return True  # "80 m before the intersection is where the ego begins"
         if words.where(clause.inside, "aspect", "start") is not None or any(
-            words.word(at) in _SET for at in clause.inside
+            words.word(at) in _SET or (words.word(at) in ("set", "sets") and "up" in told.split()) for at in clause.inside
         ):
             return True
         if words.word(clause.start) in ("place", "put", "start", "spawn", "position") and "sit" not in words.verbs(
@@ -284,7 +284,7 @@ class MomentReader:
             return True  # "its starting position", "was released 80 m before it"
         for at in range(max(clause.start, made.at - 5), made.at):
             between = [
-                i for i in range(at + 1, made.at) if "frame_noun" not in words.tags(i)
+                i for i in range(at + 1, made.at) if "frame_noun" not in words.tags(i) and words.word(i) not in RUNS
             ]  # "starts the run 9 s from it"
             acts = any(d.clause is clause and d.at < made.at and d.kind in ("brake", "accelerate") for d in self.deeds)
             if words.tag(at, "verb") == "begin" and not words.verbs(between) and not acts:
@@ -311,7 +311,8 @@ class MomentReader:
         """Whether nothing is said but "The test begins", "The scene opens"."""
         begins = self.words.who_begins(before)
         told = [self.words.word(at) for at in before.inside]
-        run = self.words.verbs(before.inside) == {"begin"} and bool(set(told) & {*RUNS, "this", "everything", "we", "i"})
+        verbs = {self.words.tag(at, "verb") for at in before.inside if self.words.word(at) not in RUNS} - {None}
+        run = verbs == {"begin"} and bool(set(told) & {*RUNS, "this", "everything", "we", "i"})
         run = run and self.words.named(i for i in before.inside if told[0] not in ("we", "i")) is None
         if run and before.sentence == clause.sentence and not self.words.has(before.inside, "quantity"):
             return True  # "We begin each run with the ego 5 s from it", "All this starts with ..."

@@ -210,8 +210,11 @@ def _is_predicate(tokens: list[Token], at: int) -> bool:
     back = at - 1
     while back > 0 and tokens[back].tags.keys() & {"actor_adjective", "heading", "unknown", "determiner"}:
         back -= 1
-    if back < 1 or "ego" not in tokens[back - 1].tags:
+    own = back >= 1 and ("ego" in tokens[back - 1].tags or tokens[back - 1].text.lower() in ("ours", "mine"))
+    if not own:
         return False
+    if tokens[back].text.lower() == "as":
+        return True  # "with the VUT as the rear one"
     closes = at + 1 >= len(tokens) or bool(tokens[at + 1].tags.keys() & {"comma", "end", "link"})
     placed = back > 1 and "relation" in tokens[back - 2].tags  # "Ahead of the ego is a car"
     if placed or any(each.tags.get("determiner") == "another" for each in tokens[back:at]):
@@ -392,6 +395,11 @@ def _is_tested(tokens: list[Token], at: int) -> bool:
     return under or following == ["under", "test"] or bool(tested) or short or (apposed and "test" in " ".join(ahead[3:]))
 
 
+def _is_the_ego(tokens: list[Token], at: int) -> bool:
+    """Whether a vehicle is said to be under test or the ego: "a robot car, the ego,"."""
+    return _is_tested(tokens, at) or ("comma" in tokens[min(at + 1, len(tokens) - 1)].tags and _is_called(tokens, at))
+
+
 def _is_ours(tokens: list[Token], at: int) -> bool:
     """Whether this is "our car" or "my shuttle"; "my uncle's lorry" is not."""
     back = at - 1
@@ -453,5 +461,5 @@ def _ego_marks(tokens: list[Token]) -> set[str]:
     return {
         mark.text.lower()
         for at, (mark, named) in enumerate(pairwise(tokens))
-        if "unknown" in mark.tags and ("ego" in named.tags or ("noun" in named.tags and _is_tested(tokens, at + 1)))
+        if "unknown" in mark.tags and ("ego" in named.tags or ("noun" in named.tags and _is_the_ego(tokens, at + 1)))
     }

@@ -52,7 +52,8 @@ class StoryTeller:
         for made in (*self.moments.of("start"), *self.moments.of("trigger")):
             self._state(made)
         for deed in self.deeds:
-            waits = deed.kind == "wait" and deed.clause.sentence < self.trigger_sentence
+            first = self.words.where(deed.clause.inside, "adverb", "initially") is not None
+            waits = deed.kind == "wait" and (first or deed.clause.sentence < self.trigger_sentence)
             if deed.actor == EGO_ID and deed.kind not in _EGO_MAY and not waits:
                 message = "the ego cannot be told what to do: the driving policy under test drives it"
                 raise self.words.refuse(message, deed.span)

@@ -38,7 +38,7 @@ _MAIN = ("main", "and", "then", "moment", "colon")
 _SUBORDINATE = ("before", "after", "until", "when", "that")
 _STRONG = frozenset(("brake", "stop", "accelerate"))  # nobody tells the ego to do these
 _DEEDS = _STRONG | {"pass", "complete", "wait", "keep"}
-RUNS = ("clock", "video", "clip", "film", "footage", "trial", "run", "test", "recording", "simulation", "scene", "log", "scenario", "measurement")
+RUNS = ("clock", "video", "clip", "film", "footage", "exposure", "drive", "journey", "trip", "trial", "run", "test", "recording", "simulation", "scene", "log", "scenario", "measurement")
 _HIS = PERSONAL | {"his", "her"}
 
 
@@ -129,7 +129,8 @@ def give_subjects(words: Words) -> None:
         if _starts_it(words, clause):
             following = words.clauses[index + 1] if index + 1 < len(words.clauses) else clause
             opens = words.sentence(clause)[0] is clause
-            if following.start == clause.end or (opens and following.start == clause.end + 1):  # "when the recording began it was 7 s from it"
+            verbless = not words.has(following.inside, "verb", "be") and words.has([following.start], "quantity")
+            if following.start == clause.end or ((opens or verbless) and following.start == clause.end + 1):  # "when the recording began it was 7 s from it"
                 following.labels = [*following.labels, "start"]
             _mark_start(words, clause, before)
         if clause.aside and not clause.named:

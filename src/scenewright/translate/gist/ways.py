@@ -175,6 +175,9 @@ class WayReader:
         if value != "straight":
             if self.roles.is_no_turn(at):
                 return
+            if "genitive" in before and at - 2 in self.words.names.actors and after.get("event_noun") == "turn":
+                self._say("turn", value, at, self.words.names.actors[at - 2], clause)  # "the AV's left turn"
+                return
             if "genitive" in before and at - 2 in self.words.names.actors:
                 self._relate(f"from_{value}", clause.subject, at)  # "from the ego's left"
                 return
