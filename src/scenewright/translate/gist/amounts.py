@@ -136,6 +136,8 @@ class AmountReader:
         if measure == "ttc":
             self._collision_time(made)
             return
+        if self._is_measure_of(made):
+            return
         rests = self.words.tag(made.at + 1, "preposition") in ("at", "of")
         at = self.words.skip(made.at + 2, SKIPPED)
         if rests and self.words.has([at], "stop_noun") and made.quantity and made.quantity.dimension == "time":
@@ -174,6 +176,23 @@ class AmountReader:
         if not alike or alike[-1].kind not in ("place", "gap"):
             return False
         made.kind, made.landmark, made.actor = alike[-1].kind, alike[-1].landmark, alike[-1].actor
+        return True
+
+    def _is_measure_of(self, made: Measured) -> bool:
+        """Read "4 s is its time to the stop line", "8 s for its time to arrival at the intersection"."""
+        words, clause = self.words, made.clause
+        opens = made.at == clause.start and "be" in words.tags(made.at + 1)
+        told = range(made.at + 1, min(made.at + 5, clause.end))
+        measure = words.where(told, "measure", "length", "time")
+        if not (opens or words.word(made.at + 1) == "for") or measure is None:
+            return False
+        mark = words.where(range(measure, min(measure + 5, clause.end)), "landmark")
+        if mark is None or words.has(range(measure, mark), "quantity"):
+            return False
+        named = words.named(range(made.at + 1, measure))
+        made.kind, made.landmark = "place", words.tags(mark)["landmark"]
+        made.actor = named if named is not None else clause.subject
+        words.used |= {made.at, mark}
         return True
 
     def _is_that_gap(self, made: Measured) -> bool:
@@ -358,7 +377,8 @@ class AmountReader:
 
     def _check_known_place(self, made: Measured) -> None:
         """Refuse "the time to the turn line is 2 s": a measure up to what is no known place and no vehicle."""
-        for at in range(made.clause.start, made.at):
+        told = [at for at in range(made.clause.start, made.at) if "quantity" in self.words.tags(at)]
+        for at in range(told[-1] if told else made.clause.start, made.at):
             to = self.words.tag(at, "preposition") == "to" or self.words.tag(at, "link") == "until"
             if to and "measure" in self.words.tags(at - 1) and self.places.is_strange(self.words.skip(at + 1, SKIPPED)):
                 raise self.words.refuse("it is not clear up to where this is measured", self.words.span(made.clause))
