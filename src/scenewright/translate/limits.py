@@ -23,7 +23,8 @@ _SPEED = r"(?:[\d.]+ ?(?:m/s|km/h|mph|kph|mps)(?![²^\w])|\w+_(?:mps|kmh|kph|mph
 _RATE = r"(?:[\d.]+ ?(?:m/s²|m/s\^2|m/s2|mpss|g)(?!\w)|\w+_mpss\b)"
 _OWNER = r"(?:its|his|her|the|the [\w-]+(?: [\w-]+)?['’]s|[A-Z]\w+['’]s)"
 _SUBJECT = (
-    rf"(?:{_OWNER} (?:speed|velocity|deceleration)|the (?:speed|velocity|deceleration) of (?:the )?[\w-]+(?: vehicle| car)?"
+    rf"(?:{_OWNER} (?:speed|velocity|deceleration)|the (?:speed|velocity"
+    rf"|deceleration) of (?:the )?[\w-]+(?: vehicle| car)?"
     r"|the magnitude of its deceleration|it|he|she|the [\w-]+(?: vehicle| car)?|[A-Z]{2,4})"
 )
 _NOT = (
@@ -31,15 +32,22 @@ _NOT = (
     r"|(?:must|shall|should|may|will|is) never|never)"
 )
 _ABOVE = (
-    r"(?:exceeds?|exceeded|goes? (?:over|above|faster than)|drives? faster than|(?:be |is )?(?:higher|faster|greater|more) than"
+    r"(?:exceeds?|exceeded|goes? (?:over|above|faster than)|drives? faster than|(?:be |is )?(?:higher|faster"
+    r"|greater|more) than"
     r"|rises? above|(?:be |is )?above)"
 )
-_ABOVE_BARE = r"(?:exceed|go (?:over|above|faster than)|drive faster than|be (?:higher|faster|greater|more|above) ?(?:than)?)"
+_ABOVE_BARE = (
+    r"(?:exceed|go (?:over|above|faster than)|drive faster than|be (?:higher|faster|greater|more|above) ?(?:than)?)"
+)
 _BELOW = (
-    r"(?:stays?|remains?|keeps?|be|is|to stay|to remain) (?:at or )?(?:below|under|at most|no (?:more|higher|faster) than"
+    r"(?:stays?|remains?|keeps?|be|is|to stay|to remain) (?:at or )?(?:below|under|at most|no (?:more|higher"
+    r"|faster) than"
     r"|not (?:more|higher|faster) than|limited to)"
 )
-_WINDOW = r"(?:from|between|at every|during|throughout|until|up to|while|at all times|at any|on the way|all the way|at the moment)"
+_WINDOW = (
+    r"(?:from|between|at every|during|throughout|until|up to|while|at all times|at any|on the way"
+    r"|all the way|at the moment)"
+)
 _LIMIT = re.compile(
     rf"(?P<joint>(?:^|(?<=[.;!?]\s)|(?<=\n)|, and |, | and ))(?P<before>{_WINDOW}\b[^.;!?\n]*?,? )?"
     rf"(?:(?P<who>{_SUBJECT}) (?:{_NOT} {_ABOVE}|{_BELOW})|(?P<bare>stays|keeps|remains) (?:at or )?(?:below|under)"
@@ -49,35 +57,56 @@ _LIMIT = re.compile(
     re.IGNORECASE,
 )
 _HIM = r"(?:it|he|she|the [\w-]+(?: vehicle| car)?)"
-_BEGUN = rf"(?:{_HIM} (?:starts?|begins?) (?:to (?:brake|accelerate|slow down|slow|decelerate|speed up)|braking|accelerating))"
+_BEGUN = (
+    rf"(?:{_HIM} (?:starts?|begins?) (?:to (?:brake|accelerate|slow down|slow|decelerate|speed up)|braking"
+    rf"|accelerating))"
+)
 _STOPPED = (
-    rf"(?:(?:the |a |its )?(?:standstill|complete stop|full stop|stop|halt)|{_HIM} (?:stops|stands|has stopped|is at rest|is stopped"
-    r"|has come to (?:a |an )?(?:complete |full )?(?:stop|halt|standstill|rest)|comes to (?:a )?(?:stop|halt|standstill|rest)))"
+    rf"(?:(?:the |a |its )?(?:standstill|complete stop|full stop|stop|halt)|{_HIM} (?:stops|stands|has stopped"
+    rf"|is at rest|is stopped"
+    r"|has come to (?:a |an )?(?:complete |full )?(?:stop|halt|standstill|rest)|comes to (?:a )?(?:stop|halt"
+    r"|standstill|rest)))"
 )
 _AT_GOAL = (
-    rf"(?:(?:the )?conflict point|{_HIM} (?:passes|reaches|has passed|is at|gets to|is past|has reached) (?:the conflict point|it)"
+    rf"(?:(?:the )?conflict point|{_HIM} (?:passes|reaches|has passed|is at|gets to|is past"
+    rf"|has reached) (?:the conflict point|it)"
     rf"|the end of (?:its|the) turn|{_HIM} (?:has )?(?:completed|completes|finished|finishes) (?:its|the) turn|the end)"
 )
 _ANY = r"(?:at (?:any|all) (?:time|times|moment|point)|throughout|ever)"
-_TRIGGER = r"(?:the (?:trigger|onset|cue)|then|there|that (?:moment|instant)|this (?:moment|instant)|the moment " + _BEGUN + ")"
+_TRIGGER = (
+    r"(?:the (?:trigger|onset|cue)|then|there|that (?:moment|instant)|this (?:moment|instant)|the moment "
+    + _BEGUN
+    + ")"
+)
 _START = r"(?:the (?:start|beginning|outset)(?: of the (?:test|run|scenario))?)"
 _WINDOWS: tuple[tuple[re.Pattern[str], tuple[Moment, Moment]], ...] = tuple(
     (re.compile(rf"^(?:at every (?:moment|instant) )?(?:{pattern}),?(?: {_ANY})?$", re.IGNORECASE), window)
     for pattern, window in (
-        (rf"(?:from|between) {_TRIGGER}(?: on)?(?:,? (?:until|to|up to|and) (?:the moment )?{_STOPPED})", ("trigger", "stop")),
-        (rf"(?:from|between) {_TRIGGER}(?: on)?(?:,? (?:until|to|up to|and) (?:the moment )?{_AT_GOAL})", ("trigger", "end")),
+        (
+            rf"(?:from|between) {_TRIGGER}(?: on)?(?:,? (?:until|to|up to|and) (?:the moment )?{_STOPPED})",
+            ("trigger", "stop"),
+        ),
+        (
+            rf"(?:from|between) {_TRIGGER}(?: on)?(?:,? (?:until|to|up to|and) (?:the moment )?{_AT_GOAL})",
+            ("trigger", "end"),
+        ),
         (rf"(?:from|between) {_START}(?:,? (?:until|to|up to|and) (?:the moment )?{_STOPPED})", ("start", "stop")),
         (rf"(?:from|between) {_START}(?:,? (?:until|to|up to|and) (?:the moment )?{_AT_GOAL})", ("start", "end")),
         (rf"(?:from|between) {_START}(?:,? (?:until|to|up to|and) (?:{_BEGUN}|the trigger))", ("start", "trigger")),
         (rf"(?:until|up to) (?:{_BEGUN}|the trigger)", ("start", "trigger")),
         (rf"(?:all the way|on the way) to {_AT_GOAL}", ("trigger", "end")),
         (rf"(?:from {_TRIGGER}(?: on)?)", ("trigger", "end")),
-        (rf"while {_HIM} (?:brakes|is braking|decelerates)|during (?:the|its) (?:braking|deceleration)", ("trigger", "stop")),
+        (
+            rf"while {_HIM} (?:brakes|is braking|decelerates)|during (?:the|its) (?:braking|deceleration)",
+            ("trigger", "stop"),
+        ),
         (_ANY, ("start", "end")),
     )
 )
 _ASKS = re.compile(r"\s*(?:when|once|as soon as|at the (?:moment|instant)|the moment|if)\b", re.IGNORECASE)
-_AT_PASSING = re.compile(rf"^at the moment (?:when|at which) {_HIM} (?:passes|reaches|is at) (?:the conflict point|it),?$", re.IGNORECASE)
+_AT_PASSING = re.compile(
+    rf"^at the moment (?:when|at which) {_HIM} (?:passes|reaches|is at) (?:the conflict point|it),?$", re.IGNORECASE
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +145,9 @@ def take_limits(text: str, name: str) -> tuple[str, tuple[Limit, ...]]:
         assert token.quantity is not None
         subject = next((key for key in ("who", "whom", "bare") if found[key]), "bare")
         who = "it" if subject == "bare" else found[subject].lower()
-        named = not re.match(r"(?:its|his|her|it|he|she|the magnitude of its|the (?:speed|velocity|deceleration)$)\b", who)
+        named = not re.match(
+            r"(?:its|his|her|it|he|she|the magnitude of its|the (?:speed|velocity|deceleration)$)\b", who
+        )
         start = found.start() + len(found["joint"])
         limits.append(Limit(token.quantity, window, Span(start, found.end()), Span(*found.span(subject)), named))
         whole = not found["joint"].strip() and text[found.end() : found.end() + 1] in (".", ";", "!")
@@ -182,7 +213,7 @@ def _knot(moment: Moment, sketch: Sketch) -> str:
     return sketch.knots[sketch.pieces.index(PieceKind.DEC) + 1]
 
 
-def _window(said: str) -> tuple[Moment, Moment] | None | Literal[False]:
+def _window(said: str) -> tuple[Moment, Moment] | Literal[False] | None:
     """Return the window that words tell; False where they are not understood."""
     if not said:
         return "start", "end"

@@ -52,7 +52,9 @@ _ROLES = {
 }
 
 _AT_ONCE = re.compile(
-    r"\b(?:at|in) the (?:very )?same (?:moment|time|instant|second)|\buses? (?:that|this) (?:very )?moment|\bsimultaneously\b|\bconcurrently\b", re.IGNORECASE
+    r"\b(?:at|in) the (?:very )?same (?:moment|time|instant|second)|\buses? (?:that|this) (?:very )?moment"
+    r"|\bsimultaneously\b|\bconcurrently\b",
+    re.IGNORECASE,
 )
 
 _AT_TRIGGER = re.compile(r"\b(?:at|on|upon) (?:the )?trigger\b", re.IGNORECASE)

@@ -11,7 +11,9 @@ import re
 from scenewright.errors import Place, Span, TranslationError
 
 _VEHICLES = r"(?:hero|npc|pov|target|opponent|adversary|challenger|ego|av|sut|vut|car|van|bus|truck|lorry|vehicle)"
-_TAKEN_BACK = r"(?:withdrawn|deleted|cancell?ed|retracted|superseded|void|obsolete|dropped|scrapped|crossed out|removed)"
+_TAKEN_BACK = (
+    r"(?:withdrawn|deleted|cancell?ed|retracted|superseded|void|obsolete|dropped|scrapped|crossed out|removed)"
+)
 _PHRASES = tuple(
     (re.compile(pattern, re.IGNORECASE), message)
     for pattern, message in (
@@ -19,37 +21,49 @@ _PHRASES = tuple(
             rf"\bthere (?:is|are|was|were) no (?!other|second|further|third)(?:\w+ )?{_VEHICLES}\b(?! (?:but|other))",
             "a vehicle that is not there can do nothing",
         ),
+        (r"\b(?:twice|thrice|repeatedly|several times|again and again)\b", "what happens several times"),
         (r"\bfor the (?:first|second|third|fourth|last|\d+(?:st|nd|rd|th)) time\b", "what happens several times"),
         (
-            r"\bsampled\b|\b(?:normal|uniform|random|gaussian) (?:distribution|number|value|draw)s?\b|\brandom(?:ly|ised|ized)?\b"
+            r"\bsampled\b|\b(?:normal|uniform|random|gaussian) (?:distribution|number|value|draw)s?\b"
+            r"|\brandom(?:ly|ised|ized)?\b"
             r"|\bdrawn from\b|\bon average\b|\bdice\b|\bcoin\b",
             "chance",
         ),
         (
-            r"\baccelerat\w+ (?:at|with) (?:an? )?(?:unchanging|unchanged|constant|steady|the same) (?:speed|velocity)\b",
+            r"\baccelerat\w+ (?:at|with) (?:an? )?(?:unchanging|unchanged|constant|steady|the same) (?:speed"
+            r"|velocity)\b",
             "a vehicle that accelerates does not keep its speed",
         ),
         (
-            r"\b(?:decelerat|brak|slow)\w*(?: down)?,? (?:at|with) (?:an? )?(?:unchanging|unchanged|constant|steady|the same)"
+            r"\b(?:decelerat|brak|slow)\w*(?: down)?,? (?:at|with) (?:an? )?(?:unchanging|unchanged|constant"
+            r"|steady|the same)"
             r" (?:speed|velocity)\b",
             "a vehicle that brakes does not keep its speed",
         ),
         (
-            r"\b(?:zebra|pedestrian|level|railway|rail) crossing\b|\bcross ?walk\b|\bbus (?:stop|shelter|lane)\b|\broundabout\b",
+            r"\b(?:zebra|pedestrian|level|railway|rail) crossing\b|\bcross ?walk\b|\bbus (?:stop|shelter|lane)\b"
+            r"|\broundabout\b",
             "a place that the map does not have",
         ),
         (r"\bneither (?:on|in|from|out of) the (?:road|driveway)\b", "a vehicle that is nowhere"),
         (
             r"\b(?:narrowest|smallest|tightest|slimmest|widest|largest|biggest|least|greatest) (?:possible )?"
-            r"(?:margin|gap|distance)\b|\bas (?:late|early|close|near|far|little|narrowly|soon) as (?:possible|it can|it dares)\b",
+            r"(?:margin|gap|distance)\b|\bas (?:late|early|close|near|far|little|narrowly|soon) as (?:possible"
+            r"|it can|it dares)\b",
             "the most and the least",
         ),
-        (r"\bwait(?:s|ed|ing)? for (?:a|the|any|some) (?:gap|break|lull|clear road)\b", "traffic that is not described"),
         (
-            r"\b(?:applies|apply|holds|valid|true) (?:any longer|any more|anymore)\b|\bno longer (?:applies|apply|valid)\b"
-            rf"|\b(?:sentence|text|description|line|paragraph|sheet|plan|all (?:of )?(?:this|that)) (?:has been|have been|is|was|were)"
+            r"\bwait(?:s|ed|ing)? for (?:a|the|any|some) (?:gap|break|lull|clear road)\b",
+            "traffic that is not described",
+        ),
+        (
+            r"\b(?:applies|apply|holds|valid|true) (?:any longer|any more|anymore)\b|\bno longer (?:applies|apply"
+            r"|valid)\b"
+            rf"|\b(?:sentence|text|description|line|paragraph|sheet|plan|all (?:of )?(?:this|that)) (?:has been"
+            rf"|have been|is|was|were)"
             rf" (?:now )?{_TAKEN_BACK}\b|\b(?:not a word|none|nothing) of (?:this|that|it) (?:applies|holds|counts)\b"
-            r"|\b(?:scrap|forget|disregard|ignore|strike|delete) (?:that|this|the (?:above|last|previous)|all (?:of )?(?:this|that))\b",
+            r"|\b(?:scrap|forget|disregard|ignore|strike|delete) (?:that|this|the (?:above|last|previous)"
+            r"|all (?:of )?(?:this|that))\b",
             "what is taken back",
         ),
         (

@@ -69,9 +69,9 @@ class BareTriggers:
 
     def _just_before(self, made: Measured, clause: Clause) -> bool:
         """Whether an amount stands in the sentence before; a semicolon only parts one."""
-        parted = made.clause.sentence == clause.sentence - 2 and self.words.word(
-            self.words.sentence_at(made.at).stop
-        ) == ";"
+        parted = (
+            made.clause.sentence == clause.sentence - 2 and self.words.word(self.words.sentence_at(made.at).stop) == ";"
+        )
         return made.clause.sentence == clause.sentence - 1 or parted
 
     def _is_when(self, clause: Clause) -> bool:

@@ -8,7 +8,8 @@ from __future__ import annotations
 import itertools
 from dataclasses import dataclass, field, replace
 
-from scenewright.translate.gist.subjects import RUNS, SEES, SHARES, is_object
+from scenewright.translate.gist.objects import SEES, SHARES, is_object
+from scenewright.translate.gist.subjects import RUNS
 from scenewright.translate.gist.words import Clause, Words
 
 NEGATIVES = frozenset(("neither", "nor", "none", "no", "cannot", "nobody", "shall not", "must not", "should not"))
@@ -335,9 +336,10 @@ def _parted(words: Words, clause: Clause) -> list[Clause]:
             return [replace(clause, end=at), *_parted(words, replace(clause, start=at, link="main"))]
         if at in words.names.actors and "ing" in words.tokens[at + 1].forms and (seen := _seen_from(words, at, clause)):
             return [replace(clause, end=seen), *_parted(words, replace(clause, start=seen, link="main"))]
-        if at in words.names.actors and words.tag(at - 1, "area") == "driveway" and at > clause.start + 1 and not told:
-            if words.has([at + 1], "be", "verb", "auxiliary"):  # "turns into the driveway I'm coming out of"
-                return [replace(clause, end=at), replace(clause, start=at, link="that")]
+        after_driveway = words.tag(at - 1, "area") == "driveway" and at > clause.start + 1 and not told
+        if after_driveway and at in words.names.actors and words.has([at + 1], "be", "verb", "auxiliary"):
+            # "turns into the driveway I'm coming out of"
+            return [replace(clause, end=at), replace(clause, start=at, link="that")]
         if words.word(at) in ("so that", "so") and at > clause.start and _may(words, at + 1):
             return [replace(clause, end=at), replace(clause, start=at + 1, link="main")]
         if clause.link in BOUNDS and at > clause.start + 1 and _inverted(words, at):

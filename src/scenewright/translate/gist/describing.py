@@ -98,7 +98,16 @@ class Describing:
         back = at - 1
         while "unknown" in self.words.tags(back) or "direction" in self.words.tags(back):
             back -= 1
-        done = {self.words.word(at + 1), self.words.word(at + 2)} & {"done", "finished", "behind it", "behind them", "behind him", "behind her", "over", "is over"}
+        done = {self.words.word(at + 1), self.words.word(at + 2)} & {
+            "done",
+            "finished",
+            "behind it",
+            "behind them",
+            "behind him",
+            "behind her",
+            "over",
+            "is over",
+        }
         behind = self.words.word(at + 1) == "behind" and self.words.word(at + 2) in ("it", "them", "him", "her")
         has = self.words.word(back - 1) in ("has", "have", "gets", "get", "had", "got", "having", "getting")
         owned = "possessive" in self.words.tags(back) or (has and "determiner" in self.words.tags(back))

@@ -1,7 +1,7 @@
 """Finds sentences that say of themselves that they change nothing: "It has rained, which makes no difference".
 
-So do thanks and greetings. What enters: the text. What leaves: where such sentences stand. One that tells what a vehicle does, or holds an amount,
-is none of them.
+What enters: the text. What leaves: where such sentences stand, and thanks and greetings. One that tells what a vehicle
+does, or holds an amount, is none of them.
 """
 
 from __future__ import annotations
@@ -27,7 +27,8 @@ _VERDICT = re.compile(
 )
 # "Order: not specified."
 _UNSPECIFIED = re.compile(
-    r"^\s*(?:[a-z]+ ){0,3}[a-z]+ ?(?::|is|are)(?: (?:is|are|left))? ?(?:not specified|unspecified|not prescribed|free|none|n/a|irrelevant)"
+    r"^\s*(?:[a-z]+ ){0,3}[a-z]+ ?(?::|is|are)(?: (?:is|are|left))? ?(?:not specified|unspecified|not prescribed"
+    r"|free|none|n/a|irrelevant)"
     r"\s*[.;]?$",
     re.IGNORECASE,
 )
@@ -39,18 +40,21 @@ _PURPOSE = re.compile(
 _POLITE = re.compile(
     r"^\W*(?:(?:many |a lot of |with )?(?:thanks|thank you|thx|cheers|regards|best regards|kind regards|sincerely"
     r"|sorry|apologies|excuse (?:me|my)|hello|hi|hey|dear|good (?:morning|afternoon|day)|not sure (?:if|whether)"
-    r"|i hope|hope (?:this|that|it)|let me know|that's (?:all|it)|that is (?:all|it)|just (?:asking|checking)|fight over"
+    r"|i hope|hope (?:this|that|it)|let me know|that's (?:all|it)|that is (?:all|it)|just (?:asking|checking)"
+    r"|fight over"
     r"|many thanks|please (?:note|find|forgive)))\b",
     re.IGNORECASE,
 )
 _NAMES = re.compile(
-    r"\d|\b(?:ego|av|sut|vut|sv|hero|npc|pov|vehicles?|cars?|van|bus|truck|lorry|brak|accelerat|slow|stop|turn|when|until"
-    r"|nobody|no one|way|yield|priority|wait|let|goes|drives?|pass"
+    r"\d|\b(?:ego|av|sut|vut|sv|hero|npc|pov|vehicles?|cars?|van|bus|truck|lorry|brak|accelerat|slow|stop|turn"
+    r"|when|until"
+    r"|unless|except|if|but|nobody|no one|way|yield|priority|wait|let|goes|drives?|pass"
     r"|driveway|road)",
     re.IGNORECASE,
 )
 _ABOUT = re.compile(
-    r"\d|\b(?:hero|npc|pov|target|van|car|bus|truck|lorry|brak|accelerat|slow|stop|yield|until|when|east|west|north|south"
+    r"\d|\b(?:hero|npc|pov|target|van|car|bus|truck|lorry|brak|accelerat|slow|stop|yield|until|when|east|west"
+    r"|north|south"
     r"|left|right|straight|driveway|road|before|after)",
     re.IGNORECASE,
 )
@@ -69,6 +73,6 @@ def disclaimers(text: str) -> list[Span]:
         if _VERDICT.search(found.group())
         or (_UNSPECIFIED.search(found.group()) and not _NAMES.search(found.group()))
         or (_PURPOSE.search(found.group()) and not _ABOUT.search(found.group()))
-        or (_POLITE.search(found.group()) and not _NAMES.search(found.group()))
+        or ((polite := _POLITE.search(found.group())) and not _NAMES.search(found.group(), polite.end()))
         or (_CHANGES_NOTHING.search(found.group()) and not _TELLS.search(found.group()))
     ]

@@ -67,7 +67,9 @@ class EgoMoments:
         verbs = self.words.verbs(clause.inside)
         begins = "begin" in verbs and (verbs & {"turn"} or self.words.has(clause.inside, "event_noun"))
         told = self.words.has(clause.inside, "quantity", "negation")
-        return clause.link == "then" and clause.subject == EGO_ID and clause.named and passed and bool(begins) and not told
+        return (
+            clause.link == "then" and clause.subject == EGO_ID and clause.named and passed and bool(begins) and not told
+        )
 
     def is_allowed(self, clause: Clause) -> bool:
         """Whether the ego is let go in a sentence of its own: "The ego is allowed to complete its turn. Then ..."."""
@@ -133,7 +135,9 @@ class EgoMoments:
 
     def _names_turn(self, clause: Clause, verbs: set[str]) -> bool:
         noun = self.words.where(clause.inside, "event_noun", "turn") is not None
-        ours = self.words.word(clause.end - 1) in ("ours", "mine", "its own") and any(d.kind == "complete" for d in self.deeds)
+        ours = self.words.word(clause.end - 1) in ("ours", "mine", "its own") and any(
+            d.kind == "complete" for d in self.deeds
+        )
         return (
             noun or ours or bool(verbs & {"turn", "pull_out"}) or "own" in " ".join(map(self.words.word, clause.inside))
         )

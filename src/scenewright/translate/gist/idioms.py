@@ -16,7 +16,8 @@ _MEET = r"(?:cross|meet|merge|intersect|join|conflict|(?:come|run) together)"
 _CROSSING = re.compile(
     r"(?:(?:point|spot|place|bit) (?:where|at which|in which)|(?<=from )where|(?<=short of )where) "
     rf"(?:their|the|the two|both|our|its|your|these|two) (?:two )?{_WAYS} (?:would |will )?{_MEET}\b"
-    r"|(?:point|spot|place|bit) (?:where|at which) (?:they|the two|both)(?:['\u2019]d| would| will)? (?:meet|cross|collide|merge)\b",
+    r"|(?:point|spot|place|bit) (?:where|at which) (?:they|the two|both)(?:['\u2019]d| would| will)? (?:meet|cross"
+    r"|collide|merge)\b",
     re.IGNORECASE,
 )
 # "No sooner is the ego 9 m from the line than the van brakes"
@@ -37,33 +38,47 @@ _HEADED = re.compile(
     r"|(?:[A-Za-z]+ )?(?:response|reaction|behaviou?r|action))\.(?=\s+[A-Z])",
     re.IGNORECASE,
 )
-_EQUALS = re.compile(r"\b(turn|route|direction|heading|lane|goal|maneuver|manoeuvre)\s*=+(?=\s*[A-Za-z])", re.IGNORECASE)
+_EQUALS = re.compile(
+    r"\b(turn|route|direction|heading|lane|goal|maneuver|manoeuvre)\s*=+(?=\s*[A-Za-z])", re.IGNORECASE
+)
 _IS_EQUAL = re.compile(r"(?<= )==(?= )")
-_DIGITS = {word: digit for digit, word in enumerate("one two three four five six seven eight nine".split(), 1)}
+_DIGITS = {
+    word: digit
+    for digit, word in enumerate(["one", "two", "three", "four", "five", "six", "seven", "eight", "nine"], 1)
+}
 _TENTHS = re.compile(rf"\b({'|'.join(_DIGITS)}|\d) tenths? of an? (second|g)\b", re.IGNORECASE)
-_AHEAD_OF_MOMENT = re.compile(r"\bahead of the (?:moment|time|instant|point)(?: (?:when|at which|that|where))?\b", re.IGNORECASE)
+_AHEAD_OF_MOMENT = re.compile(
+    r"\bahead of the (?:moment|time|instant|point)(?: (?:when|at which|that|where))?\b", re.IGNORECASE
+)
 # "the ego would hit the van in 3 s": the time to collision
 _WOULD_HIT = re.compile(
-    r"\bwould (hit|run into|collide with|crash into|drive into|bump into)((?: [\w-]+){1,4}?) in (?=[\d.]+ ?s\b|\w+ seconds?\b)",
+    r"\bwould (hit|run into|collide with|crash into|drive into|bump into)((?: [\w-]+){1,4}?) in (?=[\d.]+ ?s\b"
+    r"|\w+ seconds?\b)",
     re.IGNORECASE,
 )
 # "..., I hope that makes sense", "and stops, like it should": what changes nothing
 _TAILS = re.compile(
     r",? (?:(?:and )?(?:i|we) hope (?:that|this|it) (?:makes sense|is clear|helps)|if (?:that|this) makes sense"
     r"|(?:just )?(?:as|like) (?:it|he|she|they|one|you) (?:should|ought to|would expect|might expect|must)"
-    r"|or (?:anything|something)(?: like (?:that|this))?|(?:which|and that,?) i (?:think|believe|suppose|guess)[^.,;!?]*"
-    r"|as (?:is )?(?:expected|required|prescribed)|if (?:that|this) is (?:possible|ok|okay)|nae bother|no bother)(?=\s*[.,;!?)]|\s*$)",
+    r"|or (?:anything|something)(?: like (?:that|this))?|(?:which|and that,?) i (?:think|believe|suppose"
+    r"|guess)[^.,;!?]*"
+    r"|as (?:is )?(?:expected|required|prescribed)|if (?:that|this) is (?:possible|ok|okay)|nae bother"
+    r"|no bother)(?=\s*[.,;!?)]|\s*$)",
     re.IGNORECASE,
 )
-_VERDICT = re.compile(r"(?:(?<=[.!?]\s)|(?<=\n))[A-Z][a-z]+(?: [a-z]+){0,3},? (?:i|we|they) call (?:that|this|it)\s*(?=[.!])", re.I)
+_VERDICT = re.compile(
+    r"(?:(?<=[.!?]\s)|(?<=\n))[A-Z][a-z]+(?: [a-z]+){0,3},? (?:i|we|they) call (?:that|this|it)\s*(?=[.!])", re.I
+)
 _I_THINK = re.compile(r"(?<![\w-])(?:i (?:think|believe|guess|suppose)|so yeah),? ?", re.IGNORECASE)
 # "The response of the van to the trigger is to brake"
 _RESPONSE = re.compile(
-    r"\bthe (?:response|reaction|answer) of (the [\w-]+|[A-Z]\w+) to (?:the trigger|this|that|it) is to\b", re.IGNORECASE
+    r"\bthe (?:response|reaction|answer) of (the [\w-]+|[A-Z]\w+) to (?:the trigger|this|that|it) is to\b",
+    re.IGNORECASE,
 )
 # "The trigger is the conjunction of two conditions, namely that the ego ..."
 _CONJUNCTION = re.compile(
-    r"\bthe trigger (?:is|consists of) (?:the (?:conjunction|combination|coincidence) of )?(?:the following )?two conditions"
+    r"\bthe trigger (?:is|consists of) (?:the (?:conjunction|combination"
+    r"|coincidence) of )?(?:the following )?two conditions"
     r"(?:,|:)? ?(?:namely )?(?:that )?(?=the |an? |[A-Z])",
     re.IGNORECASE,
 )
@@ -73,7 +88,8 @@ _IS_IT = re.compile(r"(?:(?<=[.!?]\s)|^)Is (?=(?:it|he|she|the [a-z]+) (?:[^.?!]
 _FIRST_ONE = re.compile(r"\b(NPC|Target|Hero|Actor|Agent|POV|Adversary|Opponent|TV)[_-]?1\b(?![.\d])", re.IGNORECASE)
 _ENUMERATED = re.compile(r"(?<=[ ,;])\((?:i{1,3}|iv|[a-d]|[1-4])\) ")
 _PART_OF = re.compile(
-    r"\bthe (?:centre|center|front|nose|front bumper|bumper|front end|reference point|middle) of (?=the )", re.IGNORECASE
+    r"\bthe (?:centre|center|front|nose|front bumper|bumper|front end|reference point|middle) of (?=the )",
+    re.IGNORECASE,
 )
 _TURNS_ON = re.compile(r"\b(turn(?:s|ing|ed)?) on (?=the (?:left|right)\b)", re.IGNORECASE)
 _AFTER_COMMA = re.compile(r"(?<=[.!?]\s)After,")
@@ -83,14 +99,20 @@ _CHAT = re.compile(r",? ?\b(?:lol|haha|btw|tbh|imo|imho)\b,?", re.IGNORECASE)
 _SAID_POINT = re.compile(r"\bthe said (?=point|line|place|spot)", re.IGNORECASE)
 # "TTA(ego, stop line) = 2.5 s"
 _FUNCTION = re.compile(
-    r"\b(tta|time|distance|dist)\((?:the )?([\w ]+?)(?:,| to) ?(?:the |its )?(stop line|conflict point|intersection)\)", re.IGNORECASE
+    r"\b(tta|time|distance|dist)\((?:the )?([\w ]+?)(?:,| to) ?(?:the |its )?(stop line|conflict point|intersection)\)",
+    re.IGNORECASE,
 )
 _MORE = re.compile(r"\b([\d.]+|[a-z]+) more (seconds?|metres?|meters?|feet|yards)\b", re.IGNORECASE)
 _AND_TENTHS = re.compile(rf"\b(\d+) (seconds?) and (\d|{'|'.join(_DIGITS)}) tenths?\b", re.IGNORECASE)
 _FOUND_TO_BE = re.compile(r"\b(?:is|are) found to be\b", re.IGNORECASE)
-_CENTRES = re.compile(r",? measured (?:centre|center|bumper|nose) to (?:centre|center|bumper|nose|tail),?", re.IGNORECASE)
+_CENTRES = re.compile(
+    r",? measured (?:centre|center|bumper|nose) to (?:centre|center|bumper|nose|tail),?", re.IGNORECASE
+)
 _TO_A_CRAWL = re.compile(r"\bto a (?:crawl|walking pace) of (?=[\d.])", re.IGNORECASE)
-_BOTH_HOLD = re.compile(r" \((?:both|all)(?: of (?:them|these))? (?:must|shall|have to|should|need to)? ?(?:hold|apply|be true|be met)\)", re.I)
+_BOTH_HOLD = re.compile(
+    r" \((?:both|all)(?: of (?:them|these))? (?:must|shall|have to|should|need to)? ?(?:hold|apply|be true|be met)\)",
+    re.I,
+)
 _UNTIL_NOUGHT = re.compile(r"\buntil v ?= ?0\b")
 _MOTION_ENDS = re.compile(r"\b(?:its|his|her) (?:motion|movement|ride|drive) ends\b", re.IGNORECASE)
 _BEFORE_THAT = re.compile(r"\bbefore that (?=(?:the|our|it|he|she) )", re.IGNORECASE)
@@ -98,7 +120,8 @@ _TO_NOUGHT = re.compile(r"\bto (?:v ?= ?0(?: ?(?:km/h|mph|m/s|kph))?|0 ?(?:km/h|
 # "When both are met, the van brakes": what was told before is the trigger
 _BOTH_MET = re.compile(
     r"\b(?:when|once|as soon as|if) (?:both|these|all|both of (?:these|them)|(?:the|these|both|all) (?:two )?conditions"
-    r"|\(1\) and \(2\)|\(a\) and \(b\))(?: of them)? (?:(?:are|have been|become) (?:satisfied|met|true|fulfilled|given|reached)|hold)"
+    r"|\(1\) and \(2\)|\(a\) and \(b\))(?: of them)? (?:(?:are|have been|become) (?:satisfied|met|true|fulfilled"
+    r"|given|reached)|hold)"
     r"(?: (?:together|at (?:the )?same time|simultaneously|at once))?(?=[, ])",
     re.IGNORECASE,
 )
@@ -109,13 +132,16 @@ _WHOM = r"(?:(?:the )?[\w-]+(?: vehicle| car)?)"
 _PRECEDES = re.compile(
     rf"\b(?:(?P<passer>{_WHO}) passage (?:of|through|across|past) the conflict point"
     rf"|the passage of (?P<passing>{_WHOM}) (?:through|across|past|over) the conflict point"
-    rf"|the completion of (?P<turner>{_WHO}) turn) (?:precedes|comes before|takes place before|occurs before|is before) "
+    rf"|the completion of (?P<turner>{_WHO}) turn) (?:precedes|comes before|takes place before|occurs before"
+    rf"|is before) "
     rf"(?:the (?:beginning|start|onset|commencement) of (?P<beginner>{_WHO}) turn|that of (?P<other>{_WHOM})"
     rf"|(?P<later>{_WHO}) passage (?:of|through|across|past) the conflict point"
     rf"|the passage of (?P<latter>{_WHOM}) (?:through|across|past|over) the conflict point)",
     re.IGNORECASE,
 )
-_AFTER_THIS = re.compile(r"\b(complete[sd]?|finishe?[sd]?) (after (?:this|that)|then|afterwards) ((?:its|his|her|the) turn)\b", re.I)
+_AFTER_THIS = re.compile(
+    r"\b(complete[sd]?|finishe?[sd]?) (after (?:this|that)|then|afterwards) ((?:its|his|her|the) turn)\b", re.I
+)
 _UNDERSCORE = re.compile(r"\b(ego|hero|npc|target|other|opponent|lead)_(vehicle|car|actor|agent)\b", re.IGNORECASE)
 _THAT_IS = re.compile(r", that is,")
 
@@ -139,7 +165,9 @@ def without_idioms(text: str) -> str:
     text = _I_THINK.sub(lambda found: _padded("", found), text)
     text = _RESPONSE.sub(lambda found: _padded(f"{found.group(1)} then shall", found), text)
     text = _CONJUNCTION.sub(lambda found: _padded("When", found), text)
-    if not re.search(r"\b(?:NPC|Target|Hero|Actor|Agent|POV|Adversary|Opponent|TV)[_-]?2\b(?![.\d])", text, re.IGNORECASE):
+    if not re.search(
+        r"\b(?:NPC|Target|Hero|Actor|Agent|POV|Adversary|Opponent|TV)[_-]?2\b(?![.\d])", text, re.IGNORECASE
+    ):
         text = _FIRST_ONE.sub(lambda found: _padded(found.group(1), found), text)
     text = _ENUMERATED.sub(lambda found: _padded("", found), text)
     text = _PART_OF.sub(lambda found: _padded("", found), text)

@@ -126,9 +126,9 @@ class MomentReader:
         if made.kind == "speed" and clause.link in ("that", "moment") and self._is_then(made):
             return "trigger"
         ways = self.words.verbs(range(clause.start, made.at)) & {"lane_follow", "go", "drive", "come"}
-        if made.kind == "speed" and made.actor == EGO_ID and not made.target and clause.link == "main" and ways:
-            if not any(each.link == "when" for each in self.words.sentence(clause)):
-                return "start"  # "The AV, for its part, follows the road at 25 mph": told after all else
+        plain = made.kind == "speed" and made.actor == EGO_ID and not made.target and clause.link == "main"
+        if plain and ways and not any(each.link == "when" for each in self.words.sentence(clause)):
+            return "start"  # "The AV, for its part, follows the road at 25 mph": told after all else
         if made.kind == "speed" and clause.link == "that" and ways and not made.target:
             return "start"  # "when the ego, which goes straight on at 14 m/s, is 4 s from it"
         if made.kind == "speed":
@@ -198,7 +198,10 @@ class MomentReader:
         own = [deed for deed in self.deeds if deed.clause is clause and deed.actor == HERO_ID]
         if any(deed.kind in ("stop", "wait") for deed in own):
             return True
-        if clause.link == "that" and self.words.verbs(clause.inside) & {"reach", "make"}:  # "to a stop, which it reaches 9 m before"
+        if clause.link == "that" and self.words.verbs(clause.inside) & {
+            "reach",
+            "make",
+        }:  # "to a stop, which it reaches 9 m before"
             earlier = [deed for deed in self.deeds if deed.at < clause.start and deed.actor == HERO_ID]
             if earlier and earlier[-1].kind == "stop" and earlier[-1].clause.sentence == clause.sentence:
                 return True
@@ -275,7 +278,8 @@ class MomentReader:
         if where is not None and words.verbs(range(where, clause.end)) == {"begin"}:
             return True  # "80 m before the intersection is where the ego begins"
         if words.where(clause.inside, "aspect", "start") is not None or any(
-            words.word(at) in _SET or (words.word(at) in ("set", "sets") and "up" in told.split()) for at in clause.inside
+            words.word(at) in _SET or (words.word(at) in ("set", "sets") and "up" in told.split())
+            for at in clause.inside
         ):
             return True
         if words.word(clause.start) in ("place", "put", "start", "spawn", "position") and "sit" not in words.verbs(

@@ -8,8 +8,19 @@ from __future__ import annotations
 from itertools import pairwise
 
 from scenewright.translate.events import EGO_ID, HERO_ID
+from scenewright.translate.gist.egos import (
+    GENERIC,
+    RELATIVE,
+    is_called,
+    is_our_own,
+    is_ours,
+    is_predicate,
+    is_tested,
+    kinds_of_ego,
+    marks_of_ego,
+    our_own_words,
+)
 from scenewright.translate.gist.words import Names
-from scenewright.translate.lexicon import load_lexicon
 from scenewright.translate.tokens import Token
 
 FIRST_PERSON = frozenset(("i", "me", "we", "us", "myself", "ourselves", "mine", "ours"))
@@ -22,15 +33,6 @@ PERSONS = frozenset(
      "colleague", "friend", "student", "volunteer", "resident", "visitor", "uncle", "aunt", "grandmother", "grandma",
      "granny", "grandfather", "grandpa"]
 )  # fmt: skip
-# Kinds of vehicle that can be any vehicle, and names that say how a vehicle lies to the other or what it does.
-_GENERIC = frozenset(("car", "vehicle", "driver", "motorist", "actor", "agent", "traffic_one"))
-_RELATIVE = {
-    "front_one": "lead",
-    "rear_one": "rear",
-    "left_turner": "left",
-    "right_turner": "right",
-    "through_one": "straight",
-}
 _GOES = ("turn", "go", "leave", "pull_out", "enter", "drive")
 _NAMED = frozenset(("ego", "hero", "noun"))
 
@@ -38,11 +40,11 @@ _NAMED = frozenset(("ego", "hero", "noun"))
 def find_names(tokens: list[Token]) -> Names:
     """Return who the tokens stand for."""
     names = Names()
-    kinds, marks = _ego_kinds(tokens), _ego_marks(tokens)
+    kinds, marks = kinds_of_ego(tokens), marks_of_ego(tokens)
     speaker = _speaker(tokens)
     tails = {t.text.lower().split()[-1] for t in tokens if t.tags.keys() & {"noun", "hero"} and " " in t.text}
     unknown = _unknown_vehicle(tokens)
-    owners, ours = _owners(tokens), _our_own_words(tokens)
+    owners, ours = _owners(tokens), our_own_words(tokens)
     spoken = speaker == EGO_ID and any(each.text.lower() in ("we", "us") for each in tokens)
     brands = _brands(tokens)
     ours |= {"you"} if _drives_it(tokens) else set()
@@ -54,7 +56,7 @@ def find_names(tokens: list[Token]) -> Names:
             continue
         if word in FIRST_PERSON or _has_it(word) or _is_own_wish(tokens, at):
             names.actors[at] = speaker
-        elif "ego" in token.tags or _is_our_own(tokens, at) or ("unknown" in token.tags and word in ours):
+        elif "ego" in token.tags or is_our_own(tokens, at) or ("unknown" in token.tags and word in ours):
             names.actors[at] = EGO_ID
         elif word in ("they", "them") and (spoken or _somebody(tokens, at)):
             names.actors[at] = HERO_ID  # "we ... they": whoever it is, it is not the ego
@@ -160,14 +162,14 @@ def _speaker(tokens: list[Token]) -> int:
             drives = any(
                 each.tags.get("verb") == "drive" or each.text.lower() == "in" for each in tokens[at + 1 : ahead]
             )
-            if drives and tags.keys() & {"hero", "noun"} and not _is_tested(tokens, ahead):
+            if drives and tags.keys() & {"hero", "noun"} and not is_tested(tokens, ahead):
                 return HERO_ID
     return EGO_ID
 
 
 def _unknown_vehicle(tokens: list[Token]) -> str | None:
     """Return a word that is not known but can only be the other vehicle: "a dustcart ... the dustcart brakes"."""
-    if any("hero" in t.tags or ("noun" in t.tags and t.tags["noun"] not in _RELATIVE) for t in tokens):
+    if any("hero" in t.tags or ("noun" in t.tags and t.tags["noun"] not in RELATIVE) for t in tokens):
         return None
     articles: dict[str, set[str]] = {}
     for at, token in enumerate(tokens[:-1]):
@@ -187,39 +189,22 @@ def _unknown_vehicle(tokens: list[Token]) -> str | None:
 def _name_vehicle(tokens: list[Token], at: int, names: Names, ego_kinds: set[str], ego_marks: set[str]) -> None:
     kind = tokens[at].tags["noun"]
     marked = at > 0 and (tokens[at - 1].text.lower() in ego_marks or "ego" in tokens[at - 1].tags)  # "the ADS car"
-    called = _is_called(tokens, at) and "be" in tokens[at + 1].tags
+    called = is_called(tokens, at) and "be" in tokens[at + 1].tags
     ego = (
         marked
         or called
-        or _is_predicate(tokens, at)
+        or is_predicate(tokens, at)
         or kind in ego_kinds
-        or _is_tested(tokens, at)
-        or _is_ours(tokens, at)
+        or is_tested(tokens, at)
+        or is_ours(tokens, at)
     )
     names.actors[at] = EGO_ID if ego else HERO_ID
-    if kind in _RELATIVE:
-        names.relative[at] = _RELATIVE[kind]
-    elif not ego and kind not in _GENERIC:
+    if kind in RELATIVE:
+        names.relative[at] = RELATIVE[kind]
+    elif not ego and kind not in GENERIC:
         names.kinds.add(kind)
     if not ego and _is_third(tokens, at):
         names.kinds |= {"hero", kind}
-
-
-def _is_predicate(tokens: list[Token], at: int) -> bool:
-    """Whether this says what the ego is: "the ego is an old car", "the ego, a van,"."""
-    back = at - 1
-    while back > 0 and tokens[back].tags.keys() & {"actor_adjective", "heading", "unknown", "determiner"}:
-        back -= 1
-    own = back >= 1 and ("ego" in tokens[back - 1].tags or tokens[back - 1].text.lower() in ("ours", "mine"))
-    if not own:
-        return False
-    if tokens[back].text.lower() == "as":
-        return True  # "with the VUT as the rear one"
-    closes = at + 1 >= len(tokens) or bool(tokens[at + 1].tags.keys() & {"comma", "end", "link"})
-    placed = back > 1 and "relation" in tokens[back - 2].tags  # "Ahead of the ego is a car"
-    if placed or any(each.tags.get("determiner") == "another" for each in tokens[back:at]):
-        return False
-    return "be" in tokens[back].tags or ("comma" in tokens[back].tags and back < at - 1 and closes)
 
 
 def _is_third(tokens: list[Token], at: int) -> bool:
@@ -250,7 +235,7 @@ def _somebody(tokens: list[Token], at: int) -> bool:
 
 def _is_last_one(tokens: list[Token], at: int) -> bool:
     """Whether this is "Last one for today" and no vehicle."""
-    relative = tokens[at].tags["noun"] in _RELATIVE and tokens[at].text.lower().endswith("one")
+    relative = tokens[at].tags["noun"] in RELATIVE and tokens[at].text.lower().endswith("one")
     if (
         relative
         and tokens[at].text.lower() == "last one"
@@ -334,21 +319,6 @@ def _owns(tokens: list[Token], at: int) -> bool:
     return len(following) == 2 and "genitive" in following[0].tags and "noun" in following[1].tags
 
 
-def _our_own_words(tokens: list[Token]) -> set[str]:
-    """Return words that are not known and stand for the ego: "our prototype turns left"."""
-    if any("ego" in token.tags for token in tokens):
-        return set()
-    found: set[str] = set()
-    for first, token in pairwise(range(len(tokens))):
-        ours = "our" in tokens[first].tags.values() and "unknown" in tokens[token].tags
-        acts = token + 1 < len(tokens) and "verb" in tokens[token + 1].tags and "s" in tokens[token + 1].forms
-        again = any(each.text.lower() == tokens[token].text.lower() for each in tokens[token + 1 :])
-        acts = acts or (again and token + 1 < len(tokens) and bool(tokens[token + 1].tags.keys() & {"comma", "end"}))
-        if ours and (acts or (token + 1 < len(tokens) and "be" in tokens[token + 1].tags)):
-            found.add(tokens[token].text.lower())
-    return found if len(found) == 1 else set()
-
-
 def _is_told_later(tokens: list[Token], at: int) -> bool:
     """Whether this says of amounts that they are alike: "3 s and 4 s, both to the line", not "both of them turning"."""
     acts = at + 1 < len(tokens) and ("ing" in tokens[at + 1].forms or "be" in tokens[at + 1].tags)
@@ -381,85 +351,3 @@ def _is_hero(tokens: list[Token], at: int) -> bool:
         return True  # "ours is 30 m from it and the oncoming one 22 m"
     acts = "verb" in following.tags and "s" in following.forms
     return acts or bool(following.tags.keys() & {"quantity", "be"}) or following.text.lower() == "down to"
-
-
-def _is_tested(tokens: list[Token], at: int) -> bool:
-    following = [each.text.lower() for each in tokens[at + 1 : at + 3]]
-    tested = following and "test" in following[0] and "comment" in tokens[at + 1].tags  # "the shuttle we are testing"
-    ahead = [each.text.lower() for each in tokens[at + 1 : at + 6]]
-    short = ahead[:1] == ["we"] and "testing" in ahead[1:3]  # "the car we're testing"
-    apposed = ahead[1:3] == ["the", "one"] and any("comment" in each.tags for each in tokens[at + 4 : at + 5])
-    being = " ".join(ahead[:4]).startswith(("that 's being tested", "that is being tested", "being tested"))
-    being = being or " ".join(ahead[:4]).startswith(("that's being tested", "in the test", "on test"))
-    under = being or ahead[1:] == ["the", "one", "under", "test"]  # "the robot car, the one under test,"
-    return under or following == ["under", "test"] or bool(tested) or short or (apposed and "test" in " ".join(ahead[3:]))
-
-
-def _is_the_ego(tokens: list[Token], at: int) -> bool:
-    """Whether a vehicle is said to be under test or the ego: "a robot car, the ego,"."""
-    return _is_tested(tokens, at) or ("comma" in tokens[min(at + 1, len(tokens) - 1)].tags and _is_called(tokens, at))
-
-
-def _is_ours(tokens: list[Token], at: int) -> bool:
-    """Whether this is "our car" or "my shuttle"; "my uncle's lorry" is not."""
-    back = at - 1
-    while back >= 0 and tokens[back].tags.keys() & {"actor_adjective", "unknown", "heading"}:
-        back -= 1
-    return back >= 0 and "our" in tokens[back].tags.values()
-
-
-def _is_our_own(tokens: list[Token], at: int) -> bool:
-    """Whether "our" stands for the vehicle: "our being 4 s from it", "our distance to it"."""
-    if "our" not in tokens[at].tags.values() or at + 1 >= len(tokens):
-        return False
-    return bool(tokens[at + 1].tags.keys() & {"measure", "measures"}) or tokens[at + 1].text.lower() == "being"
-
-
-def _ego_kinds(tokens: list[Token]) -> set[str]:
-    """Return the kinds of vehicle that the ego is called too: "the taxi, our ego,", "the ego is the rear one"."""
-    entries = load_lexicon().entries
-    kinds: set[str] = set()
-    for at, token in enumerate(tokens):
-        if "ego" in token.tags:
-            last = token.text.lower().split()[-1]
-            kinds |= {entries.get((last,), {}).get("noun", "")} - {*_GENERIC, *_RELATIVE, ""}
-        kind = token.tags.get("noun")
-        if kind is None or kind in _GENERIC:
-            continue
-        if (
-            _is_tested(tokens, at)
-            or _is_called(tokens, at)
-            or _is_ours(tokens, at)
-            or (kind in _RELATIVE and _ego_is(tokens, at))
-        ):
-            kinds.add(kind)
-    return kinds
-
-
-def _is_called(tokens: list[Token], at: int) -> bool:
-    """Whether a vehicle is said to be the ego: "the one behind is the ego", "the taxi, which is our ego,"."""
-    if at + 2 >= len(tokens) or not tokens[at + 1].tags.keys() & {"comma", "be"}:
-        return False
-    which = tokens[at + 2].text.lower() in ("which", "that") and "be" in tokens[min(at + 3, len(tokens) - 1)].tags
-    ahead = at + 2 + (2 if which else 0)
-    ahead += ahead < len(tokens) and "determiner" in tokens[ahead].tags
-    if ahead >= len(tokens) or "ego" not in tokens[ahead].tags:
-        return False
-    closes = ahead + 1 >= len(tokens) or bool(tokens[ahead + 1].tags.keys() & {"comma", "end"})
-    return closes or "be" in tokens[at + 1].tags
-
-
-def _ego_is(tokens: list[Token], at: int) -> bool:
-    back = at - 1
-    while back > 0 and "determiner" in tokens[back].tags:
-        back -= 1
-    return back > 0 and "be" in tokens[back].tags and "ego" in tokens[back - 1].tags
-
-
-def _ego_marks(tokens: list[Token]) -> set[str]:
-    """Return what sets the ego apart: "robot" in "the robot car under test"."""
-    return {
-        mark.text.lower()
-        for at, (mark, named) in enumerate(pairwise(tokens))
-        if "unknown" in mark.tags and ("ego" in named.tags or ("noun" in named.tags and _is_the_ego(tokens, at + 1)))
-    }

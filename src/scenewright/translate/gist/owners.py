@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from scenewright.translate.gist.subjects import is_object
+from scenewright.translate.gist.objects import is_object
 from scenewright.translate.gist.words import Clause, Words
 
 _ARTICLES = frozenset(("determiner", "possessive", "area_adjective"))

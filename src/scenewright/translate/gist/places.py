@@ -114,7 +114,9 @@ class PlaceFinder:
             return self.words.referred(at) or "last", at + 1, False
         if self.words.word(at) == "same" and at > first and self.words.has([at + 1], "comma", "end", "link"):
             return "last", at + 1, False  # "2.3 s from the same"
-        if self.words.word(at) == "there" or ("latter" in tags and self.words.word(at - 1) in ("short of", "before", "upstream of")):
+        if self.words.word(at) == "there" or (
+            "latter" in tags and self.words.word(at - 1) in ("short of", "before", "upstream of")
+        ):
             return "last", at + 1, False
         if "mouth" in tags and self.words.word(at + 1) == "of":
             mouth = self.place_at(at + 2)

@@ -16,22 +16,22 @@ from scenewright.translate.facts import Facts
 from scenewright.translate.geometry import is_remark
 from scenewright.translate.gist.amounts import AmountReader
 from scenewright.translate.gist.clauses import cut
+from scenewright.translate.gist.dangers import refuse_dangers
 from scenewright.translate.gist.deeds import DeedReader
 from scenewright.translate.gist.disclaimers import disclaimers
 from scenewright.translate.gist.layout import laid_out
-from scenewright.translate.gist.leftovers import (
-    refuse_dangers,
-    refuse_left_over,
+from scenewright.translate.gist.leftovers import refuse_left_over
+from scenewright.translate.gist.moments import MomentReader
+from scenewright.translate.gist.names import find_names
+from scenewright.translate.gist.shares import share
+from scenewright.translate.gist.story import StoryTeller
+from scenewright.translate.gist.strangers import (
     refuse_strange_conditions,
     refuse_strange_deeds,
     refuse_strange_places,
     refuse_strangers,
     refuse_third_parties,
 )
-from scenewright.translate.gist.moments import MomentReader
-from scenewright.translate.gist.names import find_names
-from scenewright.translate.gist.shares import share
-from scenewright.translate.gist.story import StoryTeller
 from scenewright.translate.gist.subjects import give_subjects
 from scenewright.translate.gist.ways import Way, WayReader
 from scenewright.translate.gist.wishes import fits, one_each, wishes

@@ -84,7 +84,9 @@ def _told_in_front(words: Words, found: list[Measured]) -> None:
     """Read "With respect to the stop line, the ego is 6.5 s out and the van 4 s out"."""
     for clause in words.clauses:
         rest = [at for at in clause.inside if not words.tags(at).keys() & {"determiner", "area_adjective"}]
-        opens = len(rest) == 2 and words.has(rest[:1], "measured_word", "preposition") and words.has(rest[1:], "landmark")
+        opens = (
+            len(rest) == 2 and words.has(rest[:1], "measured_word", "preposition") and words.has(rest[1:], "landmark")
+        )
         if not opens or words.sentence(clause)[0] is not clause:
             continue
         own = [made for made in found if made.clause.sentence == clause.sentence and made.quantity is not None]

@@ -7,115 +7,35 @@ from __future__ import annotations
 
 from scenewright.translate.events import EGO_ID, HERO_ID
 from scenewright.translate.gist.names import FIRST_PERSON, PERSONAL
+from scenewright.translate.gist.objects import SEES, is_object
 from scenewright.translate.gist.words import Clause, Words
 
-SEES = (
-    "sees",
-    "spots",
-    "notices",
-    "watches",
-    "saw",
-    "spotted",
-    "noticed",
-    "see",
-    "seeing",
-    "finds",
-    "found",
-    "meets",
-    "met",
-    "encounters",
-)
-_CLOSES = ("link", "comma", "end", "preposition")
 _CUED = ("triggered", "activated", "acts", "reacts", "cued")
-SHARES = ("shares", "share", "sharing", "shared")
-_BESIDE = frozenset(("determiner", "actor_adjective", "possessive", "heading", "hero", "noun", "unknown", "direction"))
-_OBJECT_OF = frozenset(("to", "of", "for", "by", "between", "across", "into", "in", "on", "at", "out"))
-_TAKES_OBJECT = frozenset(
-    ["follow", "yield", "approach", "pass", "lead", "not_yield", "cut_in_front", "beat", "come_towards", "enter",
-     "attitude", "get_within", "hit", "reach"]
-)  # fmt: skip
 _MAIN = ("main", "and", "then", "moment", "colon")
 _SUBORDINATE = ("before", "after", "until", "when", "that")
 _STRONG = frozenset(("brake", "stop", "accelerate"))  # nobody tells the ego to do these
 _DEEDS = _STRONG | {"pass", "complete", "wait", "keep"}
-RUNS = ("clock", "video", "clip", "film", "footage", "exposure", "drive", "journey", "trip", "trial", "run", "test", "recording", "simulation", "scene", "log", "scenario", "measurement")
+RUNS = (
+    "clock",
+    "video",
+    "clip",
+    "film",
+    "footage",
+    "exposure",
+    "drive",
+    "journey",
+    "trip",
+    "trial",
+    "run",
+    "test",
+    "recording",
+    "simulation",
+    "scene",
+    "log",
+    "scenario",
+    "measurement",
+)
 _HIS = PERSONAL | {"his", "her"}
-
-
-def is_object(words: Words, at: int) -> bool:
-    """Whether the name at `at` stands after a preposition, or as the object of a verb."""
-    following = words.tags(at + 1)
-    if at - 1 in words.names.actors and words.has([at - 1], "ego"):
-        return is_object(words, at - 1)  # "for the ADS car"
-    if "genitive" in following and words.where((at + 1, at + 2), "area", "lane") is not None:
-        return True  # "crosses the ego's lane"
-    back = _before_name(words, at)
-    if words.word(back) in ("ahead of", "in front of") and words.has([at + 1], *_CLOSES) and back:
-        if words.has([back - 1], "comma", "be", "adverb"):
-            return True  # "is in the driveway as well, ahead of the AV and 30 m upstream of the line"
-    if _is_owner(words, back, at) or words.word(back - 1) in ("consists", "consist", "consisting"):
-        return False  # "Traffic consists of one van"
-    if 0 < back < at and "ing" in words.tokens[back].forms and "determiner" in words.tags(back - 1):
-        return words.word(back - 2) == "of"  # "the presence of a yielding van", but not "the entering car"
-    if words.word(back) in SEES and "ing" in words.tokens[min(at + 1, len(words.tokens) - 1)].forms:
-        return False  # "sees the ego driving west"
-    if back < 0:
-        return False
-    tags, verb = words.tags(back), words.tag(back, "verb")
-    if verb in _TAKES_OBJECT and verb != "reach":
-        return True
-    preposition = tags.get("preposition")
-    if following.keys() & {"measure", "quantity"} and preposition in ("at", "with", "of", "to"):
-        return preposition in ("of", "to") and "measure" not in following  # "at ego time to arrival 4 s"
-    linked = tags.get("link")
-    if tags.get("relation") in ("ahead", "behind") and words.has([at + 1], "be") and words.has([at + 2], "determiner"):
-        return True  # "Ahead of us is another car"
-    if linked in ("before", "after") and words.tag(back - 1, "quantity") == "time" and _acts(words, at):
-        return False  # "1 s before the ego passes it"
-    if linked not in (None, "to", "by") and words.tag(back - 1, "quantity") not in ("length", "time"):
-        return False
-    if (tags.keys() & {"relation", "separates"} and linked != "when") or preposition in _OBJECT_OF:
-        return True
-    if words.word(back) == "with" and any(words.word(i) in SHARES for i in range(max(0, back - 6), back)):
-        return True  # "It shares the lane with the ego"
-    if "opposed" in tags and words.named(range(words.sentence_at(at).start, back)) is not None:
-        return True  # "a left turn of the ego against an eastbound van"
-    if verb == "let":  # "lets the ego pass", but not the imperative "let the ego drive"
-        told = words.word(back - 1) in ("to", "and") or words.has([back - 1], "negation", "auxiliary")
-        return told or bool(words.tokens[back].forms & {"s", "ing"})
-    return verb in _TAKES_OBJECT
-
-
-def _acts(words: Words, at: int) -> bool:
-    """Whether a vehicle is followed by what it does."""
-    finite = "verb" in words.tags(at + 1) and "ing" not in words.tokens[min(at + 1, len(words.tokens) - 1)].forms
-    return finite or words.has([at + 1], "auxiliary", "be")
-
-
-def _is_owner(words: Words, of: int, at: int) -> bool:
-    """Whether a name is the owner of what a clause begins with: "The route of the van is", "The driver of the bus"."""
-    if words.word(of) != "of" or not words.has([at + 1], "be", "verb", "auxiliary"):
-        return False
-    first = of - 2 if "determiner" in words.tags(of - 2) else of - 1
-    return first == 0 or words.has([first - 1], "end", "comma", "link")
-
-
-def _before_name(words: Words, at: int) -> int:
-    """Return where the words before a name, its article and its adjectives, end."""
-    back = at - 1
-    article = False
-    while back >= 0 and back not in words.names.actors and back not in words.names.pronouns:
-        tags = words.tags(back)
-        if not tags.keys() & _BESIDE or (article and "unknown" in tags):
-            break  # "in this episode the ego": the ego is no object of "in"
-        article |= "determiner" in tags
-        if tags.keys() & {"relation", "preposition", "verb", "link"} and not tags.keys() & {
-            "determiner",
-            "actor_adjective",
-        }:
-            break
-        back -= 1
-    return back
 
 
 def give_subjects(words: Words) -> None:
@@ -130,7 +50,9 @@ def give_subjects(words: Words) -> None:
             following = words.clauses[index + 1] if index + 1 < len(words.clauses) else clause
             opens = words.sentence(clause)[0] is clause
             verbless = not words.has(following.inside, "verb", "be") and words.has([following.start], "quantity")
-            if following.start == clause.end or ((opens or verbless) and following.start == clause.end + 1):  # "when the recording began it was 7 s from it"
+            if following.start == clause.end or (
+                (opens or verbless) and following.start == clause.end + 1
+            ):  # "when the recording began it was 7 s from it"
                 following.labels = [*following.labels, "start"]
             _mark_start(words, clause, before)
         if clause.aside and not clause.named:
@@ -274,7 +196,9 @@ def _starts_it(words: Words, clause: Clause) -> bool:
     out = any(words.word(at) in ("sets out", "starts out", "set out", "started out") for at in clause.inside[:3])
     if out and earlier and words.has(earlier[-1].inside, "quantity") and not words.has(clause.inside, "quantity"):
         return clause.link == "when"  # "its time to arrival is 8 s when it sets out eastbound"
-    begins = begins or (words.word(clause.end - 2) in ("press", "hit", "push") and last in ("play", "start", "go", "run"))
+    begins = begins or (
+        words.word(clause.end - 2) in ("press", "hit", "push") and last in ("play", "start", "go", "run")
+    )
     vehicle = words.has(clause.inside, "hero", "noun") or any("ego" in words.word(at) for at in clause.inside)
     told = words.has(clause.inside, "quantity", "pronoun", "possessive")
     return clause.link == "when" and begins and len(clause.inside) <= 5 and not vehicle and not told
@@ -332,7 +256,9 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     again = words.word(clause.start - 2) == "and" and words.word(clause.start - 1) in ("which", "who")
     which = words.word(clause.start - 1)
     alike = [each for each in words.sentence(clause) if each.start < clause.start]
-    alike = [each for each in alike if words.word(each.start - 1) == which or words.word(each.start) == f"{which} begins"]
+    alike = [
+        each for each in alike if words.word(each.start - 1) == which or words.word(each.start) == f"{which} begins"
+    ]
     if again and alike:
         return alike[-1].subject  # "a van comes, which brakes when ..., and which stops 6 m before it"
     if relative:
@@ -348,7 +274,9 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     finite = any("verb" in words.tags(i) and "ing" not in words.tokens[i].forms for i in first.inside)
     alone = first.named and not finite and not words.has(first.inside, "be", "quantity", "auxiliary")
     alone = alone and first is not clause
-    goes_on = clause.link == "main" and bool(words.tokens[clause.start].forms & {"s", "ed"}) and clause.start not in pronouns
+    goes_on = (
+        clause.link == "main" and bool(words.tokens[clause.start].forms & {"s", "ed"}) and clause.start not in pronouns
+    )
     put_in = [each for each in words.sentence(clause) if first.start < each.start < clause.start]
     placed = put_in and all(words.has(each.inside, "quantity") for each in put_in)
     if alone and goes_on and placed and "base" not in words.tokens[clause.start].forms:

@@ -111,7 +111,12 @@ class WayReader:
         driveway = clause.link == "that" and words.tag(before, "area") == "driveway"
         last = clause.end - 1
         out = words.tag(last, "verb") in ("pull_out", "leave") or words.word(last).split()[-1] in ("from", "of")
-        if driveway and out and clause.subject is not None and words.verbs(clause.inside) & {"pull_out", "come", "leave"}:
+        if (
+            driveway
+            and out
+            and clause.subject is not None
+            and words.verbs(clause.inside) & {"pull_out", "come", "leave"}
+        ):
             self.ways.append(Way("origin_kind", "driveway", last, words.tokens[last].span, clause.subject))
 
     def _same_lane(self, at: int) -> None:
@@ -134,8 +139,10 @@ class WayReader:
         """Whether this is "carries on along the road"."""
         ahead = self.words.skip(at + 2, _BESIDE)
         road = self.words.tag(ahead, "area") == "road" and ahead < clause.end
-        return road and self.words.word(at + 1) in ("along", "down") and self.words.word(at).split()[0][:4] in (
-            "carr", "cont", "goes", "keep", "driv", "proc"
+        return (
+            road
+            and self.words.word(at + 1) in ("along", "down")
+            and self.words.word(at).split()[0][:4] in ("carr", "cont", "goes", "keep", "driv", "proc")
         )
 
     # -- headings and turns -------------------------------------------------------------------------------------------
@@ -165,7 +172,9 @@ class WayReader:
             return
         shared = any(self.words.word(i).startswith("shar") for i in range(clause.start, at))
         if shared and self.words.named(range(at, clause.end)) is not None:  # "shares the westbound lane with the ego"
-            self.ways += [Way("origin_heading", value, at, self.words.tokens[at].span, each) for each in (EGO_ID, HERO_ID)]
+            self.ways += [
+                Way("origin_heading", value, at, self.words.tokens[at].span, each) for each in (EGO_ID, HERO_ID)
+            ]
             return
         key: Key = "origin_heading" if from_lane else "heading"  # "a right turn from the westbound lane"
         self._say(key, value, at, self._whose(at, clause), clause)

@@ -14,6 +14,11 @@ from scenewright.translate.events import HERO_ID
 from scenewright.translate.tokens import Token
 
 _NOTHING: Mapping[str, str] = {}
+# What the other vehicle does, or what somebody else must not do.
+DEEDS = frozenset(
+    ["brake", "stop", "accelerate", "pass", "complete", "yield", "not_yield", "turn", "pull_out", "wait", "reach",
+     "enter"]
+)  # fmt: skip
 FIX = "say it in a sentence of its own, or in other words; nothing is guessed"
 
 
