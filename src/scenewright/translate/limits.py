@@ -19,7 +19,7 @@ from scenewright.translate.tokens import Quantity, tokenise
 
 Moment = Literal["start", "trigger", "stop", "end"]
 
-_SPEED = r"(?:[\d.]+ ?(?:m/s|km/h|mph|kph|mps)(?![²^\w])|\w+_(?:mps|kmh|kph|mph)\b)"
+_SPEED = r"(?:[\d.]+ ?(?:m/s|km/h|mph|kph|mps)(?![²^\w])|\w+_(?:mps|kmh|kph|kmph|mph)\b)"
 _RATE = r"(?:[\d.]+ ?(?:m/s²|m/s\^2|m/s2|mpss|g)(?!\w)|\w+_mpss\b)"
 _OWNER = r"(?:its|his|her|the|the [\w-]+(?: [\w-]+)?['’]s|[A-Z]\w+['’]s)"
 _SUBJECT = (

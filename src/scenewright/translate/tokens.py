@@ -299,8 +299,9 @@ def _quantity(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
     unit, after = _unit(tagger, index + 1)
     span = raw.span.union(tagger.raw[after - 1].span)
     if raw.kind == "number":
-        if unit is not None and re.fullmatch(r"\d{1,3},\d{1,2}", raw.text):
-            raw = replace(raw, text=raw.text.replace(",", "."))  # "2,5 s": no thousands have one or two digits
+        written = raw.text
+        if unit is not None and re.fullmatch(r"\d{1,3},\d{1,2}", written):
+            raw = replace(raw, text=written.replace(",", "."))  # "2,5 s": no thousands have one or two digits
         if "," in raw.text or "/" in raw.text:
             raise TranslationError(
                 f"'{raw.text}' can be read in more than one way",
@@ -313,7 +314,8 @@ def _quantity(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
             tokens.append(Token(raw.text, raw.span, {"bare_number": raw.text}))
             return after
         value = Fraction(raw.text.replace("−", "-").lstrip("+"))
-        tokens.append(_literal(tagger, value, unit, span))
+        literal = _literal(tagger, value, unit, span)
+        tokens.append(literal if raw.text == written else replace(literal, slips=((written, raw.text),)))
     else:
         tokens.append(_parameter(tagger, raw, unit, span))
     return after

@@ -45,6 +45,42 @@ _PHRASES = tuple(
             r"|\broundabout\b",
             "a place that the map does not have",
         ),
+        (
+            r"\b(?:across|over|onto|on|between) the (?:kerb|curb|grass|verge|pavement|sidewalk|footpath"
+            r"|hard shoulder)\b"
+            r"|\bin the middle of (?:it|the)\b",
+            "a place that no route leads over",
+        ),
+        (
+            r"\b(?:on|at|turns?|goes|shows|until|was|is) (?:green|red|amber)\b(?! \w*(?:car|van|bus|truck|hatch"
+            r"|sedan|suv|coup))",
+            "a traffic light",
+        ),
+        (r"\b(?:tail|rear|back)(?:[- ]end)?[- ]first\b|\bback(?:s|ing|ed) out\b", "driving backwards"),
+        (r"\bbumper[- ]to[- ]bumper\b|\bclose enough to\b|\bby a (?:hair|whisker)\b", "how close the bodies come"),
+        (
+            r"\bmakes? as if\b|\bfeints?\b|\bfeigns?\b|\bby the looks? of (?:it|things)\b|\bor so it seems\b",
+            "what only seems so",
+        ),
+        (
+            r"\b(?:does|do|did|shall|must|will) not (?:begin|start) to \w+ to\b",
+            "what is denied together with its purpose",
+        ),
+        (
+            r"\b(?:holding|keeping|maintaining) (?:a |its )?(?:steady|constant|same|unchanged) speed throughout\b[^.;]*"
+            r"\b(?:brak|slow|decelerat|stop)",
+            "a vehicle that brakes does not keep its speed",
+        ),
+        (r"\bat liberty to\b", "what is only allowed"),
+        (
+            r"\b(?:is|been|being|,|and) waved (?:on|through|across|in|past)\b|(?<=, )waved (?:on|through|across|in"
+            r"|past)\b",
+            "a gesture",
+        ),
+        (
+            r"\bon second thoughts?\b|\bcome to think of it\b|\bleave the \w+ out\b|\bstruck (?:out|through)\b",
+            "what is taken back",
+        ),
         (r"\bneither (?:on|in|from|out of) the (?:road|driveway)\b", "a vehicle that is nowhere"),
         (
             r"\b(?:narrowest|smallest|tightest|slimmest|widest|largest|biggest|least|greatest) (?:possible )?"

@@ -39,10 +39,17 @@ class BareTriggers:
             return gaps
         if told := self._named() or self._come_there():
             return told
-        then = next((each for each in self.words.clauses if each.link == "moment"), None)
+        then = next((each for each in self.words.clauses if each.link == "moment" or self._from_then_on(each)), None)
         if then is None:
             return self._before_a_colon()
         return list({made.actor: made for made in self.opens if made.at < then.start}.values())
+
+    def _from_then_on(self, clause: Clause) -> bool:
+        """Whether "From then on the van brakes" follows where both are."""
+        link = self.words.word(clause.start - 1)
+        told = link in ("from then on", "from there on", "from that moment on", "from that moment")
+        acts = any(d.clause is clause and d.actor == HERO_ID and d.kind in _ACTS for d in self.deeds)
+        return clause.link == "then" and told and acts
 
     def _called(self) -> list[Measured]:
         """Read "The AV is 3 s from the line, the van 3 s from the point. That is the trigger."."""

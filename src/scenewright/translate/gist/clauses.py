@@ -8,12 +8,14 @@ from __future__ import annotations
 import itertools
 from dataclasses import dataclass, field, replace
 
+from scenewright.translate.events import HERO_ID
 from scenewright.translate.gist.objects import SEES, SHARES, is_object
 from scenewright.translate.gist.subjects import RUNS
 from scenewright.translate.gist.words import Clause, Words
 
 NEGATIVES = frozenset(("neither", "nor", "none", "no", "cannot", "nobody", "shall not", "must not", "should not"))
 BOUNDS = ("before", "after", "until")
+_OTHERS = ("target", "hero", "npc", "pov", "opponent", "challenger", "adversary", "other")
 _DURING = ("while", "whilst", "when", "as", "with")
 _LINKS = ("when", "then", "moment", "that", *BOUNDS)
 _LABELS = {"when": "trigger", "main": "deed"}
@@ -61,7 +63,10 @@ class _Cutter:
         text = self.words.tokens[at].text
         label = self._label(at) if at > self.start and text.startswith("\n") else None
         if label is not None:  # a line that is only "Trigger" or "Ego"
-            self.heading = [label], self.words.named(range(self.start, at))
+            named = self.words.named(range(self.start, at))
+            first = self.words.word(self.start).split()[0]
+            own = HERO_ID if label == "deed" and first in _OTHERS else None  # "Target action"
+            self.heading = [label], named if named is not None else own
             self.start = at
         elif self.labels and text.startswith("\n") and "colon" in self.words.tags(at - 1):
             self.heading = list(self.labels), self.labelled

@@ -103,6 +103,13 @@ class DeedReader:
                     self._add("not_yield", at, clause)  # "does not give us priority"
                     return
                 continue
+            if (
+                negation is not None
+                and at > negation + 1
+                and (at in self.words.names.actors or at in self.words.names.pronouns)
+            ):
+                following = self.words.tokens[min(at + 1, len(self.words.tokens) - 1)].forms
+                negation = None if following & {"s", "ed"} else negation  # "instead of easing up he steps on it"
             wanted |= self._is_wish(at)
             told = self.words.word(at) in ("made to", "is made", "forced to", "told", "asked", "commanded", "ordered")
             wanted &= not told
@@ -258,6 +265,9 @@ class DeedReader:
             return True
         if verb in ("drive", "go"):
             return self._stays(at, clause)
+        purpose = self.words.where(range(at, clause.end), "link", "to")
+        if purpose is not None and self.words.verbs(range(purpose, clause.end)) & {"pass", "complete"}:
+            return False  # "does not begin to accelerate to complete the turn": what is denied is not clear
         if verb == "accelerate" and not any(deed.kind in ("brake", "stop", "wait") for deed in self.deeds):
             self._add("keep", at, clause)
             return True

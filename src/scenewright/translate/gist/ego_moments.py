@@ -100,6 +100,7 @@ class EgoMoments:
             "enter",
             "go",
             "make",
+            "come",
             "drive",
             "cut_in_front",
         }

@@ -14,7 +14,8 @@ from scenewright.translate.aliases import without_aliases
 _WAYS = r"(?:paths|ways|lanes|routes|tracks|trajectories|courses)"
 _MEET = r"(?:cross|meet|merge|intersect|join|conflict|(?:come|run) together)"
 _CROSSING = re.compile(
-    r"(?:(?:point|spot|place|bit) (?:where|at which|in which)|(?<=from )where|(?<=short of )where) "
+    r"(?:(?:point|spot|place|bit) (?:where|at which|in which)|(?<=from )where|(?<=short of )where|(?<=to )where"
+    r"|(?<=of )where) "
     rf"(?:their|the|the two|both|our|its|your|these|two) (?:two )?{_WAYS} (?:would |will )?{_MEET}\b"
     r"|(?:point|spot|place|bit) (?:where|at which) (?:they|the two|both)(?:['\u2019]d| would| will)? (?:meet|cross"
     r"|collide|merge)\b",
@@ -22,6 +23,10 @@ _CROSSING = re.compile(
 )
 # "No sooner is the ego 9 m from the line than the van brakes"
 _NO_SOONER = re.compile(r"\bNo sooner((?: \w+)(?:(?!\bthan\b|[;!?]|\.\s).)*?)\bthan\b", re.IGNORECASE)
+_CROSSING_OF = re.compile(
+    rf"\b(?:crossing|meeting|intersection)(?: point)? of (?:the|their|our|its|your|both|the two) (?:two )?{_WAYS}\b",
+    re.IGNORECASE,
+)
 _WAIT_UNTIL = re.compile(r"(?<=[.!?;] )Wait until\b")
 # "Once two conditions hold at the same time, ..."
 _HOLD = re.compile(
@@ -92,7 +97,7 @@ _PART_OF = re.compile(
     re.IGNORECASE,
 )
 _TURNS_ON = re.compile(r"\b(turn(?:s|ing|ed)?) on (?=the (?:left|right)\b)", re.IGNORECASE)
-_AFTER_COMMA = re.compile(r"(?<=[.!?]\s)After,")
+_AFTER_COMMA = re.compile(r"(?<=[.!?]\s)After,|\band after,|(?<=, )after,")
 _BEFORE_OF = re.compile(r"\bbefore of (?=the )")
 _WAIT_FOR = re.compile(r"(?:(?<=[.!?;:]\s)|(?<=\d\.\s))Wait (?:for|until) ((?:the )?\w+) to be\b")
 _CHAT = re.compile(r",? ?\b(?:lol|haha|btw|tbh|imo|imho)\b,?", re.IGNORECASE)
@@ -112,6 +117,21 @@ _TO_A_CRAWL = re.compile(r"\bto a (?:crawl|walking pace) of (?=[\d.])", re.IGNOR
 _BOTH_HOLD = re.compile(
     r" \((?:both|all)(?: of (?:them|these))? (?:must|shall|have to|should|need to)? ?(?:hold|apply|be true|be met)\)",
     re.I,
+)
+_SPEED_NOUGHT = re.compile(r"\bspeed (?:is )?(?:0|zero)(?: m/s| km/h)? at\b", re.IGNORECASE)
+_TO_SPEED_NOUGHT = re.compile(
+    r"\bto (?:a )?(?:speed|velocity) (?:of )?(?:0|zero)(?! ?\.)(?: m/s| km/h)?(?=[\s,.;])", re.IGNORECASE
+)
+_DEFINED_AS = re.compile(r" :=(?= )")
+_TURN_OF = re.compile(
+    r"\b(?:before|prior to) the (?:beginning|start|onset|commencement) of the turn (?:of"
+    r"|by) ((?:the )?[\w ]+?)(?=[.,;]|$)",
+    re.I,
+)
+_CONDITION_HOLDS = re.compile(
+    r"\b(?:once|when|as soon as) (?:the|this|that) (?:precondition|condition|guard|trigger|event) "
+    r"(?:holds|becomes true|is true|is met|is fulfilled|is satisfied|occurs|fires)(?=,)",
+    re.IGNORECASE,
 )
 _UNTIL_NOUGHT = re.compile(r"\buntil v ?= ?0\b")
 _MOTION_ENDS = re.compile(r"\b(?:its|his|her) (?:motion|movement|ride|drive) ends\b", re.IGNORECASE)
@@ -172,7 +192,7 @@ def without_idioms(text: str) -> str:
     text = _ENUMERATED.sub(lambda found: _padded("", found), text)
     text = _PART_OF.sub(lambda found: _padded("", found), text)
     text = _TURNS_ON.sub(r"\1 to ", text)
-    text = _AFTER_COMMA.sub("Then ,", text)
+    text = _AFTER_COMMA.sub(lambda found: _padded("then", found), text)
     text = _BEFORE_OF.sub(lambda found: _padded("before", found), text)
     text = _WAIT_FOR.sub(lambda found: _padded(f"When {found.group(1)} is", found), text)
     text = _CHAT.sub(lambda found: _padded("", found), text)
@@ -184,6 +204,11 @@ def without_idioms(text: str) -> str:
     text = _CENTRES.sub(lambda found: _padded("", found), text)
     text = _TO_A_CRAWL.sub(lambda found: _padded("to", found), text)
     text = _BOTH_HOLD.sub(lambda found: _padded("", found), text)
+    text = _SPEED_NOUGHT.sub(lambda found: _padded("stop at", found), text)
+    text = _TO_SPEED_NOUGHT.sub(lambda found: _padded("to zero", found), text)
+    text = _DEFINED_AS.sub(" : ", text)
+    text = _TURN_OF.sub(lambda found: _padded(f"before {found.group(1)} begins its turn", found), text)
+    text = _CONDITION_HOLDS.sub(lambda found: _padded("at that time", found), text)
     text = _UNTIL_NOUGHT.sub(lambda found: _padded("to zero", found), text)
     text = _MOTION_ENDS.sub(lambda found: _padded("it stops", found), text)
     text = _BEFORE_THAT.sub(lambda found: _padded("before", found), text)
@@ -191,6 +216,7 @@ def without_idioms(text: str) -> str:
     text = _IS_IT.sub("If ", text)
     text = _AFTER_THIS.sub(lambda found: _padded(f"{found.group(1)} {found.group(3)}", found), text)
     text = _UNDERSCORE.sub(r"\1 \2", text)
+    text = _CROSSING_OF.sub(lambda found: _padded("conflict point", found), text)
     return _CROSSING.sub(lambda found: _padded("conflict point", found), text)
 
 

@@ -95,7 +95,9 @@ def _is(tokens: list[Token]) -> list[Token]:
     """Return the tokens with "the Chevy's 11 m from it" as "is 11 m"."""
     return [
         replace(token, tags={"be": "be"})
-        if "genitive" in token.tags and at + 1 < len(tokens) and tokens[at + 1].quantity is not None
+        if "genitive" in token.tags
+        and at + 1 < len(tokens)
+        and (tokens[at + 1].quantity is not None or "determiner" in tokens[at + 1].tags)
         else token
         for at, token in enumerate(tokens)
     ]

@@ -213,6 +213,7 @@ class MomentReader:
         before = self.words.clauses[at - 1] if at else clause
         if self._stops_next(made):
             return True
+        late = any(moment == "trigger" for moment in self.moments.values())  # "is located on the driveway, 20 m before"
         goes_on = before.sentence == clause.sentence and not clause.named
         first = clause.start + ("be" in self.words.tags(clause.start))  # "its final position, at zero speed, is 5 m"
         verbless = not self.words.has(range(first, made.at), "verb", "be")
@@ -220,7 +221,10 @@ class MomentReader:
             goes_on
             and verbless
             and any(
-                deed.clause is before and deed.kind in ("stop", "wait") and deed.actor == HERO_ID for deed in self.deeds
+                deed.clause is before
+                and deed.actor == HERO_ID
+                and (deed.kind == "stop" or (deed.kind == "wait" and late))
+                for deed in self.deeds
             )
         )
 
@@ -294,7 +298,7 @@ class MomentReader:
             if words.tag(at, "verb") == "begin" and not words.verbs(between) and not acts:
                 return True
         if words.has(clause.inside, "measure", "landmark") and re.search(
-            r"\bfirst (?:position|place|distance)\b", told
+            r"\bfirst (?:position|place|distance|spot|location)\b", told
         ):
             return True
         if "initial" in told:

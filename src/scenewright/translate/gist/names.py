@@ -29,7 +29,7 @@ PERSONAL = frozenset(("he", "she", "him", "himself", "herself", "hers"))
 PERSONS = frozenset(
     ["man", "woman", "guy", "chap", "bloke", "fellow", "lady", "gentleman", "kid", "teenager", "somebody", "someone",
      "stranger", "owner", "operator", "commuter", "courier", "trucker", "neighbour", "neighbor", "father", "mother",
-     "human", "lad", "lass", "girl", "boy", "mate", "pal", "dude", "fella",
+     "human", "cabbie", "biker", "lad", "lass", "girl", "boy", "mate", "pal", "dude", "fella",
      "colleague", "friend", "student", "volunteer", "resident", "visitor", "uncle", "aunt", "grandmother", "grandma",
      "granny", "grandfather", "grandpa"]
 )  # fmt: skip
@@ -164,7 +164,22 @@ def _speaker(tokens: list[Token]) -> int:
             )
             if drives and tags.keys() & {"hero", "noun"} and not is_tested(tokens, ahead):
                 return HERO_ID
-    return EGO_ID
+    return HERO_ID if _meets_the_ego(tokens) else EGO_ID
+
+
+def _meets_the_ego(tokens: list[Token]) -> bool:
+    """Whether I drive the other vehicle: "I brake when the test car is 12 yards from its line"."""
+    acts = False
+    for at, token in enumerate(tokens[:-3]):
+        if token.text.lower() not in ("i", "me", "my"):
+            continue
+        near = tokens[at + 1 : at + 7]
+        end = next((i for i, each in enumerate(near) if each.tags.keys() & {"end", "comma"}), len(near))
+        if any("ego" in each.tags for each in near[:end]):
+            return False  # "I'm in the test car"
+        strong = {"brake", "stop", "accelerate"}
+        acts |= token.text.lower() == "i" and bool({each.tags.get("verb") for each in near[:3]} & strong)
+    return acts and _is_third_person(tokens)
 
 
 def _unknown_vehicle(tokens: list[Token]) -> str | None:
@@ -212,12 +227,26 @@ def _is_third(tokens: list[Token], at: int) -> bool:
     back = at - 1
     while back > 0 and tokens[back].tags.keys() & {"actor_adjective", "heading", "unknown"}:
         back -= 1
-    if back < 1 or tokens[back].tags.get("determiner") not in ("indefinite", "another"):
+    if back < 1:
+        return False
+    if tokens[back].tags.get("determiner") == "definite":
+        return _is_never_brought_in(tokens, at)
+    if tokens[back].tags.get("determiner") not in ("indefinite", "another"):
         return False
     opens = "end" in tokens[back - 1].tags
     if tokens[back - 1].tags.keys() & {"be", "comma", "colon"} or ("comma" in tokens[at + 1].tags and not opens):
         return False  # "the hero, a truck,", "Hero: a truck"
     return any("hero" in each.tags and not each.tags.keys() & {"actor_adjective"} for each in tokens[:back])
+
+
+def _is_never_brought_in(tokens: list[Token], at: int) -> bool:
+    """Whether this is "the tractor" beside a hero that is called "hero vehicle" and nothing else."""
+    kind = tokens[at].tags["noun"]
+    if kind in GENERIC or kind in RELATIVE:
+        return False
+    alike = [i for i, each in enumerate(tokens) if each.tags.get("noun") == kind]
+    named = any("hero" in each.tags and not each.tags.keys() & {"actor_adjective"} for each in tokens[:at])
+    return named and alike == [at]
 
 
 def _is_two(tokens: list[Token], at: int) -> bool:

@@ -42,7 +42,7 @@ def is_object(words: Words, at: int) -> bool:
         return True  # "crosses the ego's lane"
     back = _before_name(words, at)
     beside = words.word(back) in ("ahead of", "in front of") and words.has([at + 1], *_CLOSES) and back > 0
-    if beside and words.has([back - 1], "comma", "be", "adverb"):
+    if beside and words.has([back - 1], "comma", "be", "adverb", "area"):
         return True  # "is in the driveway as well, ahead of the AV and 30 m upstream of the line"
     if _is_owner(words, back, at) or words.word(back - 1) in ("consists", "consist", "consisting"):
         return False  # "Traffic consists of one van"

@@ -89,7 +89,12 @@ def _just_for(words: Words, name: int, at: int, clause: Clause) -> bool:
     while words.has([back], "determiner", "actor_adjective"):
         back -= 1
     first = not words.has(range(clause.start, back), "quantity", "verb") and words.has([at], "quantity")
-    return words.word(back) == "for" and first and all("adverb" in words.tags(i) for i in range(name + 1, at))
+    elliptic = words.word(back) == "of" and back == clause.start  # "... 60 km/h, of the target 40 km/h"
+    return (
+        (words.word(back) == "for" or elliptic)
+        and first
+        and all("adverb" in words.tags(i) for i in range(name + 1, at))
+    )
 
 
 def _by_measure(words: Words, at: int, clause: Clause) -> int | None:
@@ -146,7 +151,7 @@ def told_for(words: Words, made: Owned, at: int) -> None:
         if words.has([ahead], "quantity", "end") or words.tag(ahead, "verb") == "wait":
             return
         to = preposition == "to" and made.kind == "open"
-        if preposition == "for" or to or (preposition == "of" and ahead <= made.at + 2):
+        if preposition == "for" or to or (preposition == "of" and ahead == made.at + 1):
             if words.has([words.skip(ahead + 1, _ARTICLES)], "landmark"):
                 return  # "needs 3 s more for the conflict point"
             named = words.named(range(ahead + 1, ahead + 5))

@@ -212,6 +212,7 @@ def _assumptions(words: Words, title: tuple[Token, ...]) -> tuple[str, ...]:
     if title:
         span = title[0].span.union(title[-1].span)
         said.append(f"'{_shown(span, words.text)}' is taken for a title")
+    said += [f"'{written}' is read as '{read}'" for token in words.tokens for written, read in token.slips]
     for clause in words.clauses:
         if clause.aside:
             said.append(

@@ -206,6 +206,10 @@ class StoryTeller:
         slowed = not kinds & {"stop", "wait"} and any(made.kind == "speed" for made in self.moments.of("deed"))
         if slows and kinds & ({"not_yield"} if slowed else {"not_yield", "not_stop"}):
             raise self.words.refuse("the hero is said to stop and not to stop", slows[0].span)
+        last = max(made.at for made in self.moments.of("trigger"))
+        kept = next((deed for deed in told if deed.kind == "keep" and deed.at > last), None)
+        if kept is not None and slows and kept.at < slows[0].at and slows[0].clause.sentence == kept.clause.sentence:
+            raise self.words.refuse("the hero is said to keep its speed and to brake", kept.span)
         if {"keep", "accelerate"} <= kinds:
             raise self.words.refuse("the hero is said to speed up and not to", goes[0].span)
         turn = next((deed for deed in told if deed.kind == "turn"), None)

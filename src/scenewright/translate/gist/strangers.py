@@ -154,6 +154,7 @@ def _refuse_strange_cause(words: Words, clause: Clause) -> None:
         raise words.refuse("it is not known when this is", words.span(clause))
     for wait in clause.inside:
         waits = words.tag(wait, "verb") == "wait" and words.word(wait + 1) == "for" and clause.subject == HERO_ID
+        waits = waits and "quantity" not in words.tags(wait - 1)  # "when 5 m remain for it to the line"
         if waits and words.named(range(wait + 2, min(wait + 5, clause.end))) == HERO_ID:
             raise words.refuse("it is not known for whom this one waits", words.span(clause))
 
