@@ -79,29 +79,30 @@ _TRIGGER = (
     + ")"
 )
 _START = r"(?:the (?:start|beginning|outset)(?: of the (?:test|run|scenario))?)"
-_WINDOWS: tuple[tuple[re.Pattern[str], tuple[Moment, Moment]], ...] = tuple(
+_TOLD: tuple[tuple[str, tuple[Moment, Moment]], ...] = (
+    (
+        rf"(?:from|between) {_TRIGGER}(?: on)?(?:,? (?:until|to|up to|and) (?:the moment )?{_STOPPED})",
+        ("trigger", "stop"),
+    ),
+    (
+        rf"(?:from|between) {_TRIGGER}(?: on)?(?:,? (?:until|to|up to|and) (?:the moment )?{_AT_GOAL})",
+        ("trigger", "end"),
+    ),
+    (rf"(?:from|between) {_START}(?:,? (?:until|to|up to|and) (?:the moment )?{_STOPPED})", ("start", "stop")),
+    (rf"(?:from|between) {_START}(?:,? (?:until|to|up to|and) (?:the moment )?{_AT_GOAL})", ("start", "end")),
+    (rf"(?:from|between) {_START}(?:,? (?:until|to|up to|and) (?:{_BEGUN}|the trigger))", ("start", "trigger")),
+    (rf"(?:until|up to) (?:{_BEGUN}|the trigger)", ("start", "trigger")),
+    (rf"(?:all the way|on the way) to {_AT_GOAL}", ("trigger", "end")),
+    (rf"(?:from {_TRIGGER}(?: on)?)", ("trigger", "end")),
+    (
+        rf"while {_HIM} (?:brakes|is braking|decelerates)|during (?:the|its) (?:braking|deceleration)",
+        ("trigger", "stop"),
+    ),
+    (_ANY, ("start", "end")),
+)
+_WINDOWS = tuple(
     (re.compile(rf"^(?:at every (?:moment|instant) )?(?:{pattern}),?(?: {_ANY})?$", re.IGNORECASE), window)
-    for pattern, window in (
-        (
-            rf"(?:from|between) {_TRIGGER}(?: on)?(?:,? (?:until|to|up to|and) (?:the moment )?{_STOPPED})",
-            ("trigger", "stop"),
-        ),
-        (
-            rf"(?:from|between) {_TRIGGER}(?: on)?(?:,? (?:until|to|up to|and) (?:the moment )?{_AT_GOAL})",
-            ("trigger", "end"),
-        ),
-        (rf"(?:from|between) {_START}(?:,? (?:until|to|up to|and) (?:the moment )?{_STOPPED})", ("start", "stop")),
-        (rf"(?:from|between) {_START}(?:,? (?:until|to|up to|and) (?:the moment )?{_AT_GOAL})", ("start", "end")),
-        (rf"(?:from|between) {_START}(?:,? (?:until|to|up to|and) (?:{_BEGUN}|the trigger))", ("start", "trigger")),
-        (rf"(?:until|up to) (?:{_BEGUN}|the trigger)", ("start", "trigger")),
-        (rf"(?:all the way|on the way) to {_AT_GOAL}", ("trigger", "end")),
-        (rf"(?:from {_TRIGGER}(?: on)?)", ("trigger", "end")),
-        (
-            rf"while {_HIM} (?:brakes|is braking|decelerates)|during (?:the|its) (?:braking|deceleration)",
-            ("trigger", "stop"),
-        ),
-        (_ANY, ("start", "end")),
-    )
+    for pattern, window in _TOLD
 )
 _ASKS = re.compile(r"\s*(?:when|once|as soon as|at the (?:moment|instant)|the moment|if)\b", re.IGNORECASE)
 _AT_PASSING = re.compile(

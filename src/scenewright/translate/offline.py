@@ -356,7 +356,7 @@ def _refuse_at_once(facts: Facts, text: str, name: str) -> None:
             fix="say which comes first",
         )
     for first, second in itertools.pairwise(facts.phases):
-        span = first.events[0].span.union(second.events[-1].span)
+        span = first.events[0].span.union((second.goal_event or second.events[-1]).span)
         if {first.kind, second.kind} >= {"dec", "acc"} and (found := _AT_ONCE.search(span.excerpt(text))):
             raise TranslationError(
                 "the hero is said to slow down and to speed up at one time",

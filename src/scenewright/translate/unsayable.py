@@ -52,8 +52,7 @@ _PHRASES = tuple(
             "a place that no route leads over",
         ),
         (
-            r"\b(?:on|at|turns?|goes|shows|until|was|is) (?:green|red|amber)\b(?! \w*(?:car|van|bus|truck|hatch"
-            r"|sedan|suv|coup))",
+            r"\b(?:on|at|turns?|goes|shows|until) (?:green|red|amber)\b(?= (?:and|then|to|the|it)\b|[,.;]|$)",
             "a traffic light",
         ),
         (r"\b(?:tail|rear|back)(?:[- ]end)?[- ]first\b|\bback(?:s|ing|ed) out\b", "driving backwards"),

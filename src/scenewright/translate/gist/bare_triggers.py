@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from scenewright.translate.events import EGO_ID, HERO_ID
-from scenewright.translate.gist.amounts import Measured
+from scenewright.translate.gist.measured import Measured
 from scenewright.translate.gist.words import Clause, Deed, Words
 
 _TRIGGERS = ("trigger", "triggers", "triggered", "triggering", "cue", "event", "signal", "condition")
@@ -54,6 +54,9 @@ class BareTriggers:
     def _called(self) -> list[Measured]:
         """Read "The AV is 3 s from the line, the van 3 s from the point. That is the trigger."."""
         for clause in self.words.clauses:
+            near = [made for made in self.opens if 0 <= clause.sentence - made.clause.sentence <= 1]
+            if "trigger" in clause.labels and not near:
+                raise self.words.refuse("it is not known what this is", self.words.span(clause))
             this = self.words.word(clause.start) in ("this", "that") or self.words.word(clause.start - 1) in (
                 "this",
                 "that",

@@ -12,8 +12,8 @@ from typing import Literal
 
 from scenewright.translate.events import EGO_ID, HERO_ID
 from scenewright.translate.facts import Bound
-from scenewright.translate.gist.amounts import Measured
 from scenewright.translate.gist.bare_triggers import BareTriggers
+from scenewright.translate.gist.measured import Measured
 from scenewright.translate.gist.subjects import RUNS
 from scenewright.translate.gist.words import Clause, Deed, Words
 

@@ -108,7 +108,8 @@ class Roles:
             and self.words.tag(at, "area") == "driveway"
         ):
             return "into"  # "its destination is the driveway"
-        if verb == "leave" and self.words.tag(at + 1, "preposition") in ("to", "for"):
+        sided = self.words.has(range(at + 2, at + 4), "direction", "heading")  # "leaves the driveway to the left"
+        if verb == "leave" and self.words.tag(at + 1, "preposition") in ("to", "for") and not sided:
             return None  # "leaves the driveway to us"
         if preposition == "out" or verb in _LEAVING or word in ("from", "down") or "out of" in word:
             return "from"

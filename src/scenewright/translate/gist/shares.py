@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from scenewright.translate.gist.amounts import Measured
+from scenewright.translate.gist.measured import Measured
 from scenewright.translate.gist.owners import told_for
 from scenewright.translate.gist.words import Words
 

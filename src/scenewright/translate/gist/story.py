@@ -12,8 +12,8 @@ from typing import Literal
 
 from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place, Relation
 from scenewright.translate.facts import Condition, Facts, Order, Phase
-from scenewright.translate.gist.amounts import Measured
 from scenewright.translate.gist.clauses import BOUNDS
+from scenewright.translate.gist.measured import Measured
 from scenewright.translate.gist.moments import MomentReader
 from scenewright.translate.gist.owners import is_nobodys
 from scenewright.translate.gist.words import Deed, Words

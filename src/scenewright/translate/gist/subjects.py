@@ -238,29 +238,14 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
         return HERO_ID  # "we" are the ego, so "it" is the other one
     named_last = words.named(range(clause.start - 1, -1, -1))
     if words.where(clause.inside, "latter", "former") is not None:
-        first = next((c.start for c in words.clauses if c.sentence >= clause.sentence - 1), 0)
-        own = words.sentence(clause)[0].start
-        former = words.named(range(own, clause.start))
-        latter = words.where(range(own, words.sentence_at(clause.start).stop), "latter", "x")
-        again = [c.subject for c in words.clauses[:index] if words.where(c.inside, "latter", "former") is not None]
-        if former is None and again:
-            return again[-1]
-        if former is None and latter is not None and named_last is not None:
-            return 1 - named_last  # "the former is 3 s from the line and the latter 4 s from the point"
-        return former if former is not None else words.named(range(first, clause.start))
+        return _former(words, index, named_last)
     relative = clause.link == "that" and words.word(clause.start - 1) in ("which", "who", "that", "where", "whose")
     before = words.clauses[index - 1] if index else clause
-    own = before.start in words.names.pronouns and words.has([before.start + 1], "event_noun", "onset_noun")
-    if relative and own and before.end <= before.start + 2:
+    its = before.start in words.names.pronouns and words.has([before.start + 1], "event_noun", "onset_noun")
+    if relative and its and before.end <= before.start + 2:
         return before.subject  # "Its deceleration, which takes it to a stop"
-    again = words.word(clause.start - 2) == "and" and words.word(clause.start - 1) in ("which", "who")
-    which = words.word(clause.start - 1)
-    alike = [each for each in words.sentence(clause) if each.start < clause.start]
-    alike = [
-        each for each in alike if words.word(each.start - 1) == which or words.word(each.start) == f"{which} begins"
-    ]
-    if again and alike:
-        return alike[-1].subject  # "a van comes, which brakes when ..., and which stops 6 m before it"
+    if (alike := _same_which(words, clause)) is not None:
+        return alike.subject  # "a van comes, which brakes when ..., and which stops 6 m before it"
     if relative:
         _check_antecedent(words, index)
     if relative and before.named and named_last != before.subject and before.end == clause.start - 1:
@@ -270,16 +255,7 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
             return before.subject  # "a van coming towards us that is going to turn left"
     if named_last is not None and (relative or words.has(clause.inside, "latter")):
         return named_last
-    first = words.sentence(clause)[0]
-    finite = any("verb" in words.tags(i) and "ing" not in words.tokens[i].forms for i in first.inside)
-    alone = first.named and not finite and not words.has(first.inside, "be", "quantity", "auxiliary")
-    alone = alone and first is not clause
-    goes_on = (
-        clause.link == "main" and bool(words.tokens[clause.start].forms & {"s", "ed"}) and clause.start not in pronouns
-    )
-    put_in = [each for each in words.sentence(clause) if first.start < each.start < clause.start]
-    placed = put_in and all(words.has(each.inside, "quantity") for each in put_in)
-    if alone and goes_on and placed and "base" not in words.tokens[clause.start].forms:
+    if (first := _resumed(words, clause, pronouns)) is not None:
         return first.subject  # "The van, at 2 s from the line, with the ego at 3 s from the point, starts to brake"
     bare = words.clauses[index - 1] if index else clause
     told = words.has(bare.inside, "verb", "be", "quantity")
@@ -317,6 +293,46 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
         following = _named_later(words, index)
         return following if following is not None else last
     return last
+
+
+def _former(words: Words, index: int, named_last: int | None) -> int | None:
+    """Return who "the former" is: named first in the sentence, or not last before it."""
+    clause = words.clauses[index]
+    first = next((c.start for c in words.clauses if c.sentence >= clause.sentence - 1), 0)
+    own = words.sentence(clause)[0].start
+    former = words.named(range(own, clause.start))
+    if former is not None:
+        return former
+    again = [c.subject for c in words.clauses[:index] if words.where(c.inside, "latter", "former") is not None]
+    if again:
+        return again[-1]
+    latter = words.where(range(own, words.sentence_at(clause.start).stop), "latter", "x")
+    if latter is not None and named_last is not None:
+        return 1 - named_last  # "the former is 3 s from the line and the latter 4 s from the point"
+    return words.named(range(first, clause.start))
+
+
+def _same_which(words: Words, clause: Clause) -> Clause | None:
+    """Return the clause that "and which" goes on from."""
+    which = words.word(clause.start - 1)
+    if words.word(clause.start - 2) != "and" or which not in ("which", "who"):
+        return None
+    earlier = (each for each in reversed(words.sentence(clause)) if each.start < clause.start)
+    begins = f"{which} begins"
+    return next((c for c in earlier if words.word(c.start - 1) == which or words.word(c.start) == begins), None)
+
+
+def _resumed(words: Words, clause: Clause, pronouns: list[int]) -> Clause | None:
+    """Return the name that a sentence begins with, where only amounts stand between it and its verb."""
+    first = words.sentence(clause)[0]
+    finite = any("verb" in words.tags(i) and "ing" not in words.tokens[i].forms for i in first.inside)
+    alone = first is not clause and first.named and not finite
+    forms = words.tokens[clause.start].forms
+    goes_on = clause.link == "main" and bool(forms & {"s", "ed"}) and "base" not in forms
+    put_in = [each for each in words.sentence(clause) if first.start < each.start < clause.start]
+    placed = bool(put_in) and all(words.has(each.inside, "quantity") for each in put_in)
+    bare = not words.has(first.inside, "be", "quantity", "auxiliary") and clause.start not in pronouns
+    return first if alone and goes_on and placed and bare else None
 
 
 def _other_one(words: Words, clause: Clause, earlier: list[Clause]) -> int | None:
