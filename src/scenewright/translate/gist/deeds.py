@@ -74,7 +74,8 @@ class DeedReader:
             if self.ego.is_not_yet(clause) or self.ego.is_next(clause):
                 self.words.used |= set(clause.inside)
                 span = self.words.span(clause)
-                self.deeds.append(Deed("before", clause.start, clause, span, "turn_start", EGO_ID))
+                place = self.ego.next_place(clause) or "turn_start"
+                self.deeds.append(Deed("before", clause.start, clause, span, place, EGO_ID))
                 continue
             if clause.aside:
                 self.words.used |= set(clause.inside)

@@ -61,15 +61,21 @@ class EgoMoments:
         return passed and own and perfect and bool(words & {"not", "n't"}) and not told
 
     def is_next(self, clause: Clause) -> bool:
-        """Whether "After that, the ego starts its turn" says that the hero has passed by then."""
+        """Whether "After that, the ego starts its turn" says that the hero has passed by then; "only after that", too."""
         own = [each for each in self.deeds if each.actor == HERO_ID]
         passed = bool(own) and own[-1].kind in ("pass", "complete") and own[-1].clause.sentence >= clause.sentence - 1
-        verbs = self.words.verbs(clause.inside)
-        begins = "begin" in verbs and (verbs & {"turn"} or self.words.has(clause.inside, "event_noun"))
         told = self.words.has(clause.inside, "quantity", "negation")
-        return (
-            clause.link == "then" and clause.subject == EGO_ID and clause.named and passed and bool(begins) and not told
-        )
+        closed = self.words.tag(clause.end, "link") == "then" and self.words.has([clause.end + 1], "end", "comma")
+        named = clause.subject == EGO_ID and clause.named and passed and not told
+        return named and (clause.link == "then" or closed) and self.next_place(clause) is not None
+
+    def next_place(self, clause: Clause) -> str | None:
+        """Return what the ego does after the hero: it begins its turn, or passes the conflict point."""
+        verbs = self.words.verbs(clause.inside)
+        if "begin" in verbs and (verbs & {"turn"} or self.words.has(clause.inside, "event_noun")):
+            return "turn_start"
+        mark = self.words.where(clause.inside, "landmark", "conflict_point")
+        return "conflict_point" if verbs & {"pass", "reach"} and mark is not None else None
 
     def is_allowed(self, clause: Clause) -> bool:
         """Whether the ego is let go in a sentence of its own: "The ego is allowed to complete its turn. Then ..."."""

@@ -107,6 +107,9 @@ class PlaceFinder:
         first = at
         while "landmark" not in self.words.tags(at) and self.words.tags(at).keys() & SKIPPED:
             at += 1
+        line = at + 1 + ("genitive" in self.words.tags(at + 1))
+        if self.words.tag(at, "area") == "driveway" and self.words.tag(line, "landmark") == "stop_line":
+            at = line  # "12 m from the driveway's stop line"
         tags = self.words.tags(at)
         if "landmark" in tags:
             return tags["landmark"], at + 1, False

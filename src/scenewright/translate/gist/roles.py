@@ -38,7 +38,8 @@ class Roles:
         just = self.words.tag(at, "adverb") == "just"
         left_over = "left_over" in self.words.tags(at)
         opens = self.words.word(at) == "right" and "comma" in after and (not before or "end" in before)
-        if opens or (self.words.word(at) == "right" and self.words.word(at + 1) in ("there", "then", "here", "where")):
+        here = self.words.word(at) == "right" and self.words.word(at + 1) in ("there", "then", "here", "where")
+        if opens or (here and before.get("verb") != "turn"):
             return True  # "Right, so the ego ...", "Right there it brakes"
         if before.get("verb") == "turn" and not left_over:
             return False  # "turns right at the end of it"

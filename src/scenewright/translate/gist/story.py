@@ -57,6 +57,7 @@ class StoryTeller:
             if deed.actor == EGO_ID and deed.kind not in _EGO_MAY and not waits:
                 message = "the ego cannot be told what to do: the driving policy under test drives it"
                 raise self.words.refuse(message, deed.span)
+        self._refuse_loose_moments()
         self._standing()
         told = [deed for deed in self.deeds if deed.actor == HERO_ID and self._counts(deed)]
         slows = [deed for deed in told if deed.kind in _SLOWS]
@@ -75,6 +76,15 @@ class StoryTeller:
             self._go(goes, denies, after_stop=bool(slows))
         self._order(goes)
         return self.facts
+
+    def _refuse_loose_moments(self) -> None:
+        """Refuse "... then the ego begins its turn", told after what the hero does, where it orders nothing."""
+        acts = [d.at for d in self.deeds if d.actor == HERO_ID and d.kind in ("pass", "complete", "accelerate")]
+        for deed in self.deeds:
+            loose = deed.actor == EGO_ID and deed.kind == "turn" and self.moments.begins(deed) and deed.clause.named
+            late = deed.clause.sentence >= self.trigger_sentence and any(at < deed.at for at in acts)
+            if loose and late and deed.clause.link != "that":
+                raise self.words.refuse("it is not clear what this orders", self.words.span(deed.clause))
 
     # -- states -------------------------------------------------------------------------------------------------------
     def _state(self, made: Measured) -> None:

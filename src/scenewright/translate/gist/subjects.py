@@ -236,6 +236,12 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     own = [at for at in pronouns if not words.has([at - 1], "preposition")]
     if words.names.spoken and words.has(own, "pronoun", "possessive"):
         return HERO_ID  # "we" are the ego, so "it" is the other one
+    following = words.clauses[index + 1] if index + 1 < len(words.clauses) else clause
+    asked = (
+        following.link == "when" and following.sentence == clause.sentence and words.has(following.inside, "quantity")
+    )
+    if asked and clause.start in own and words.word(following.start).split()[0] in ("we", "i"):
+        return HERO_ID  # "it begins its turn when we are 2.5 s away": "it" is not who speaks
     named_last = words.named(range(clause.start - 1, -1, -1))
     if words.where(clause.inside, "latter", "former") is not None:
         return _former(words, index, named_last)
@@ -290,8 +296,8 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
         )
         if with_it and beside.sentence == clause.sentence and words.named(beside.inside) is not None:
             return last  # "Left turn from the driveway, with a westbound truck"
-        following = _named_later(words, index)
-        return following if following is not None else last
+        named_later = _named_later(words, index)
+        return named_later if named_later is not None else last
     return last
 
 
