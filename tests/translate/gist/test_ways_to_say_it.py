@@ -43,9 +43,9 @@ def formulas(text: str) -> list[str]:
          "brakes to a stop 2 m before the stop line.", "A1x(t1) == stop_line - 10"),
         (ROUTES + "The AV gets to 40 m from the conflict point, the van is 10 m from the stop line, and it brakes to a "
          "stop 2 m before the stop line.", "A0x(t1) == conflict_point - 40"),
-        ("The AV leaves the driveway to the left. A van goes west, straight on. When the AV is 8 m from the stop line and "
-         "the van 30 m from the conflict point, the van accelerates. It passes the conflict point first; the AV begins its "
-         "turn only after that.", "A0x(t2) == turn_start"),
+        ("The AV leaves the driveway to the left. A van goes west, straight on. When the AV is 8 m from the stop line "
+         "and the van 30 m from the conflict point, the van accelerates. It passes the conflict point first; the AV "
+         "begins its turn only after that.", "A0x(t2) == turn_start"),
         (ROUTES + "When the AV is 40 m from the conflict point and the van 10 m from the driveway's stop line, the van "
          "brakes to a stop 2 m before the stop line.", "A1x(t1) == stop_line - 10"),
         (ROUTES + STOPS + "From the start until it has stopped, the van shall not exceed 8 m/s.",

@@ -61,7 +61,7 @@ class EgoMoments:
         return passed and own and perfect and bool(words & {"not", "n't"}) and not told
 
     def is_next(self, clause: Clause) -> bool:
-        """Whether "After that, the ego starts its turn" says that the hero has passed by then; "only after that", too."""
+        """Whether "After that, the ego starts its turn" or "only after that" says that the hero has passed by then."""
         own = [each for each in self.deeds if each.actor == HERO_ID]
         passed = bool(own) and own[-1].kind in ("pass", "complete") and own[-1].clause.sentence >= clause.sentence - 1
         told = self.words.has(clause.inside, "quantity", "negation")
