@@ -23,7 +23,8 @@ _CALLED = re.compile(
 )
 # "An interacting vehicle (IV)"
 _BROUGHT_IN = re.compile(
-    r"\b((?:[a-z-]+ ){0,3}(?:vehicle|car|agent|actor|user|driver|party|test|target|van|truck)) \(([A-Z]{2,4})\)", re.I
+    r"\b((?:[a-z-]+ ){0,3}(?:vehicle|car|agent|actor|user|driver|party|test|target|van|truck)) \((?-i:([A-Z]{2,4}))\)",
+    re.I,
 )
 _IS = r"(?:['\u2019]s|,? which is|,? being| is|,|:| =|)\s*\(?(?:the |our )?"
 

@@ -105,6 +105,7 @@ _WINDOWS = tuple(
     for pattern, window in _TOLD
 )
 _ASKS = re.compile(r"\s*(?:when|once|as soon as|at the (?:moment|instant)|the moment|if)\b", re.IGNORECASE)
+_ASKED = re.compile(r"\b(?:when|once|as soon as|if|moment|instant|until|while)\b", re.IGNORECASE)
 _AT_PASSING = re.compile(
     rf"^at the moment (?:when|at which) {_HIM} (?:passes|reaches|is at) (?:the conflict point|it),?$", re.IGNORECASE
 )
@@ -139,8 +140,9 @@ def take_limits(text: str, name: str) -> tuple[str, tuple[Limit, ...]]:
     for found in _LIMIT.finditer(text):
         told = (found["before"] or found["during"] or "", found["after"])
         window = _window(" ".join(each.strip().rstrip(",") for each in told).strip())
-        if window is False:
-            continue
+        asked = found["joint"].strip() and _ASKED.search(re.split(r"[.;!?]\s", text[: found.start()])[-1])
+        if window is False or (asked and not any(told)):
+            continue  # "when the ego is 12 m from it and the van's speed is at most 8 m/s" is a condition
         amount = Span(*found.span("amount"))
         token = next(each for each in tokenise(" " * amount.start + found["amount"], name) if each.quantity is not None)
         assert token.quantity is not None

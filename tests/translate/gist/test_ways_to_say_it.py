@@ -117,6 +117,18 @@ def test_a_limit_that_cannot_be_kept_is_refused(last: str) -> None:
         translate_offline(ROUTES + STOPS + last)
 
 
+def test_a_bound_within_a_condition_is_no_limit() -> None:
+    asked = ACTS.replace("from the stop line, ", "from the stop line and its speed is at most 8 m/s, ")
+    with pytest.raises(TranslationError):
+        translate_offline(ROUTES + asked + "the van brakes to a stop 2 m before the stop line.")
+
+
+@pytest.mark.parametrize("part", ["front bumper", "nose"])
+def test_another_end_of_a_vehicle_is_not_its_centre(part: str) -> None:
+    with pytest.raises(TranslationError):
+        translate_offline((ROUTES + STOPS).replace("and the van", f"and the {part} of the van"))
+
+
 def test_a_place_that_is_not_known_is_no_moment_of_the_ego() -> None:
     text = ROUTES + ACTS + "the van accelerates to complete its turn before the AV passes the {}."
     assert "A0x(t2) == conflict_point" in formulas(text.format("conflict point"))
@@ -135,5 +147,11 @@ def test_aliases_keep_every_character_in_its_place(names: tuple[str, str]) -> No
 
 
 def test_what_is_no_alias_is_left_alone() -> None:
-    for text in ("The ego is 12 m from it at t1.", "Route A1 is closed.", "The van (white) brakes."):
+    for text in (
+        "The ego is 12 m from it at t1.",
+        "Route A1 is closed.",
+        "The van (white) brakes.",
+        "The van (red) brakes.",
+        "A car (grey).",
+    ):
         assert without_aliases(text) == text == without_short_names(text)

@@ -13,9 +13,9 @@ from scenewright.translate.gist.words import DEEDS, Words
 # Limits that hold for a while, and what did not or will not happen: no reader of facts can tell what follows.
 _DANGERS = frozenset(
     ["exceed", "exceeds", "exceeded", "exceeding", "higher", "lower", "maximum", "minimum", "max", "min", "limit",
-     "limited", "cap", "capped", "predicts", "predicted", "says", "said", "twice", "thrice", "repeatedly",
+     "limited", "cap", "capped", "predicts", "predicted", "says", "said",
      "backing", "backwards", "backward", "reversing", "supposedly", "allegedly", "hypothetically",
-     "vanishes", "disappears", "flyover", "overpass", "underpass", "viaduct", "tunnel", "roundabout"]
+     "vanishes", "disappears", "flyover", "overpass", "underpass", "viaduct", "tunnel"]
 )  # fmt: skip
 _EDGE_OF_TURN = re.compile(r"\b(?:start|beginning|end) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b", re.IGNORECASE)
 _COUNTED = re.compile(
@@ -40,7 +40,7 @@ _CHANCE = re.compile(
     re.IGNORECASE,
 )
 _AGAIN_AND_AGAIN = re.compile(
-    r"\b(?:as a rule|by and large|more often than not|over and over|again and again|time and again|keeps? up this"
+    r"\b(?:as a rule|by and large|more often than not|over and over|time and again|keeps? up this"
     r"|for the rest of the|and so on|on the verge of|but thinks? better of)\b",
     re.IGNORECASE,
 )

@@ -8,6 +8,8 @@ the ego where that is said.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from functools import partial
 
 from scenewright.translate.aliases import without_aliases
 
@@ -65,7 +67,7 @@ _WOULD_HIT = re.compile(
 _TAILS = re.compile(
     r",? (?:(?:and )?(?:i|we) hope (?:that|this|it) (?:makes sense|is clear|helps)|if (?:that|this) makes sense"
     r"|(?:just )?(?:as|like) (?:it|he|she|they|one|you) (?:should|ought to|would expect|might expect|must)"
-    r"|or (?:anything|something)(?: like (?:that|this))?|(?:which|and that,?) i (?:think|believe|suppose"
+    r"|or anything(?: like (?:that|this))?|(?:which|and that,?) i (?:think|believe|suppose"
     r"|guess)[^.,;!?]*"
     r"|as (?:is )?(?:expected|required|prescribed)|if (?:that|this) is (?:possible|ok|okay)|nae bother"
     r"|no bother)(?=\s*[.,;!?)]|\s*$)",
@@ -74,7 +76,7 @@ _TAILS = re.compile(
 _VERDICT = re.compile(
     r"(?:(?<=[.!?]\s)|(?<=\n))[A-Z][a-z]+(?: [a-z]+){0,3},? (?:i|we|they) call (?:that|this|it)\s*(?=[.!])", re.I
 )
-_I_THINK = re.compile(r"(?<![\w-])(?:i (?:think|believe|guess|suppose)|so yeah),? ?", re.IGNORECASE)
+_I_THINK = re.compile(r"(?<![\w-])(?:i think (?=this|that)|so yeah),? ?", re.IGNORECASE)
 # "The response of the van to the trigger is to brake"
 _RESPONSE = re.compile(
     r"\bthe (?:response|reaction|answer) of (the [\w-]+|[A-Z]\w+) to (?:the trigger|this|that|it) is to\b",
@@ -91,11 +93,9 @@ _CONJUNCTION = re.compile(
 _IS_IT = re.compile(r"(?:(?<=[.!?]\s)|^)Is (?=(?:it|he|she|the [a-z]+) (?:[^.?!]|\.\d)*\bthen\b)")
 # "NPC1" where there is no second one
 _FIRST_ONE = re.compile(r"\b(NPC|Target|Hero|Actor|Agent|POV|Adversary|Opponent|TV)[_-]?1\b(?![.\d])", re.IGNORECASE)
+_SECOND_ONE = re.compile(r"\b(?:NPC|Target|Hero|Actor|Agent|POV|Adversary|Opponent|TV)[_-]?2\b(?![.\d])", re.IGNORECASE)
 _ENUMERATED = re.compile(r"(?<=[ ,;])\((?:i{1,3}|iv|[a-d]|[1-4])\) ")
-_PART_OF = re.compile(
-    r"\bthe (?:centre|center|front|nose|front bumper|bumper|front end|reference point|middle) of (?=the )",
-    re.IGNORECASE,
-)
+_PART_OF = re.compile(r"\bthe (?:centre|center|middle) of (?=the )", re.IGNORECASE)
 _TURNS_ON = re.compile(r"\b(turn(?:s|ing|ed)?) on (?=the (?:left|right)\b)", re.IGNORECASE)
 _AFTER_COMMA = re.compile(r"(?<=[.!?]\s)After,|\band after,|(?<=, )after,")
 _BEFORE_OF = re.compile(r"\bbefore of (?=the )")
@@ -110,9 +110,7 @@ _FUNCTION = re.compile(
 _MORE = re.compile(r"\b([\d.]+|[a-z]+) more (seconds?|metres?|meters?|feet|yards)\b", re.IGNORECASE)
 _AND_TENTHS = re.compile(rf"\b(\d+) (seconds?) and (\d|{'|'.join(_DIGITS)}) tenths?\b", re.IGNORECASE)
 _FOUND_TO_BE = re.compile(r"\b(?:is|are) found to be\b", re.IGNORECASE)
-_CENTRES = re.compile(
-    r",? measured (?:centre|center|bumper|nose) to (?:centre|center|bumper|nose|tail),?", re.IGNORECASE
-)
+_CENTRES = re.compile(r",? measured (?:centre|center) to (?:centre|center),?", re.IGNORECASE)
 _TO_A_CRAWL = re.compile(r"\bto a (?:crawl|walking pace) of (?=[\d.])", re.IGNORECASE)
 _BOTH_HOLD = re.compile(
     r" \((?:both|all)(?: of (?:them|these))? (?:must|shall|have to|should|need to)? ?(?:hold|apply|be true|be met)\)",
@@ -168,56 +166,16 @@ _THAT_IS = re.compile(r", that is,")
 
 def without_idioms(text: str) -> str:
     """Return the text in plain words."""
-    text = _PRECEDES.sub(_comes_before, without_aliases(text))
-    text = _BOTH_MET.sub(_then_or_when, text)
-    text = _HOLD.sub(lambda found: _padded("When", found), text)
-    text = _WAIT_UNTIL.sub(lambda found: _padded("When", found), text)
-    text = _NO_SOONER.sub(lambda found: "When".ljust(9) + found.group(1) + ",".ljust(4), text)
-    text = _THAT_IS.sub(lambda found: _padded(",", found), text)
-    text = _HEADED.sub(lambda found: f"{found.group(1)}:", text)
-    text = _EQUALS.sub(lambda found: found.group(1).ljust(len(found.group())), text)
-    text = _IS_EQUAL.sub("= ", text)
-    text = _TENTHS.sub(_in_tenths, text)
-    text = _AHEAD_OF_MOMENT.sub(lambda found: _padded("before", found), text)
-    text = _WOULD_HIT.sub(_collision_time, text)
-    text = _TAILS.sub(lambda found: _padded("", found), text)
-    text = _VERDICT.sub(lambda found: _padded("", found), text)
-    text = _I_THINK.sub(lambda found: _padded("", found), text)
-    text = _RESPONSE.sub(lambda found: _padded(f"{found.group(1)} then shall", found), text)
-    text = _CONJUNCTION.sub(lambda found: _padded("When", found), text)
-    if not re.search(
-        r"\b(?:NPC|Target|Hero|Actor|Agent|POV|Adversary|Opponent|TV)[_-]?2\b(?![.\d])", text, re.IGNORECASE
-    ):
-        text = _FIRST_ONE.sub(lambda found: _padded(found.group(1), found), text)
-    text = _ENUMERATED.sub(lambda found: _padded("", found), text)
-    text = _PART_OF.sub(lambda found: _padded("", found), text)
-    text = _TURNS_ON.sub(r"\1 to ", text)
-    text = _AFTER_COMMA.sub(lambda found: _padded("then", found), text)
-    text = _BEFORE_OF.sub(lambda found: _padded("before", found), text)
-    text = _WAIT_FOR.sub(lambda found: _padded(f"When {found.group(1)} is", found), text)
-    text = _CHAT.sub(lambda found: _padded("", found), text)
-    text = _SAID_POINT.sub(lambda found: _padded("that", found), text)
-    text = _FUNCTION.sub(lambda found: _padded(f"{found.group(1)} {found.group(2)} {found.group(3)}", found), text)
-    text = _MORE.sub(r"\1 \2 more", text)
-    text = _AND_TENTHS.sub(_seconds_and_tenths, text)
-    text = _FOUND_TO_BE.sub(lambda found: _padded("is", found), text)
-    text = _CENTRES.sub(lambda found: _padded("", found), text)
-    text = _TO_A_CRAWL.sub(lambda found: _padded("to", found), text)
-    text = _BOTH_HOLD.sub(lambda found: _padded("", found), text)
-    text = _SPEED_NOUGHT.sub(lambda found: _padded("stop at", found), text)
-    text = _TO_SPEED_NOUGHT.sub(lambda found: _padded("to zero", found), text)
-    text = _DEFINED_AS.sub(" : ", text)
-    text = _TURN_OF.sub(lambda found: _padded(f"before {found.group(1)} begins its turn", found), text)
-    text = _CONDITION_HOLDS.sub(lambda found: _padded("at that time", found), text)
-    text = _UNTIL_NOUGHT.sub(lambda found: _padded("to zero", found), text)
-    text = _MOTION_ENDS.sub(lambda found: _padded("it stops", found), text)
-    text = _BEFORE_THAT.sub(lambda found: _padded("before", found), text)
-    text = _TO_NOUGHT.sub(lambda found: _padded("to a stop" if len(found.group()) > 8 else "to zero", found), text)
-    text = _IS_IT.sub("If ", text)
-    text = _AFTER_THIS.sub(lambda found: _padded(f"{found.group(1)} {found.group(3)}", found), text)
-    text = _UNDERSCORE.sub(r"\1 \2", text)
-    text = _CROSSING_OF.sub(lambda found: _padded("conflict point", found), text)
-    return _CROSSING.sub(lambda found: _padded("conflict point", found), text)
+    text = without_aliases(text)
+    for pattern, words in _RULES:
+        text = pattern.sub(partial(_said, words), text)
+    return text
+
+
+def _said(words: str | Callable[[re.Match[str]], str], found: re.Match[str]) -> str:
+    """Return what stands in place of an idiom, as long as it."""
+    said = found.expand(words) if isinstance(words, str) else words(found)
+    return said.ljust(len(found.group()))
 
 
 def _comes_before(found: re.Match[str]) -> str:
@@ -235,32 +193,90 @@ def _comes_before(found: re.Match[str]) -> str:
     else:
         second = f"{owner(found['later'] or found['latter'])} passes the conflict point"
     said = f"{owner(first)} {does} before {second}"
-    return said.ljust(len(found.group())) if len(said) <= len(found.group()) else found.group()
+    return said if len(said) <= len(found.group()) else found.group()
 
 
 def _then_or_when(found: re.Match[str]) -> str:
     """Return "When" where the conditions follow, else "At that time": they were told before."""
     rest = re.split(r"[.;!?](?:\s|$)", found.string[found.end() :], maxsplit=1)[0]
     first = re.split(r",| (?:brakes|stops|accelerates|slows|decelerates)", rest.lstrip(", "), maxsplit=1)[0]
-    return found.group() if _PLACED.search(first) else _padded("at that time", found)
+    return found.group() if _PLACED.search(first) else "at that time"
 
 
 def _seconds_and_tenths(found: re.Match[str]) -> str:
     """Return "3 seconds and 4 tenths" as "3.4 s"."""
     digit = _DIGITS.get(found.group(3).lower()) or found.group(3)
-    return _padded(f"{found.group(1)}.{digit} s", found)
+    return f"{found.group(1)}.{digit} s"
 
 
 def _in_tenths(found: re.Match[str]) -> str:
     """Return "nine tenths of a second" as "0.9 s"."""
     digit = _DIGITS.get(found.group(1).lower()) or found.group(1)
-    return _padded(f"0.{digit} {'g' if found.group(2).lower() == 'g' else 's'}", found)
+    return f"0.{digit} {'g' if found.group(2).lower() == 'g' else 's'}"
 
 
 def _collision_time(found: re.Match[str]) -> str:
     """Return "would hit the van in" as "'s TTC to the van is"."""
-    return f"'s TTC to{found.group(2)} is ".ljust(len(found.group()))
+    return f"'s TTC to{found.group(2)} is "
 
 
-def _padded(words: str, found: re.Match[str]) -> str:
-    return words.ljust(len(found.group()))
+def _alone(found: re.Match[str]) -> str:
+    """Return "NPC1" as "NPC" where there is no second one."""
+    return found.group() if _SECOND_ONE.search(found.string) else found.group(1)
+
+
+def _stop(found: re.Match[str]) -> str:
+    """Return "to 0 km/h" as a stop, in words that fit in its place."""
+    return "to a stop" if len(found.group()) > 8 else "to zero"
+
+
+# In this order: what one rule leaves, the next may read.
+_RULES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+    (_PRECEDES, _comes_before),
+    (_BOTH_MET, _then_or_when),
+    (_HOLD, "When"),
+    (_WAIT_UNTIL, "When"),
+    (_NO_SOONER, r"When     \1,   "),
+    (_THAT_IS, ","),
+    (_HEADED, r"\1:"),
+    (_EQUALS, r"\1"),
+    (_IS_EQUAL, "= "),
+    (_TENTHS, _in_tenths),
+    (_AHEAD_OF_MOMENT, "before"),
+    (_WOULD_HIT, _collision_time),
+    (_TAILS, ""),
+    (_VERDICT, ""),
+    (_I_THINK, ""),
+    (_RESPONSE, r"\1 then shall"),
+    (_CONJUNCTION, "When"),
+    (_FIRST_ONE, _alone),
+    (_ENUMERATED, ""),
+    (_PART_OF, ""),
+    (_TURNS_ON, r"\1 to "),
+    (_AFTER_COMMA, "then"),
+    (_BEFORE_OF, "before"),
+    (_WAIT_FOR, r"When \1 is"),
+    (_CHAT, ""),
+    (_SAID_POINT, "that"),
+    (_FUNCTION, r"\1 \2 \3"),
+    (_MORE, r"\1 \2 more"),
+    (_AND_TENTHS, _seconds_and_tenths),
+    (_FOUND_TO_BE, "is"),
+    (_CENTRES, ""),
+    (_TO_A_CRAWL, "to"),
+    (_BOTH_HOLD, ""),
+    (_SPEED_NOUGHT, "stop at"),
+    (_TO_SPEED_NOUGHT, "to zero"),
+    (_DEFINED_AS, " : "),
+    (_TURN_OF, r"before \1 begins its turn"),
+    (_CONDITION_HOLDS, "at that time"),
+    (_UNTIL_NOUGHT, "to zero"),
+    (_MOTION_ENDS, "it stops"),
+    (_BEFORE_THAT, "before"),
+    (_TO_NOUGHT, _stop),
+    (_IS_IT, "If "),
+    (_AFTER_THIS, r"\1 \3"),
+    (_UNDERSCORE, r"\1 \2"),
+    (_CROSSING_OF, "conflict point"),
+    (_CROSSING, "conflict point"),
+)
