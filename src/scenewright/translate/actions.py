@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from scenewright.translate.descriptions import DescriptionReader
-from scenewright.translate.events import HERO_ID, Event, Place
+from scenewright.translate.events import HERO_ID, Event, Place, goes_on
 from scenewright.translate.facts import Condition, LaneRelation, Order, Phase
 
 SLOWING = ("brake", "stop", "yield")
@@ -130,8 +130,11 @@ class ActionReader(DescriptionReader):
         self._note(event, f"the hero lets the ego reach its {landmark.replace('_', ' ')}")
 
     def _speeding(self, event: Event) -> Phase:
-        kind = "go" if event.verb == "keep" else "acc"
         last = self.facts.phases[-1] if self.facts.phases else None
+        on = event.verb == "go" and last is None and goes_on(event.span.excerpt(self.text))
+        kind = "go" if event.verb == "keep" or on else "acc"
+        if event.verb == "accelerate" and last is not None and last.kind == "go" and self._only_goes_on(last):
+            last.kind = "acc"  # "drives on, accelerating"
         if last is not None and last.kind == "turn" and self._after_the_turn(event, last):
             last.to_speed, last.events = event.to_speed or last.to_speed, [*last.events, event]
             return last
@@ -169,6 +172,10 @@ class ActionReader(DescriptionReader):
         if event.to_speed is not None:
             phase.to_speed = event.to_speed
         return phase
+
+    def _only_goes_on(self, phase: Phase) -> bool:
+        """Whether nothing says that the hero keeps its speed: it only "drives on"."""
+        return all(each.verb == "go" for each in phase.events) and self.facts.phases == [phase]
 
     def _turned_before(self, event: Event) -> bool:
         """Whether the hero has turned when this begins: "then", "after its turn"."""

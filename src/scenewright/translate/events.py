@@ -5,6 +5,7 @@ What enters: nothing. What leaves: the dataclasses that `clauses` fills and `int
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -14,6 +15,11 @@ from scenewright.translate.tokens import Quantity
 EGO_ID, HERO_ID = 0, 1
 SAY_IT_ALONE = "say it in a sentence of its own, or leave it out"
 ACTOR_NAMES = {EGO_ID: "ego", HERO_ID: "hero"}
+_GOES_ON = re.compile(
+    r"\b(?:(?:dr[io]v|carr|roll|mov|com|press|go|went|cruis)\w* (?:straight |right )?on|continu\w+|proceed\w*"
+    r"|(?:keep|kept)s? (?:on )?\w+ing)\b",
+    re.IGNORECASE,
+)
 Relation = Literal["behind", "ahead", "before", "from", "past", "at", "just_before"]
 
 
@@ -86,3 +92,8 @@ class Event:
     both: bool = False  # told of the hero too
     in_front: bool = False  # "pulls out in front of the ego"
     resumed: bool = False  # goes on with a subject that was interrupted
+
+
+def goes_on(said: str) -> bool:
+    """Whether who does this drives on as before, and does not set off or speed up: "simply drives on"."""
+    return _GOES_ON.search(said) is not None

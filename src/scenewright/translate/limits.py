@@ -62,7 +62,7 @@ _BEGUN = (
     rf"|accelerating))"
 )
 _STOPPED = (
-    rf"(?:(?:the |a |its )?(?:standstill|complete stop|full stop|stop|halt)|{_HIM} (?:stops|stands|has stopped"
+    rf"(?:(?:the |a |its |this |that )?(?:standstill|complete stop|full stop|stop|halt)|{_HIM} (?:stops|stands|has stopped"
     rf"|is at rest|is stopped"
     r"|has come to (?:a |an )?(?:complete |full )?(?:stop|halt|standstill|rest)|comes to (?:a )?(?:stop|halt"
     r"|standstill|rest)))"
@@ -95,7 +95,8 @@ _TOLD: tuple[tuple[str, tuple[Moment, Moment]], ...] = (
     (rf"(?:all the way|on the way) to {_AT_GOAL}", ("trigger", "end")),
     (rf"(?:from {_TRIGGER}(?: on)?)", ("trigger", "end")),
     (
-        rf"while {_HIM} (?:brakes|is braking|decelerates)|during (?:the|its) (?:braking|deceleration)",
+        rf"while {_HIM} (?:brakes|is braking|decelerates)|(?:{_ANY} )?(?:during|of|in|while) (?:the |its )?"
+        r"(?:braking|deceleration|slowing down)",
         ("trigger", "stop"),
     ),
     (_ANY, ("start", "end")),

@@ -105,6 +105,21 @@ _PHRASES = tuple(
             r"\bon the wrong side\b|\bwrong[- ]way\b|\bside wrong\b|\bghost driver\b|\bagainst the (?:flow|traffic)\b",
             "driving on the wrong side",
         ),
+        (
+            r"\b(?:draw|plot|make|give|show|print|write|produce|prepare|send)s? (?:me |us )?(?:a|an|the) (?:\w+ )?"
+            r"(?:chart|graph|plot|table|diagram|histogram|poem|song|essay|report|summary|statistics|spreadsheet|slide"
+            r"|letter|presentation)s?\b",
+            "what is asked for is no scenario",
+        ),
+        (
+            r"\b(?:to|at|until|by|of) (?:whatever|whichever)\b|\bwhatever (?:speed|distance|gap|rate"
+            r"|the (?:sign|limit|law|rules?|speed))\b",
+            "an amount that is not told",
+        ),
+        (
+            r"\b(?:swing|swung|swerve|veer|steer|pull|turn)\w* back (?:in(?:to)?|onto|to|towards?)\b(?! the road\b)",
+            "a way that no route leads",
+        ),
         (r"\broll(?:s|ing|ed)? back\b|\bin reverse\b|\bbacks up\b", "driving backwards"),
     )
 )

@@ -124,9 +124,13 @@ class DeedReader:
                 negation = at
                 continue
             verb = tags.get("verb") or ("brake" if tags.get("event_noun") == "brake" else None)
+            if verb is None and tags.get("event_noun") == "accelerate" and self._is_begun(at, clause):
+                verb = "accelerate"
             if verb in ("pass", "brake") and self.words.word(at + 1) in _NOUNS_AFTER:
                 continue  # "the cross traffic", "the brake reaction time"
-            if verb == "go" and self.words.word(at) == "continued" and self.words.has([at - 1], "be"):
+            kept = self.words.word(at) in ("continued", "sustained", "maintained", "kept up")
+            until = self.words.tag(at + 1, "link") == "until" or self.words.word(at + 1) in ("until", "up to", "to")
+            if verb == "go" and kept and (until or self.words.has([at - 1], "be")):
                 continue  # "braking is continued until it is at rest"
             wholly = self.words.word(at) == "complete" and self.words.tag(at - 1, "verb") == "stop"
             if verb is None or "heading" in tags or wholly or self.words.word(at).startswith(("finds ", "found ")):
@@ -156,6 +160,12 @@ class DeedReader:
                 self._add(_DEEDS[verb], at, clause)
             elif verb in _MOVES and not wanted and not self.describing.only_describes(verb, at, clause):
                 self._add(_MOVES[verb], at, clause)
+
+    def _is_begun(self, at: int, clause: Clause) -> bool:
+        """Whether a noun is said to begin: "acceleration of the van is initiated"."""
+        ahead = range(at + 1, min(at + 6, clause.end))
+        begun = self.words.where(ahead, "onset_verb")
+        return begun is not None and self.words.has([begun - 1], "be", "auxiliary")
 
     def _is_wish(self, at: int) -> bool:
         """Whether this is "wants", "is ready to"; "has to" and "is asked to" tell what is done."""

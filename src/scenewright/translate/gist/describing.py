@@ -24,7 +24,7 @@ class Describing:
         token, words = self.words.tokens[at], self.words
         if at + 1 in words.names.actors and ("actor_adjective" in token.tags or "ing" in token.forms):
             return True
-        if verb in TURNS and self.is_noun(at):
+        if verb in TURNS and (self.is_noun(at) or self._is_on_its_way(at, clause) or self._is_predicate(at, clause)):
             return True
         if verb in ("go", "drive", "keep") and (self._tells_way(at, clause) or self._leads_on(at, clause)):
             return True
@@ -43,6 +43,9 @@ class Describing:
             and words.has([at + 1], "unknown")
         ):
             return True  # "a crossing conflict"
+        past = words.where(range(at + 1, at + 3), "area", "driveway") is not None
+        if verb == "pass" and past and clause.subject == EGO_ID:
+            return True  # "the ego passes the driveway, driving east along the road"
         path = words.where(range(at + 1, at + 4), "area", "lane") is not None
         if verb == "pass" and path and clause.subject == EGO_ID:
             return True  # "the ego has to cross the path of a lorry"
@@ -67,6 +70,20 @@ class Describing:
             return state or any(words.word(i) in ("to", "from", "before") for i in range(amount, at))
         return False
 
+    def _is_on_its_way(self, at: int, clause: Clause) -> bool:
+        """Whether a turn is what a vehicle comes for: "a bus, coming eastbound to turn left into the driveway"."""
+        ways = ("come", "drive", "approach", "go", "pull_out", "leave")
+        last = next((i for i in range(at - 2, clause.start - 1, -1) if "verb" in self.words.tags(i)), None)
+        comes = last is not None and self.words.tag(last, "verb") in ways and "ing" in self.words.tokens[last].forms
+        return self.words.word(at - 1) == "to" and comes
+
+    def _is_predicate(self, at: int, clause: Clause) -> bool:
+        """Whether a turn tells which vehicle it is: "the hero is a car coming out of the driveway"."""
+        name = at - 1
+        first = self.words.skip(name - 1, frozenset(("actor_adjective", "heading", "determiner")), -1)
+        named = name in self.words.names.actors and "ing" in self.words.tokens[at].forms
+        return named and first > clause.start and "be" in self.words.tags(first)
+
     def _is_crossed(self, at: int) -> bool:
         """Whether this is "crosses the T-junction straight ahead"."""
         mark = next((i for i in (at + 1, at + 2) if "landmark" in self.words.tags(i)), at)
@@ -83,7 +100,8 @@ class Describing:
         """Whether this is "the turn", of which another verb tells more: "completes its turn"."""
         before = self.words.tags(at - 1)
         named = before.keys() & {"determiner", "possessive", "direction", "genitive"} and "verb" not in before
-        return bool(named) and "begin" not in self.words.verbs(range(at - 4, at))
+        joint = next((i for i in range(at - 1, at - 5, -1) if self.words.has([i], "link", "frame_link")), at - 5)
+        return bool(named) and "begin" not in self.words.verbs(range(joint + 1, at))
 
     def _tells_way(self, at: int, clause: Clause) -> bool:
         for ahead in range(at + 1, min(at + 5, clause.end)):

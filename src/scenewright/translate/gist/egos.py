@@ -32,10 +32,19 @@ def is_predicate(tokens: list[Token], at: int) -> bool:
     if tokens[back].text.lower() == "as":
         return True  # "with the VUT as the rear one"
     closes = at + 1 >= len(tokens) or bool(tokens[at + 1].tags.keys() & {"comma", "end", "link"})
+    closes = closes or ("ing" in tokens[at + 1].forms and _is_yielded_to(tokens, back - 1))
     placed = back > 1 and "relation" in tokens[back - 2].tags  # "Ahead of the ego is a car"
     if placed or any(each.tags.get("determiner") == "another" for each in tokens[back:at]):
         return False
     return "be" in tokens[back].tags or ("comma" in tokens[back].tags and back < at - 1 and closes)
+
+
+def _is_yielded_to(tokens: list[Token], at: int) -> bool:
+    """Whether this is the ego of "must give way to the ego, a car going straight on"."""
+    at -= 1
+    while at > 0 and "determiner" in tokens[at].tags:
+        at -= 1
+    return at >= 0 and tokens[at].tags.get("verb") in ("yield", "not_yield", "let")
 
 
 def our_own_words(tokens: list[Token]) -> set[str]:

@@ -32,10 +32,11 @@ _CROSSING_OF = re.compile(
 _WAIT_UNTIL = re.compile(r"(?<=[.!?;] )Wait until\b")
 # "Once two conditions hold at the same time, ..."
 _HOLD = re.compile(
-    r"\b(?:once|when|as soon as|the (?:instant|moment)) (?:(?:both|all|of|the|these|two|following) )*"
+    r"\b(?:once|when|as soon as|the (?:instant|moment)) (?:(?:both|all|of|the|these|two|three|following) )*"
     r"(?:conditions?|things|requirements) "
     r"(?:holds?|(?:are|is) (?:met|fulfilled|true|satisfied|given))"
-    r"(?: (?:together|at the same time|simultaneously|at once))?(?:,|:| -)?(?: namely(?: that)?,?)?",
+    r"(?: (?:together|at (?:the same|one|a single) (?:time|moment|instant)|simultaneously|at once))?(?:,|:| -)?"
+    r"(?: namely(?: that)?,?)?",
     re.IGNORECASE,
 )
 # "Triggering event. The ego is ..." is a heading that ends like a sentence
@@ -162,6 +163,53 @@ _AFTER_THIS = re.compile(
 )
 _UNDERSCORE = re.compile(r"\b(ego|hero|npc|target|other|opponent|lead)_(vehicle|car|actor|agent)\b", re.IGNORECASE)
 _THAT_IS = re.compile(r", that is,")
+# "East is the direction of the ego"
+_DIRECTION_OF = re.compile(
+    r"\b((?:North|East|South|West)(?:ward|bound)?) is the (?:direction|heading|course) of (the [\w-]+|[A-Z][\w-]*)", re.I
+)
+_NO_NOTICE = re.compile(
+    r"\b(?:takes? no (?:notice|account|heed) of|pays? no (?:attention|heed|regard) to|shows? no regard for) "
+    r"(?=the |it\b|us\b|me\b|[A-Z])",
+    re.IGNORECASE,
+)
+_WITHOUT_CARE = re.compile(
+    r"(?<=\w) without (?:looking|hesitat(?:ion|ing)|(?:any )?warning|thinking|further ado|a second thought|delay)"
+    r"(?=[,.;]| and\b| but\b|$)",
+    re.IGNORECASE,
+)
+_FOR_THAT_STOP = re.compile(r"(?<=ing) for (?:that|this|the|its) (?:stop|halt|standstill)(?= )", re.IGNORECASE)
+_DENIES = re.compile(
+    r"\b(?:denies|refuses|denied|refused) (the [\w-]+(?: vehicle| car)?|us|it|[A-Z]{2,}) (?:the |its )?"
+    r"(?:right of way|right-of-way|priority|precedence)\b",
+    re.IGNORECASE,
+)
+_THEN_BEING = re.compile(r"\bat (?:that|this) (?:moment|time|instant|point) being (?=[\d.]+ )", re.IGNORECASE)
+_LIKES_IT = re.compile(r",? whether (?:it|he|she|they|we) likes? it or not\b", re.IGNORECASE)
+_ON_THE_CLOCK = re.compile(
+    r"\b(?:with|having|showing) ([\d.]+ ?(?:km/h|kph|mph|m/s)) on the (?:clock|dial|speedometer|speedo)\b", re.IGNORECASE
+)
+# "On the VUT being 22 m from it"
+_ON_BEING = re.compile(r"\b[Oo]n (the [\w-]+|[A-Z]+) being (?=[\d.]+ |\w+_(?:m|s)\b)")
+_BY_WHICH = re.compile(r", by which (?=(?:the [\w-]+|[A-Z]+) is brought\b)")
+# "precedence being conceded to the VUT", "right of way not being given"
+_CONCEDED = re.compile(
+    r", (?:and )?(?:thus |thereby )?(?:(?:the )?(?:precedence|priority|(?:right of )?way))(?: thereby| thus)?"
+    r"(?P<denied> not)?(?: thereby| thus)? (?:thereby |thus )?being (?:conceded|given|granted|yielded|ceded|accorded)"
+    r"(?: to (?:the [\w-]+|[A-Z]+|it|us))?(?= by\b|[,.;]|$)",
+    re.IGNORECASE,
+)
+_IN_MIND = re.compile(r"\bwith (a (?:left|right) turn\b[^,.;]*?) in mind\b", re.IGNORECASE)
+# "The order at the conflict point is NPC first, AV second"
+_ORDER_IS = re.compile(
+    r"\bThe order at the conflict point (?:is|shall be|must be)(?::| that)? ((?:the )?[\w-]+) first(?:,| and)(?: and)?"
+    r"(?: then)? ((?:the )?[\w-]+)(?: second| next| last| after it)?(?=[.,;]|$)",
+    re.IGNORECASE,
+)
+_OF_TRAVEL = re.compile(r"\b(seconds?|s) of (?:travel|driving|travelling)(?: time)?(?= (?:separate|lie|remain|are|is)\b)", re.I)
+_AFTER_STOP = re.compile(
+    r"(?:(?<=[.!?;]\s)|^)After (?:the|this|that|its) (?:complete |full )?(?:standstill|stop|halt),? (?=it |he |she |the )",
+)
+_BRAKES_OF = re.compile(r"\bapply (?:the )?brakes of (?=the )", re.IGNORECASE)
 
 
 def without_idioms(text: str) -> str:
@@ -225,6 +273,11 @@ def _alone(found: re.Match[str]) -> str:
     return found.group() if _SECOND_ONE.search(found.string) else found.group(1)
 
 
+def _yields(found: re.Match[str]) -> str:
+    """Return "precedence being conceded" as "yielding"."""
+    return ", not yielding" if found["denied"] else ", yielding"
+
+
 def _stop(found: re.Match[str]) -> str:
     """Return "to 0 km/h" as a stop, in words that fit in its place."""
     return "to a stop" if len(found.group()) > 8 else "to zero"
@@ -277,6 +330,22 @@ _RULES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...]
     (_IS_IT, "If "),
     (_AFTER_THIS, r"\1 \3"),
     (_UNDERSCORE, r"\1 \2"),
+    (_DIRECTION_OF, r"\2 drives \1"),
+    (_NO_NOTICE, "won't yield to "),
+    (_THEN_BEING, "being "),
+    (_LIKES_IT, ""),
+    (_WITHOUT_CARE, ""),
+    (_FOR_THAT_STOP, ""),
+    (_DENIES, r"won't yield to \1"),
+    (_ON_THE_CLOCK, r"at \1"),
+    (_ON_BEING, r"When \1 is "),
+    (_BY_WHICH, ", and "),
+    (_CONCEDED, _yields),
+    (_IN_MIND, r"making \1"),
+    (_ORDER_IS, r"\1 passes the conflict point before \2 does"),
+    (_OF_TRAVEL, r"\1"),
+    (_AFTER_STOP, "Then "),
+    (_BRAKES_OF, "brake "),
     (_CROSSING_OF, "conflict point"),
     (_CROSSING, "conflict point"),
 )

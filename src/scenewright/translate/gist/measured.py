@@ -149,6 +149,8 @@ class MeasureReader:
         """Read "the intersection is 6.8 s away" and "the intersection lies 82 m ahead of it"."""
         before = range(made.clause.start, made.at)
         away = self.words.tag(made.at + 1, "relation") in ("from", "ahead")
+        if away and made.clause.link == "that" and self._lies_which(made):
+            return True
         it = self.words.word(made.clause.start) == "it" and self.words.named(before) is None
         if it and away and self.lying is not None and self.lying.clause.sentence == made.clause.sentence - 1:
             place = self.places.place_at(made.at + 2)
@@ -177,6 +179,34 @@ class MeasureReader:
         made.actor = named if named is not None else made.actor if made.actor is not None else made.clause.subject
         self.words.used |= {made.at, mark if mark is not None else made.at}
         self.lying = made
+        return True
+
+    def _lies_which(self, made: Measured) -> bool:
+        """Read "the intersection, which is 7 s away", "the stop line, from which it is 4 s away"."""
+        words, clause = self.words, made.clause
+        which = clause.start - 1
+        away = words.word(which - 1) == "from"
+        mark = which - 1 - away
+        mark -= words.has([mark], "comma")
+        if words.word(which) not in ("which", "that"):
+            return False
+        back = self.words.where(range(mark, max(-1, mark - 4), -1), "landmark")
+        plain = ("determiner", "area", "preposition", "landmark")
+        if back is None or not all(words.has([at], *plain) for at in range(back, mark + 1)):
+            return False
+        told = range(clause.start, made.at)
+        if words.has(told, "quantity", "landmark", "verb") or not words.has(told, "be", "auxiliary"):
+            return False
+        if away != (words.named(told) is not None or any(at in words.names.pronouns for at in told)):
+            return False
+        if self.places.place_at(made.at + 2) is not None:
+            return False
+        named = words.named(told)
+        if named is None:
+            named = next((each.subject for each in words.clauses if back in each.inside), None)
+        made.kind, made.landmark = "place", words.tags(back)["landmark"]
+        made.actor = named if named is not None else clause.subject
+        words.used |= {made.at, back, which - 1}
         return True
 
     def _separates(self, made: Measured, at: int) -> None:

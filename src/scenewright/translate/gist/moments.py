@@ -313,7 +313,8 @@ class MomentReader:
         plain = [i for i in range(clause.start, made.at) if "actor_adjective" not in words.tags(i)]
         verbless = not words.has(plain, "verb", "be")  # "and the lead vehicle 22 m from it"
         earlier = any(each.clause is before and self.moments.get(each.at) == "start" for each in self.measured)
-        return alone or (earlier and verbless and clause.named and clause.link in ("and", "main"))
+        own = clause.named or made.kind == "speed"
+        return alone or (earlier and verbless and own and clause.link in ("and", "main"))
 
     def _opens(self, before: Clause, clause: Clause) -> bool:
         """Whether nothing is said but "The test begins", "The scene opens"."""

@@ -75,6 +75,10 @@ def owner_of(words: Words, at: int, clause: Clause) -> int | None:
     told = _by_measure(words, at, clause)
     if told is not None:
         return told
+    if words.word(at - 1) in ("itself", "himself", "herself") and at - 2 not in words.names.actors:
+        other = words.named(range(at - 1, words.sentence_at(at).start - 1, -1))
+        if other is not None:
+            return 1 - other  # "with the ego 26 m and itself 17 m from it"
     for back in range(at - 1, clause.start - 1, -1):
         if back in words.names.actors and (not is_object(words, back) or _just_for(words, back, at, clause)):
             return words.names.actors[back]

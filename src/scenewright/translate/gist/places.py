@@ -43,6 +43,7 @@ class PlaceFinder:
             self.words.has([ahead], "left_over", "measure")
             or self.words.tag(ahead, "verb") == "go"
             or (self.words.word(ahead) == "to" and self.words.tag(ahead + 1, "verb") == "go")
+            or (self.words.has([ahead], "be") and self.words.has([ahead + 1], "left_over"))
         ):
             ahead += 1
         if self.words.tag(ahead, "preposition") in ("for", "to", "of"):

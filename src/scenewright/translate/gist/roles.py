@@ -51,7 +51,7 @@ class Roles:
             return True
         if just and before.get("verb") in ("brake", "stop", "come"):
             return True  # "slows right down"
-        if just and "relation" in after and before.keys() & {"noun", "hero", "ego"}:
+        if just and "relation" in after and (before.keys() & {"noun", "hero", "ego", "stop_noun"}):
             return True
         measured = self.words.where(range(at - 4, at), "quantity") is not None
         if "quantity" in before or (left_over and measured and before.keys() & {"landmark", "back_reference"}):
@@ -74,7 +74,11 @@ class Roles:
     def driveway_before(self, at: int) -> bool:
         """Whether the driveway was the area named last: "comes out of it"."""
         back = self.words.where(range(at - 1, -1, -1), "area")
-        return back is not None and self.words.tags(back)["area"] == "driveway"
+        if back is None or self.words.tags(back)["area"] != "driveway":
+            return False
+        first = self.words.skip(back - 1, _AREA_WORDS, -1)
+        left = self.words.word(first) in ("from", "out of") and self.words.where(range(first), "area", "road")
+        return not (left and self.words.verbs(range(at - 2, at)) & {"enter"})  # "nears the road from it, to enter it"
 
     def role(self, at: int, clause: Clause) -> str | None:
         """Return how a vehicle is to do with an area: "into", "from", "on", "past"; None where it is only spoken of."""
@@ -96,6 +100,8 @@ class Roles:
             return None  # "turn: left (driveway)" may be into it or out of it
         if preposition == "into" or verb in ("enter", "want") or word.split()[-1:] in (["for"], ["onto"]) or bound:
             return "into"
+        if preposition == "in" and self.words.tag(at, "area") == "driveway" and "turn" in before:
+            return None  # "turns left in the driveway" may be into it or out of it
         if preposition in ("on", "in") and (before & {"enter"} or (turned and self.words.tag(at, "area") == "road")):
             return "into"  # "enters in the driveway", "turns left on the road"
         if verb == "pull_out" and word.startswith(("join", "merg")):
@@ -165,7 +171,9 @@ class Roles:
         """Whether a vehicle is on its way where an area follows: "a left turn, coming eastbound on the road"."""
         last = next((i for i in range(at - 1, clause.start - 1, -1) if "verb" in self.words.tags(i)), None)
         ways = ("come", "drive", "go", "approach")
-        return last is not None and self.words.tag(last, "verb") in ways and "ing" in self.words.tokens[last].forms
+        if last is None or self.words.tag(last, "verb") not in ways:
+            return False
+        return "ing" in self.words.tokens[last].forms or self.words.tag(last, "verb") == "approach"
 
     def road_before(self, at: int) -> bool:
         """Whether the road was spoken of last: "is on the road and follows it"."""

@@ -10,7 +10,7 @@ import re
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place, Relation
+from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place, Relation, goes_on
 from scenewright.translate.facts import Condition, Facts, Order, Phase
 from scenewright.translate.gist.clauses import BOUNDS
 from scenewright.translate.gist.measured import Measured
@@ -297,7 +297,8 @@ class StoryTeller:
         phase.place_event = self._event_at(made)
 
     def _go(self, goes: list[Deed], denies: list[Deed], *, after_stop: bool) -> None:
-        keeps = any(deed.kind == "keep" for deed in goes) and not after_stop
+        keeps = any(deed.kind == "keep" for deed in goes) or self._only_goes_on(goes)
+        keeps = keeps and not after_stop
         kind: Literal["go", "turn", "acc"] = "go" if keeps else "acc"
         kind = "turn" if self._turns_whole(self.deeds) else kind
         phase = Phase(kind, [self._event((goes or denies)[0])])
@@ -320,6 +321,11 @@ class StoryTeller:
         if phase.goal == "stop_line":
             raise self.words.refuse("a stop line is no goal", phase.events[0].span)
         self.facts.phases.append(phase)
+
+    def _only_goes_on(self, goes: list[Deed]) -> bool:
+        """Whether the hero "drives on", and neither sets off nor speeds up."""
+        told = [deed for deed in goes if deed.kind in ("go", "accelerate")]
+        return bool(told) and all(deed.kind == "go" and goes_on(self.words.tokens[deed.at].text) for deed in told)
 
     def _stands_at(self, made: Measured) -> bool:
         return self.facts.standing is not None and made.quantity is None and made.landmark == "stop_line"

@@ -245,8 +245,11 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     named_last = words.named(range(clause.start - 1, -1, -1))
     if words.where(clause.inside, "latter", "former") is not None:
         return _former(words, index, named_last)
-    relative = clause.link == "that" and words.word(clause.start - 1) in ("which", "who", "that", "where", "whose")
     before = words.clauses[index - 1] if index else clause
+    unclear = before.both and before.link == "main" and not words.has(before.inside, "measure")
+    if unclear and clause.start in own and words.word(clause.start) == "it":
+        raise words.refuse("it is not clear which vehicle is meant", words.span(clause))  # "Both turn left; it is 8 m"
+    relative = clause.link == "that" and words.word(clause.start - 1) in ("which", "who", "that", "where", "whose")
     its = before.start in words.names.pronouns and words.has([before.start + 1], "event_noun", "onset_noun")
     if relative and its and before.end <= before.start + 2:
         return before.subject  # "Its deceleration, which takes it to a stop"

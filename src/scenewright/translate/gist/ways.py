@@ -323,8 +323,8 @@ class WayReader:
     def _follows(self, at: int, clause: Clause, verb: str) -> None:
         near = range(at + 1, at + 4)
         noun = self.words.has([at - 1], "determiner") and self.words.has([at + 1], "colon", "end", "comma")
-        if noun or self.words.word(at - 1) == "one":
-            return  # "I need the following:", "one following the other"
+        if noun or self.words.word(at - 1) in ("one", "path", "way", "course", "lane", "route"):
+            return  # "its path leading past the driveway", "I need the following:", "one following the other"
         if self.words.has(near, "through") or self.words.has(range(at + 1, at + 3), "landmark"):
             return  # "then follows it through the conflict point", "stays behind its stop line"
         road = "pronoun" in self.words.tags(at + 1) and self.roles.road_before(at)
