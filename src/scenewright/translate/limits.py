@@ -62,7 +62,8 @@ _BEGUN = (
     rf"|accelerating))"
 )
 _STOPPED = (
-    rf"(?:(?:the |a |its |this |that )?(?:standstill|complete stop|full stop|stop|halt)|{_HIM} (?:stops|stands|has stopped"
+    rf"(?:(?:the |a |its |this |that )?(?:standstill|complete stop|full stop|stop|halt)"
+    rf"|{_HIM} (?:stops|stands|has stopped"
     rf"|is at rest|is stopped"
     r"|has come to (?:a |an )?(?:complete |full )?(?:stop|halt|standstill|rest)|comes to (?:a )?(?:stop|halt"
     r"|standstill|rest)))"

@@ -165,7 +165,8 @@ _UNDERSCORE = re.compile(r"\b(ego|hero|npc|target|other|opponent|lead)_(vehicle|
 _THAT_IS = re.compile(r", that is,")
 # "East is the direction of the ego"
 _DIRECTION_OF = re.compile(
-    r"\b((?:North|East|South|West)(?:ward|bound)?) is the (?:direction|heading|course) of (the [\w-]+|[A-Z][\w-]*)", re.I
+    r"\b((?:North|East|South|West)(?:ward|bound)?) is the (?:direction|heading|course) of (the [\w-]+|[A-Z][\w-]*)",
+    re.I,
 )
 _NO_NOTICE = re.compile(
     r"\b(?:takes? no (?:notice|account|heed) of|pays? no (?:attention|heed|regard) to|shows? no regard for) "
@@ -186,7 +187,8 @@ _DENIES = re.compile(
 _THEN_BEING = re.compile(r"\bat (?:that|this) (?:moment|time|instant|point) being (?=[\d.]+ )", re.IGNORECASE)
 _LIKES_IT = re.compile(r",? whether (?:it|he|she|they|we) likes? it or not\b", re.IGNORECASE)
 _ON_THE_CLOCK = re.compile(
-    r"\b(?:with|having|showing) ([\d.]+ ?(?:km/h|kph|mph|m/s)) on the (?:clock|dial|speedometer|speedo)\b", re.IGNORECASE
+    r"\b(?:with|having|showing) ([\d.]+ ?(?:km/h|kph|mph|m/s)) on the (?:clock|dial|speedometer|speedo)\b",
+    re.IGNORECASE,
 )
 # "On the VUT being 22 m from it"
 _ON_BEING = re.compile(r"\b[Oo]n (the [\w-]+|[A-Z]+) being (?=[\d.]+ |\w+_(?:m|s)\b)")
@@ -205,9 +207,12 @@ _ORDER_IS = re.compile(
     r"(?: then)? ((?:the )?[\w-]+)(?: second| next| last| after it)?(?=[.,;]|$)",
     re.IGNORECASE,
 )
-_OF_TRAVEL = re.compile(r"\b(seconds?|s) of (?:travel|driving|travelling)(?: time)?(?= (?:separate|lie|remain|are|is)\b)", re.I)
+_OF_TRAVEL = re.compile(
+    r"\b(seconds?|s) of (?:travel|driving|travelling)(?: time)?(?= (?:separate|lie|remain|are|is)\b)", re.I
+)
 _AFTER_STOP = re.compile(
-    r"(?:(?<=[.!?;]\s)|^)After (?:the|this|that|its) (?:complete |full )?(?:standstill|stop|halt),? (?=it |he |she |the )",
+    r"(?:(?<=[.!?;]\s)|^)After (?:the|this|that|its) (?:complete |full )?(?:standstill|stop|halt),? "
+    r"(?=it |he |she |the )",
 )
 _BRAKES_OF = re.compile(r"\bapply (?:the )?brakes of (?=the )", re.IGNORECASE)
 
