@@ -37,6 +37,7 @@ from scenewright.translate.layout import lay_out
 from scenewright.translate.limits import owner_of_limit, refuse_limit, take_limits
 from scenewright.translate.notes import noted
 from scenewright.translate.phrases import Phrases
+from scenewright.translate.purposes import check_purpose, take_purposes
 from scenewright.translate.references import Referents
 from scenewright.translate.relatives import related
 from scenewright.translate.rewording import reworded
@@ -155,7 +156,8 @@ def _joined(first: TranslationError, second: TranslationError) -> TranslationErr
 
 def _by_grammar(text: str, road_map: RoadMap, name: str) -> Translation:
     """Translate clause by clause; every word has to be understood."""
-    tokens = unfronted(reworded(related(spoken(noted(tokenise(without_short_names(text), name))))))
+    rest, purposes = take_purposes(text, name)
+    tokens = unfronted(reworded(related(spoken(noted(tokenise(without_short_names(rest), name))))))
     tokens, comments = without_commentary(tokens)
     tokens, titles = lay_out(tokens)
     refuse_unknown(tokens, text, name)
@@ -170,12 +172,14 @@ def _by_grammar(text: str, road_map: RoadMap, name: str) -> Translation:
     routes = choose_routes(facts, road_map, text, name)
     for stretch, span in skipped:
         _check_skipped(stretch, span, facts, routes, Place(name, text, span))
-    return _assembled(facts, routes, events, tokens, tuple(phrases.assumptions), road_map.name, text, name)
+    aside = _set_purposes_aside(purposes, facts, routes, text, name)
+    return _assembled(facts, routes, events, tokens, (*phrases.assumptions, *aside), road_map.name, text, name)
 
 
 def _by_facts(text: str, road_map: RoadMap, name: str) -> Translation:
     """Translate by the facts alone that a free text tells."""
-    rest, limits = take_limits(text, name)
+    rest, purposes = take_purposes(text, name)
+    rest, limits = take_limits(rest, name)
     gist = read_gist(rest, name, road_map)
     named = names_in(text, name) if limits else {}
     for limit in limits:
@@ -187,13 +191,24 @@ def _by_facts(text: str, road_map: RoadMap, name: str) -> Translation:
     _complete(gist.facts, text, name)
     routes = choose_routes(gist.facts, road_map, text, name)
     check_told(gist, routes, text, name)
-    read = _assembled(gist.facts, routes, gist.events, gist.tokens, gist.assumptions, road_map.name, text, name)
+    assumed = (*gist.assumptions, *_set_purposes_aside(purposes, gist.facts, routes, text, name))
+    read = _assembled(gist.facts, routes, gist.events, gist.tokens, assumed, road_map.name, text, name)
     basis = Basis.FACTS.value
     readings = (
         each if each.confidence < basis.value else replace(each, confidence=basis.value, basis=basis.meaning)
         for each in read.readings
     )
     return replace(read, readings=tuple(readings))
+
+
+def _set_purposes_aside(
+    purposes: tuple[Span, ...], facts: Facts, routes: Itineraries, text: str, name: str
+) -> tuple[str, ...]:
+    """Return what is assumed of sentences that tell what the test is for; refuse one that tells another test."""
+    for span in purposes:
+        check_purpose(span, text, name, routes, _deeds(facts))
+    said = (" ".join(span.excerpt(text).strip(" ,").split()) for span in purposes)
+    return tuple(f"'{words}' tells what the test is for; nothing in it is orchestrated" for words in said)
 
 
 def _check_second_reading(program: Program, text: str, road_map: RoadMap, name: str) -> None:

@@ -117,8 +117,21 @@ _PHRASES = tuple(
             "an amount that is not told",
         ),
         (
-            r"\b(?:swing|swung|swerve|veer|steer|pull|turn)\w* back (?:in(?:to)?|onto|to|towards?)\b(?! the road\b)",
+            r"\b(?:swing|swung|swerve|veer)\w* back\b"
+            r"|\b(?:steer|pull|turn)\w* back (?:in(?:to)?|onto|to|towards?)\b(?! the road\b)",
             "a way that no route leads",
+        ),
+        (
+            r"\b(?:runs?|ran|crash(?:es|ed)?|slams?|slammed|bumps?|bumped|ploughs?|drives?|drove) into (?:the"
+            r" (?:back|rear|side)"
+            r" of|it\b|the ego\b)|\brear-ends\b|\bcollides with\b",
+            "a collision is no outcome that is asked for",
+        ),
+        (
+            r"\bside by side\b|\babreast\b|\b(?:inner|outer|nearer|farther) (?:one )?of the two lanes\b|\btwo"
+            r" lanes of the"
+            r" driveway\b",
+            "places beside each other in one lane",
         ),
         (r"\broll(?:s|ing|ed)? back\b|\bin reverse\b|\bbacks up\b", "driving backwards"),
     )

@@ -211,7 +211,7 @@ class AmountReader(MeasureReader):
         """Read "Three seconds before the ego would reach the stop line"."""
         timed = made.quantity is not None and made.quantity.dimension == "time"
         link = made.at + 1
-        while self.words.has([link], "left_over") or self.words.word(link) in ("remain", "remains", "more"):
+        while self.words.has([link], "left_over", "be") or self.words.word(link) in ("remain", "remains", "more"):
             link += 1
         name = self.words.skip(link + 1, _BESIDE | {"heading"})
         named = name in self.words.names.actors or name in self.words.names.pronouns
@@ -293,7 +293,8 @@ class AmountReader(MeasureReader):
     def _lasts(self, made: Measured) -> bool:
         """Whether a time is how long the hero stands: "stands there for 2 s", "2 s later"."""
         before = range(made.clause.start, made.at)
-        stands = bool(self.words.verbs(before) & _STANDS) or self.words.has(before, "stop_noun")
+        told = [i for i in before if "left_over" not in self.words.tags(i)]  # not "4 s remain for the van and 3 s"
+        stands = bool(self.words.verbs(told) & _STANDS) or self.words.has(before, "stop_noun")
         lasts = "for" in (self.words.word(made.at - 1), self.words.word(made.at - 2))
         return stands or lasts or self.words.word(made.at + 1) == "later"
 

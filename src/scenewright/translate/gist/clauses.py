@@ -252,10 +252,12 @@ def _measures_until(words: Words, at: int) -> bool:
     first = words.sentence_at(at).start
     measure = words.where(range(at - 1, max(first, at - 6) - 1, -1), "measure")
     told = measure is not None and words.has(range(measure, at), "quantity", "verb", "be")
+    amount = next((i for i in range(at - 1, max(first, at - 6), -1) if words.has([i], "quantity", "verb")), at)
+    left = words.has([amount], "quantity") and words.tag(amount + 1, "preposition") == "for"
     place = at + 1
     while words.has([place], "determiner", "possessive", "area_adjective"):
         place += 1
-    return measure is not None and not told and words.has([place], "landmark", "back_reference")
+    return (left or (measure is not None and not told)) and words.has([place], "landmark", "back_reference")
 
 
 def _is_still_to_come(words: Words, at: int) -> bool:

@@ -320,7 +320,10 @@ class DeedReader:
         verbs = self.words.verbs(clause.inside)
         self.words.used |= set(range(clause.start, following.start))
         span = self.words.span(clause)
-        self._add("pass", self._verb_of(following), following)
+        done = self._verb_of(following)
+        if self.words.tag(done, "verb") != "do_so":
+            self._add("complete" if self.words.tag(done, "verb") == "complete" else "pass", done, following)
+        self.words.used |= set(following.inside)
         self.deeds.append(Deed("before", clause.start, clause, span, self.ego.place(clause, verbs), EGO_ID))
         return True
 

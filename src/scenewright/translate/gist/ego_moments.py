@@ -38,15 +38,18 @@ class EgoMoments:
         """Whether "after the van has passed" follows what the ego does only then."""
         index = self.words.clauses.index(clause)
         before = self.words.clauses[index - 1] if index else clause
-        passed = self.words.verbs(clause.inside) == {"pass"} and clause.subject == HERO_ID and clause.named
-        begins = self.words.verbs(before.inside) & {"begin", "turn", "pull_out"}
+        verbs = self.words.verbs(clause.inside)
+        passed = verbs in ({"pass"}, {"complete"}, {"do_so"}) and clause.subject == HERO_ID and clause.named
+        begins = self.words.verbs(before.inside) & {"begin", "turn", "pull_out", "pass", "reach", "enter"}
         own = before.subject == EGO_ID and before.sentence == clause.sentence
         last = {word for at in (before.end - 1, before.end) for word in self.words.word(at).split()}
         denied = self.words.has(before.inside, "negation")
         until = self.words.word(clause.start - 2) == "until"
         only = ("only" in last and not denied) or (denied and until)  # "does not begin until after the van has passed"
         told = self.words.has(clause.inside, "quantity") or self.words.has(before.inside, "quantity")
-        return clause.link == "after" and passed and own and bool(begins) and only and not told
+        after = clause.link == "after" and only
+        not_before = clause.link in ("before", "until") and denied and self.is_perfect(clause)
+        return (after or not_before) and passed and own and bool(begins) and not told
 
     def is_not_yet(self, clause: Clause) -> bool:
         """Whether "and the ego should not have started its turn by then" says that the hero was first."""
@@ -75,6 +78,9 @@ class EgoMoments:
         if "begin" in verbs and (verbs & {"turn"} or self.words.has(clause.inside, "event_noun")):
             return "turn_start"
         mark = self.words.where(clause.inside, "landmark", "conflict_point")
+        there = [at for at in clause.inside if self.words.word(at) in ("it", "there", "that point", "the same point")]
+        if mark is None and there and self.words.referred(there[-1]) == "conflict_point":
+            mark = there[-1]  # "and only after that does the ego get to it"
         return "conflict_point" if verbs & {"pass", "reach"} and mark is not None else None
 
     def is_allowed(self, clause: Clause) -> bool:

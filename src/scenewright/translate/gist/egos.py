@@ -120,8 +120,10 @@ def kinds_of_ego(tokens: list[Token]) -> set[str]:
 
 def is_called(tokens: list[Token], at: int) -> bool:
     """Whether a vehicle is said to be the ego: "the one behind is the ego", "the taxi, which is our ego,"."""
+    if at + 1 < len(tokens) and tokens[at + 1].text.lower() in ("in", "at"):
+        at = next((i - 1 for i in range(at + 2, min(at + 5, len(tokens))) if "be" in tokens[i].tags), at)
     if at + 2 >= len(tokens) or not tokens[at + 1].tags.keys() & {"comma", "be"}:
-        return False
+        return False  # "The car in the rear is the ego"
     which = tokens[at + 2].text.lower() in ("which", "that") and "be" in tokens[min(at + 3, len(tokens) - 1)].tags
     ahead = at + 2 + (2 if which else 0)
     ahead += ahead < len(tokens) and "determiner" in tokens[ahead].tags

@@ -185,6 +185,37 @@ _DENIES = re.compile(
     re.IGNORECASE,
 )
 _THEN_BEING = re.compile(r"\bat (?:that|this) (?:moment|time|instant|point) being (?=[\d.]+ )", re.IGNORECASE)
+_AS_DOES = re.compile(
+    r",? as (the ego|the [\w-]+(?: car| vehicle)?|ours|we) (does|do)(?= too\b|[.,;]|$)", re.IGNORECASE
+)
+_KEEP_RIGHT = re.compile(
+    r",? so (?:that )?(we|the ego|the (?:vehicle|car) under test|the AV|the SUT) (?:keeps?|has|have|get to keep"
+    r"|retains?) "
+    r"(?:the |its |our )?(?:right of way|priority|precedence)(?=[.,;]|$)",
+    re.IGNORECASE,
+)
+_NOT_UNTIL_THEN = re.compile(r"\bnot until (?:then|that(?: moment)?) (?=do(?:es)? |will |shall )", re.IGNORECASE)
+_FIRST_BY = re.compile(
+    r"\b(?:is|are|being) (?:passed|reached|crossed) first by (the [\w-]+|[A-Z]+),? and (?:only )?(?:then|afterwards"
+    r"|after that|later|second)(?: on)? by (the [\w-]+|[A-Z]+)\b",
+    re.IGNORECASE,
+)
+_BRINGS_TURN = re.compile(r"\bbring(s|ing)? (its|his|her|the) turn to (?:an end|completion|its end)\b", re.IGNORECASE)
+_ANY_TURNING = re.compile(r"\bbefore (?:any|the) turning of (the [\w-]+|[A-Z]+) (begins|starts)\b", re.IGNORECASE)
+# "until, just before the stop line, it is at rest"
+_UNTIL_THERE = re.compile(r"\buntil, ([^,.;]{3,50}), ((?:it|he|she|the [\w-]+) [^,.;]+)(?=[.,;])", re.IGNORECASE)
+_TAKES_RIGHT = re.compile(
+    r"\btaking (?:the |its )?(?:right of way|priority|precedence) (?:away )?from (?=the |it\b|us\b|[A-Z])",
+    re.IGNORECASE,
+)
+_COMPLETE_STOP = re.compile(
+    r"\b(?:arriv|com|get)(?:es|ing|s|e|ed)? at (?:the|a|its) (complete |full )?(stop|halt|standstill)\b(?! line)", re.I
+)
+_ONCE_STANDING = re.compile(
+    r"(?:(?<=[.!?;]\s)|(?<=, )|^)Once (?:stationary|stopped|at rest|at a standstill|halted|standing(?: still)?), ?"
+    r"(?=it |he |she |the )",
+    re.IGNORECASE,
+)
 _LIKES_IT = re.compile(r",? whether (?:it|he|she|they|we) likes? it or not\b", re.IGNORECASE)
 _ON_THE_CLOCK = re.compile(
     r"\b(?:with|having|showing) ([\d.]+ ?(?:km/h|kph|mph|m/s)) on the (?:clock|dial|speedometer|speedo)\b",
@@ -278,6 +309,12 @@ def _alone(found: re.Match[str]) -> str:
     return found.group() if _SECOND_ONE.search(found.string) else found.group(1)
 
 
+def _completes(found: re.Match[str]) -> str:
+    """Return "brings its turn to an end" as "completes its turn"."""
+    ending = {"": "e", "s": "es"}.get((found.group(1) or "").lower(), "ing")
+    return f"complet{ending} {found.group(2)} turn"
+
+
 def _yields(found: re.Match[str]) -> str:
     """Return "precedence being conceded" as "yielding"."""
     return ", not yielding" if found["denied"] else ", yielding"
@@ -338,6 +375,16 @@ _RULES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...]
     (_DIRECTION_OF, r"\2 drives \1"),
     (_NO_NOTICE, "won't yield to "),
     (_THEN_BEING, "being "),
+    (_AS_DOES, r", so \2 \1"),
+    (_KEEP_RIGHT, r", yielding to \1"),
+    (_NOT_UNTIL_THEN, "only then "),
+    (_FIRST_BY, r"is passed by \1 before \2"),
+    (_BRINGS_TURN, _completes),
+    (_ANY_TURNING, r"before \1 \2 to turn"),
+    (_UNTIL_THERE, r"until \2 \1"),
+    (_TAKES_RIGHT, "not yielding to "),
+    (_COMPLETE_STOP, r"comes to a \2"),
+    (_ONCE_STANDING, "Then "),
     (_LIKES_IT, ""),
     (_WITHOUT_CARE, ""),
     (_FOR_THAT_STOP, ""),

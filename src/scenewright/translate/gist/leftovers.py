@@ -17,6 +17,7 @@ def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> 
     _refuse_unmeasured(words, trigger_sentence)
     _refuse_each(words, trigger_sentence)
     _refuse_turns_of_ego(words, trigger_sentence)
+    _refuse_lost_orders(words, deeds, trigger_sentence)
     for at, token in enumerate(words.tokens):
         if at in words.used:
             continue
@@ -84,6 +85,15 @@ def _refuse_turns_of_ego(words: Words, trigger_sentence: int) -> None:
             continue
         clause = next((each for each in words.clauses if at in each.inside), None)
         if clause is not None and clause.sentence > trigger_sentence and not clause.aside:
+            raise words.refuse("it is not clear what this orders", words.span(clause))
+
+
+def _refuse_lost_orders(words: Words, deeds: list[Deed], trigger_sentence: int) -> None:
+    """Refuse "only then does the ego get there", told after the trigger, where it was not understood as an order."""
+    for clause in (each for each in words.clauses if each.sentence >= trigger_sentence and each.link == "then"):
+        own = clause.subject == EGO_ID and clause.named and not words.has(clause.inside, "quantity")
+        moves = words.verbs(clause.inside) & {"pass", "reach", "turn", "complete", "begin", "enter"}
+        if own and moves and not any(deed.clause.start == clause.start for deed in deeds):
             raise words.refuse("it is not clear what this orders", words.span(clause))
 
 

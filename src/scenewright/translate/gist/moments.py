@@ -154,7 +154,16 @@ class MomentReader:
         if asked:
             self._check_one_moment(made)
             return "trigger"
+        if made.kind == "place" and self._is_told_then(clause):
+            return "trigger"
         return "trigger" if self._deed_beside(clause) else "open"
+
+    def _is_told_then(self, clause: Clause) -> bool:
+        """Whether this is told of the moment before: "it brakes when it is 8 m from it; the ego is 70 m away then"."""
+        then = any(self.words.word(at) in _THEN for at in range(clause.start, clause.end + 1))
+        known = [m.clause.sentence for m in self.measured if self.moments.get(m.at) == "trigger" and m.kind == "place"]
+        acts = any(deed.clause is clause for deed in self.deeds)
+        return then and not acts and clause.named and clause.sentence - 1 in known
 
     def _slowed_there(self, made: Measured) -> bool:
         """Whether a speed is reached there: "so that it is down to 3 m/s when it is 9 m before that point"."""

@@ -110,6 +110,11 @@ def _by_measure(words: Words, at: int, clause: Clause) -> int | None:
             continue
         if words.word(back).endswith(" own") or words.word(back - 1).endswith(" own"):
             other = words.named(range(back - 1, max(-1, clause.start - 12), -1))
+            index = words.clauses.index(clause)
+            before = words.clauses[index - 1] if index else clause
+            first = words.named(range(clause.start, back)) is None and clause.link == "when"
+            if first and before.sentence == clause.sentence and not words.has(before.inside, "quantity"):
+                return before.subject  # "the van brakes when its own time to the line is 2 s"
             return None if other is None else 1 - other
         after = words.named(range(back + 1, at))
         return after if after is not None else words.named(range(back - 1, max(-1, back - 3), -1))
@@ -152,7 +157,8 @@ def told_for(words: Words, made: Owned, at: int) -> None:
         return
     for ahead in range(made.at + 1, min(len(words.tokens), max(at, made.at + 1) + 4)):
         preposition = words.tag(ahead, "preposition")
-        if words.has([ahead], "quantity", "end") or words.tag(ahead, "verb") == "wait":
+        waits = words.tag(ahead, "verb") == "wait" and "left_over" not in words.tags(ahead)
+        if words.has([ahead], "quantity", "end") or waits:
             return
         to = preposition == "to" and made.kind == "open"
         if preposition == "for" or to or (preposition == "of" and ahead == made.at + 1):

@@ -121,11 +121,20 @@ def _name_subject(words: Words, clause: Clause) -> None:
     if found is None and not pronoun and not words.verbs(clause.inside) & {*_STRONG, "wait", "let", "yield"}:
         found = next((at for at in names if _stands_after(words, at, "for") and _is_for(words, clause, at)), None)
     if found is None:
-        found = next((at for at in names if _is_turner(words, clause, at)), None)
+        found = next((at for at in names if _is_turner(words, clause, at) or _is_keyed(words, clause, at)), None)
     if found is not None:
         clause.subject, clause.named = words.names.actors[found], True
     elif clause.link in ("before", "after", "until") and "our" in words.tags(clause.start).values():
         clause.subject, clause.named = EGO_ID, True  # "before our turn begins"
+
+
+def _is_keyed(words: Words, clause: Clause, at: int) -> bool:
+    """Whether a key names whose it is: "Position of the ego at time zero: 80 m before the intersection"."""
+    back = at - 1
+    while words.has([back], "determiner", "actor_adjective"):
+        back -= 1
+    keyed = words.word(back) == "of" and words.has([back - 1], "aspect", "key", "measure")
+    return keyed and words.has([clause.end], "colon") and not words.has(clause.inside, "verb", "be")
 
 
 def _is_turner(words: Words, clause: Clause, at: int) -> bool:
@@ -249,6 +258,10 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     unclear = before.both and before.link == "main" and not words.has(before.inside, "measure")
     if unclear and clause.start in own and words.word(clause.start) == "it":
         raise words.refuse("it is not clear which vehicle is meant", words.span(clause))  # "Both turn left; it is 8 m"
+    if clause.link == "colon" and before.named and own and not words.has(before.inside, "verb", "be", "quantity"):
+        return before.subject  # "Hero action: it brakes"
+    if clause.link in _MAIN and acting and "fail" in verbs:
+        return HERO_ID  # "..., thereby failing to yield"
     relative = clause.link == "that" and words.word(clause.start - 1) in ("which", "who", "that", "where", "whose")
     its = before.start in words.names.pronouns and words.has([before.start + 1], "event_noun", "onset_noun")
     if relative and its and before.end <= before.start + 2:

@@ -1,0 +1,88 @@
+"""Sets aside what a text says of its own purpose: "This scenario evaluates how the ego responds to a late brake".
+
+What enters: a description. What leaves: the description without such sentences and tails, every other character in its
+place, and where they stood. One that holds an amount, a moment, a condition or a way is left where it is; one that names
+what cannot be orchestrated is refused.
+"""
+
+from __future__ import annotations
+
+import re
+
+from scenewright.errors import Place, Span, TranslationError
+from scenewright.translate.commentary import denied
+from scenewright.translate.gist.dangers import refuse_dangers
+from scenewright.translate.gist.words import Words
+from scenewright.translate.headlines import untold
+from scenewright.translate.itineraries import Itineraries
+from scenewright.translate.tokens import tokenise
+
+_THIS = (
+    r"(?:(?:this|the|such an?|our) (?:(?:test|driving|traffic|whole|overall|resulting) )?(?:scenario|test(?:"
+    r" case)?|case"
+    r"|situation|interaction|set-?up|configuration|encounter|exercise|arrangement|sequence|constellation)|this|it all)"
+)
+_ADVERBS = r"(?:(?:thus|thereby|therefore|also|specifically|effectively|deliberately|primarily|essentially|really) )*"
+_FINITE = (
+    r"(?:evaluates|assesses|tests|checks|examines|probes|challenges|creates|investigates|stresses|verifies|exercises|explores"
+    r"|highlights|illustrates|captures|represents|poses|produces|provokes|shows how|studies|measures|focuses on"
+    r"|simulates"
+    r"|is (?:designed|meant|intended|supposed|used) to (?:evaluate|assess|test|check|examine|probe|challenge|show|see"
+    r"|verify|provoke|create|reveal|find out)|(?:aims|serves|helps) (?:to|at) \w+)"
+)
+_ING = (
+    r"(?:creating|testing|challenging|evaluating|assessing|probing|producing|provoking|posing|presenting|exercising"
+    r"|stressing|highlighting)"
+)
+_REST = r"(?:(?!\b(?:when|unless|until|once|after|before|while|then|provided|second time|twice)\b|\d)[^.;!?\n]){3,160}?"
+_PURPOSE = re.compile(
+    rf"(?:(?P<sentence>(?:(?<=[.!?]\s)|(?<=\n)|^){_THIS} {_ADVERBS}{_FINITE}\b{_REST}[.!])"
+    rf"|(?P<tail>,? (?:(?:which|and) {_ADVERBS}{_FINITE}|(?<=, ){_ADVERBS}{_ING}|(?:thus|thereby|effectively)"
+    rf" {_ING})\b{_REST})"
+    r"(?=[.!;](?:\s|$)|$))(?=\s|[.!;]|$)",
+    re.IGNORECASE,
+)
+_OF_EGO = re.compile(
+    r"\b(?:how|whether|if|that|for) (?:the |our )?(?:ego|AV|ADS|SUT|VUT|vehicle under test|planner|policy)\b"
+)
+
+
+def take_purposes(text: str, name: str) -> tuple[str, tuple[Span, ...]]:
+    """Return the text without what it says of its purpose, and where that stood.
+
+    Raises
+    ------
+    TranslationError
+        Where it names what cannot be orchestrated.
+    """
+    spans = []
+    for found in _PURPOSE.finditer(text):
+        tokens = tokenise(" " * found.start() + found.group(), name)
+        if any(token.tags.keys() & {"heading", "area", "quantity"} for token in tokens):
+            continue  # it tells where somebody drives
+        refuse_dangers(Words(text, name, tokens))
+        spans.append(Span(*found.span()))
+    for span in spans:
+        text = text[: span.start] + " " * (span.end - span.start) + text[span.end :]
+    return text, tuple(spans)
+
+
+def check_purpose(span: Span, text: str, name: str, routes: Itineraries, deeds: set[str]) -> None:
+    """Refuse a purpose that tells a way which neither vehicle goes, or what the hero does not do.
+
+    Raises
+    ------
+    TranslationError
+        With the word.
+    """
+    tokens = tokenise(" " * span.start + span.excerpt(text), name)
+    word = denied(tokens, [(route.turn, *route.headings) for route in (routes.ego, routes.hero)])
+    word = word or (None if _OF_EGO.search(span.excerpt(text)) else untold(tokens, deeds))
+    if word is not None:
+        raise TranslationError(
+            f"'{word.text}' is part of a purpose, and nothing in the description is like it",
+            place=Place(name, text, word.span),
+            found=" ".join(span.excerpt(text).split()),
+            expected=f"what fits {routes.ego} or {routes.hero}, and what the hero does",
+            fix="say in a sentence of its own who does this",
+        )
