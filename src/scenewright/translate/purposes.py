@@ -1,8 +1,8 @@
 """Sets aside what a text says of its own purpose: "This scenario evaluates how the ego responds to a late brake".
 
 What enters: a description. What leaves: the description without such sentences and tails, every other character in its
-place, and where they stood. One that holds an amount, a moment, a condition or a way is left where it is; one that names
-what cannot be orchestrated is refused.
+place, and where they stood. One that holds an amount, a moment, a condition or a way is left where it is; one that
+names what cannot be orchestrated is refused.
 """
 
 from __future__ import annotations
