@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import re
 
-_KINDS = r"(?:car|vehicle|actor|agent|driver|party|participant|player|unit|road user)"
-_LETTERED = re.compile(rf"\b(?:the )?{_KINDS} ([A-D]|\d|one|two)\b(?! ?(?:m|s|ft|yd|km/h|mph)\b)", re.IGNORECASE)
+_KINDS = r"(?:car|vehicle|actor|agent|driver|party|participant|player|unit|body|object|machine|traffic participant|road user)"
+_LETTERED = re.compile(rf"\b(?:the )?{_KINDS} ([A-HP-TX-Z]|\d|one|two)\b(?! ?(?:m|s|ft|yd|km/h|mph)\b)", re.IGNORECASE)
 _NUMBERED = re.compile(r"\b(?!T\d)([A-Z][A-Za-z]{0,3}[-_]?\d)\b(?!\s*=\s*\d)")
 _EGOS = (
     r"(?:ego(?: vehicle| car)?|subject|(?:car|vehicle|one) (?:under test|being tested)|AV|ADS|SUT|VUT|"

@@ -38,7 +38,7 @@ class EgoMoments:
         """Whether "after the van has passed" follows what the ego does only then."""
         index = self.words.clauses.index(clause)
         before = self.words.clauses[index - 1] if index else clause
-        verbs = self.words.verbs(clause.inside)
+        verbs = self.words.verbs(clause.inside) - ({"turn"} if self.words.has(clause.inside, "event_noun") else set())
         passed = verbs in ({"pass"}, {"complete"}, {"do_so"}) and clause.subject == HERO_ID and clause.named
         begins = self.words.verbs(before.inside) & {"begin", "turn", "pull_out", "pass", "reach", "enter"}
         own = before.subject == EGO_ID and before.sentence == clause.sentence

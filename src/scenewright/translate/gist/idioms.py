@@ -242,8 +242,8 @@ _OF_TRAVEL = re.compile(
     r"\b(seconds?|s) of (?:travel|driving|travelling)(?: time)?(?= (?:separate|lie|remain|are|is)\b)", re.I
 )
 _AFTER_STOP = re.compile(
-    r"(?:(?<=[.!?;]\s)|^)After (?:the|this|that|its) (?:complete |full )?(?:standstill|stop|halt),? "
-    r"(?=it |he |she |the )",
+    r"(?:(?<=[.!?;]\s)|^)After (?:the|this|that|its|an?) (?:complete |full |short |brief )?(?:standstill|stop|halt|rest|pause|wait),? "
+    r"(?=it |he |she |the |[A-Z])",
 )
 _BRAKES_OF = re.compile(r"\bapply (?:the )?brakes of (?=the )", re.IGNORECASE)
 

@@ -148,7 +148,7 @@ class MeasureReader:
     def _lies(self, made: Measured) -> bool:
         """Read "the intersection is 6.8 s away" and "the intersection lies 82 m ahead of it"."""
         before = range(made.clause.start, made.at)
-        away = self.words.tag(made.at + 1, "relation") in ("from", "ahead")
+        away = self.words.tag(made.at + 1, "relation") in ("from", "ahead") or self.words.word(made.at + 1) == "distant"
         if away and made.clause.link == "that" and self._lies_which(made):
             return True
         it = self.words.word(made.clause.start) == "it" and self.words.named(before) is None

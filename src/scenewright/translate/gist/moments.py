@@ -30,6 +30,7 @@ _BOUNDS: dict[str, Bound] = {
 _PAST = ("was", "were", "had")
 _THEN = ("then", "by then", "at the time", "at that time", "at that point", "at this point")
 _FAR = 12
+_START_POINT = re.compile(r"\bstart(?:ing)? (?:point|position|place|spot|location)\b")
 
 
 @dataclass(slots=True)
@@ -204,6 +205,8 @@ class MomentReader:
             return False
         if clause.link == "when":
             return True
+        if _START_POINT.search(self.words.span(clause).excerpt(self.words.text).lower()):
+            return False  # "its start point lies 95 m before it"
         own = [deed for deed in self.deeds if deed.clause is clause and deed.actor == HERO_ID]
         if any(deed.kind in ("stop", "wait") for deed in own):
             return True
@@ -310,7 +313,7 @@ class MomentReader:
             r"\bfirst (?:position|place|distance|spot|location)\b", told
         ):
             return True
-        if "initial" in told:
+        if "initial" in told or _START_POINT.search(told):
             return True
         at = words.clauses.index(clause)
         before = words.clauses[at - 1] if at else None

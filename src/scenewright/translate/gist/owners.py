@@ -59,11 +59,11 @@ def _resumed(words: Words, at: int, clause: Clause) -> str | None:
     index = next((i for i, each in enumerate(words.clauses) if at in each.inside), 0)
     if (
         index < 2
-        or words.clauses[index - 1].link != "that"
+        or (words.clauses[index - 1].link != "that" and clause.link != "then")
         or not words.has([clause.start], "falls", "be", "auxiliary")
     ):
         return None
-    before = words.clauses[index - 2]
+    before = words.clauses[index - 1 if clause.link == "then" else index - 2]
     if before.sentence != clause.sentence or words.has(before.inside, "quantity"):
         return None
     found = (measure_of(words, back) for back in reversed(before.inside))

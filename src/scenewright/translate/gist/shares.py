@@ -66,13 +66,15 @@ def _told_before_colon(words: Words, found: list[Measured]) -> None:
     for clause in words.clauses:
         measure = words.where(clause.inside, "measure", "time", "length")
         measure = measure if measure is not None else words.where(clause.inside, "measures")
+        if measure is None and any(words.word(i).startswith("measured") for i in clause.inside):
+            measure = clause.start  # "Initial positions, measured back from the stop line: ..."
         mark = words.where(clause.inside, "landmark")
         rest = [each for each in words.sentence(clause) if each.start > clause.start]
         if measure is None or mark is None or not rest or rest[0].link != "colon" or clause.end + 1 != rest[0].start:
             continue
         if words.has(clause.inside, "quantity"):
             continue
-        dimension = words.tag(measure, "measure") or words.tag(measure, "measures")
+        dimension = words.tag(measure, "measure") or words.tag(measure, "measures") or "length"
         for made in found:
             own = made.kind == "open" and made.clause.sentence == clause.sentence and made.at > clause.end
             if own and made.quantity is not None and made.quantity.dimension == dimension:

@@ -205,6 +205,9 @@ def _starts_it(words: Words, clause: Clause) -> bool:
     out = any(words.word(at) in ("sets out", "starts out", "set out", "started out") for at in clause.inside[:3])
     if out and earlier and words.has(earlier[-1].inside, "quantity") and not words.has(clause.inside, "quantity"):
         return clause.link == "when"  # "its time to arrival is 8 s when it sets out eastbound"
+    of_ego = len(clause.inside) == 2 and bool(earlier) and earlier[-1].subject == EGO_ID
+    if begins and of_ego and words.word(clause.start) == "it" and words.has(earlier[-1].inside, "quantity"):
+        return clause.link == "when"  # "it has 84 m to go to the intersection when it starts"
     begins = begins or (
         words.word(clause.end - 2) in ("press", "hit", "push") and last in ("play", "start", "go", "run")
     )
