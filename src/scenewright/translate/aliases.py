@@ -8,7 +8,10 @@ from __future__ import annotations
 
 import re
 
-_KINDS = r"(?:car|vehicle|actor|agent|driver|party|participant|player|unit|body|object|machine|traffic participant|road user)"
+_KINDS = (
+    r"(?:car|vehicle|actor|agent|driver|party|participant|player|unit|body|object|machine|traffic participant"
+    r"|road user)"
+)
 _LETTERED = re.compile(rf"\b(?:the )?{_KINDS} ([A-HP-TX-Z]|\d|one|two)\b(?! ?(?:m|s|ft|yd|km/h|mph)\b)", re.IGNORECASE)
 _NUMBERED = re.compile(r"\b(?!T\d)([A-Z][A-Za-z]{0,3}[-_]?\d)\b(?!\s*=\s*\d)")
 _EGOS = (
@@ -17,8 +20,11 @@ _EGOS = (
 )
 # "The exiting vehicle, which is the ego, ...", "Rear car = vehicle under test"
 _CALLED = re.compile(
-    r"\b((?:[a-z]+ing |[a-z]+-turning |rear |front |first |second |lead )(?:vehicle|car))"
-    rf"(?:,? which is (?:the |our )?|,? being (?:the |our )?| ?= ?(?:the |our )?| \((?:the |our )?){_EGOS}\b",
+    r"\b((?:[a-z]+ing |[a-z]+-turning |rear |front |first |second |lead |white |black |red |blue |green |gr[ae]y "
+    r"|silver "
+    r"|yellow |orange |brown |dark |older |newer |smaller |larger )(?:vehicle|car))"
+    rf"(?:,? which is (?:the |our )?|,? being (?:the |our )?| ?= ?(?:the |our )?| \((?:the |our )?|, (?:the |our"
+    rf" )(?=[\w ]+,)){_EGOS}\b",
     re.IGNORECASE,
 )
 # "An interacting vehicle (IV)"
@@ -26,6 +32,8 @@ _BROUGHT_IN = re.compile(
     r"\b((?:[a-z-]+ ){0,3}(?:vehicle|car|agent|actor|user|driver|party|test|target|van|truck)) \((?-i:([A-Z]{2,4}))\)",
     re.I,
 )
+# "Traffic (one car): ..."
+_TRAFFIC = re.compile(r"\btraffic( \((?:one|a single|a|1) (?:other )?(?:car|vehicle|van|truck|lorry)\))", re.IGNORECASE)
 _IS = r"(?:['\u2019]s|,? which is|,? being| is|,|:| =|)\s*\(?(?:the |our )?"
 
 
@@ -36,9 +44,13 @@ def without_aliases(text: str) -> str:
     'AV                      goes west. OV turns left. OV brakes.'
     """
     text = without_short_names(text)
+    if found := _TRAFFIC.search(text):
+        text = text[: found.start(1)] + " " * len(found.group(1)) + text[found.end(1) :]
+        text = re.sub(r"\btraffic\b", "target ", text, flags=re.IGNORECASE)
     for name in {found.group(1).lower() for found in _CALLED.finditer(text)}:
         if name not in ("oncoming vehicle", "oncoming car"):
-            text = re.sub(rf"\b{re.escape(name)}\b", lambda found: _padded("ego", found), text, flags=re.IGNORECASE)
+            alike = rf"\b(?:{re.escape(name)}|{re.escape(name.split()[0])} one)\b"
+            text = re.sub(alike, lambda found: _padded("ego", found), text, flags=re.IGNORECASE)
     if names := letters(text):
         text = _defined(text, _LETTERED, {name: name for name in names})
         text = _LETTERED.sub(lambda found: _padded(names[found.group(1).upper()], found), text)

@@ -49,8 +49,11 @@ _WINDOW = (
     r"|all the way|at the moment)"
 )
 _LIMIT = re.compile(
-    rf"(?P<joint>(?:^|(?<=[.;!?]\s)|(?<=\n)|, and |, | and ))(?P<before>{_WINDOW}\b[^.;!?\n]*?,? )?"
+    rf"(?P<joint>(?:^|(?<=[.;!?]\s)|(?<=\n)|, and |, | and )(?:(?:limit(?:ation)?|constraint|restriction) ?[:=]"
+    rf" ?)?)(?P<before>{_WINDOW}\b[^.;!?\n]*?,? )?"
     rf"(?:(?P<who>{_SUBJECT}) (?:{_NOT} {_ABOVE}|{_BELOW})|(?P<bare>stays|keeps|remains) (?:at or )?(?:below|under)"
+    r"|(?P<braking>(?:please )?(?:never )?brak(?:ing|es)|decelerat(?:ing|es)|with a deceleration(?: of)?)"
+    r" (?:not|no|never) (?:harder|stronger|more|greater|higher) than"
     rf"|(?P<no>at no (?:moment|time|point|instant)) (?P<during>[^.;!?\n]*? )?(?:does|shall|may|must|did|should|is)"
     rf" (?P<whom>{_SUBJECT}) {_ABOVE_BARE}) (?P<amount>{_SPEED}|{_RATE})"
     rf"(?P<after>(?: {_WINDOW}\b[^.;!?\n]*?)?)(?=[.;!?](?:\s|$)|, |$|\n)",
@@ -148,8 +151,8 @@ def take_limits(text: str, name: str) -> tuple[str, tuple[Limit, ...]]:
         amount = Span(*found.span("amount"))
         token = next(each for each in tokenise(" " * amount.start + found["amount"], name) if each.quantity is not None)
         assert token.quantity is not None
-        subject = next((key for key in ("who", "whom", "bare") if found[key]), "bare")
-        who = "it" if subject == "bare" else found[subject].lower()
+        subject = next((key for key in ("who", "whom", "bare") if found[key]), "bare" if found["bare"] else "braking")
+        who = "it" if subject in ("bare", "braking") else found[subject].lower()
         named = not re.match(
             r"(?:its|his|her|it|he|she|the magnitude of its|the (?:speed|velocity|deceleration)$)\b", who
         )

@@ -15,7 +15,8 @@ from functools import lru_cache
 _NO_SLIPS = frozenset(
     ["planner", "planners", "loader", "worries", "singing", "tired", "compete", "competes", "competing", "thinks",
      "contest", "product", "products", "rising", "saying", "drafts", "fro", "possible", "comfortable", "sings",
-     "arises", "arise", "policy", "learner", "reader", "later", "sight", "light", "night", "tern"]
+     "arises", "arise", "policy", "learner", "reader", "later", "sight", "light", "night", "tern",
+     "letter", "letters", "matter", "better", "litter"]
 )  # fmt: skip
 VOWELS = frozenset("aeiouy")
 _LONG = 7

@@ -133,6 +133,50 @@ _PHRASES = tuple(
             r" driveway\b",
             "places beside each other in one lane",
         ),
+        (
+            r"(?:(?<=[.;] )|(?<=, )|(?<=and )|(?<=but )|(?<=, but, )|(?<=and, )|^)should (?:the|it|our|any|an?|they)\b",
+            "what depends on something",
+        ),
+        (
+            r"\b(?:its|the|their|his|her) (?:front|rear|back|front end's|tail) ?(?:bumper|wheels?|axle|end|tyres?"
+            r"|tires?|edge)\b"
+            r"|\b(?:its|his|her|their) (?:nose|bonnet|tail)\b",
+            "a part of a vehicle; places are those of its centre",
+        ),
+        (
+            r"\bbut (?:in|on) the (?:oncoming|opposite|opposing|wrong|other) lane\b|\bfrom the other lane\b"
+            r"|\b(?:in|into|on|onto) the (?:outer|inner|far|fast|slow|overtaking|passing|turning|second|third"
+            r"|left-hand|right-hand|middle|centre|center) lane\b"
+            r"|\bturning bay\b|\blay-?by\b|\bhard shoulder\b|\bcentre line\b|\bcenter line\b|\bpassing place\b",
+            "a lane or a place that the map does not have",
+        ),
+        (
+            r"\bnow on,? now off\b|\b(?:on and off|off and on|by turns|bit by bit|in (?:short )?bursts|in stages"
+            r"|in steps)\b"
+            r"|\bin jerks\b|\bpumping\b",
+            "what happens several times",
+        ),
+        (
+            r"\b(?:weav(?:es?|ing|ed)|wove|zig-?zag\w*|slalom\w*|skid\w*|skating|skates|aquaplan\w*|fishtail\w*|sideways"
+            r"|crosswise|crossways|astride|straddl\w*|squeez(?:es?|ing|ed)|spins? (?:round|around|out))\b",
+            "motion off its path",
+        ),
+        (
+            r"\bthe way (?:the [\w-]+|it|we|they|he|she|[A-Z]{2,}) (?:would|does|did|do|might)\b",
+            "a manner that is not told",
+        ),
+        (
+            r"\bgone from\b|\bceas(?:es|ed|ing)? to (?:exist|be)\b|\bteleport\w*\b",
+            "a vehicle that is not there can do nothing",
+        ),
+        (
+            r"\b(?:radar|lidar|cameras?|sensors?|gps|headlights?|headlamps?|brake lights?|indicators?|mirrors?"
+            r"|computer)"
+            r" (?:is |are |being |has |have )?(?:been )?(?:off|unplugged|broken|covered|disabled|switched off"
+            r"|turned off"
+            r"|out of order|failed|dead|blocked|dirty|down)\b",
+            "what works in a vehicle and what does not",
+        ),
         (r"\broll(?:s|ing|ed)? back\b|\bin reverse\b|\bbacks up\b", "driving backwards"),
     )
 )

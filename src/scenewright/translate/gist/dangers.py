@@ -19,7 +19,8 @@ _DANGERS = frozenset(
 )  # fmt: skip
 _EDGE_OF_TURN = re.compile(r"\b(?:start|beginning|end) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b", re.IGNORECASE)
 _COUNTED = re.compile(
-    r"(?:[A-Za-z]-|#|\[|\b(?:run|test|number|no\.?|case|phase|step|milestone|stage|unit|item|day|version|v)\s?)$",
+    r"(?:[A-Za-z]-|#|\[|\b(?:run|test|number|no\.?|case|phase|step|milestone|stage|unit|item|day|version|v|scene|act|exercise|lesson"
+    r"|drill|variant|example|problem|task|file|claim|chapter|section|scenario|situation|question|part)\s?)$",
     re.IGNORECASE,
 )
 _UNREAL = re.compile(

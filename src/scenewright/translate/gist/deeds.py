@@ -88,7 +88,7 @@ class DeedReader:
             self._in_front(deed)
 
     def _clause(self, clause: Clause) -> None:
-        if self._only_denies(clause):
+        if self._only_denies(clause) or self._calls(clause):
             return
         negation: int | None = None
         wanted = False
@@ -205,6 +205,11 @@ class DeedReader:
         if "landmark" in tags and self.words.tag(at - 1, "verb") == "approach":
             self.words.used.add(at)
 
+    def _calls(self, clause: Clause) -> bool:
+        """Whether a sentence is nothing but "Go." or "Over.", which calls to the one who runs the test."""
+        sentence = self.words.sentence_at(clause.start)
+        return len(sentence) == 1 and self.words.verbs(sentence) <= {"go", "begin"}
+
     def _only_denies(self, clause: Clause) -> bool:
         """Read "The van turns left, the ego won't": who does not do what the other does goes straight."""
         last, index = clause.end - 1, self.words.clauses.index(clause)
@@ -252,7 +257,8 @@ class DeedReader:
     # -- denials ------------------------------------------------------------------------------------------------------
     def _denied(self, verb: str, at: int, clause: Clause) -> bool:
         """Read "does not turn", "does not yield", "without speeding up", "does not set off until"."""
-        if verb == "attitude" or self.words.has(range(at, clause.end), "quantity"):
+        turning = verb in TURNS and "ing" in self.words.tokens[at].forms and self.words.has([at + 1], "quantity")
+        if verb == "attitude" or (self.words.has(range(at, clause.end), "quantity") and not turning):
             return False
         actors = [EGO_ID, HERO_ID] if clause.both else [clause.subject]
         if verb in TURNS and None not in actors:

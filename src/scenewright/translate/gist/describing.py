@@ -116,7 +116,10 @@ class Describing:
         back = at - 1
         while "unknown" in self.words.tags(back) or "direction" in self.words.tags(back):
             back -= 1
-        done = {self.words.word(at + 1), self.words.word(at + 2)} & {
+        ahead = at + 1
+        while self.words.has([ahead], "be", "auxiliary") or self.words.word(ahead) == "to":
+            ahead += 1  # "the taxi's turn is to be over"
+        done = {self.words.word(at + 1), self.words.word(at + 2), self.words.word(ahead)} & {
             "done",
             "finished",
             "behind it",
@@ -128,7 +131,7 @@ class Describing:
         }
         behind = self.words.word(at + 1) == "behind" and self.words.word(at + 2) in ("it", "them", "him", "her")
         has = self.words.word(back - 1) in ("has", "have", "gets", "get", "had", "got", "having", "getting")
-        owned = "possessive" in self.words.tags(back) or (has and "determiner" in self.words.tags(back))
+        owned = self.words.has([back], "possessive", "genitive") or (has and "determiner" in self.words.tags(back))
         return owned and (bool(done) or behind)
 
     def landmark(self, at: int, clause: Clause) -> str | None:

@@ -216,6 +216,23 @@ _ONCE_STANDING = re.compile(
     r"(?=it |he |she |the )",
     re.IGNORECASE,
 )
+_UPON = re.compile(
+    r"\b[Uu]pon (?=(?:the|a|this|that|its?) ?(?:same |main |selfsame )?(?:road|driveway|lane|street)\b|it\b)"
+)
+_MEANS_NOT = re.compile(
+    r", (?:which means|meaning|i\.e\.|that is to say) that (?:it|he|she) does not (yield|give way)\b", re.I
+)
+_WHERE_CROSS = re.compile(
+    rf"(?<=conflict point),? where (?:their|the|the two|both|two) (?:two )?{_WAYS} (?:would |will )?{_MEET}",
+    re.IGNORECASE,
+)
+_NOT_BEFORE_THEN = re.compile(r"\band not before (?:then|that)(?: does (it|he|she))?(?= [a-z]+)", re.IGNORECASE)
+_MANAGES = re.compile(
+    r"\b(It|He|She|The hero) (?:manages|does|achieves|accomplishes) (?:this|that|so|it) by (accelerating|braking)\b",
+    re.I,
+)
+_NO_TURN_IN_MIND = re.compile(r"\bwith no turn in mind\b", re.IGNORECASE)
+_ROLLIN = re.compile(r"\b([A-Za-z]{2,})in['\u2019](?=[\s,.;])")
 _LIKES_IT = re.compile(r",? whether (?:it|he|she|they|we) likes? it or not\b", re.IGNORECASE)
 _ON_THE_CLOCK = re.compile(
     r"\b(?:with|having|showing) ([\d.]+ ?(?:km/h|kph|mph|m/s)) on the (?:clock|dial|speedometer|speedo)\b",
@@ -242,7 +259,8 @@ _OF_TRAVEL = re.compile(
     r"\b(seconds?|s) of (?:travel|driving|travelling)(?: time)?(?= (?:separate|lie|remain|are|is)\b)", re.I
 )
 _AFTER_STOP = re.compile(
-    r"(?:(?<=[.!?;]\s)|^)After (?:the|this|that|its|an?) (?:complete |full |short |brief )?(?:standstill|stop|halt|rest|pause|wait),? "
+    r"(?:(?<=[.!?;]\s)|^)After (?:the|this|that|its|an?) (?:complete |full |short |brief )?(?:standstill|stop"
+    r"|halt|rest|pause|wait),? "
     r"(?=it |he |she |the |[A-Z])",
 )
 _BRAKES_OF = re.compile(r"\bapply (?:the )?brakes of (?=the )", re.IGNORECASE)
@@ -315,6 +333,11 @@ def _completes(found: re.Match[str]) -> str:
     return f"complet{ending} {found.group(2)} turn"
 
 
+def _manages(found: re.Match[str]) -> str:
+    """Return "It manages this by braking" as "It brakes"."""
+    return f"{found.group(1)} {'accelerates' if found.group(2).lower().startswith('acc') else 'brakes'}"
+
+
 def _yields(found: re.Match[str]) -> str:
     """Return "precedence being conceded" as "yielding"."""
     return ", not yielding" if found["denied"] else ", yielding"
@@ -385,6 +408,13 @@ _RULES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...]
     (_TAKES_RIGHT, "not yielding to "),
     (_COMPLETE_STOP, r"comes to a \2"),
     (_ONCE_STANDING, "Then "),
+    (_UPON, "on "),
+    (_ROLLIN, r"\1ing"),
+    (_MEANS_NOT, ", not yielding"),
+    (_WHERE_CROSS, ""),
+    (_NOT_BEFORE_THEN, "and only then"),
+    (_MANAGES, _manages),
+    (_NO_TURN_IN_MIND, "not turning"),
     (_LIKES_IT, ""),
     (_WITHOUT_CARE, ""),
     (_FOR_THAT_STOP, ""),

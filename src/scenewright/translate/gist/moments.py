@@ -30,6 +30,7 @@ _BOUNDS: dict[str, Bound] = {
 _PAST = ("was", "were", "had")
 _THEN = ("then", "by then", "at the time", "at that time", "at that point", "at this point")
 _FAR = 12
+_AT_TRIGGER = re.compile(r"[Ss]peed of [\w ]+ at the trigger ?:|[\w ]+['\u2019]?s? speed at the trigger ?:")
 _START_POINT = re.compile(r"\bstart(?:ing)? (?:point|position|place|spot|location)\b")
 
 
@@ -381,7 +382,11 @@ class MomentReader:
     def _at_that_moment(self, clause: Clause) -> bool:
         """Whether a sentence only tells how all stand: "At the trigger the ego is ..., and the van is ..."."""
         sentence = self.words.sentence(clause)
-        first = sentence[0].link == "moment" and self.words.word(sentence[0].start - 1).endswith("the trigger")
+        first = any(
+            each.link == "moment" and self.words.word(each.start - 1).endswith("the trigger") for each in sentence[:1]
+        )
+        key = self.words.span(sentence[0]).union(self.words.span(sentence[-1])).excerpt(self.words.text)
+        first = first or _AT_TRIGGER.match(key) is not None
         acted = any(d.actor == HERO_ID and d.clause.sentence == clause.sentence and d.kind != "go" for d in self.deeds)
         return first and not acted
 
@@ -435,7 +440,7 @@ class MomentReader:
         """Whether the hero does something in the same sentence: "with the ego 12 m from the line, the van brakes"."""
         kinds = ["brake", "stop", "accelerate"]
         if self.words.word(self.words.sentence(clause)[0].start - 1) == "with":
-            kinds.append("not_yield")  # "With the ego 3 s from it, the van does not yield."
+            kinds += ["not_yield", "keep"]  # "With the ego 3 s from it, the van does not yield."
         own = [deed for deed in self.deeds if deed.actor == HERO_ID and deed.kind in kinds]
         return any(deed.clause.sentence == clause.sentence for deed in own)
 

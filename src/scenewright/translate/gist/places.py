@@ -106,7 +106,9 @@ class PlaceFinder:
     def place_at(self, at: int) -> tuple[str, int, bool] | None:
         """Return the landmark at `at`, the index after it, and whether it is only the mouth of the driveway."""
         first = at
-        while "landmark" not in self.words.tags(at) and self.words.tags(at).keys() & SKIPPED:
+        while "landmark" not in self.words.tags(at) and (
+            self.words.tags(at).keys() & SKIPPED or (self.words.word(at) == "your" and at == first)
+        ):
             at += 1
         line = at + 1 + ("genitive" in self.words.tags(at + 1))
         if self.words.tag(at, "area") == "driveway" and self.words.tag(line, "landmark") == "stop_line":

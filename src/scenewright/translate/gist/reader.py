@@ -26,6 +26,7 @@ from scenewright.translate.gist.names import find_names
 from scenewright.translate.gist.shares import share
 from scenewright.translate.gist.story import StoryTeller
 from scenewright.translate.gist.strangers import (
+    refuse_strange_company,
     refuse_strange_conditions,
     refuse_strange_deeds,
     refuse_strange_places,
@@ -157,6 +158,7 @@ def _read(words: Words, title: tuple[Token, ...], road_map: RoadMap) -> Gist:
     refuse_strange_deeds(words, teller.trigger_sentence)
     refuse_strange_places(words, acts.deeds, teller.trigger_sentence)
     refuse_strange_conditions(words, max(made.at for made in moments.of("trigger")))
+    refuse_strange_company(words, acts.deeds, teller.trigger_sentence)
     refuse_third_parties(words, acts.deeds, teller.trigger_sentence)
     refuse_left_over(words, acts.deeds, teller.trigger_sentence)
     events = [*(said.event for each in facts.wishes.values() for said in each.values()), *teller.events]

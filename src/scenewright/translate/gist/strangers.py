@@ -28,6 +28,8 @@ _MANNERS = (
     "force",
     "duration",
 )
+_MEANWHILE = ("as", "while", "whilst", "and", "but")
+_ACTS = ("brake", "stop", "accelerate", "go", "keep", "pass", "complete", "wait", "not_yield")
 _HARMLESS = ("interest", "matters", "own", "more", "further", "still")
 
 
@@ -69,7 +71,7 @@ def _end_of_condition(words: Words, last: int) -> int:
         if last in clause.inside:
             end = clause.end
         elif clause.start == end + 1 and clause.link == "and" and words.word(end) == "and":
-            acts = clause.named or words.verbs(clause.inside) & DEEDS
+            acts = _is_named(words, clause) or words.verbs(clause.inside) & DEEDS
             end = end if acts else clause.end
     return end
 
@@ -163,17 +165,57 @@ def refuse_strange_places(words: Words, deeds: list[Deed], trigger_sentence: int
     """Refuse "comes to a halt level with the letter box": what a deed is told with has to be known."""
     for deed in deeds:
         clause = deed.clause
-        late = deed.actor == HERO_ID and deed.kind in ("stop", "brake", "pass") and clause.sentence >= trigger_sentence
+        late = deed.actor == HERO_ID and deed.kind in _ACTS and clause.sentence >= trigger_sentence
         if not late or clause.link == "when":
             continue
         for at in range(deed.at + 1, clause.end):
-            beside = words.has([at - 1], "preposition", "determiner", "possessive", "genitive", "unknown")
             free = "unknown" in words.tags(at) and not _is_part_of_name(words, at) and at not in words.names.actors
             plain = (
                 words.word(at).endswith("ly") or words.word(at) in _MANNERS or words.has([at + 1], "noun", "landmark")
             )
+            beside = words.has([at - 1], "preposition", "determiner", "possessive", "genitive", "unknown")
             if free and beside and not plain and words.word(at - 1) not in ("with", "without"):
                 raise words.refuse("it is not known where this is", words.tokens[at].span)
+
+
+def refuse_strange_company(words: Words, deeds: list[Deed], trigger_sentence: int) -> None:
+    """Refuse "brakes, skating over ice" and "as the street lamps go out, it starts": what goes with a deed is known."""
+    acting = {deed.clause.sentence for deed in deeds if deed.actor == HERO_ID and deed.kind in _ACTS}
+    for clause in words.clauses:
+        if clause.aside or clause.sentence not in acting or clause.sentence < trigger_sentence:
+            continue
+        first = clause.start
+        if _is_free(words, first) and words.word(first).endswith("ing") and words.has([first - 1], "comma"):
+            beside = any(deed.clause.end == first - 1 and deed.actor == HERO_ID for deed in deeds)
+            if beside and words.has([first + 1], "preposition", "adverb", "unknown"):
+                message = f"'{words.tokens[first].text}' was not understood: it may be what a vehicle does"
+                raise words.refuse(message, words.tokens[first].span)
+        while words.word(first) in _MEANWHILE:
+            first += 1
+        known = clause.named or any(at in words.names.pronouns for at in clause.inside)
+        told = words.has(clause.inside, "quantity", "landmark") or (known and any(d.clause is clause for d in deeds))
+        article = "determiner" in words.tags(first) or _is_free(words, first)
+        acts = any(
+            words.tokens[at].forms & {"s", "base"} or words.has([at], "be") for at in range(first + 1, clause.end)
+        )
+        strange = any(_is_free(words, at) for at in clause.inside)
+        beside = words.word(first - 1) in _MEANWHILE and article and not _is_named(words, clause)
+        if beside and strange and acts and not told:
+            raise words.refuse("it is not known who this is and what it changes", words.span(clause))
+
+
+def _is_free(words: Words, at: int) -> bool:
+    """Whether a word is not known and no part of a name."""
+    known = words.word(at).endswith("ly") or at in words.names.actors or not words.word(at).isalpha()
+    return "unknown" in words.tags(at) and not known and not _is_part_of_name(words, at)
+
+
+def _is_named(words: Words, clause: Clause) -> bool:
+    """Whether a vehicle is the subject of a clause, and nothing that belongs to it."""
+    at = clause.start
+    while words.has([at], "determiner", "actor_adjective", "heading") and at not in words.names.actors:
+        at += 1
+    return at in words.names.actors and "genitive" not in words.tags(at + 1)
 
 
 def refuse_strange_deeds(words: Words, trigger_sentence: int) -> None:

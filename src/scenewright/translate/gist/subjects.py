@@ -212,7 +212,7 @@ def _starts_it(words: Words, clause: Clause) -> bool:
         words.word(clause.end - 2) in ("press", "hit", "push") and last in ("play", "start", "go", "run")
     )
     vehicle = words.has(clause.inside, "hero", "noun") or any("ego" in words.word(at) for at in clause.inside)
-    told = words.has(clause.inside, "quantity", "pronoun", "possessive")
+    told = words.has(clause.inside, "quantity", "pronoun", "possessive", "event_noun", "onset_noun")
     return clause.link == "when" and begins and len(clause.inside) <= 5 and not vehicle and not told
 
 
@@ -296,7 +296,11 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
             return named  # "He lets our car go by, and after it has passed ..."
     if (other := _other_one(words, clause, earlier)) is not None:
         return other
-    first_of_two = bool(earlier) and earlier[0].subject == HERO_ID and earlier[0].link == "main"
+    last_one = [each for each in words.clauses[:index] if each.sentence == clause.sentence - 1][:1]
+    brought = [each for each in last_one if each.link == "main" and each.named and each.subject == HERO_ID]
+    first_of_two = bool(brought and not earlier and clause.start in own and verbs & _STRONG) or (
+        bool(earlier) and earlier[0].subject == HERO_ID and earlier[0].link == "main"
+    )
     hero_here = acting or first_of_two or any(each.named and each.subject == HERO_ID for each in earlier)
     participle = "ing" in words.tokens[clause.start].forms and clause.link in ("before", "after")
     if participle and hero_here and (verbs & _STRONG or words.has(clause.inside, "stop_noun")):
