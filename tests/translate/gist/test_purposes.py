@@ -106,10 +106,10 @@ def test_who_drives_on_does_not_speed_up(text: str, expected: str) -> None:
         ("The ego nears the stop line of the driveway, from which it is initially 25 m away, and turns right. A car "
          "drives west, straight on. When the ego is 8 m from the stop line and the car 30 m from the conflict point, "
          "the car brakes to a stop 6 m before the conflict point.", "A0x(t0) == stop_line - 25"),
-        (ROUTES + "As soon as thirty metres remain to the conflict point for the ego and twenty metres for the car, the car "
-         "brakes to a stop 6 m before the conflict point.", "A1x(t1) == conflict_point - 20"),
-        (ROUTES + "Position of the ego at time zero: 80 m before the intersection. " + WHEN + "the car brakes to a stop "
-         "6 m before the conflict point.", "A0x(t0) == intersection - 80"),
+        (ROUTES + "As soon as thirty metres remain to the conflict point for the ego and twenty metres for the car, "
+         "the car brakes to a stop 6 m before the conflict point.", "A1x(t1) == conflict_point - 20"),
+        (ROUTES + "Position of the ego at time zero: 80 m before the intersection. " + WHEN + "the car brakes to a "
+         "stop 6 m before the conflict point.", "A0x(t0) == intersection - 80"),
         ("An oncoming car must give way to the ego, a car going straight along the road to the west. The oncoming car "
          "turns left into the driveway. When the ego is 30 m and the oncoming car 20 m from the conflict point, the "
          "oncoming car brakes to a stop 6 m before the conflict point.", "A0x(t1) == conflict_point - 30"),

@@ -132,8 +132,8 @@ class DeedReader:
             until = self.words.tag(at + 1, "link") == "until" or self.words.word(at + 1) in ("until", "up to", "to")
             if verb == "go" and kept and (until or self.words.has([at - 1], "be")):
                 continue  # "braking is continued until it is at rest"
-            stopped = [each for each in self.deeds[-1:] if each.kind == "stop"]
-            if verb == "reach" and clause.link == "that" and stopped and stopped[0].clause.sentence == clause.sentence:
+            stop = [each for each in self.deeds[-1:] if each.kind == "stop"]
+            if verb == "reach" and clause.link == "that" and stop and stop[0].clause.sentence == clause.sentence:
                 continue  # "brakes to a complete stop, which it reaches just before the stop line"
             wholly = self.words.word(at) == "complete" and self.words.tag(at - 1, "verb") == "stop"
             if verb is None or "heading" in tags or wholly or self.words.word(at).startswith(("finds ", "found ")):
