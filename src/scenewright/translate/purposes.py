@@ -1,8 +1,8 @@
 """Sets aside what a text says of its own purpose: "This scenario evaluates how the ego responds to a late brake".
 
 What enters: a description. What leaves: the description without such sentences and tails, every other character in its
-place, and where they stood. One that holds an amount, a moment, a condition or a way is left where it is; one that
-names what cannot be orchestrated is refused.
+place, and where they stood. One that holds an amount, a moment, a condition or a way is left where it is, and so is
+one that names what cannot be orchestrated.
 """
 
 from __future__ import annotations
@@ -35,6 +35,9 @@ _ING = (
     r"|stressing|highlighting)"
 )
 _REST = r"(?:(?!\b(?:when|unless|until|once|after|before|while|then|provided|second time|twice)\b|\d)[^.;!?\n]){3,160}?"
+_CLOSING = r"(?:(?!\b(?:unless|provided|only if|second time|twice|must|shall)\b|\d)[^.;!?\n]){3,200}"
+# What stands last may tell again what it is all about: "The situation represents a driver who hesitates, then turns".
+_LAST = re.compile(rf"(?:(?<=[.!?]\s)|(?<=\n)){_THIS} {_ADVERBS}{_FINITE}\b{_CLOSING}[.!]\s*\Z", re.IGNORECASE)
 _PURPOSE = re.compile(
     rf"(?:(?P<sentence>(?:(?<=[.!?]\s)|(?<=\n)|^){_THIS} {_ADVERBS}{_FINITE}\b{_REST}[.!])"
     rf"|(?P<tail>,? (?:(?:which|and) {_ADVERBS}{_FINITE}|(?<=, ){_ADVERBS}{_ING}|(?:thus|thereby|effectively)"
@@ -48,19 +51,18 @@ _OF_EGO = re.compile(
 
 
 def take_purposes(text: str, name: str) -> tuple[str, tuple[Span, ...]]:
-    """Return the text without what it says of its purpose, and where that stood.
-
-    Raises
-    ------
-    TranslationError
-        Where it names what cannot be orchestrated.
-    """
+    """Return the text without what it says of its purpose, and where that stood."""
+    last = _LAST.search(text)
     spans = []
-    for found in _PURPOSE.finditer(text):
+    for found in (*_PURPOSE.finditer(text[: last.start()] if last else text), *([last] if last else [])):
         tokens = tokenise(" " * found.start() + found.group(), name)
-        if any(token.tags.keys() & {"heading", "area", "quantity"} for token in tokens):
+        told = {"quantity"} if found is last else {"heading", "area", "quantity"}
+        if any(token.tags.keys() & told for token in tokens):
             continue  # it tells where somebody drives
-        refuse_dangers(Words(text, name, tokens))
+        try:
+            refuse_dangers(Words(text, name, [token for token in tokens if token.text.lower() != "traffic"]))
+        except TranslationError:
+            continue  # whoever reads the rest will say what is wrong with it
         spans.append(Span(*found.span()))
     for span in spans:
         text = text[: span.start] + " " * (span.end - span.start) + text[span.end :]

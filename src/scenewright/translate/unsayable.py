@@ -177,6 +177,32 @@ _PHRASES = tuple(
             r"|out of order|failed|dead|blocked|dirty|down)\b",
             "what works in a vehicle and what does not",
         ),
+        (
+            r"\bcut(?:s|ting)? (?:off )?(?:the|a|that) (?:corner|curve|bend)\b|\bslew(?:s|ed|ing)?\b|\bwheels"
+            r" (?:already )?turned\b"
+            r"|\bacross both lanes\b",
+            "motion off its path",
+        ),
+        (
+            r"\btow(?:s|ed|ing)? (?:rope|bar|line|another|a (?:car|van|vehicle))\b|\bon tow\b"
+            r"|\b(?:driver|passengers?|rider)(?: having)? (?:gets?|got|getting|climb\w*|step\w*|jump\w*) (?:out"
+            r"|off|down)\b",
+            "what somebody else does",
+        ),
+        (
+            r"[,;] waved (?:on|through|across|in|past) by\b|\b(?:hooted|honked|beeped|shouted|waved|flashed"
+            r"|whistled) at\b",
+            "a gesture",
+        ),
+        (r"\band again on\b|\bon (?:its|the) way back\b|\bthere and back\b", "what happens several times"),
+        (r"\bbrakes (?:fade|fail|lock|give out|overheat|squeal)\w*\b", "what works in a vehicle and what does not"),
+        (
+            r"\b(?:has|have|had)(?: not|n['\u2019]t)? (?:yet )?(?:noticed|seen|spotted|recogni[sz]ed|detected"
+            r"|reali[sz]ed) "
+            r"(?:it|him|her|us|the|that)\b",
+            "what somebody perceives",
+        ),
+        (r"\bas (?:if|though) to (?:turn|go|enter)\b", "what only seems so"),
         (r"\broll(?:s|ing|ed)? back\b|\bin reverse\b|\bbacks up\b", "driving backwards"),
     )
 )

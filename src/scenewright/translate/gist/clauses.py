@@ -223,6 +223,12 @@ def _link(words: Words, at: int) -> str | None:
         return None  # "the van, 25 m from it at the time, brakes", "yields in that it brakes"
     if word == "after" and words.word(at + 1) in ("starting", "beginning") and words.has([at + 2], "quantity"):
         return "and"  # "passes eastbound after starting 88 m from the intersection"
+    way = (
+        words.tag(at + 1, "verb") in ("drive", "come", "go")
+        and "ing" in words.tokens[min(at + 1, len(words.tokens) - 1)].forms
+    )
+    if word == "after" and way and words.has(range(at + 2, at + 5), "heading", "area"):
+        return "and"  # "turns left into it after driving east"
     if word == "after" and "be" in words.tags(at - 1) and "determiner" in following:
         return None  # "both are after the same driveway"
     left = "left_over" in words.tags(at - 1) and words.has(range(at - 4, at), "quantity")

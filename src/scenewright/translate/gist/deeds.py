@@ -129,6 +129,7 @@ class DeedReader:
             if verb in ("pass", "brake") and self.words.word(at + 1) in _NOUNS_AFTER:
                 continue  # "the cross traffic", "the brake reaction time"
             kept = self.words.word(at) in ("continued", "sustained", "maintained", "kept up")
+            kept = kept or self.words.has(range(clause.start, at), "event_noun")  # "the braking continues until"
             until = self.words.tag(at + 1, "link") == "until" or self.words.word(at + 1) in ("until", "up to", "to")
             if verb == "go" and kept and (until or self.words.has([at - 1], "be")):
                 continue  # "braking is continued until it is at rest"

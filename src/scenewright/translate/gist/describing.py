@@ -51,7 +51,8 @@ class Describing:
             return True  # "the ego has to cross the path of a lorry"
         by = verb == "pass" and words.tag(at + 1, "preposition") in ("by", "on")
         by = by or (verb == "pass" and words.has([at + 1, at + 2], "landmark") and self._is_crossed(at))
-        by = by or (verb == "pass" and "heading" in words.tags(at + 1))  # "is passing through eastbound"
+        beside = at + 1 + words.has([at + 1], "comma")
+        by = by or (verb == "pass" and "heading" in words.tags(beside))  # "is passing through eastbound"
         if (by or words.word(at).endswith(" by")) and clause.subject == EGO_ID:
             return True  # "the ego, meanwhile, is passing by on the road"
         if verb in ("yield", "not_yield") and "ing" in token.forms and words.has([at - 1], "determiner"):

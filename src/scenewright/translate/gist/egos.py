@@ -32,11 +32,22 @@ def is_predicate(tokens: list[Token], at: int) -> bool:
     if tokens[back].text.lower() == "as":
         return True  # "with the VUT as the rear one"
     closes = at + 1 >= len(tokens) or bool(tokens[at + 1].tags.keys() & {"comma", "end", "link"})
-    closes = closes or ("ing" in tokens[at + 1].forms and _is_yielded_to(tokens, back - 1))
+    going = at + 1 < len(tokens) and "ing" in tokens[at + 1].forms
+    closes = closes or (going and (_is_yielded_to(tokens, back - 1) or _ends_without_verb(tokens, at + 2)))
     placed = back > 1 and "relation" in tokens[back - 2].tags  # "Ahead of the ego is a car"
     if placed or any(each.tags.get("determiner") == "another" for each in tokens[back:at]):
         return False
     return "be" in tokens[back].tags or ("comma" in tokens[back].tags and back < at - 1 and closes)
+
+
+def _ends_without_verb(tokens: list[Token], at: int) -> bool:
+    """Whether nothing finite follows in a sentence: "8 s for the ego, a westbound car staying on the road."."""
+    for token in tokens[at:]:
+        if "end" in token.tags:
+            return True
+        if token.tags.keys() & {"be", "auxiliary"} or ("verb" in token.tags and token.forms & {"s", "ed"}):
+            return False
+    return True
 
 
 def _is_yielded_to(tokens: list[Token], at: int) -> bool:
@@ -94,7 +105,13 @@ def is_our_own(tokens: list[Token], at: int) -> bool:
     """Whether "our" stands for the vehicle: "our being 4 s from it", "our distance to it"."""
     if "our" not in tokens[at].tags.values() or at + 1 >= len(tokens):
         return False
-    return bool(tokens[at + 1].tags.keys() & {"measure", "measures"}) or tokens[at + 1].text.lower() == "being"
+    following = tokens[at + 1].text.lower()
+    return bool(tokens[at + 1].tags.keys() & {"measure", "measures"}) or following in (
+        "being",
+        "run",
+        "journey",
+        "trip",
+    )
 
 
 def kinds_of_ego(tokens: list[Token]) -> set[str]:

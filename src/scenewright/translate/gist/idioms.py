@@ -12,6 +12,7 @@ from collections.abc import Callable
 from functools import partial
 
 from scenewright.translate.aliases import without_aliases
+from scenewright.translate.gist.phrases import PHRASES
 
 _WAYS = r"(?:paths|ways|lanes|routes|tracks|trajectories|courses)"
 _MEET = r"(?:cross|meet|merge|intersect|join|conflict|(?:come|run) together)"
@@ -163,107 +164,10 @@ _AFTER_THIS = re.compile(
 )
 _UNDERSCORE = re.compile(r"\b(ego|hero|npc|target|other|opponent|lead)_(vehicle|car|actor|agent)\b", re.IGNORECASE)
 _THAT_IS = re.compile(r", that is,")
-# "East is the direction of the ego"
-_DIRECTION_OF = re.compile(
-    r"\b((?:North|East|South|West)(?:ward|bound)?) is the (?:direction|heading|course) of (the [\w-]+|[A-Z][\w-]*)",
-    re.I,
-)
-_NO_NOTICE = re.compile(
-    r"\b(?:takes? no (?:notice|account|heed) of|pays? no (?:attention|heed|regard) to|shows? no regard for) "
-    r"(?=the |it\b|us\b|me\b|[A-Z])",
-    re.IGNORECASE,
-)
-_WITHOUT_CARE = re.compile(
-    r"(?<=\w) without (?:looking|hesitat(?:ion|ing)|(?:any )?warning|thinking|further ado|a second thought|delay)"
-    r"(?=[,.;]| and\b| but\b|$)",
-    re.IGNORECASE,
-)
-_FOR_THAT_STOP = re.compile(r"(?<=ing) for (?:that|this|the|its) (?:stop|halt|standstill)(?= )", re.IGNORECASE)
-_DENIES = re.compile(
-    r"\b(?:denies|refuses|denied|refused) (the [\w-]+(?: vehicle| car)?|us|it|[A-Z]{2,}) (?:the |its )?"
-    r"(?:right of way|right-of-way|priority|precedence)\b",
-    re.IGNORECASE,
-)
-_THEN_BEING = re.compile(r"\bat (?:that|this) (?:moment|time|instant|point) being (?=[\d.]+ )", re.IGNORECASE)
-_AS_DOES = re.compile(
-    r",? as (the ego|the [\w-]+(?: car| vehicle)?|ours|we) (does|do)(?= too\b|[.,;]|$)", re.IGNORECASE
-)
-_KEEP_RIGHT = re.compile(
-    r",? so (?:that )?(we|the ego|the (?:vehicle|car) under test|the AV|the SUT) (?:keeps?|has|have|get to keep"
-    r"|retains?) "
-    r"(?:the |its |our )?(?:right of way|priority|precedence)(?=[.,;]|$)",
-    re.IGNORECASE,
-)
-_NOT_UNTIL_THEN = re.compile(r"\bnot until (?:then|that(?: moment)?) (?=do(?:es)? |will |shall )", re.IGNORECASE)
-_FIRST_BY = re.compile(
-    r"\b(?:is|are|being) (?:passed|reached|crossed) first by (the [\w-]+|[A-Z]+),? and (?:only )?(?:then|afterwards"
-    r"|after that|later|second)(?: on)? by (the [\w-]+|[A-Z]+)\b",
-    re.IGNORECASE,
-)
-_BRINGS_TURN = re.compile(r"\bbring(s|ing)? (its|his|her|the) turn to (?:an end|completion|its end)\b", re.IGNORECASE)
-_ANY_TURNING = re.compile(r"\bbefore (?:any|the) turning of (the [\w-]+|[A-Z]+) (begins|starts)\b", re.IGNORECASE)
-# "until, just before the stop line, it is at rest"
-_UNTIL_THERE = re.compile(r"\buntil, ([^,.;]{3,50}), ((?:it|he|she|the [\w-]+) [^,.;]+)(?=[.,;])", re.IGNORECASE)
-_TAKES_RIGHT = re.compile(
-    r"\btaking (?:the |its )?(?:right of way|priority|precedence) (?:away )?from (?=the |it\b|us\b|[A-Z])",
-    re.IGNORECASE,
-)
-_COMPLETE_STOP = re.compile(
-    r"\b(?:arriv|com|get)(?:es|ing|s|e|ed)? at (?:the|a|its) (complete |full )?(stop|halt|standstill)\b(?! line)", re.I
-)
-_ONCE_STANDING = re.compile(
-    r"(?:(?<=[.!?;]\s)|(?<=, )|^)Once (?:stationary|stopped|at rest|at a standstill|halted|standing(?: still)?), ?"
-    r"(?=it |he |she |the )",
-    re.IGNORECASE,
-)
-_UPON = re.compile(
-    r"\b[Uu]pon (?=(?:the|a|this|that|its?) ?(?:same |main |selfsame )?(?:road|driveway|lane|street)\b|it\b)"
-)
-_MEANS_NOT = re.compile(
-    r", (?:which means|meaning|i\.e\.|that is to say) that (?:it|he|she) does not (yield|give way)\b", re.I
-)
 _WHERE_CROSS = re.compile(
     rf"(?<=conflict point),? where (?:their|the|the two|both|two) (?:two )?{_WAYS} (?:would |will )?{_MEET}",
     re.IGNORECASE,
 )
-_NOT_BEFORE_THEN = re.compile(r"\band not before (?:then|that)(?: does (it|he|she))?(?= [a-z]+)", re.IGNORECASE)
-_MANAGES = re.compile(
-    r"\b(It|He|She|The hero) (?:manages|does|achieves|accomplishes) (?:this|that|so|it) by (accelerating|braking)\b",
-    re.I,
-)
-_NO_TURN_IN_MIND = re.compile(r"\bwith no turn in mind\b", re.IGNORECASE)
-_ROLLIN = re.compile(r"\b([A-Za-z]{2,})in['\u2019](?=[\s,.;])")
-_LIKES_IT = re.compile(r",? whether (?:it|he|she|they|we) likes? it or not\b", re.IGNORECASE)
-_ON_THE_CLOCK = re.compile(
-    r"\b(?:with|having|showing) ([\d.]+ ?(?:km/h|kph|mph|m/s)) on the (?:clock|dial|speedometer|speedo)\b",
-    re.IGNORECASE,
-)
-# "On the VUT being 22 m from it"
-_ON_BEING = re.compile(r"\b[Oo]n (the [\w-]+|[A-Z]+) being (?=[\d.]+ |\w+_(?:m|s)\b)")
-_BY_WHICH = re.compile(r", by which (?=(?:the [\w-]+|[A-Z]+) is brought\b)")
-# "precedence being conceded to the VUT", "right of way not being given"
-_CONCEDED = re.compile(
-    r", (?:and )?(?:thus |thereby )?(?:(?:the )?(?:precedence|priority|(?:right of )?way))(?: thereby| thus)?"
-    r"(?P<denied> not)?(?: thereby| thus)? (?:thereby |thus )?being (?:conceded|given|granted|yielded|ceded|accorded)"
-    r"(?: to (?:the [\w-]+|[A-Z]+|it|us))?(?= by\b|[,.;]|$)",
-    re.IGNORECASE,
-)
-_IN_MIND = re.compile(r"\bwith (a (?:left|right) turn\b[^,.;]*?) in mind\b", re.IGNORECASE)
-# "The order at the conflict point is NPC first, AV second"
-_ORDER_IS = re.compile(
-    r"\bThe order at the conflict point (?:is|shall be|must be)(?::| that)? ((?:the )?[\w-]+) first(?:,| and)(?: and)?"
-    r"(?: then)? ((?:the )?[\w-]+)(?: second| next| last| after it)?(?=[.,;]|$)",
-    re.IGNORECASE,
-)
-_OF_TRAVEL = re.compile(
-    r"\b(seconds?|s) of (?:travel|driving|travelling)(?: time)?(?= (?:separate|lie|remain|are|is)\b)", re.I
-)
-_AFTER_STOP = re.compile(
-    r"(?:(?<=[.!?;]\s)|^)After (?:the|this|that|its|an?) (?:complete |full |short |brief )?(?:standstill|stop"
-    r"|halt|rest|pause|wait),? "
-    r"(?=it |he |she |the |[A-Z])",
-)
-_BRAKES_OF = re.compile(r"\bapply (?:the )?brakes of (?=the )", re.IGNORECASE)
 
 
 def without_idioms(text: str) -> str:
@@ -327,22 +231,6 @@ def _alone(found: re.Match[str]) -> str:
     return found.group() if _SECOND_ONE.search(found.string) else found.group(1)
 
 
-def _completes(found: re.Match[str]) -> str:
-    """Return "brings its turn to an end" as "completes its turn"."""
-    ending = {"": "e", "s": "es"}.get((found.group(1) or "").lower(), "ing")
-    return f"complet{ending} {found.group(2)} turn"
-
-
-def _manages(found: re.Match[str]) -> str:
-    """Return "It manages this by braking" as "It brakes"."""
-    return f"{found.group(1)} {'accelerates' if found.group(2).lower().startswith('acc') else 'brakes'}"
-
-
-def _yields(found: re.Match[str]) -> str:
-    """Return "precedence being conceded" as "yielding"."""
-    return ", not yielding" if found["denied"] else ", yielding"
-
-
 def _stop(found: re.Match[str]) -> str:
     """Return "to 0 km/h" as a stop, in words that fit in its place."""
     return "to a stop" if len(found.group()) > 8 else "to zero"
@@ -395,39 +283,8 @@ _RULES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...]
     (_IS_IT, "If "),
     (_AFTER_THIS, r"\1 \3"),
     (_UNDERSCORE, r"\1 \2"),
-    (_DIRECTION_OF, r"\2 drives \1"),
-    (_NO_NOTICE, "won't yield to "),
-    (_THEN_BEING, "being "),
-    (_AS_DOES, r", so \2 \1"),
-    (_KEEP_RIGHT, r", yielding to \1"),
-    (_NOT_UNTIL_THEN, "only then "),
-    (_FIRST_BY, r"is passed by \1 before \2"),
-    (_BRINGS_TURN, _completes),
-    (_ANY_TURNING, r"before \1 \2 to turn"),
-    (_UNTIL_THERE, r"until \2 \1"),
-    (_TAKES_RIGHT, "not yielding to "),
-    (_COMPLETE_STOP, r"comes to a \2"),
-    (_ONCE_STANDING, "Then "),
-    (_UPON, "on "),
-    (_ROLLIN, r"\1ing"),
-    (_MEANS_NOT, ", not yielding"),
+    *PHRASES,
     (_WHERE_CROSS, ""),
-    (_NOT_BEFORE_THEN, "and only then"),
-    (_MANAGES, _manages),
-    (_NO_TURN_IN_MIND, "not turning"),
-    (_LIKES_IT, ""),
-    (_WITHOUT_CARE, ""),
-    (_FOR_THAT_STOP, ""),
-    (_DENIES, r"won't yield to \1"),
-    (_ON_THE_CLOCK, r"at \1"),
-    (_ON_BEING, r"When \1 is "),
-    (_BY_WHICH, ", and "),
-    (_CONCEDED, _yields),
-    (_IN_MIND, r"making \1"),
-    (_ORDER_IS, r"\1 passes the conflict point before \2 does"),
-    (_OF_TRAVEL, r"\1"),
-    (_AFTER_STOP, "Then "),
-    (_BRAKES_OF, "brake "),
     (_CROSSING_OF, "conflict point"),
     (_CROSSING, "conflict point"),
 )

@@ -153,7 +153,12 @@ def _asks_otherwise(words: Words, at: int) -> bool:
 def _repeats(words: Words, clause: Clause, deeds: list[Deed], trigger_sentence: int) -> bool:
     """Whether "until it has come to a stop" only repeats what the hero does, or a way is told: "before it turns"."""
     own = [deed for deed in deeds if deed.clause is clause]
-    again = bool(own) and all(deed.kind in ("stop", "brake", "wait") and deed.actor == HERO_ID for deed in own)
+    strange = any("unknown" in words.tags(at) and not words.word(at).endswith("ly") for at in clause.inside)
+    again = (
+        bool(own)
+        and not strange
+        and all(deed.kind in ("stop", "brake", "wait") and deed.actor == HERO_ID for deed in own)
+    )
     early = clause.link == "before" and clause.subject == HERO_ID and clause.sentence < trigger_sentence
     way = early and not words.has(clause.inside, "quantity") and not words.verbs(clause.inside) & {"pass", "complete"}
     return way or (clause.link in ("until", "after") and again)

@@ -213,7 +213,7 @@ class MeasureReader:
         """Read "9 m separate the ego from the van" and "28 m separate the ego from the conflict point"."""
         made.kind = "gap"
         self.words.used |= set(range(made.at, at + 1))
-        name = self.words.skip(at + 1, _BESIDE)
+        name = self.words.skip(at + 1 + (self.words.word(at + 1) in ("the second", "the first")), _BESIDE)
         relation = self.places.relation_at(name + 1) if name in self.words.names.actors else None
         known = name in self.words.names.actors or name in self.words.names.pronouns
         pair = known and self.words.word(name + 1) == "and"

@@ -133,6 +133,8 @@ class MomentReader:
             return "start"  # "The AV, for its part, follows the road at 25 mph": told after all else
         if made.kind == "speed" and clause.link == "that" and ways and not made.target:
             return "start"  # "when the ego, which goes straight on at 14 m/s, is 4 s from it"
+        if made.kind == "speed" and not made.target and self._told_with_way(made):
+            return "start"
         if made.kind == "speed":
             told = self._is_asked(clause) or self._deed_beside(clause)
             if told and not made.target and not self._after_trigger(clause) and not self._on_its_way(made):
@@ -389,6 +391,14 @@ class MomentReader:
         first = first or _AT_TRIGGER.match(key) is not None
         acted = any(d.actor == HERO_ID and d.clause.sentence == clause.sentence and d.kind != "go" for d in self.deeds)
         return first and not acted
+
+    def _told_with_way(self, made: Measured) -> bool:
+        """Whether a speed is told with a heading, as part of the way: "a van, westbound on the road at 25 mph,"."""
+        words, clause = self.words, made.clause
+        near = range(max(clause.start, made.at - 6), made.at)
+        acts = words.verbs(range(clause.start, made.at)) & {"brake", "accelerate", "stop", "pass", "complete", "wait"}
+        plain = words.word(made.at - 1) in ("at", "with") and clause.link != "when"
+        return plain and words.has(near, "heading") and not acts and not words.has(near, "quantity", "measure")
 
     def _on_its_way(self, made: Measured) -> bool:
         """Whether a speed is told with the way, before a moment: "comes down the road at 5 m/s, and brakes when"."""

@@ -117,6 +117,11 @@ def _by_measure(words: Words, at: int, clause: Clause) -> int | None:
                 return before.subject  # "the van brakes when its own time to the line is 2 s"
             return None if other is None else 1 - other
         after = words.named(range(back + 1, at))
+        its = words.word(back - 1) in ("its", "his", "her") and words.named(range(clause.start, at)) is None
+        if its and words.named(range(at, clause.end)) is not None:
+            index = words.clauses.index(clause)
+            before = words.clauses[index - 1] if index else clause
+            return before.subject if before.sentence == clause.sentence else None
         return after if after is not None else words.named(range(back - 1, max(-1, back - 3), -1))
     return None
 

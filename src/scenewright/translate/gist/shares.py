@@ -101,7 +101,8 @@ def _told_in_front(words: Words, found: list[Measured]) -> None:
 def _same_place(words: Words, found: list[Measured]) -> None:
     """Let one place be that of two amounts next to each other, the one before it or the one after."""
     for first, second in pairwise(found):
-        acts = words.verbs(range(first.at, second.at)) & {"brake", "stop", "accelerate", "pass", "complete", "wait"}
+        between = [at for at in range(first.at, second.at) if "left_over" not in words.tags(at)]
+        acts = words.verbs(between) & {"brake", "stop", "accelerate", "pass", "complete", "wait"}
         shared = first.kind == "open" and second.kind == "place" and _alike(first, second)
         if shared and not acts and _is_short(words, first):
             _take_place(first, second)

@@ -203,6 +203,12 @@ class StoryTeller:
         kinds = {deed.kind for deed in told}
         slows = [deed for deed in told if deed.kind in _SLOWS]
         goes = [deed for deed in told if deed.kind in _GOES]
+        first = next((deed.at for deed in told if deed.kind in ("stop", "wait")), -1)
+        between = [
+            d for d in told if d.kind == "go" and slows and slows[0].at < d.at < first and slows[0].kind == "brake"
+        ]
+        if between:
+            raise self.words.refuse("the hero is said to drive on before it has stopped", between[0].span)
         waits = next((deed for deed in told if deed.kind == "wait"), None)
         if waits is not None and not slows:
             raise self.words.refuse("it is not said how the hero comes to stand here", waits.span, "brakes to a stop")
@@ -302,7 +308,9 @@ class StoryTeller:
         kind: Literal["go", "turn", "acc"] = "go" if keeps else "acc"
         kind = "turn" if self._turns_whole(self.deeds) else kind
         phase = Phase(kind, [self._event((goes or denies)[0])])
-        goal = next((deed for deed in reversed(goes) if deed.kind in ("pass", "complete")), None)
+        told = [deed for deed in goes if deed.kind in ("pass", "complete")]
+        explicit = [deed for deed in told if deed.kind == "complete" or deed.landmark is not None]
+        goal = next(reversed(explicit or told), None)  # "turns in front of traffic" tells no place of its own
         if goal is not None:
             phase.goal = "turn_end" if goal.kind == "complete" else goal.landmark or "conflict_point"
             phase.goal_event = self._event(goal)

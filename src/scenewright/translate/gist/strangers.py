@@ -185,9 +185,12 @@ def refuse_strange_company(words: Words, deeds: list[Deed], trigger_sentence: in
         if clause.aside or clause.sentence not in acting or clause.sentence < trigger_sentence:
             continue
         first = clause.start
-        if _is_free(words, first) and words.word(first).endswith("ing") and words.has([first - 1], "comma"):
+        parted = words.has([first - 1], "comma") or words.word(first - 1) == ";"
+        parted = parted and words.word(first - 1) != "("
+        if _is_free(words, first) and words.word(first).endswith(("ing", "ed", "wn")) and parted:
             beside = any(deed.clause.end == first - 1 and deed.actor == HERO_ID for deed in deeds)
-            if beside and words.has([first + 1], "preposition", "adverb", "unknown"):
+            beside = beside or not words.word(first).endswith("ing")
+            if beside and words.has([first + 1], "preposition", "adverb", "unknown", "determiner", "relation"):
                 message = f"'{words.tokens[first].text}' was not understood: it may be what a vehicle does"
                 raise words.refuse(message, words.tokens[first].span)
         while words.word(first) in _MEANWHILE:
@@ -242,6 +245,9 @@ def _is_done(words: Words, at: int, clause: Clause | None) -> bool:
     word = words.word(at)
     if clause is None or clause.aside or clause.subject is None:
         return False
+    obliged = ("has to", "have to", "had to", "must", "needs to", "is forced to", "ought to")
+    if words.word(at - 1) in obliged or (words.word(at - 1) == "to" and words.word(at - 2) in ("has", "have", "needs")):
+        return True  # "which has to dodge it"
     passive = word.endswith("ed") and words.has([at - 1], "be") and words.has(range(clause.start, at), "pronoun")
     joined = words.word(at - 1) in ("but", "then") and word.endswith("s") and not word.endswith("ss")
     return passive or joined
