@@ -86,7 +86,7 @@ class Assembler(ConditionAssembler):
             return self._from_standstill(self.facts.standing, phases)
         if kinds == ["dec"]:
             self._slow(phases[0], "t2")
-            if phases[0].goal is not None:
+            if phases[0].goal is not None or (phases[0].to_stop and self.facts.order is not None):
                 self._order("t2")
             return _sketch("go dec")
         if kinds in (["dec", "acc"], ["dec", "go"]):

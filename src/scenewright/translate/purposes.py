@@ -1,8 +1,8 @@
 """Sets aside what a text says of its own purpose: "This scenario evaluates how the ego responds to a late brake".
 
 What enters: a description. What leaves: the description without such sentences and tails, every other character in its
-place, and where they stood. One that holds an amount, a moment, a condition or a way is left where it is, and so is
-one that names what cannot be orchestrated.
+place, and where they stood. One that holds an amount, a moment, a condition or a way is left where it is; one that
+names what cannot be orchestrated is refused.
 """
 
 from __future__ import annotations
@@ -51,7 +51,13 @@ _OF_EGO = re.compile(
 
 
 def take_purposes(text: str, name: str) -> tuple[str, tuple[Span, ...]]:
-    """Return the text without what it says of its purpose, and where that stood."""
+    """Return the text without what it says of its purpose, and where that stood.
+
+    Raises
+    ------
+    TranslationError
+        Where it names what cannot be orchestrated.
+    """
     last = _LAST.search(text)
     spans = []
     for found in (*_PURPOSE.finditer(text[: last.start()] if last else text), *([last] if last else [])):
@@ -59,10 +65,8 @@ def take_purposes(text: str, name: str) -> tuple[str, tuple[Span, ...]]:
         told = {"quantity"} if found is last else {"heading", "area", "quantity"}
         if any(token.tags.keys() & told for token in tokens):
             continue  # it tells where somebody drives
-        try:
-            refuse_dangers(Words(text, name, [token for token in tokens if token.text.lower() != "traffic"]))
-        except TranslationError:
-            continue  # whoever reads the rest will say what is wrong with it
+        harmless = ("lateral manoeuvres", "more than one other actor")  # "a driver who cuts in", "oncoming traffic"
+        refuse_dangers(Words(text, name, [each for each in tokens if each.tags.get("unsupported") not in harmless]))
         spans.append(Span(*found.span()))
     for span in spans:
         text = text[: span.start] + " " * (span.end - span.start) + text[span.end :]

@@ -385,9 +385,9 @@ class StoryTeller:
             landmark = phase.goal or "conflict_point"
         if landmark == "turn_end" and deed.landmark == "same":
             raise self.words.refuse("it is not clear which moment of the ego this is", deed.span)
-        if phase.kind == "dec":
-            raise self.words.refuse("a stop cannot be ordered against the ego", deed.span)
         first = deed.kind == "before"
+        if phase.kind == "dec" and not (first and landmark == "turn_start" and phase.place and self._stopped_by(deed)):
+            raise self.words.refuse("a stop cannot be ordered against the ego", deed.span)
         again = previous is not None and previous.kind == deed.kind and "same" in (deed.landmark, previous.landmark)
         if known is not None and again:
             return  # "ahead of the ego, that is, before the ego does"
@@ -408,8 +408,13 @@ class StoryTeller:
                 raise self.words.refuse("it is not clear between which moments this time is", margin.span)
             bound = margin.bound
             self.facts.order = replace(self.facts.order, margin=margin.quantity, margin_bound=bound)
-        if phase.goal is None and first:
+        if phase.goal is None and first and phase.kind != "dec":
             phase.goal, phase.goal_event = "conflict_point", event
+
+    def _stopped_by(self, moment: Deed) -> bool:
+        """Whether the hero is said to stand by then: "it has come to a stop before the ego begins to turn"."""
+        own = [deed for deed in self.deeds if deed.actor == HERO_ID and deed.at < moment.at]
+        return bool(own) and own[-1].kind == "stop" and own[-1].clause.sentence == moment.clause.sentence
 
     def _first(self, goes: list[Deed]) -> list[Deed]:
         """Read "gets to the conflict point first"."""
