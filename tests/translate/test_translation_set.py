@@ -83,7 +83,7 @@ def test_free_texts_mean_the_same_or_are_refused(name: str, least: float) -> Non
 ACCEPTED = {"rr-03", "ec-51"}
 
 
-@pytest.mark.parametrize(("name", "least"), [("paper_kind.toml", 0.98), ("prose.toml", 0.8), ("traps.toml", 0.0)])
+@pytest.mark.parametrize(("name", "least"), [("paper_kind.toml", 0.97), ("prose.toml", 0.8), ("traps.toml", 0.0)])
 def test_texts_of_more_authors_mean_the_same_or_are_refused(name: str, least: float) -> None:
     """Each was new to the translator once; see the evaluation in the documentation for how it did then."""
     texts = read_texts(Path(__file__).parent / "texts" / name)

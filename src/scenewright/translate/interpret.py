@@ -37,6 +37,7 @@ class Interpreter(MomentReader):
                 self.facts.relations.append(LaneRelation(kind, who, mention))
             else:
                 self._wish(actor, "origin_heading", word, mention)
+        self._stopped_at_first(events)
         sentences = [list(group) for _, group in groupby(events, key=lambda event: event.sentence)]
         for sentence in self._moments_told_before(sentences):
             self._sentence(sentence)
@@ -51,6 +52,17 @@ class Interpreter(MomentReader):
             if left is not None:
                 raise self._refuse("it is not said what the hero does then", left.span, "an action of the hero")
         return self.facts
+
+    def _stopped_at_first(self, events: list[Event]) -> None:
+        """Let "a van is there, stopped at the stop line" be one that stands there, where it never brakes."""
+        if any(event.actor == HERO_ID and event.verb == "brake" for event in events):
+            return
+        for event in events:
+            if event.mode == "when":
+                return
+            said = event.span.excerpt(self.text).lower()
+            if event.actor == HERO_ID and event.verb == "stop" and said.startswith("stopped"):
+                event.verb = "wait"
 
     def _moments_told_before(self, sentences: list[list[Event]]) -> list[list[Event]]:
         """Let "The ego gets to 12 m before the line. At that moment the hero brakes" be one sentence."""

@@ -203,6 +203,19 @@ _PHRASES = tuple(
             "what somebody perceives",
         ),
         (r"\bas (?:if|though) to (?:turn|go|enter)\b", "what only seems so"),
+        (
+            r"\bback the way (?:it|he|she|they) came\b|\bcom(?:es|ing) about\b|\bturns? (?:a)?round (?:and|to) go"
+            r" back\b",
+            "a way that no route leads",
+        ),
+        (
+            r"\b(?:making|makes) (?:the (?:ego|av|sut|vut)|us|the (?:car|vehicle) under test|(?-i:[A-Z]{2,})) (?!wait\b"
+            r"|brake\b|yield\b"
+            r"|stop\b|react\b|decide\b|slow\b)[a-z]+",
+            "what the ego is made to do",
+        ),
+        (r"\bunder (?:the )?(?:control|command) of\b|\bremote control\b", "who drives a vehicle"),
+        (r"\bfor only one of (?:them|the)\b|\bwide enough\b|\btoo narrow\b", "how wide a road is"),
         (r"\broll(?:s|ing|ed)? back\b|\bin reverse\b|\bbacks up\b", "driving backwards"),
     )
 )

@@ -238,6 +238,8 @@ class DeedReader:
             named = self.words.named(range(at + 2, min(at + 5, clause.end)))  # "the braking of the ego"
             actor = named if named is not None else actor
         self.words.used.add(at)
+        if kind == "stop" and self._stands_already(at, clause):
+            kind = "wait"
         span = self.words.tokens[at].span
         passed = self.describing.landmark(at, clause) if kind == "pass" else None
         other = self.words.names.actors.get(self.words.skip(at + 1, _BESIDE))
@@ -247,6 +249,15 @@ class DeedReader:
         if kind == "pass" and overtakes and actor == HERO_ID and self.words.tag(at, "verb") == "pass":
             raise self.words.refuse("overtaking cannot be orchestrated", self.words.span(clause))
         self.deeds.append(Deed(kind, at, clause, span, passed, actor))
+
+    def _stands_already(self, at: int, clause: Clause) -> bool:
+        """Whether this tells how a vehicle is before anything happens: "there is a van stopped at the stop line"."""
+        words = self.words
+        asked = any(c.link == "when" and c.start < at and words.has(c.inside, "quantity") for c in words.clauses)
+        near = range(max(0, at - 4), at)
+        state = words.has([at - 1], "be", "comma") or (at - 1 in words.names.actors and words.has(near, "be"))
+        place = words.where(range(at + 1, min(at + 5, clause.end)), "landmark", "stop_line")
+        return words.word(at) == "stopped" and state and not asked and place is not None
 
     def _acts_on(self, name: int) -> bool:
         """Whether a name is followed by what it does: "Instead of giving way the van then accelerates"."""

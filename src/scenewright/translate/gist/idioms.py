@@ -24,6 +24,13 @@ _CROSSING = re.compile(
     r"|collide|merge)\b",
     re.IGNORECASE,
 )
+_ITS_WAY_MEETS = re.compile(
+    r"\b(?:point|spot|place) (?:where|at which) (?:its|his|her|the [\w-]+['\u2019]s) (?:way|path|lane|route|course) "
+    r"(?:would |will )?(?:meets?|cross(?:es)?|joins?|intersects?|merges? with) (?:that of the [\w-]+|the"
+    r" [\w-]+['\u2019]s"
+    r"|its|ours|that of the (?:vehicle|car) under test)(?: (?:way|path|lane|route|course))?\b",
+    re.IGNORECASE,
+)
 # "No sooner is the ego 9 m from the line than the van brakes"
 _NO_SOONER = re.compile(r"\bNo sooner((?: \w+)(?:(?!\bthan\b|[;!?]|\.\s).)*?)\bthan\b", re.IGNORECASE)
 _CROSSING_OF = re.compile(
@@ -285,6 +292,7 @@ _RULES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...]
     (_UNDERSCORE, r"\1 \2"),
     *PHRASES,
     (_WHERE_CROSS, ""),
+    (_ITS_WAY_MEETS, "conflict point"),
     (_CROSSING_OF, "conflict point"),
     (_CROSSING, "conflict point"),
 )

@@ -97,7 +97,8 @@ class MomentReader:
     def _bounds(self) -> None:
         """Refuse "at least 2 s"."""
         for made in self.measured:
-            at = self.words.where(range(made.at - 2, made.at), "bound")
+            bounds = [i for i in range(made.at - 2, made.at) if "bound" in self.words.tags(i)]
+            at = next((i for i in bounds if self.words.word(i) not in _LIMITS), bounds[0] if bounds else None)
             limit = at is not None and self.words.word(at) in _LIMITS and self.moments[made.at] == "trigger"
             if self.words.has(range(made.at + 1, made.at + 2), "bound") and self.words.word(made.at + 1).startswith(
                 "or "

@@ -28,6 +28,7 @@ _MANNERS = (
     "force",
     "duration",
 )
+_OVER = ("over", "across", "through", "onto", "around", "past", "along", "beside", "alongside")
 _MEANWHILE = ("as", "while", "whilst", "and", "but")
 _ACTS = ("brake", "stop", "accelerate", "go", "keep", "pass", "complete", "wait", "not_yield")
 _HARMLESS = ("interest", "matters", "own", "more", "further", "still")
@@ -188,11 +189,14 @@ def refuse_strange_company(words: Words, deeds: list[Deed], trigger_sentence: in
         parted = words.has([first - 1], "comma") or words.word(first - 1) == ";"
         parted = parted and words.word(first - 1) != "("
         if _is_free(words, first) and words.word(first).endswith(("ing", "ed", "wn")) and parted:
-            beside = any(deed.clause.end == first - 1 and deed.actor == HERO_ID for deed in deeds)
+            beside = any(deed.clause.end == first - 1 for deed in deeds)
             beside = beside or not words.word(first).endswith("ing")
             if beside and words.has([first + 1], "preposition", "adverb", "unknown", "determiner", "relation"):
                 message = f"'{words.tokens[first].text}' was not understood: it may be what a vehicle does"
                 raise words.refuse(message, words.tokens[first].span)
+        for at in clause.inside:
+            if _is_free(words, at) and any(words.word(i) in _OVER for i in (at - 1, at - 2)):
+                raise words.refuse("it is not known where this is", words.tokens[at].span)
         while words.word(first) in _MEANWHILE:
             first += 1
         known = clause.named or any(at in words.names.pronouns for at in clause.inside)
@@ -250,6 +254,9 @@ def _is_done(words: Words, at: int, clause: Clause | None) -> bool:
         return True  # "which has to dodge it"
     passive = word.endswith("ed") and words.has([at - 1], "be") and words.has(range(clause.start, at), "pronoun")
     joined = words.word(at - 1) in ("but", "then") and word.endswith("s") and not word.endswith("ss")
+    does = words.word(at - 1) == "and" and word.endswith("s") and words.has([at + 1], "determiner", "possessive")
+    if does and clause.start >= at - 1:
+        return True  # "and dazzles the ego's camera"
     return passive or joined
 
 
