@@ -149,3 +149,59 @@ def test_it_after_both_is_not_clear() -> None:
     assert formulas(text.format("the ego") + rest)
     with pytest.raises(TranslationError):
         translate_offline(text.format("it") + rest)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "The ego drives east, straight on. A van is in the driveway, stopped at the stop line, and is going to turn "
+        "left. When the ego is 45 m from the conflict point, the van takes off and finishes its turn before the ego gets "
+        "to the conflict point.",
+        "There is a van stopped at the stop line in the driveway, and it is going to turn left. The ego drives east "
+        "and turns left into the driveway. When the ego is 3 s from the conflict point, the van takes off and gets "
+        "through the conflict point before the ego does.",
+    ],
+)
+def test_a_vehicle_that_is_stopped_at_its_line_stands_there(text: str) -> None:
+    read = formulas(text)
+    assert "A1x(t0) == stop_line" in read
+    assert "A1v(stop) == 0" in read
+    assert len(translate_offline(text).program.heroes[0].sketch.pieces) == 2
+
+
+def test_who_brakes_to_a_stop_after_the_trigger_did_not_stand_before() -> None:
+    assert "A1v(t2) == 0" in formulas(STOPS + ".")
+    assert "A1v(stop) == 0" not in formulas(STOPS + ".")
+
+
+def test_a_stop_may_be_ordered_before_the_turn_of_the_ego() -> None:
+    text = (
+        "The ego leaves the driveway to the left. A car drives west, straight on. When the ego is 2 s from the stop "
+        "line and the car 4 s from the conflict point, the car brakes and has come to a complete stop 7 m before the "
+        "conflict point before the ego begins to turn."
+    )
+    assert {"A1x(t2) == conflict_point - 7", "A0x(t2) == turn_start", "A1(t2) < A0(t2)"} <= set(formulas(text))
+
+
+@pytest.mark.parametrize(
+    "added",
+    [
+        ", skating over ice",
+        ", as the street lamps go out,",
+        ", astride the centre line,",
+        ", cutting the corner,",
+        " in the outer lane",
+        ", weaving a little,",
+    ],
+)
+def test_what_goes_with_a_deed_is_known(added: str) -> None:
+    text = ROUTES + WHEN + "the car brakes{} to a stop 6 m before the conflict point."
+    assert formulas(text.format(""))
+    with pytest.raises(TranslationError):
+        translate_offline(text.format(added))
+
+
+def test_braking_that_continues_until_it_stands_is_one_deed() -> None:
+    text = ROUTES + WHEN + "the car starts to brake. The braking continues until, 6 m before the conflict point, it {}."
+    hero = translate_offline(text.format("stands still")).program.heroes[0]
+    assert len(hero.sketch.pieces) == 2
