@@ -16,7 +16,7 @@ EGO_ID, HERO_ID = 0, 1
 SAY_IT_ALONE = "say it in a sentence of its own, or leave it out"
 ACTOR_NAMES = {EGO_ID: "ego", HERO_ID: "hero"}
 _GOES_ON = re.compile(
-    r"\b(?:(?:dr[io]v|carr|roll|mov|com|press|go|went|cruis)\w* (?:straight |right )?on|continu\w+|proceed\w*"
+    r"\b(?:(?:dr[io]v|r[io]d|carr|roll|mov|com|press|go|went|cruis)\w* (?:straight |right )?on|continu\w+|proceed\w*"
     r"|(?:keep|kept)s? (?:on )?\w+ing)\b",
     re.IGNORECASE,
 )

@@ -42,6 +42,7 @@ from scenewright.translate.references import Referents
 from scenewright.translate.relatives import related
 from scenewright.translate.rewording import reworded
 from scenewright.translate.speech import spoken
+from scenewright.translate.steps import in_sentences
 from scenewright.translate.tokens import Token, refuse_unknown, tokenise
 from scenewright.translate.unsayable import refuse_unsayable
 
@@ -156,7 +157,7 @@ def _joined(first: TranslationError, second: TranslationError) -> TranslationErr
 
 def _by_grammar(text: str, road_map: RoadMap, name: str) -> Translation:
     """Translate clause by clause; every word has to be understood."""
-    rest, purposes = take_purposes(text, name)
+    rest, purposes = take_purposes(in_sentences(text), name)
     tokens = unfronted(reworded(related(spoken(noted(tokenise(without_short_names(rest), name))))))
     tokens, comments = without_commentary(tokens)
     tokens, titles = lay_out(tokens)
@@ -178,7 +179,7 @@ def _by_grammar(text: str, road_map: RoadMap, name: str) -> Translation:
 
 def _by_facts(text: str, road_map: RoadMap, name: str) -> Translation:
     """Translate by the facts alone that a free text tells."""
-    rest, purposes = take_purposes(text, name)
+    rest, purposes = take_purposes(in_sentences(text), name)
     rest, limits = take_limits(rest, name)
     gist = read_gist(rest, name, road_map)
     named = names_in(text, name) if limits else {}

@@ -237,6 +237,9 @@ def _words(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
         and "ego" in tagger.lexicon.entries.get(tuple(words[length - 1 : length + 1]), {})
     ):
         length, tags, forms = tagger.lexicon.lookup(words[: length - 1], 0)  # "in the test car" is "in", "the test car"
+    if length > 1 and words[length - 1] == "one" and _begins_amount(tagger, words, ends, length - 1):
+        # "the ego one and a half seconds from it" is no "ego one"
+        length, tags, forms = tagger.lexicon.lookup(words[: length - 1], 0)
     if length > 1 and "link" in tags and _is_place_after(tagger, words, length, tokens):
         # "3 m after the stop line" is no "after the stop"
         length, tags, forms = tagger.lexicon.lookup(words[: length - 1], 0)
@@ -253,6 +256,12 @@ def _words(tagger: _Tagger, index: int, tokens: list[Token]) -> int:
     text = " ".join(raw.text for raw in used if raw.kind != "joiner")
     tokens.append(Token(text, span, tags, forms, slips=slips))
     return ends[length - 1]
+
+
+def _begins_amount(tagger: _Tagger, words: list[str], ends: list[int], at: int) -> bool:
+    """Whether an amount in words begins here: "one and a half seconds"."""
+    found = number_in_words(words, at, tagger.lexicon.numbers)
+    return found is not None and _unit(tagger, ends[at + found[1] - 1], strict=False)[0] is not None
 
 
 def _is_place_after(tagger: _Tagger, words: list[str], length: int, tokens: list[Token]) -> bool:

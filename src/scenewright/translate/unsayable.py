@@ -216,6 +216,20 @@ _PHRASES = tuple(
         ),
         (r"\bunder (?:the )?(?:control|command) of\b|\bremote control\b", "who drives a vehicle"),
         (r"\bfor only one of (?:them|the)\b|\bwide enough\b|\btoo narrow\b", "how wide a road is"),
+        (
+            r"\bleft-hand (?:side of the road|traffic)\b",
+            "traffic on the other side of the road",
+        ),
+        (r"\bevery time (?:the|it|that)\b|\beach time (?:the|it|that)\b|\bafresh\b", "what happens several times"),
+        (
+            r"\b(?:outer|inner|nearer|farther|left|right) of the two (?:[\w-]+ )?lanes\b",
+            "a lane or a place that the map does not have",
+        ),
+        (
+            r"\b(?:carries|carried|carry) out (?:its|his|her|the) (?:manoeuvre|maneuver|action|reaction"
+            r"|part)(?=\.|,|;|$)",
+            "an action that is not told",
+        ),
         (r"\broll(?:s|ing|ed)? back\b|\bin reverse\b|\bbacks up\b", "driving backwards"),
     )
 )

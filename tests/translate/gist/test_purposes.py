@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
+
 import pytest
 
 from scenewright.errors import TranslationError
 from scenewright.program.printer import print_expression
 from scenewright.translate.offline import translate_offline
 from scenewright.translate.purposes import take_purposes
+from scenewright.translate.steps import in_sentences
 
 ROUTES = "The ego drives west and goes straight. An oncoming car turns left into the driveway. "
 WHEN = "When the ego is 30 m and the car 20 m from the conflict point, "
@@ -155,8 +158,8 @@ def test_it_after_both_is_not_clear() -> None:
     "text",
     [
         "The ego drives east, straight on. A van is in the driveway, stopped at the stop line, and is going to turn "
-        "left. When the ego is 45 m from the conflict point, the van takes off and finishes its turn before the ego gets "
-        "to the conflict point.",
+        "left. When the ego is 45 m from the conflict point, the van takes off and finishes its turn before the ego "
+        "gets to the conflict point.",
         "There is a van stopped at the stop line in the driveway, and it is going to turn left. The ego drives east "
         "and turns left into the driveway. When the ego is 3 s from the conflict point, the van takes off and gets "
         "through the conflict point before the ego does.",
@@ -205,3 +208,45 @@ def test_braking_that_continues_until_it_stands_is_one_deed() -> None:
     text = ROUTES + WHEN + "the car starts to brake. The braking continues until, 6 m before the conflict point, it {}."
     hero = translate_offline(text.format("stands still")).program.heroes[0]
     assert len(hero.sketch.pieces) == 2
+
+
+STEPS = (
+    "Given the ego drives west, straight on, and is 100 m before the intersection at the start\n"
+    "And a van comes out of the driveway to turn left\n"
+    "When the ego is 48 m from the conflict point\n"
+    "And the van is 13 m from its stop line\n"
+    "Then the van brakes to a stop 2 m before its stop line\n"
+    "And the van stands there for 2 s\n"
+    "And then it accelerates and completes its turn before the ego passes the conflict point"
+)
+
+
+@pytest.mark.parametrize(
+    "text", [STEPS, STEPS.replace("Given", "GIVEN").replace("And ", "AND "), f"Scenario: a\n{STEPS}"]
+)
+def test_steps_are_sentences(text: str) -> None:
+    told = {"A0x(t0) == intersection - 100", "A1x(t1) == stop_line - 13", "A1x(t2) == stop_line - 2", "A1(t4) < A0(t2)"}
+    assert told <= set(formulas(text))
+    assert "A1x(t0) == stop_line - 13" not in formulas(text)
+
+
+def test_what_only_begins_like_a_step_is_left_alone() -> None:
+    text = "Given that it is late, the ego drives west.\nAnd a van brakes.\nThen it stops when the ego has passed."
+    assert in_sentences(text) == text
+    assert len(in_sentences(STEPS)) == len(STEPS)
+
+
+@pytest.mark.parametrize("who", ["the ego", "the other one"])
+def test_one_and_a_half_is_no_name(who: str) -> None:
+    """After a name that may end in "one": the ego one."""
+    text = (
+        "The ego leaves the driveway to the right. A van goes west, straight on. When the van is {} from the conflict "
+        "point and the ego {} from the stop line, the van accelerates and is past the conflict point before the ego "
+        "begins to turn."
+    )
+    assert "tta(A0, stop_line, t1) == 1.5" in formulas(text.format("four seconds", "one and a half seconds"))
+    other = text.replace("the ego {}", f"{who} {{}}")
+    read = []
+    with contextlib.suppress(TranslationError):
+        read = formulas(other.format("four seconds", "one and a half seconds"))
+    assert not any("== 0.5" in each or "== 1/2" in each for each in read)

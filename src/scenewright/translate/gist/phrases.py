@@ -129,6 +129,17 @@ _COMPLETION = re.compile(
     r"|our |we )",
     re.IGNORECASE,
 )
+# "completes its turn prior to the passage of the subject vehicle through the conflict point"
+_PRIOR_PASSAGE = re.compile(
+    r"\b(?:prior to|before) the passage of (the [\w-]+(?: vehicle| car)?|[A-Z]+) (?:through|across|over|past) the "
+    r"(?=conflict point\b)",
+    re.IGNORECASE,
+)
+_NOT_BEFORE_IS = re.compile(
+    r"(?:(?<=[.!?;]\s)|^)Not (?:before|until) ([^.;]*?(?:passed|completed)[^.;]*?) (?:is|does) (the [\w-]+|it) "
+    r"(?:accelerated|accelerate)\b",
+)
+_RIGHT_ON = re.compile(r"\bkeeps right on (?=going|driving|rolling|coming)", re.IGNORECASE)
 _LIKES_IT = re.compile(r",? whether (?:it|he|she|they|we) likes? it or not\b", re.IGNORECASE)
 _ON_THE_CLOCK = re.compile(
     r"\b(?:with|having|showing) ([\d.]+ ?(?:km/h|kph|mph|m/s)) on the (?:clock|dial|speedometer|speedo)\b",
@@ -231,6 +242,9 @@ PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...
     (_ENTERS_PHASE, _at_rate),
     (_END_STATE, _comes_to_rest),
     (_COMPLETION, "it completes its turn before "),
+    (_PRIOR_PASSAGE, r"before \1 passes the "),
+    (_NOT_BEFORE_IS, r"Once \1, \2 accelerates"),
+    (_RIGHT_ON, "keeps "),
     (_LIKES_IT, ""),
     (_WITHOUT_CARE, ""),
     (_FOR_THAT_STOP, ""),
