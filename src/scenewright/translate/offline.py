@@ -157,8 +157,9 @@ def _joined(first: TranslationError, second: TranslationError) -> TranslationErr
 
 def _by_grammar(text: str, road_map: RoadMap, name: str) -> Translation:
     """Translate clause by clause; every word has to be understood."""
-    rest, purposes = take_purposes(in_sentences(text), name)
-    tokens = unfronted(reworded(related(spoken(noted(tokenise(without_short_names(rest), name))))))
+    rest, purposes = take_purposes(text, name)
+    rest = without_short_names(in_sentences(rest))
+    tokens = unfronted(reworded(related(spoken(noted(tokenise(rest, name))))))
     tokens, comments = without_commentary(tokens)
     tokens, titles = lay_out(tokens)
     refuse_unknown(tokens, text, name)
@@ -179,8 +180,8 @@ def _by_grammar(text: str, road_map: RoadMap, name: str) -> Translation:
 
 def _by_facts(text: str, road_map: RoadMap, name: str) -> Translation:
     """Translate by the facts alone that a free text tells."""
-    rest, purposes = take_purposes(in_sentences(text), name)
-    rest, limits = take_limits(rest, name)
+    rest, purposes = take_purposes(text, name)
+    rest, limits = take_limits(in_sentences(rest), name)
     gist = read_gist(rest, name, road_map)
     named = names_in(text, name) if limits else {}
     for limit in limits:

@@ -38,6 +38,8 @@ _REST = r"(?:(?!\b(?:when|unless|until|once|after|before|while|then|provided|sec
 _CLOSING = r"(?:(?!\b(?:unless|provided|only if|second time|twice|must|shall)\b|\d)[^.;!?\n]){3,200}"
 # What stands last may tell again what it is all about: "The situation represents a driver who hesitates, then turns".
 _LAST = re.compile(rf"(?:(?<=[.!?]\s)|(?<=\n)){_THIS} {_ADVERBS}{_FINITE}\b{_CLOSING}[.!]\s*\Z", re.IGNORECASE)
+# "Scenario: courteous lorry" above steps is a title
+_TITLE = re.compile(r"\A\s*(?:Scenario|Feature|Example)\b[^:\n]{0,20}:[^\n]+(?=\n\s*(?:Given|When)\b)", re.IGNORECASE)
 _PURPOSE = re.compile(
     rf"(?:(?P<sentence>(?:(?<=[.!?]\s)|(?<=\n)|^){_THIS} {_ADVERBS}{_FINITE}\b{_REST}[.!])"
     rf"|(?P<tail>,? (?:(?:which|and) {_ADVERBS}{_FINITE}|(?<=, ){_ADVERBS}{_ING}|(?:thus|thereby|effectively)"
@@ -58,11 +60,12 @@ def take_purposes(text: str, name: str) -> tuple[str, tuple[Span, ...]]:
     TranslationError
         Where it names what cannot be orchestrated.
     """
-    last = _LAST.search(text)
+    last, title = _LAST.search(text), _TITLE.match(text)
     spans = []
-    for found in (*_PURPOSE.finditer(text[: last.start()] if last else text), *([last] if last else [])):
+    inside = _PURPOSE.finditer(text, title.end() if title else 0, last.start() if last else len(text))
+    for found in filter(None, (title, *inside, last)):
         tokens = tokenise(" " * found.start() + found.group(), name)
-        told = {"quantity"} if found is last else {"heading", "area", "quantity"}
+        told = {"quantity"} if found in (title, last) else {"heading", "area", "quantity"}
         if any(token.tags.keys() & told for token in tokens):
             continue  # it tells where somebody drives
         harmless = ("lateral manoeuvres", "more than one other actor")  # "a driver who cuts in", "oncoming traffic"

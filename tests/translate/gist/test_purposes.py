@@ -250,3 +250,20 @@ def test_one_and_a_half_is_no_name(who: str) -> None:
     with contextlib.suppress(TranslationError):
         read = formulas(other.format("four seconds", "one and a half seconds"))
     assert not any("== 0.5" in each or "== 1/2" in each for each in read)
+
+
+def test_a_title_above_steps_is_listed() -> None:
+    text = f"Scenario: a courteous van\n{STEPS}"
+    assert formulas(text) == formulas(STEPS)
+    assert any("a courteous van" in each for each in translate_offline(text).assumptions)
+    with pytest.raises(TranslationError):
+        translate_offline(f"Scenario: a van in the fog\n{STEPS}")
+
+
+def test_the_former_from_one_place_and_the_latter_from_another() -> None:
+    text = (
+        "The ego drives east, straight on. A van comes out of the driveway to turn left. When the ego is 4 s and the van "
+        "2 s away, the former from the conflict point and the latter from its stop line, the van accelerates and "
+        "completes its turn before the ego passes the conflict point."
+    )
+    assert {"tta(A0, conflict_point, t1) == 4", "tta(A1, stop_line, t1) == 2"} <= set(formulas(text))

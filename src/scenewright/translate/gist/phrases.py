@@ -140,6 +140,13 @@ _NOT_BEFORE_IS = re.compile(
     r"(?:accelerated|accelerate)\b",
 )
 _RIGHT_ON = re.compile(r"\bkeeps right on (?=going|driving|rolling|coming)", re.IGNORECASE)
+# "the ego is 4 s and the van 2 s away, the former from the conflict point and the latter from its stop line"
+_FORMER_FROM = re.compile(
+    r"(?: away| off| out)?,? the (?:former|first)(?: one)? from ((?:the|its|his) (?:conflict point|stop line)),?"
+    r" and the "
+    r"(?:latter|second)(?: one)? from ((?:the|its|his) (?:conflict point|stop line))",
+    re.IGNORECASE,
+)
 _LIKES_IT = re.compile(r",? whether (?:it|he|she|they|we) likes? it or not\b", re.IGNORECASE)
 _ON_THE_CLOCK = re.compile(
     r"\b(?:with|having|showing) ([\d.]+ ?(?:km/h|kph|mph|m/s)) on the (?:clock|dial|speedometer|speedo)\b",
@@ -245,6 +252,7 @@ PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...
     (_PRIOR_PASSAGE, r"before \1 passes the "),
     (_NOT_BEFORE_IS, r"Once \1, \2 accelerates"),
     (_RIGHT_ON, "keeps "),
+    (_FORMER_FROM, r" away from \1 and \2, respectively"),
     (_LIKES_IT, ""),
     (_WITHOUT_CARE, ""),
     (_FOR_THAT_STOP, ""),
