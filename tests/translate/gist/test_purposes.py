@@ -262,8 +262,8 @@ def test_a_title_above_steps_is_listed() -> None:
 
 def test_the_former_from_one_place_and_the_latter_from_another() -> None:
     text = (
-        "The ego drives east, straight on. A van comes out of the driveway to turn left. When the ego is 4 s and the van "
-        "2 s away, the former from the conflict point and the latter from its stop line, the van accelerates and "
+        "The ego drives east, straight on. A van comes out of the driveway to turn left. When the ego is 4 s and the "
+        "van 2 s away, the former from the conflict point and the latter from its stop line, the van accelerates and "
         "completes its turn before the ego passes the conflict point."
     )
     assert {"tta(A0, conflict_point, t1) == 4", "tta(A1, stop_line, t1) == 2"} <= set(formulas(text))
