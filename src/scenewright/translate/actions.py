@@ -131,7 +131,8 @@ class ActionReader(DescriptionReader):
 
     def _speeding(self, event: Event) -> Phase:
         last = self.facts.phases[-1] if self.facts.phases else None
-        on = event.verb == "go" and last is None and goes_on(event.span.excerpt(self.text))
+        moves = last is None and self.facts.standing is None
+        on = event.verb == "go" and moves and goes_on(event.span.excerpt(self.text))
         kind = "go" if event.verb == "keep" or on else "acc"
         if event.verb == "accelerate" and last is not None and last.kind == "go" and self._only_goes_on(last):
             last.kind = "acc"  # "drives on, accelerating"

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import re
 
-_STEP = re.compile(r"^([ \t]*(?:[-*] )?)(Given|When|Then|And|But)\b:?[ \t]*", re.MULTILINE | re.IGNORECASE)
-_TITLE = re.compile(r"\s*(?:Scenario|Feature|Background|Example)\b[^:]*:", re.IGNORECASE)
+_STEP = re.compile(r"^([ \t]*(?:[-*] )?)(Given|GIVEN|When|WHEN|Then|THEN|And|AND|But|BUT)\b:?[ \t]*", re.MULTILINE)
+_WHOLE = re.compile(r",[^\n]*[.!?;]\s*\Z")
+_STOP = re.compile(r"[.,;]\s*\Z")
 
 
 def in_sentences(text: str) -> str:
@@ -20,21 +21,23 @@ def in_sentences(text: str) -> str:
     """
     steps = list(_STEP.finditer(text))
     words = [step.group(2).capitalize() for step in steps]
-    lines = [line for line in text.splitlines() if line.strip()]
-    told = {"When", "Then"} <= set(words) and words[0] in ("Given", "When")
-    if not told or not all(_STEP.match(line) or _TITLE.match(line) for line in lines):
+    if not {"When", "Then"} <= set(words) or words[0] not in ("Given", "When"):
         return text
-    parts, done, kind = [], 0, ""
+    parts, done, kind, asked = [], 0, "", 0
     for step, word in zip(steps, words, strict=True):
-        joins = kind == "When" and word in ("And", "But", "Then")
-        kind = kind if word in ("And", "But") else word
-        line = text.rfind("\n", 0, step.start() + 1)
-        if joins and line >= done:
+        line = max(done, text.rfind("\n", 0, step.start() + 1))
+        if kind == "When" and word != "When":
+            if _WHOLE.search(text[asked:line]):
+                kind = ""  # "When it is 8 m away, the van brakes." is no step
+                continue
             said = " and " if word in ("And", "But") else ", "
-            parts += [text[done:line], said.ljust(step.end() - line)]
-        elif word == "When":
-            continue
+            rest = _STOP.sub(lambda end: " " * len(end.group()), text[done:line])
+            parts += [rest, said.ljust(step.end() - line)]
+        elif word in ("When", "Then") or (not kind and word != "Given"):
+            parts += [text[done : step.end()]]
         else:
             parts += [text[done : step.start()], " " * (step.end() - step.start())]
+        kind = kind if word in ("And", "But") else word
+        asked = step.end() if word == "When" else asked
         done = step.end()
     return "".join([*parts, text[done:]])

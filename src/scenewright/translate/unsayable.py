@@ -220,6 +220,11 @@ _PHRASES = tuple(
             r"\bleft-hand (?:side of the road|traffic)\b",
             "traffic on the other side of the road",
         ),
+        (
+            r"\b(?:accelerates?|brakes?|stops|slows down|speeds up|goes|drives on) (?:just )?(?:as|like)"
+            r" (?:the ego|the av|we|it|the (?:vehicle|car) under test) (?:does|do)\b",
+            "what is tied to what the ego does",
+        ),
         (r"\bevery time (?:the|it|that)\b|\beach time (?:the|it|that)\b|\bafresh\b", "what happens several times"),
         (
             r"\b(?:outer|inner|nearer|farther|left|right) of the two (?:[\w-]+ )?lanes\b",

@@ -267,3 +267,29 @@ def test_the_former_from_one_place_and_the_latter_from_another() -> None:
         "completes its turn before the ego passes the conflict point."
     )
     assert {"tta(A0, conflict_point, t1) == 4", "tta(A1, stop_line, t1) == 2"} <= set(formulas(text))
+
+
+def test_a_whole_sentence_that_begins_with_when_is_no_step() -> None:
+    text = f"{WHEN}the car brakes to a stop 6 m before the conflict point.\nThen it accelerates."
+    assert in_sentences(text) == text
+
+
+def test_who_stands_and_drives_on_sets_off() -> None:
+    text = (
+        "The ego drives east, straight on. A van is standing at the stop line of the driveway, to turn left. When the "
+        "ego is 30 m from the conflict point, the van drives on and passes the conflict point before the ego does."
+    )
+    assert "A1v(stop) == 0" in formulas(text)
+
+
+def test_whom_the_right_of_way_is_conceded_to_is_not_lost() -> None:
+    text = STOPS + ", precedence being conceded to {}."
+    assert formulas(text.format("the ego")) == formulas(STOPS + ".")
+    with pytest.raises(TranslationError):
+        translate_offline(text.format("the car"))
+
+
+def test_what_is_tied_to_a_deed_of_the_ego_is_refused() -> None:
+    assert formulas(FIRST + ".")
+    with pytest.raises(TranslationError):
+        translate_offline(FIRST.replace("accelerates and", "accelerates as the ego does and") + ".")

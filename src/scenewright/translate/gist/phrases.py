@@ -31,9 +31,6 @@ _DENIES = re.compile(
     re.IGNORECASE,
 )
 _THEN_BEING = re.compile(r"\bat (?:that|this) (?:moment|time|instant|point) being (?=[\d.]+ )", re.IGNORECASE)
-_AS_DOES = re.compile(
-    r",? as (the ego|the [\w-]+(?: car| vehicle)?|ours|we) (does|do)(?= too\b|[.,;]|$)", re.IGNORECASE
-)
 _KEEP_RIGHT = re.compile(
     r",? so (?:that )?(we|the ego|the (?:vehicle|car) under test|the AV|the SUT) (?:keeps?|has|have|get to keep"
     r"|retains?) "
@@ -159,7 +156,7 @@ _BY_WHICH = re.compile(r", by which (?=(?:the [\w-]+|[A-Z]+) is brought\b)")
 _CONCEDED = re.compile(
     r", (?:and )?(?:thus |thereby )?(?:(?:the )?(?:precedence|priority|(?:right of )?way))(?: thereby| thus)?"
     r"(?P<denied> not)?(?: thereby| thus)? (?:thereby |thus )?being (?:conceded|given|granted|yielded|ceded|accorded)"
-    r"(?: to (?:the [\w-]+|[A-Z]+|it|us))?(?= by\b|[,.;]|$)",
+    r"(?P<whom> to (?:the [\w-]+|[A-Z]+|it|us))?(?= by\b|[,.;]|$)",
     re.IGNORECASE,
 )
 _IN_MIND = re.compile(r"\bwith (a (?:left|right) turn\b[^,.;]*?) in mind\b", re.IGNORECASE)
@@ -208,8 +205,8 @@ def _comes_to_rest(found: re.Match[str]) -> str:
 
 
 def _yields(found: re.Match[str]) -> str:
-    """Return "precedence being conceded" as "yielding"."""
-    return ", not yielding" if found["denied"] else ", yielding"
+    """Return "precedence being conceded to the ego" as "yielding to the ego"."""
+    return f", {'not yielding' if found['denied'] else 'yielding'}{found['whom'] or ''}"
 
 
 # In this order: what one rule leaves, the next may read.
@@ -217,7 +214,6 @@ PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...
     (_DIRECTION_OF, r"\2 drives \1"),
     (_NO_NOTICE, "won't yield to "),
     (_THEN_BEING, "being "),
-    (_AS_DOES, r", so \2 \1"),
     (_KEEP_RIGHT, r", yielding to \1"),
     (_NOT_UNTIL_THEN, "only then "),
     (_FIRST_BY, r"is passed by \1 before \2"),

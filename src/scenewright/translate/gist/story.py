@@ -304,7 +304,7 @@ class StoryTeller:
 
     def _go(self, goes: list[Deed], denies: list[Deed], *, after_stop: bool) -> None:
         keeps = any(deed.kind == "keep" for deed in goes) or self._only_goes_on(goes)
-        keeps = keeps and not after_stop
+        keeps = keeps and not after_stop and self.facts.standing is None
         kind: Literal["go", "turn", "acc"] = "go" if keeps else "acc"
         kind = "turn" if self._turns_whole(self.deeds) else kind
         phase = Phase(kind, [self._event((goes or denies)[0])])
