@@ -235,6 +235,30 @@ _PHRASES = tuple(
             r"|part)(?=\.|,|;|$)",
             "an action that is not told",
         ),
+        (
+            r"\b(?:given|gets?|getting|got|receiv(?:es?|ing)|seeing|awaits?|awaiting) an? (?:wave|nod|hand signal"
+            r"|thumbs[- ]up|honk|hoot|beep|go-ahead|flash|whistle|shout)\b"
+            r"|\b(?:at|on|upon|with|after) an? (?:wave|nod|hand signal|honk|hoot|beep|whistle|shout)\b",
+            "a gesture",
+        ),
+        (
+            r"\b(?:keeping|holding|maintaining) (?:its|his|her|a steady|a constant|the same) speed,? (?:(?:begins|starts) to"
+            r" (?:decelerate|brake|slow)|decelerates|brakes|slows|stops)",
+            "a vehicle that brakes does not keep its speed",
+        ),
+        (
+            r"\bback (?:to )?where (?:it|he|she|they) (?:started|began|came from|was|were|had been|set out)\b",
+            "a way that no route leads",
+        ),
+        (
+            r"(?<=[.!?] )No, (?:make|halve|double|take|swap|say|let|change|put|set|use|rather|better|wait|it was|that was"
+            r"|not|the other)\b|\b(?:halve|double|swap|exchange) (?:one|both|the two|them|these|their)\b",
+            "what is taken back",
+        ),
+        (
+            r"\bwith (?:as (?:little|much)|little|not much|plenty|some|enough|room|time|nothing|next to nothing) to spare\b",
+            "an amount that is not told",
+        ),
         (r"\broll(?:s|ing|ed)? back\b|\bin reverse\b|\bbacks up\b", "driving backwards"),
     )
 )

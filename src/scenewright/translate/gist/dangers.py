@@ -30,7 +30,7 @@ _UNREAL = re.compile(
 )
 _ALL_BUT = re.compile(r"\b(?:any|every|no)thing (?:but|except|other than)\b|\ball but\b", re.IGNORECASE)
 _DEPENDS = re.compile(
-    r"\b(?:provided|providing|assuming|on (?:the )?condition)(?: that)?\b(?![^,.;]*\d)"
+    r"\b(?:provided|providing|assuming|on (?:the )?condition)(?: that)?\b(?![^,.;]*(?:\d|_(?:m|ft|s)\b))"
     r"|\b(?:as|so) long as\b|\bin case\b"
     r"|\b(?:only|even) if\b|\bexcept (?:when|if|that)\b",
     re.IGNORECASE,
@@ -87,7 +87,7 @@ def _is_harmless(words: Words, at: int) -> bool:
         return True  # "there are no pedestrians"
     if token.text.lower() == "traffic":
         later = " ".join(words.word(i) for i in range(at + 1, min(at + 9, len(words.tokens))))
-        if re.search(r"\b(?:consists? of|is limited to|amounts to) (?:one|a single|a)\b", later):
+        if re.search(r"(?:^it has to deal with |\b(?:consists? of|is limited to|amounts to) |^is (?:just |only )?|^):? ?(?:one|a single|a)\b", later):
             return True  # "Westbound traffic consists of one van"
         return bool(before.keys() & {"heading", "direction", "actor_adjective"})
     kind = token.tags["unsupported"]

@@ -23,6 +23,7 @@ _STATE = ("verb", "be", "auxiliary")
 # What names the moment itself where something comes near: "as soon as it is within 20 m".
 _LIMITS = ("within",)
 _SET = ("released", "spawned", "initialised", "initialized", "dropped")
+_SETS_OUT = ("set out", "sets out", "started out", "starts out", "has set out", "had set out")
 _BOUNDS: dict[str, Bound] = {
     "at least": ">=", "no less than": ">=", "not less than": ">=",
     "at most": "<=", "no more than": "<=", "not more than": "<=",
@@ -264,7 +265,7 @@ class MomentReader:
         """Whether this is where the hero stands: "It is stationary once it is 8 m from it", told after the trigger."""
         told = [each for each in self.words.sentence(clause) if self.words.has(each.inside, "quantity")]
         stands = [d for d in self.deeds if d.clause.sentence == clause.sentence and d.kind in ("stop", "wait")]
-        early = any(self.moments.get(each.at) == "trigger" for each in self.measured)
+        early = any(self.moments.get(each.at) == "trigger" for each in self.measured) or self._both_told(clause)
         index = self.words.clauses.index(clause)
         before = self.words.clauses[index - 1] if index else clause
         own = [d for d in self.deeds if d.clause is before and d.actor == HERO_ID and d.kind in ("stop", "wait")]
@@ -275,6 +276,12 @@ class MomentReader:
         return (
             early and told == [clause] and bool(stands) and stands[0].actor == HERO_ID and stands[0].at < clause.start
         )
+
+    def _both_told(self, clause: Clause) -> bool:
+        """Whether places of both were told before in the sentence: "At 10 yd for us and 28 yd for the van, it brakes"."""
+        told = [m for m in self.measured if m.kind == "place" and m.clause.sentence == clause.sentence]
+        first = min((each.at for each in self.deeds if each.clause.sentence == clause.sentence), default=0)
+        return {m.actor for m in told if m.at < min(first, clause.start)} >= {EGO_ID, HERO_ID}
 
     def begins(self, deed: Deed) -> bool:
         """Whether a deed is said to begin: "begins to brake"."""
@@ -319,6 +326,8 @@ class MomentReader:
             return True
         if "initial" in told or _START_POINT.search(told):
             return True
+        if any(words.word(at) in _SETS_OUT for at in range(clause.start, made.at)):
+            return True  # "The ego set out 30 m short of the line"
         at = words.clauses.index(clause)
         before = words.clauses[at - 1] if at else None
         if before is None or before.sentence != clause.sentence:

@@ -170,12 +170,105 @@ _OF_TRAVEL = re.compile(
     r"\b(seconds?|s) of (?:travel|driving|travelling)(?: time)?(?= (?:separate|lie|remain|are|is)\b)", re.I
 )
 _AFTER_STOP = re.compile(
-    r"(?:(?<=[.!?;]\s)|^)After (?:the|this|that|its|an?) (?:complete |full |short |brief )?(?:standstill|stop"
+    r"(?:(?<=[.!?;:]\s)|^)After (?:the|this|that|its|an?) (?:complete |full |short |brief )?(?:standstill|stop"
     r"|halt|rest|pause|wait),? "
     r"(?=it |he |she |the |[A-Z])",
 )
 _BRAKES_OF = re.compile(r"\bapply (?:the )?brakes of (?=the )", re.IGNORECASE)
 
+# "It behaves courteously: it brakes", "the left turner that behaves itself"
+_BEHAVES = re.compile(
+    r"\b((?:he|she|it|the [\w-]+)) behaves (?:itself|himself|herself|\w+ly|well|badly|nicely)"
+    r"(?: and (?=\w+s\b)|: (?=(?:he|she|it|the |from|when|as soon as|once)\b))",
+    re.IGNORECASE,
+)
+_THAT_BEHAVES = re.compile(r",? (?:that|who|which) behaves (?:itself|himself|herself|\w+ly|well|badly)(?=[,.;]| and\b)")
+_TRIGGER_KIND = re.compile(
+    r"(?:(?<=[.!?;]\s)|(?<=\n)|^)(?:The )?(?:trigger|triggering|condition) is (?:purely |entirely |only )?"
+    r"(?:temporal|spatial|time-based|distance-based|based on (?:time|distances?|times))(?=:)",
+    re.IGNORECASE,
+)
+_PROVIDED_THEN = re.compile(
+    r",? (?:provided|on condition|as long as) (?:that )?((?:the [\w ]+?|[A-Z]+|it|he|we|they) (?:is|are) (?:then )?"
+    r"(?:[\d.]+ ?\w+|\w+_(?:m|ft|s)) (?:away )?(?:from|before|short of) [\w ]+?),? "
+    r"at (?:that|this|the same) (?:moment|time|instant|point)",
+    re.IGNORECASE,
+)
+_YOU_HAVE = re.compile(
+    r"(?:(?<=[.!?;]\s)|(?<=\n)|^)(?:(?:Then|And|So|Now),? )?(?:You|We|I)(?: (?:also|then|now))? (?:have|got|"
+    r"['\u2019]ve got|have got)(?: also)? (?=(?:the|a|an|our|another|one) )",
+    re.IGNORECASE,
+)
+_NOT_SO = re.compile(r"(?:(?<=[.!?;]\s)|^)Not so (?=(?:the|our|a) )")
+_FOR_THIS = re.compile(r"(?:(?<=[.!?;]\s)|^)(?:For|To do|To achieve|To manage) (?:this|that|it),? (?=(?:it|he|she|the) )")
+_LETS_UP = re.compile(
+    r"\b(?:doesn['\u2019]t|does not|won['\u2019]t) (?:let up|ease off|let off|stop braking|release the brakes?) until\b",
+    re.IGNORECASE,
+)
+_ALTHOUGH_COULD = re.compile(
+    r",? (?:although|though|even though|while) (?:it|he|she|they) (?:could|might|would have had time|should|ought to)"
+    r"(?=[.,;]|$)",
+    re.IGNORECASE,
+)
+_TTA_FROM = re.compile(r"(?<=\d s) (?:TTA|TTC|time to arrival) (?=(?:from|to) (?:the|its) )")
+_TRAILS_NAMED = re.compile(r"\b(?:trails|follows) (it|the [\w-]+) by (\w+_(?:m|ft|s))\b", re.IGNORECASE)
+_LET_IN = re.compile(
+    r"\b(?:won['\u2019]t|will not|does not|doesn['\u2019]t|do not|don['\u2019]t|refuses to) let (us|the ego|the AV|it|him|me)"
+    r" (?:in|out|into the lane|go first|go|through)\b",
+    re.IGNORECASE,
+)
+_WELL = re.compile(r"(?:(?<=[.!?]\s)|(?<=\n)|^)(?:right|ok|okay|alright|all right|so|well|now)(?:,| so| then)+ (?=[a-z])", re.I)
+_END_UP_IN = re.compile(r"\bend up in (?=the driveway)", re.IGNORECASE)
+# "We get to 18 m behind it, and that's when it brakes"
+_THAT_IS_WHEN = re.compile(
+    r"(?:(?<=[.!?;]\s)|^)((?:The|Our|We|I|It|A)\b(?:[^.;!?]|\.\d)*?),? and (?:that|this|it)(?:['\u2019]s| is) "
+    r"(?:exactly |precisely |just )?(?:when|the (?:moment|instant|point)(?: when| that| at which)?) ",
+)
+_GOES_ON_BRAKES = re.compile(r"\bgo(?P<s>es)? (?:hard )?on the brakes?\b", re.IGNORECASE)
+
+def _when(found: re.Match[str]) -> str:
+    """Return "We get to 18 m behind it, and that's when it" as "When we get to 18 m behind it, it"."""
+    said = found.group(1)
+    return f"When {said[0].lower() if said.split()[0] != 'I' else said[0]}{said[1:]}, "
+
+
+def _completes_turn(found: re.Match[str]) -> str:
+    """Return "clears its own turn" as "completes its turn"."""
+    return f"complete{found.group(1) or ''} its turn"
+
+
+def _brakes(found: re.Match[str]) -> str:
+    """Return "goes on the brakes" as "brakes"."""
+    return "brakes" if found["s"] else "brake"
+
+_FIRST_PAST = re.compile(
+    r"\b(?:is to be|must be|shall be|has to be|should be|is) (?:the )?first(?: one| vehicle| car| of the two)? "
+    r"(?:past|through|across|over|to pass|to cross) (the conflict point|it|that point)(?=[.,;]|$| and\b)",
+    re.IGNORECASE,
+)
+# "Ten metres before the conflict point it should be standing"
+_THERE_IT_STANDS = re.compile(
+    r"(?:(?<=[.!?;:]\s)|(?<=, and )|^)((?:[A-Z]?[\w-]+ ){1,3}(?:before|short of|from|in front of) "
+    r"(?:the|its) (?:conflict point|stop line|intersection)),? (it|he|she|the [\w-]+) (?:should|shall|must|is to|will|has to) "
+    r"(?:be (?:standing|stationary|stopped|at a standstill|at rest)|stand|have stopped|have come to a (?:stop|halt"
+    r"|standstill|rest))\b",
+    re.IGNORECASE,
+)
+_SET_UP_ONE = re.compile(
+    r"(?:(?<=[.!?]\s)|(?<=, )|(?<=\n)|^)(?:for [\w\u2019' ]+ )?(?:can you |could you )?(?:please )?(?:set up|run|build|do|create|prepare"
+    r"|give me|I need) "
+    r"(?:the|a) (?:one|case|test|scenario|situation) (?:with|of|about|for) (?:the|a|an) (?:[\w-]+ ){0,3}[\w-]+:",
+    re.IGNORECASE,
+)
+_LETS_HAVE = re.compile(
+    r"(?:(?<=[.!?]\s)|(?<=\n)|^)Let['\u2019]s (?:have|do|start with|take|begin with|try|look at) (?:the |an? |another )?"
+    r"(?:[\w-]+ ){0,3}?(?:case|one|scenario|situation|variant)(?: first| next| now)?(?: so (?:that )?[^.!?\d]{0,60})?"
+    r"[.!](?=\s)",
+    re.IGNORECASE,
+)
+_CLEARS_TURN = re.compile(r"\bclear(s)? (?:its|his|her) own turn\b", re.IGNORECASE)
+_TURN_DONE = re.compile(r" \(turn (?:complete|completed|done|finished)\)", re.IGNORECASE)
+_THINKS_BETTER = re.compile(r",? (?:then )?thinks? better of it(?=,| and\b)", re.IGNORECASE)
 
 def _completes(found: re.Match[str]) -> str:
     """Return "brings its turn to an end" as "completes its turn"."""
@@ -262,4 +355,27 @@ PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...
     (_OF_TRAVEL, r"\1"),
     (_AFTER_STOP, "Then "),
     (_BRAKES_OF, "brake "),
+    (_FIRST_PAST, r"passes \1 first"),
+    (_THERE_IT_STANDS, r"\2 stops \1"),
+    (_SET_UP_ONE, ""),
+    (_LETS_HAVE, ""),
+    (_CLEARS_TURN, _completes_turn),
+    (_TURN_DONE, ""),
+    (_THINKS_BETTER, ""),
+    (_THAT_IS_WHEN, _when),
+    (_GOES_ON_BRAKES, _brakes),
+    (_BEHAVES, r"\1 "),
+    (_THAT_BEHAVES, ""),
+    (_TRIGGER_KIND, "Trigger"),
+    (_PROVIDED_THEN, r" and \1"),
+    (_YOU_HAVE, "There is "),
+    (_NOT_SO, "But "),
+    (_FOR_THIS, ""),
+    (_LETS_UP, "brakes until"),
+    (_ALTHOUGH_COULD, ""),
+    (_TTA_FROM, ""),
+    (_TRAILS_NAMED, r"is \2 behind \1"),
+    (_LET_IN, r"won't yield to \1"),
+    (_WELL, ""),
+    (_END_UP_IN, "drive into "),
 )

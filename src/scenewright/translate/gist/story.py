@@ -349,11 +349,15 @@ class StoryTeller:
     def _order(self, goes: list[Deed]) -> None:
         acted = {deed.clause.sentence for deed in self.deeds if deed.actor == HERO_ID and deed.kind != "turn"}
         moments = [deed for deed in self.deeds if deed.kind in ("before", "after")]
-        moments = [d for d in moments if d.clause.sentence >= self.trigger_sentence or d.clause.sentence in acted]
+        early = [d for d in moments if d.clause.sentence < self.trigger_sentence and d.clause.sentence not in acted]
+        moments = [d for d in moments if d not in early]
         later = [d for d in moments if d.clause.sentence >= self.trigger_sentence]
         if later:  # "It stops for us and resumes after we are gone. ..." tells in short what follows
             kinds = {(d.kind, d.landmark) for d in later}
             moments = [d for d in moments if d in later or (d.landmark != "same" and (d.kind, d.landmark) not in kinds)]
+        early = [deed for deed in early if self.words.verbs(deed.clause.inside)]  # not "the hero, the ego after it"
+        if early and not moments:
+            raise self.words.refuse("it is not clear what this orders", self.words.span(early[0].clause))
         lets = [deed for deed in self.deeds if deed.kind == "let_reach" and not self._is_purpose(deed)]
         moments = moments or self._first(goes)
         if lets and any(deed.kind == "before" for deed in moments):
@@ -375,6 +379,9 @@ class StoryTeller:
         self.events.append(event)
         if self.facts.phases[-1].kind != "dec":
             self.facts.order = Order(False, deed.landmark or "conflict_point", event, at_start=True)
+        elif deed.landmark == "turn_start":  # "to let the ego turn" tells what for, "to let it make its turn" all of it
+            whole = "make" in self.words.verbs(deed.clause.inside)
+            self.facts.let_goal = ("turn_end", event) if whole else None
         elif deed.landmark is not None:
             self.facts.let_goal = deed.landmark, event
 

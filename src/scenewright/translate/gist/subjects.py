@@ -357,11 +357,21 @@ def _resumed(words: Words, clause: Clause, pronouns: list[int]) -> Clause | None
     finite = any("verb" in words.tags(i) and "ing" not in words.tokens[i].forms for i in first.inside)
     alone = first is not clause and first.named and not finite
     forms = words.tokens[clause.start].forms
-    goes_on = clause.link == "main" and bool(forms & {"s", "ed"}) and "base" not in forms
+    denies = words.word(clause.start) in ("doesn't", "does not", "does")
+    goes_on = clause.link == "main" and ((bool(forms & {"s", "ed"}) and "base" not in forms) or denies)
     put_in = [each for each in words.sentence(clause) if first.start < each.start < clause.start]
-    placed = bool(put_in) and all(words.has(each.inside, "quantity") for each in put_in)
+    placed = bool(put_in) and all(words.has(each.inside, "quantity") or _is_relative(words, each) for each in put_in)
     bare = not words.has(first.inside, "be", "quantity", "auxiliary") and clause.start not in pronouns
     return first if alone and goes_on and placed and bare else None
+
+
+def _is_relative(words: Words, clause: Clause) -> bool:
+    """Whether a clause is ", which intends to turn left", or goes on from one."""
+    earlier = [each for each in words.sentence(clause) if each.start <= clause.start]
+    return any(
+        each.link == "that" and words.word(each.start - 1) in ("which", "who") and words.word(each.start - 2) == ","
+        for each in earlier
+    )
 
 
 def _other_one(words: Words, clause: Clause, earlier: list[Clause]) -> int | None:
