@@ -195,7 +195,14 @@ def same_unit(tokens: list[Token]) -> list[Token]:
         named = back >= 0 and bool(tokens[back].tags.keys() & {*_NAMES, "pronoun"})
         closes = bool(tokens[at + 1].tags.keys() & {"comma", "end", "colon"})
         closes = closes or (named and tokens[at + 1].text.lower() in ("to", "from") and _leads_to_place(tokens, at + 2))
-        if "bare_number" not in token.tags or last is None or last.quantity is None or not (named and closes):
+        ahead = at + 2 + ("determiner" in tokens[min(at + 2, len(tokens) - 1)].tags)
+        whose = (
+            tokens[at + 1].text.lower() == "for" and ahead < len(tokens) and bool(tokens[ahead].tags.keys() & _NAMES)
+        )
+        whose = whose and bool(tokens[at - 1].tags.keys() & {"comma", "link"})  # "and four for the hero"
+        if "bare_number" not in token.tags or last is None or last.quantity is None:
+            continue
+        if not ((named and closes) or whose):
             continue
         factor, value = _factor(last), _value(token.text)
         if factor is None or value is None or last.quantity.dimension not in ("length", "time"):

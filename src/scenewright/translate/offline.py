@@ -34,6 +34,7 @@ from scenewright.translate.headlines import untold
 from scenewright.translate.interpret import Interpreter
 from scenewright.translate.itineraries import Itineraries, choose_routes, default_map
 from scenewright.translate.layout import lay_out
+from scenewright.translate.leads import check_lead, find_lead
 from scenewright.translate.limits import owner_of_limit, refuse_limit, take_limits
 from scenewright.translate.notes import noted
 from scenewright.translate.phrases import Phrases
@@ -133,6 +134,22 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     """
     chosen_map = road_map if road_map is not None else default_map()
     refuse_unsayable(text, name)
+    try:
+        return _read(text, chosen_map, name)
+    except TranslationError as error:
+        lead = find_lead(text, name)
+        if lead is None:
+            raise
+        try:
+            read = _read(" " * lead.end + text[lead.end :], chosen_map, name)
+            assumed = check_lead(lead, text, name, read.program, chosen_map)
+        except TranslationError:
+            raise error from None
+        return replace(read, assumptions=(assumed, *read.assumptions))
+
+
+def _read(text: str, chosen_map: RoadMap, name: str) -> Translation:
+    """Translate by the grammar of clauses, by the facts alone where that fails; both have to agree."""
     if _NESTED.search(text) or take_limits(text, name)[1]:
         return _by_facts(text, chosen_map, name)
     try:

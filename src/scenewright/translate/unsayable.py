@@ -157,7 +157,8 @@ _PHRASES = tuple(
             "what happens several times",
         ),
         (
-            r"\b(?:weav(?:es?|ing|ed)|wove|zig-?zag\w*|slalom\w*|skid\w*|skating|skates|aquaplan\w*|fishtail\w*|sideways"
+            r"\b(?:weav(?:es?|ing|ed)|wove|zig-?zag\w*|slalom\w*|skid\w*|skating|skates|aquaplan\w*|fishtail\w*"
+            r"|sideways"
             r"|crosswise|crossways|astride|straddl\w*|squeez(?:es?|ing|ed)|spins? (?:round|around|out))\b",
             "motion off its path",
         ),
@@ -242,21 +243,32 @@ _PHRASES = tuple(
             "a gesture",
         ),
         (
-            r"\b(?:keeping|holding|maintaining) (?:its|his|her|a steady|a constant|the same) speed,? (?:(?:begins|starts) to"
+            r"\b(?:keeping|holding|maintaining) (?:its|his|her|a steady|a constant|the same) speed,? (?:(?:begins"
+            r"|starts) to"
             r" (?:decelerate|brake|slow)|decelerates|brakes|slows|stops)",
             "a vehicle that brakes does not keep its speed",
+        ),
+        (
+            r"\bwithout (?:moving|driving|rolling|setting off|starting)(?: on| off)? again\b",
+            "a vehicle that stands passes nothing",
+        ),
+        (
+            r"\bmov(?:es?|ed|ing) (?:over|across) (?:in)?to\b|\b(?:in|to|into|onto) the next lane\b",
+            "a lane or a place that the map does not have",
         ),
         (
             r"\bback (?:to )?where (?:it|he|she|they) (?:started|began|came from|was|were|had been|set out)\b",
             "a way that no route leads",
         ),
         (
-            r"(?<=[.!?] )No, (?:make|halve|double|take|swap|say|let|change|put|set|use|rather|better|wait|it was|that was"
+            r"(?<=[.!?] )No, (?:make|halve|double|take|swap|say|let|change|put|set|use|rather|better|wait|it was"
+            r"|that was"
             r"|not|the other)\b|\b(?:halve|double|swap|exchange) (?:one|both|the two|them|these|their)\b",
             "what is taken back",
         ),
         (
-            r"\bwith (?:as (?:little|much)|little|not much|plenty|some|enough|room|time|nothing|next to nothing) to spare\b",
+            r"\bwith (?:as (?:little|much)|little|not much|plenty|some|enough|room|time|nothing|next to nothing) to "
+            r"spare\b",
             "an amount that is not told",
         ),
         (r"\broll(?:s|ing|ed)? back\b|\bin reverse\b|\bbacks up\b", "driving backwards"),

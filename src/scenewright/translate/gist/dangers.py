@@ -19,13 +19,14 @@ _DANGERS = frozenset(
 )  # fmt: skip
 _EDGE_OF_TURN = re.compile(r"\b(?:start|beginning|end) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b", re.IGNORECASE)
 _COUNTED = re.compile(
-    r"(?:[A-Za-z]-|#|\[|\b(?:run|test|number|no\.?|case|phase|step|milestone|stage|unit|item|day|version|v|scene|act|exercise|lesson"
+    r"(?:[A-Za-z]-|#|\[|\b(?:run|test|number|no\.?|case|phase|step|milestone|stage|unit|item|day|version|v|scene"
+    r"|act|exercise|lesson"
     r"|drill|variant|example|problem|task|file|claim|chapter|section|scenario|situation|question|part)\s?)$",
     re.IGNORECASE,
 )
 _UNREAL = re.compile(
     r"(?:^|[.;!?]\s+|,\s+)(?:had|were) (?:the|it|a|an)\b"
-    r"|(?<!as )\bif \w+(?: \w+)? (?:were|had)\b|(?<!\bi )(?<!\bwe )\bwould(?: not|n't)? have\b",
+    r"|(?<!as )\bif \w+(?: \w+)? (?:were|had)\b|(?<!\bi )(?<!\bwe )\bwould(?: not|n't)? have\b(?! (?:to|liked to)\b)",
     re.IGNORECASE,
 )
 _ALL_BUT = re.compile(r"\b(?:any|every|no)thing (?:but|except|other than)\b|\ball but\b", re.IGNORECASE)
@@ -37,7 +38,14 @@ _DEPENDS = re.compile(
 )
 _CHANCE = re.compile(
     r"\b(?:half|most|some|many|few|a third|one|two|\d+ ?%|per ?cent)(?: out)? of (?:the |all )?"
-    r"(?:runs|cases|times?|trials|tests|drivers)\b|\b(?:sometimes|occasionally|now and then|every other)\b",
+    r"(?:runs|cases|times?|trials|tests|drivers)\b"
+    r"|\bin (?:most|some|many|few|a few|certain|almost all) (?:cases|runs|instances)\b|\bnine times out of ten\b"
+    r"|\b(?:sometimes|occasionally|now and then|every other)\b",
+    re.IGNORECASE,
+)
+_ONE_OF = re.compile(
+    r"\b(?:one|either|any) of (?:the two|them|these|the (?:two )?(?:vehicles|cars)) "
+    r"(?:brakes|stops|accelerates|slows|yields|goes|passes|starts|begins)\b",
     re.IGNORECASE,
 )
 _AGAIN_AND_AGAIN = re.compile(
@@ -61,6 +69,7 @@ def refuse_dangers(words: Words) -> None:
         (_ALL_BUT, "what does not happen is no scenario"),
         (_DEPENDS, "a condition like this cannot be orchestrated"),
         (_WHICH, "this is left open"),
+        (_ONE_OF, "this is left open"),
         (_CHANCE, "what happens at times cannot be orchestrated"),
         (_AGAIN_AND_AGAIN, "this is not read here"),
         (_TOUCHES, "contact cannot be orchestrated"),
@@ -87,7 +96,11 @@ def _is_harmless(words: Words, at: int) -> bool:
         return True  # "there are no pedestrians"
     if token.text.lower() == "traffic":
         later = " ".join(words.word(i) for i in range(at + 1, min(at + 9, len(words.tokens))))
-        if re.search(r"(?:^it has to deal with |\b(?:consists? of|is limited to|amounts to) |^is (?:just |only )?|^):? ?(?:one|a single|a)\b", later):
+        if re.search(
+            r"(?:^it has to deal with |\b(?:consists? of|is limited to|amounts to) |^is (?:just |only )?|^):? "
+            r"?(?:one|a single|a)\b",
+            later,
+        ):
             return True  # "Westbound traffic consists of one van"
         return bool(before.keys() & {"heading", "direction", "actor_adjective"})
     kind = token.tags["unsupported"]

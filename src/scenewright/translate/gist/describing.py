@@ -24,6 +24,8 @@ class Describing:
         token, words = self.words.tokens[at], self.words
         if at + 1 in words.names.actors and ("actor_adjective" in token.tags or "ing" in token.forms):
             return True
+        if verb in TURNS and self._is_meant(at):
+            return True  # "The hero was about to turn left", told after what it did
         if verb in TURNS and (self.is_noun(at) or self._is_on_its_way(at, clause) or self._is_predicate(at, clause)):
             return True
         if verb in ("go", "drive", "keep") and (self._tells_way(at, clause) or self._leads_on(at, clause)):
@@ -77,6 +79,13 @@ class Describing:
         last = next((i for i in range(at - 2, clause.start - 1, -1) if "verb" in self.words.tags(i)), None)
         comes = last is not None and self.words.tag(last, "verb") in ways and "ing" in self.words.tokens[last].forms
         return self.words.word(at - 1) == "to" and comes
+
+    def _is_meant(self, at: int) -> bool:
+        """Whether a turn is what a vehicle was about to make."""
+        about = self.words.word(at - 1) in ("was about to", "were about to", "is about to", "are about to")
+        was = self.words.word(at - 1) == "to" and self.words.word(at - 2) in ("was", "were", "was going", "were going")
+        wanted = self.words.word(at - 1) == "to" and self.words.word(at - 2) in ("wanted", "meant", "intended")
+        return about or was or wanted
 
     def _is_predicate(self, at: int, clause: Clause) -> bool:
         """Whether a turn tells which vehicle it is: "the hero is a car coming out of the driveway"."""

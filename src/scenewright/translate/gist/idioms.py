@@ -37,7 +37,7 @@ _CROSSING_OF = re.compile(
     rf"\b(?:crossing|meeting|intersection)(?: point)? of (?:the|their|our|its|your|both|the two) (?:two )?{_WAYS}\b",
     re.IGNORECASE,
 )
-_WAIT_UNTIL = re.compile(r"(?<=[.!?;] )Wait until\b")
+_WAIT_UNTIL = re.compile(r"(?:(?<=[.!?;] )|(?<=\d[.)] ))Wait until\b")
 # "Once two conditions hold at the same time, ..."
 _HOLD = re.compile(
     r"\b(?:once|when|as soon as|the (?:instant|moment)) (?:(?:both|all|of|the|these|two|three|following) )*"

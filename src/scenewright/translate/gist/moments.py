@@ -213,7 +213,7 @@ class MomentReader:
         if _START_POINT.search(self.words.span(clause).excerpt(self.words.text).lower()):
             return False  # "its start point lies 95 m before it"
         own = [deed for deed in self.deeds if deed.clause is clause and deed.actor == HERO_ID]
-        if any(deed.kind in ("stop", "wait") for deed in own):
+        if any(deed.kind in ("stop", "wait") and not self._is_placed(deed) for deed in own):
             return True
         if clause.link == "that" and self.words.verbs(clause.inside) & {
             "reach",
@@ -277,8 +277,15 @@ class MomentReader:
             early and told == [clause] and bool(stands) and stands[0].actor == HERO_ID and stands[0].at < clause.start
         )
 
+    def _is_placed(self, deed: Deed) -> bool:
+        """Whether this only tells where the hero is at first: "is positioned 20 m from the stop line"."""
+        first = self.words.tag(deed.at, "verb") == "sit" and deed.kind == "wait"
+        return first and not any(
+            each.kind in ("brake", "stop") and each.actor == HERO_ID and each.at < deed.at for each in self.deeds
+        )
+
     def _both_told(self, clause: Clause) -> bool:
-        """Whether places of both were told before in the sentence: "At 10 yd for us and 28 yd for the van, it brakes"."""
+        """Whether places of both were told before in the sentence: "At 10 yd for us and 28 yd for it, it brakes"."""
         told = [m for m in self.measured if m.kind == "place" and m.clause.sentence == clause.sentence]
         first = min((each.at for each in self.deeds if each.clause.sentence == clause.sentence), default=0)
         return {m.actor for m in told if m.at < min(first, clause.start)} >= {EGO_ID, HERO_ID}

@@ -200,9 +200,12 @@ _YOU_HAVE = re.compile(
     re.IGNORECASE,
 )
 _NOT_SO = re.compile(r"(?:(?<=[.!?;]\s)|^)Not so (?=(?:the|our|a) )")
-_FOR_THIS = re.compile(r"(?:(?<=[.!?;]\s)|^)(?:For|To do|To achieve|To manage) (?:this|that|it),? (?=(?:it|he|she|the) )")
+_FOR_THIS = re.compile(
+    r"(?:(?<=[.!?;]\s)|^)(?:For|To do|To achieve|To manage) (?:this|that|it),? (?=(?:it|he|she|the) )"
+)
 _LETS_UP = re.compile(
-    r"\b(?:doesn['\u2019]t|does not|won['\u2019]t) (?:let up|ease off|let off|stop braking|release the brakes?) until\b",
+    r"\b(?:doesn['\u2019]t|does not|won['\u2019]t) (?:let up|ease off|let off|stop braking|release the brakes?) "
+    r"until\b",
     re.IGNORECASE,
 )
 _ALTHOUGH_COULD = re.compile(
@@ -213,11 +216,14 @@ _ALTHOUGH_COULD = re.compile(
 _TTA_FROM = re.compile(r"(?<=\d s) (?:TTA|TTC|time to arrival) (?=(?:from|to) (?:the|its) )")
 _TRAILS_NAMED = re.compile(r"\b(?:trails|follows) (it|the [\w-]+) by (\w+_(?:m|ft|s))\b", re.IGNORECASE)
 _LET_IN = re.compile(
-    r"\b(?:won['\u2019]t|will not|does not|doesn['\u2019]t|do not|don['\u2019]t|refuses to) let (us|the ego|the AV|it|him|me)"
+    r"\b(?:won['\u2019]t|will not|does not|doesn['\u2019]t|do not|don['\u2019]t|refuses to) let (us|the ego|the AV"
+    r"|it|him|me)"
     r" (?:in|out|into the lane|go first|go|through)\b",
     re.IGNORECASE,
 )
-_WELL = re.compile(r"(?:(?<=[.!?]\s)|(?<=\n)|^)(?:right|ok|okay|alright|all right|so|well|now)(?:,| so| then)+ (?=[a-z])", re.I)
+_WELL = re.compile(
+    r"(?:(?<=[.!?]\s)|(?<=\n)|^)(?:right|ok|okay|alright|all right|so|well|now)(?:,| so| then)+ (?=[a-z])", re.I
+)
 _END_UP_IN = re.compile(r"\bend up in (?=the driveway)", re.IGNORECASE)
 # "We get to 18 m behind it, and that's when it brakes"
 _THAT_IS_WHEN = re.compile(
@@ -225,6 +231,67 @@ _THAT_IS_WHEN = re.compile(
     r"(?:exactly |precisely |just )?(?:when|the (?:moment|instant|point)(?: when| that| at which)?) ",
 )
 _GOES_ON_BRAKES = re.compile(r"\bgo(?P<s>es)? (?:hard )?on the brakes?\b", re.IGNORECASE)
+_IN_RESPONSE = re.compile(
+    r"\b[Ii]n (?:response|reaction) to ((?:the |an? )?[\w-]+(?: [\w-]+){0,3}?) (?:being|getting|coming|reaching) "
+    r"(?=(?:at a (?:distance|time to arrival) of )?[\d.]+ |\w+_(?:m|s|ft)\b|at a )"
+)
+_PRIORITY_OF = re.compile(
+    r"\b(?:disregard|ignore|violate|neglect|take|infringe)s? (?:the )?(?:priority|right of way|right-of-way"
+    r"|precedence) (?:of|from)"
+    r" (?=the |our |us\b|[A-Z])",
+    re.IGNORECASE,
+)
+_WAIVES = re.compile(
+    r"\b(?:waives|forgoes|renounces|gives up|cedes) (?:its|his|her|the) (?:priority|right of way|right-of-way"
+    r"|precedence) "
+    r"(?:by (brak|stopp|decelerat)ing|and (?=brakes|stops|decelerates|slows))",
+    re.IGNORECASE,
+)
+_FORCES_WAY = re.compile(r"\bforces its way (?:in front of|past|ahead of) (?=the |us\b|our )", re.IGNORECASE)
+_FORM_OF = re.compile(
+    r"\b(?:[Tt]here is )?(?:(west|east)bound )?traffic(?: on the road)?(?: comes)? in the form of (?:a single|one|a) ",
+)
+_STAYS_ON_IT = re.compile(
+    r",? and (?:stays|stayed|remains|remained|keeps|kept) (?:on|to) (?:it|that road|the road)(?=[.,;])"
+)
+_NIPS = re.compile(r"\b(?:nips|slips|darts|zips|whips) past (?=the conflict point|it\b)", re.IGNORECASE)
+_WOULD_LIKE = re.compile(r"\bwould have liked to (?=turn|go|drive)", re.IGNORECASE)
+_IT_IS_WHO = re.compile(
+    r"\b(?:this time )?it is ((?:our|the) [\w-]+(?: vehicle| car)?) (?:that|which|who) (?=\w+s\b)", re.IGNORECASE
+)
+_CLOSES_IN = re.compile(
+    r"\b(?:Then )?(?:the ego|the AV|the SUT|our car|it|we) (?:then )?(?:closes? in|catch(?:es)? up|draws? (?:closer"
+    r"|nearer)),? and (?=when )",
+    re.IGNORECASE,
+)
+_SHOULD_HAVE_SAID = re.compile(
+    r"(?:(?<=[.!?]\s)|^)I (?:should|ought to) have (?:said|mentioned)(?: first| before)? that ", re.IGNORECASE
+)
+_WHAT_SETS_OFF = re.compile(
+    r"(?:(?<=[.!?]\s)|^)What (?:gets it going|sets (?:it|this|him) off|triggers (?:it|this|the [\w-]+)|starts it) is "
+    r"((?:the|our) [\w-]+(?: vehicle| car)?) being (?=[\d.]+ |\w+_(?:m|s|ft)\b)",
+)
+_BACK_TO_START = re.compile(
+    r"(?:(?<=[.!?]\s)|^)(?:To go back|Going back|Back) to the (?:beginning|start|outset)[:,]", re.IGNORECASE
+)
+_NOT_SURE = re.compile(r"(?:(?<=[.!?]\s)|^)Not sure (?:if|whether) [^.!?:\d]*?,? but[:,]? ", re.IGNORECASE)
+_MAKES_STOP = re.compile(r"\bmakes? (?:a )?full stop\b", re.IGNORECASE)
+_IE_EGO = re.compile(
+    r"\b(ego|AV|SUT|VUT|(?:vehicle|car) (?:under test|we test|being tested)|test (?:vehicle|car)), "
+    r"(?:i\.e\.|that is|in other words|which is),? (?:the |our )?"
+    r"(?:ego|AV|SUT|VUT|(?:vehicle|car) (?:under test|we test|being tested)|test (?:vehicle|car)),",
+    re.IGNORECASE,
+)
+_GIVEN_INLINE = re.compile(
+    r"\bGiven (?:that )?((?:the |an? )[^.;]*?), when (?=(?:the|it|both|an?) )([^.;]*?), then (?=(?:the|it) )"
+)
+_THAT_OF = re.compile(r"; for (the [\w-]+) it is (?=[\d.]+ |\w+_(?:m|s|ft)\b)")
+_END_POSITION = re.compile(
+    r"^(\W*(?:the )?(?:hero|npc|pov|target|other car|other vehicle|vehicle)) (?:end|final|stop|stopping|rest) "
+    r"(?:position|place|point|location)[ \t]*:",
+    re.IGNORECASE | re.MULTILINE,
+)
+
 
 def _when(found: re.Match[str]) -> str:
     """Return "We get to 18 m behind it, and that's when it" as "When we get to 18 m behind it, it"."""
@@ -237,9 +304,21 @@ def _completes_turn(found: re.Match[str]) -> str:
     return f"complete{found.group(1) or ''} its turn"
 
 
+def _waives(found: re.Match[str]) -> str:
+    """Return "waives its priority by braking" as "brakes"."""
+    return {"brak": "brakes", "stopp": "stops", "decelerat": "decelerates"}.get(found.group(1) or "", "")
+
+
+def _alone_there(found: re.Match[str]) -> str:
+    """Return "there is westbound traffic in the form of a single hero" as "there is a westbound hero"."""
+    there = "There is a " if found.group().lower().startswith("there is") else "A "
+    return f"{there}{found.group(1)}bound " if found.group(1) else there
+
+
 def _brakes(found: re.Match[str]) -> str:
     """Return "goes on the brakes" as "brakes"."""
     return "brakes" if found["s"] else "brake"
+
 
 _FIRST_PAST = re.compile(
     r"\b(?:is to be|must be|shall be|has to be|should be|is) (?:the )?first(?: one| vehicle| car| of the two)? "
@@ -249,19 +328,22 @@ _FIRST_PAST = re.compile(
 # "Ten metres before the conflict point it should be standing"
 _THERE_IT_STANDS = re.compile(
     r"(?:(?<=[.!?;:]\s)|(?<=, and )|^)((?:[A-Z]?[\w-]+ ){1,3}(?:before|short of|from|in front of) "
-    r"(?:the|its) (?:conflict point|stop line|intersection)),? (it|he|she|the [\w-]+) (?:should|shall|must|is to|will|has to) "
+    r"(?:the|its) (?:conflict point|stop line|intersection)),? (it|he|she|the [\w-]+) (?:should|shall|must|is to"
+    r"|will|has to) "
     r"(?:be (?:standing|stationary|stopped|at a standstill|at rest)|stand|have stopped|have come to a (?:stop|halt"
     r"|standstill|rest))\b",
     re.IGNORECASE,
 )
 _SET_UP_ONE = re.compile(
-    r"(?:(?<=[.!?]\s)|(?<=, )|(?<=\n)|^)(?:for [\w\u2019' ]+ )?(?:can you |could you )?(?:please )?(?:set up|run|build|do|create|prepare"
+    r"(?:(?<=[.!?]\s)|(?<=, )|(?<=\n)|^)(?:for [\w\u2019' ]+ )?(?:can you |could you )?(?:please )?(?:set up|run"
+    r"|build|do|create|prepare"
     r"|give me|I need) "
     r"(?:the|a) (?:one|case|test|scenario|situation) (?:with|of|about|for) (?:the|a|an) (?:[\w-]+ ){0,3}[\w-]+:",
     re.IGNORECASE,
 )
 _LETS_HAVE = re.compile(
-    r"(?:(?<=[.!?]\s)|(?<=\n)|^)Let['\u2019]s (?:have|do|start with|take|begin with|try|look at) (?:the |an? |another )?"
+    r"(?:(?<=[.!?]\s)|(?<=\n)|^)Let['\u2019]s (?:have|do|start with|take|begin with|try|look at) (?:the |an? "
+    r"|another )?"
     r"(?:[\w-]+ ){0,3}?(?:case|one|scenario|situation|variant)(?: first| next| now)?(?: so (?:that )?[^.!?\d]{0,60})?"
     r"[.!](?=\s)",
     re.IGNORECASE,
@@ -269,6 +351,7 @@ _LETS_HAVE = re.compile(
 _CLEARS_TURN = re.compile(r"\bclear(s)? (?:its|his|her) own turn\b", re.IGNORECASE)
 _TURN_DONE = re.compile(r" \(turn (?:complete|completed|done|finished)\)", re.IGNORECASE)
 _THINKS_BETTER = re.compile(r",? (?:then )?thinks? better of it(?=,| and\b)", re.IGNORECASE)
+
 
 def _completes(found: re.Match[str]) -> str:
     """Return "brings its turn to an end" as "completes its turn"."""
@@ -355,6 +438,25 @@ PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...
     (_OF_TRAVEL, r"\1"),
     (_AFTER_STOP, "Then "),
     (_BRAKES_OF, "brake "),
+    (_THAT_OF, r";that of \1 is "),
+    (_END_POSITION, r"\1 stops"),
+    (_IN_RESPONSE, r"When \1 is "),
+    (_PRIORITY_OF, "won't yield to "),
+    (_WAIVES, _waives),
+    (_FORCES_WAY, "won't yield to "),
+    (_FORM_OF, _alone_there),
+    (_STAYS_ON_IT, ", going straight"),
+    (_NIPS, "goes past "),
+    (_WOULD_LIKE, "wanted to "),
+    (_IT_IS_WHO, r"\1 "),
+    (_CLOSES_IN, ""),
+    (_SHOULD_HAVE_SAID, ""),
+    (_WHAT_SETS_OFF, r"When \1 is "),
+    (_BACK_TO_START, "Initially "),
+    (_NOT_SURE, ""),
+    (_MAKES_STOP, "stop"),
+    (_IE_EGO, r"\1"),
+    (_GIVEN_INLINE, r"\1. When \2, "),
     (_FIRST_PAST, r"passes \1 first"),
     (_THERE_IT_STANDS, r"\2 stops \1"),
     (_SET_UP_ONE, ""),

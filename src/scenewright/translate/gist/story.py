@@ -355,7 +355,7 @@ class StoryTeller:
         if later:  # "It stops for us and resumes after we are gone. ..." tells in short what follows
             kinds = {(d.kind, d.landmark) for d in later}
             moments = [d for d in moments if d in later or (d.landmark != "same" and (d.kind, d.landmark) not in kinds)]
-        early = [deed for deed in early if self.words.verbs(deed.clause.inside)]  # not "the hero, the ego after it"
+        early = [deed for deed in early if self._acts_from(deed)]  # not "the hero, the ego after it"
         if early and not moments:
             raise self.words.refuse("it is not clear what this orders", self.words.span(early[0].clause))
         lets = [deed for deed in self.deeds if deed.kind == "let_reach" and not self._is_purpose(deed)]
@@ -368,6 +368,11 @@ class StoryTeller:
         for deed in moments:
             self._one_order(deed, previous)
             previous = deed
+
+    def _acts_from(self, deed: Deed) -> bool:
+        """Whether a verb follows in the sentence."""
+        sentence = self.words.sentence(deed.clause)
+        return bool(self.words.verbs(range(deed.clause.start, sentence[-1].end)))
 
     def _is_purpose(self, deed: Deed) -> bool:
         """Whether it is only said what for: "To let the ego make its turn, a car stops. It brakes when ..."."""

@@ -120,6 +120,9 @@ def _name_subject(words: Words, clause: Clause) -> None:
     pronoun = any(at in words.names.pronouns for at in clause.inside)
     if found is None and not pronoun and not words.verbs(clause.inside) & {*_STRONG, "wait", "let", "yield"}:
         found = next((at for at in names if _stands_after(words, at, "for") and _is_for(words, clause, at)), None)
+    if found is None and (apart := words.where(clause.inside, "separates")) is not None:
+        first = words.skip(apart + 1, frozenset(("determiner", "actor_adjective")))
+        found = first if first in names else None  # "85 m separate the ego from the intersection; it is westbound"
     if found is None:
         found = next((at for at in names if _is_turner(words, clause, at) or _is_keyed(words, clause, at)), None)
     if found is not None:
