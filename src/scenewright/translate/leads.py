@@ -30,6 +30,7 @@ _FRAME = re.compile(
     r"(?:my|our) \w+ (?:has |have )?(?:asked|told|wants|wanted|needs)\b"
     r"|(?:i|we)(?: would|['\u2019]d| am|['\u2019]m| are)? (?:like|want|need|remember|recall|try|trying|looking"
     r"|testing)\b"
+    r"|(?:i|we) (?:keep|kept|get|got|had|have had|see|saw|often|always|sometimes)\b"
     r"|as an? [\w ]+,? (?:i|we) (?:want|need|would like)\b"
     r"|(?:need|want|wanted|needed|looking for|request|reproduce|replay|recreate|repro)\b"
     r"|(?:this|it|that|the (?:test|scenario|case|idea|situation|thing))(?: one| test| scenario| case| time)? "
@@ -40,15 +41,24 @@ _FRAME = re.compile(
     r")",
     re.IGNORECASE,
 )
+_HERE = re.compile(r"^(?:here|this time|so|now),? ", re.IGNORECASE)
 # How the ego should cope is for its own driving policy to decide.
 _ASKS = re.compile(
     r"\b(?:how|whether|if|see that|so that) (?:the |our |an? )?(?:ego|AV|ADS|SUT|VUT|vehicle under test|planner"
     r"|policy|we)\b"
 )
 _WHAT_HAPPENS = re.compile(r"\bwhat happens (?:when|if)\b", re.IGNORECASE)
-_STEPPED_OVER = ("lateral manoeuvres",)
+_STEPPED_OVER = ("lateral manoeuvres", "pedestrians and bicycles")
 _BINDING = ("when", "before", "after", "until")
-_KINDS = {"brake": "dec", "stop": "dec", "yield": "dec", "wait": "dec", "accelerate": "go", "not_yield": "go"}
+_KINDS = {
+    "let": "dec",
+    "brake": "dec",
+    "stop": "dec",
+    "yield": "dec",
+    "wait": "dec",
+    "accelerate": "go",
+    "not_yield": "go",
+}
 _KINDS |= {"beat": "go", "complete": "go", "pass": "go"}
 _NEAR = 4
 # "The ego drives east." tells a way; "An eastbound car yields first" may sum it up.
@@ -67,7 +77,9 @@ def find_lead(text: str, name: str) -> Span | None:
     tokens = laid_out(" " * found.start("said") + said, name)
     plain = _ASKS.split(_WHAT_HAPPENS.sub("", said))[0].replace("after all", "")
     framed = _FRAME.match(said) is not None or not any(_is_finite(token) for token in tokens)
-    if not framed and (_DEFINITE.match(said) or re.search(r"\b(?:no|nor|none|never)\b", said, re.IGNORECASE)):
+    if not framed and (
+        _DEFINITE.match(_HERE.sub("", said)) or re.search(r"\b(?:no|nor|none|never)\b", said, re.IGNORECASE)
+    ):
         return None
     if any(_tells(tokens, at, framed=framed) for at in range(len(tokens))):
         return None

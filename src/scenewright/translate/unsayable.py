@@ -257,6 +257,24 @@ _PHRASES = tuple(
             "a lane or a place that the map does not have",
         ),
         (
+            r"\bas (?:hard|fast|quickly|slowly|sharply|gently|late|far|near|close) (?:from (?:it|the \w+) )?as "
+            r"(?:the|it|its|we"
+            r"|any|in the (?:last|previous|other))\b",
+            "an amount that is not told",
+        ),
+        (
+            r"\b(?:wav|beckon|nodd?|flash|hoot|honk)(?:s|es|ed|ing) (?:it|him|her|us|the [\w-]+) (?:on|through"
+            r"|across|past|in|over)\b",
+            "a gesture",
+        ),
+        (
+            r"\b(?:has|have|had) (?:broken down|a (?:breakdown|puncture|flat tyre|flat tire))\b|\b(?:can ?not|can't"
+            r"|unable to) move\b"
+            r"|\bis stuck\b|\bout of (?:fuel|petrol|gas|order)\b",
+            "what works in a vehicle and what does not",
+        ),
+        (r"\bwith (?:its|his|her|the|all) (?:passengers?|occupants?|riders?|load|cargo)\b", "what somebody else does"),
+        (
             r"\bback (?:to )?where (?:it|he|she|they) (?:started|began|came from|was|were|had been|set out)\b",
             "a way that no route leads",
         ),

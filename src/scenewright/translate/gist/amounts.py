@@ -193,7 +193,8 @@ class AmountReader(MeasureReader):
                 )
             return False
         stretch = range(made.at + 1, place[1])
-        if "pronoun" in self.words.tags(place[1] - 1) and self.places.lies_beside(stretch):
+        beside = "pronoun" in self.words.tags(place[1] - 1) and self.places.lies_beside(stretch)
+        if beside and not self._alike_behind(made):
             return False  # "25 m behind it" is behind the vehicle
         made.span = made.span.union(self.words.tokens[place[1] - 1].span)
         owner = owner_of(self.words, made.at, made.clause)
@@ -206,6 +207,15 @@ class AmountReader(MeasureReader):
         made.actor = told if told is not None else owner
         told_for(self.words, made, place[1])
         return True
+
+    def _alike_behind(self, made: Measured) -> bool:
+        """Whether it follows "behind the conflict point": "the ego is 9 m behind that point and it 20 m behind it"."""
+        told = [i for i in self.words.sentence_at(made.at) if i < made.at]
+        last = next((i for i in reversed(told) if self.words.has([i], "landmark")), None)
+        if last is None or self.words.tags(last)["landmark"] != "conflict_point":
+            return False
+        behind = self.words.where(range(max(0, last - 3), last), "relation", "behind")
+        return behind is not None and any("quantity" in self.words.tags(i) for i in range(max(0, behind - 2), behind))
 
     def _before_reaching(self, made: Measured) -> bool:
         """Read "Three seconds before the ego would reach the stop line"."""

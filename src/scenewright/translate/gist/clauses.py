@@ -199,8 +199,8 @@ def _link(words: Words, at: int) -> str | None:
         return None  # "80 m before the intersection is where it begins"
     if word == "where" and (not at or words.has([at - 1], "end")):
         return None  # "Where it comes to rest, 8 m are left"
-    if link not in _LINKS:
-        return None
+    if link not in _LINKS or (word == "the second" and "be" in following):
+        return None  # "The second was the ego."
     if word == "following":
         return link if words.word(at + 1) in ("that", "this") else None
     if word in ("ahead of", "in front of"):

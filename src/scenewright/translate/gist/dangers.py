@@ -29,7 +29,10 @@ _UNREAL = re.compile(
     r"|(?<!as )\bif \w+(?: \w+)? (?:were|had)\b|(?<!\bi )(?<!\bwe )\bwould(?: not|n't)? have\b(?! (?:to|liked to)\b)",
     re.IGNORECASE,
 )
-_ALL_BUT = re.compile(r"\b(?:any|every|no)thing (?:but|except|other than)\b|\ball but\b", re.IGNORECASE)
+_ALL_BUT = re.compile(
+    r"\b(?:any|every|no)thing (?:but|except|other than)\b(?! to (?:follow|keep|stay|go|drive)\b)|\ball but\b",
+    re.IGNORECASE,
+)
 _DEPENDS = re.compile(
     r"\b(?:provided|providing|assuming|on (?:the )?condition)(?: that)?\b(?![^,.;]*(?:\d|_(?:m|ft|s)\b))"
     r"|\b(?:as|so) long as\b|\bin case\b"
@@ -113,7 +116,7 @@ def _is_harmless(words: Words, at: int) -> bool:
     if kind in ("collisions", "alternatives and chance"):
         return _is_remark(words, at, kind) or (kind != "collisions" and _asks_people(words, at))
     return kind == "more than one other actor" and (
-        before.get("bare_number", "").lower() == "two" or at in words.names.both
+        before.get("bare_number", "").lower() in ("two", "2") or at in words.names.both
     )
 
 

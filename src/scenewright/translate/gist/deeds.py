@@ -203,8 +203,13 @@ class DeedReader:
         whole = makes and stopped and clause.link in ("then", "and") and clause.subject == HERO_ID
         if tags.get("event_noun") == "turn" and (whole or self.describing.is_done(at)):
             self._add("complete", at, clause)  # "then it makes its turn"
-        if "landmark" in tags and self.words.tag(at - 1, "verb") == "approach":
-            self.words.used.add(at)
+        back = at - 1
+        while self.words.has([back], "determiner", "possessive"):
+            back -= 1
+        if "landmark" in tags and (
+            self.words.tag(at - 1, "verb") == "approach" or self.words.word(back) in ("towards", "toward")
+        ):
+            self.words.used.add(at)  # "is rolling towards the stop line at 5 m/s"
 
     def _calls(self, clause: Clause) -> bool:
         """Whether a sentence is nothing but "Go." or "Over.", which calls to the one who runs the test."""

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from functools import partial
 
 from scenewright.translate.aliases import without_aliases
+from scenewright.translate.gist.asides import ASIDES
 from scenewright.translate.gist.phrases import PHRASES
 
 _WAYS = r"(?:paths|ways|lanes|routes|tracks|trajectories|courses)"
@@ -290,6 +291,7 @@ _RULES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...]
     (_IS_IT, "If "),
     (_AFTER_THIS, r"\1 \3"),
     (_UNDERSCORE, r"\1 \2"),
+    *ASIDES,
     *PHRASES,
     (_WHERE_CROSS, ""),
     (_ITS_WAY_MEETS, "conflict point"),

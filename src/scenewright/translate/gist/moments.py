@@ -141,6 +141,8 @@ class MomentReader:
             told = self._is_asked(clause) or self._deed_beside(clause)
             if told and not made.target and not self._after_trigger(clause) and not self._on_its_way(made):
                 raise self.words.refuse(UNCLEAR, made.span)
+            if made.actor == EGO_ID and not made.target and self._after_trigger(clause):
+                raise self.words.refuse(UNCLEAR, made.span)  # nobody tells the ego how fast to go
             return "deed" if made.target or self._after_trigger(clause) else "start"
         asked = "trigger" in clause.labels or self._is_asked(clause)
         comes = self.words.verbs(range(clause.start, made.at)) & {"come", "drive", "go", "approach", "pull_out"}
@@ -344,6 +346,8 @@ class MomentReader:
         alone = all(words.tag(i, "adverb") == "initially" or "determiner" in words.tags(i) for i in before.inside)
         plain = [i for i in range(clause.start, made.at) if "actor_adjective" not in words.tags(i)]
         verbless = not words.has(plain, "verb", "be")  # "and the lead vehicle 22 m from it"
+        moving = words.verbs(plain) <= {"drive", "go", "come"} and "ing" in words.tokens[clause.start].forms
+        verbless = verbless or (made.kind == "speed" and moving)  # "... 62 m from it and travelling at 12 m/s"
         earlier = any(each.clause is before and self.moments.get(each.at) == "start" for each in self.measured)
         own = clause.named or made.kind == "speed"
         return alone or (earlier and verbless and own and clause.link in ("and", "main"))

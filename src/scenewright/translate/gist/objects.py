@@ -97,6 +97,10 @@ def _before_name(words: Words, at: int) -> int:
     article = False
     while back >= 0 and back not in words.names.actors and back not in words.names.pronouns:
         tags = words.tags(back)
+        ordinal = words.word(back) in ("first", "second", "last") and words.has([back - 1], "determiner")
+        if ordinal:
+            back -= 1  # "behind the first car"
+            continue
         if not tags.keys() & _BESIDE or (article and "unknown" in tags):
             break  # "in this episode the ego": the ego is no object of "in"
         article |= "determiner" in tags

@@ -157,13 +157,14 @@ def told_by_for(words: Words, name: int, clause: Clause) -> bool:
 
 def told_for(words: Words, made: Owned, at: int) -> None:
     """Read "3 s for the ego and 2 s for the van" and "25 m (ego)": whose it is stands after it."""
-    if (bracket := words.in_brackets(made.at + 1)) is not None:
+    bracket = words.in_brackets(made.at + 1) or words.in_brackets(at)  # "25 m (ego)", "25 m from the line (ego)"
+    if bracket is not None:
         made.actor = bracket[1]
         return
     for ahead in range(made.at + 1, min(len(words.tokens), max(at, made.at + 1) + 4)):
         preposition = words.tag(ahead, "preposition")
         waits = words.tag(ahead, "verb") == "wait" and "left_over" not in words.tags(ahead)
-        if words.has([ahead], "quantity", "end") or waits:
+        if words.has([ahead], "quantity", "end") or waits or words.word(ahead) == "and":
             return
         to = preposition == "to" and made.kind == "open"
         if preposition == "for" or to or (preposition == "of" and ahead == made.at + 1):

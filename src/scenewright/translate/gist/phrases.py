@@ -19,11 +19,6 @@ _NO_NOTICE = re.compile(
     r"(?=the |it\b|us\b|me\b|[A-Z])",
     re.IGNORECASE,
 )
-_WITHOUT_CARE = re.compile(
-    r"(?<=\w) without (?:looking|hesitat(?:ion|ing)|(?:any )?warning|thinking|further ado|a second thought|delay)"
-    r"(?=[,.;]| and\b| but\b|$)",
-    re.IGNORECASE,
-)
 _FOR_THAT_STOP = re.compile(r"(?<=ing) for (?:that|this|the|its) (?:stop|halt|standstill)(?= )", re.IGNORECASE)
 _DENIES = re.compile(
     r"\b(?:denies|refuses|denied|refused) (the [\w-]+(?: vehicle| car)?|us|it|[A-Z]{2,}) (?:the |its )?"
@@ -86,13 +81,9 @@ _TRIGGER_FOR = re.compile(
     r" (?:braking|stop|acceleration|action|manoeuvre|maneuver|reaction|deceleration)(?: of the [\w-]+)?(?=:)",
     re.IGNORECASE,
 )
-_WHAT_FOLLOWS = re.compile(
-    r"(?:(?<=[.!?;]\s)|(?<=\n)|^)What (?:follows|comes next|happens next|happens then):", re.IGNORECASE
-)
 _ARRIVAL_OFF = re.compile(
     r"\barrival at (the [a-z ]+?) (is )?((?:[\d.]+|[a-z-]+) (?:s|seconds?)) (?:off|away|ahead)\b", re.IGNORECASE
 )
-_BEFORE_ALL = re.compile(r"(?:(?<=[.!?]\s)|(?<=\n))Before (?:all )?(?:that|this), ?", re.IGNORECASE)
 _THAT_IS_WHERE = re.compile(r": (?:that|this|there) is where (?=the |our |we )", re.IGNORECASE)
 _NOTHING_UNTIL = re.compile(r"(?:(?<=[.!?]\s)|(?<=\n)|^)Nothing (?:happens|changes) until\b", re.IGNORECASE)
 _TRAILS_BY = re.compile(
@@ -144,7 +135,6 @@ _FORMER_FROM = re.compile(
     r"(?:latter|second)(?: one)? from ((?:the|its|his) (?:conflict point|stop line))",
     re.IGNORECASE,
 )
-_LIKES_IT = re.compile(r",? whether (?:it|he|she|they|we) likes? it or not\b", re.IGNORECASE)
 _ON_THE_CLOCK = re.compile(
     r"\b(?:with|having|showing) ([\d.]+ ?(?:km/h|kph|mph|m/s)) on the (?:clock|dial|speedometer|speedo)\b",
     re.IGNORECASE,
@@ -176,41 +166,15 @@ _AFTER_STOP = re.compile(
 )
 _BRAKES_OF = re.compile(r"\bapply (?:the )?brakes of (?=the )", re.IGNORECASE)
 
-# "It behaves courteously: it brakes", "the left turner that behaves itself"
-_BEHAVES = re.compile(
-    r"\b((?:he|she|it|the [\w-]+)) behaves (?:itself|himself|herself|\w+ly|well|badly|nicely)"
-    r"(?: and (?=\w+s\b)|: (?=(?:he|she|it|the |from|when|as soon as|once)\b))",
-    re.IGNORECASE,
-)
-_THAT_BEHAVES = re.compile(r",? (?:that|who|which) behaves (?:itself|himself|herself|\w+ly|well|badly)(?=[,.;]| and\b)")
-_TRIGGER_KIND = re.compile(
-    r"(?:(?<=[.!?;]\s)|(?<=\n)|^)(?:The )?(?:trigger|triggering|condition) is (?:purely |entirely |only )?"
-    r"(?:temporal|spatial|time-based|distance-based|based on (?:time|distances?|times))(?=:)",
-    re.IGNORECASE,
-)
 _PROVIDED_THEN = re.compile(
     r",? (?:provided|on condition|as long as) (?:that )?((?:the [\w ]+?|[A-Z]+|it|he|we|they) (?:is|are) (?:then )?"
     r"(?:[\d.]+ ?\w+|\w+_(?:m|ft|s)) (?:away )?(?:from|before|short of) [\w ]+?),? "
     r"at (?:that|this|the same) (?:moment|time|instant|point)",
     re.IGNORECASE,
 )
-_YOU_HAVE = re.compile(
-    r"(?:(?<=[.!?;]\s)|(?<=\n)|^)(?:(?:Then|And|So|Now),? )?(?:You|We|I)(?: (?:also|then|now))? (?:have|got|"
-    r"['\u2019]ve got|have got)(?: also)? (?=(?:the|a|an|our|another|one) )",
-    re.IGNORECASE,
-)
-_NOT_SO = re.compile(r"(?:(?<=[.!?;]\s)|^)Not so (?=(?:the|our|a) )")
-_FOR_THIS = re.compile(
-    r"(?:(?<=[.!?;]\s)|^)(?:For|To do|To achieve|To manage) (?:this|that|it),? (?=(?:it|he|she|the) )"
-)
 _LETS_UP = re.compile(
     r"\b(?:doesn['\u2019]t|does not|won['\u2019]t) (?:let up|ease off|let off|stop braking|release the brakes?) "
     r"until\b",
-    re.IGNORECASE,
-)
-_ALTHOUGH_COULD = re.compile(
-    r",? (?:although|though|even though|while) (?:it|he|she|they) (?:could|might|would have had time|should|ought to)"
-    r"(?=[.,;]|$)",
     re.IGNORECASE,
 )
 _TTA_FROM = re.compile(r"(?<=\d s) (?:TTA|TTC|time to arrival) (?=(?:from|to) (?:the|its) )")
@@ -220,9 +184,6 @@ _LET_IN = re.compile(
     r"|it|him|me)"
     r" (?:in|out|into the lane|go first|go|through)\b",
     re.IGNORECASE,
-)
-_WELL = re.compile(
-    r"(?:(?<=[.!?]\s)|(?<=\n)|^)(?:right|ok|okay|alright|all right|so|well|now)(?:,| so| then)+ (?=[a-z])", re.I
 )
 _END_UP_IN = re.compile(r"\bend up in (?=the driveway)", re.IGNORECASE)
 # "We get to 18 m behind it, and that's when it brakes"
@@ -259,22 +220,10 @@ _WOULD_LIKE = re.compile(r"\bwould have liked to (?=turn|go|drive)", re.IGNORECA
 _IT_IS_WHO = re.compile(
     r"\b(?:this time )?it is ((?:our|the) [\w-]+(?: vehicle| car)?) (?:that|which|who) (?=\w+s\b)", re.IGNORECASE
 )
-_CLOSES_IN = re.compile(
-    r"\b(?:Then )?(?:the ego|the AV|the SUT|our car|it|we) (?:then )?(?:closes? in|catch(?:es)? up|draws? (?:closer"
-    r"|nearer)),? and (?=when )",
-    re.IGNORECASE,
-)
-_SHOULD_HAVE_SAID = re.compile(
-    r"(?:(?<=[.!?]\s)|^)I (?:should|ought to) have (?:said|mentioned)(?: first| before)? that ", re.IGNORECASE
-)
 _WHAT_SETS_OFF = re.compile(
     r"(?:(?<=[.!?]\s)|^)What (?:gets it going|sets (?:it|this|him) off|triggers (?:it|this|the [\w-]+)|starts it) is "
     r"((?:the|our) [\w-]+(?: vehicle| car)?) being (?=[\d.]+ |\w+_(?:m|s|ft)\b)",
 )
-_BACK_TO_START = re.compile(
-    r"(?:(?<=[.!?]\s)|^)(?:To go back|Going back|Back) to the (?:beginning|start|outset)[:,]", re.IGNORECASE
-)
-_NOT_SURE = re.compile(r"(?:(?<=[.!?]\s)|^)Not sure (?:if|whether) [^.!?:\d]*?,? but[:,]? ", re.IGNORECASE)
 _MAKES_STOP = re.compile(r"\bmakes? (?:a )?full stop\b", re.IGNORECASE)
 _IE_EGO = re.compile(
     r"\b(ego|AV|SUT|VUT|(?:vehicle|car) (?:under test|we test|being tested)|test (?:vehicle|car)), "
@@ -292,6 +241,35 @@ _END_POSITION = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 
+# "Being 8 s from the intersection, the ego comes ..."
+_FRONTED = re.compile(
+    r"(?:(?<=[.!?]\s)|^)Being ((?:[^.;]|\.\d)*?(?:\d|_(?:m|s|ft)\b|(?:seconds?|metres?|meters?|feet|yards?)\b)"
+    r"(?:[^,.;]|\.\d)*), ((?:the|our) (?:[\w-]+ )?(?:vehicle under test|ego|hero|vehicle|car|van|truck|AV|SUT|VUT)"
+    r"(?: vehicle)?|Ego|Hero)(?= )"
+)
+_FRONTED_VERB = re.compile(
+    r"(?:(?<=[.!?]\s)|^)((?:Wanting|Intending|Wishing|Planning|Meaning|Leading|Following|Tailing|Trailing"
+    r"|Preceding) [^,.;]*), "
+    r"((?:the|our) (?:[\w-]+ )?(?:vehicle under test|ego|hero|vehicle|car|van|truck|AV|SUT|VUT)(?: vehicle)?|Ego"
+    r"|Hero)(?= )"
+)
+_DESCENDS = re.compile(r"\bdescend(s|ing)? the driveway\b", re.IGNORECASE)
+_GAP_WITH_WHICH = re.compile(
+    r"\b(time gap|gap|distance|headway) (?:with|at|by) which ((?:the )?[\w-]+) (?:follows|is behind|trails) ((?:the "
+    r")?[\w-]+) "
+    r"(is|becoming|falls to|has become)\b",
+    re.IGNORECASE,
+)
+_REMAINING_TO = re.compile(
+    r"\bremaining (?:to|for) ((?:the )?[\w-]+) before (the (?:stop line|conflict point|intersection))", re.IGNORECASE
+)
+_FIRST_AND_AFTER = re.compile(r", (the [\w-]+|Hero|Ego) first and (the [\w-]+|Hero|Ego) after it\b", re.IGNORECASE)
+
+_FOR_WHOM_IT_IS = re.compile(
+    r"(?<!; )\b[Ff]or ((?:the |our )?[\w-]+(?: vehicle)?) it is (?:still |only )?"
+    r"(?=(?:[\d.]+|[a-z]+(?: and a half)?) (?:m|s|ft|yd|met(?:er|re)s|seconds|feet|yards)\b|\w+_(?:m|s|ft)\b)"
+)
+
 
 def _when(found: re.Match[str]) -> str:
     """Return "We get to 18 m behind it, and that's when it" as "When we get to 18 m behind it, it"."""
@@ -302,6 +280,25 @@ def _when(found: re.Match[str]) -> str:
 def _completes_turn(found: re.Match[str]) -> str:
     """Return "clears its own turn" as "completes its turn"."""
     return f"complete{found.group(1) or ''} its turn"
+
+
+def _unfronted(found: re.Match[str]) -> str:
+    """Return "Being 8 s from it, the ego comes" as "The ego, 8 s from it, comes"."""
+    who = found.group(2)
+    return f"{who[0].upper()}{who[1:]}, {found.group(1)},"
+
+
+def _unfronted_verb(found: re.Match[str]) -> str:
+    """Return "Wanting to turn left, the ego is" as "The ego, wanting to turn left, is"."""
+    who, said = found.group(2), found.group(1)
+    said = f"{who[0].upper()}{who[1:]} {said[0].lower()}{said[1:]},"
+    return said if len(said) <= len(found.group()) else found.group()
+
+
+def _leaves(found: re.Match[str]) -> str:
+    """Return "descending the driveway" as "leaving the driveway"."""
+    ending = (found.group(1) or "").lower()
+    return {"ing": "leaving", "s": "leaves"}.get(ending, "leave") + " the driveway"
 
 
 def _waives(found: re.Match[str]) -> str:
@@ -334,23 +331,7 @@ _THERE_IT_STANDS = re.compile(
     r"|standstill|rest))\b",
     re.IGNORECASE,
 )
-_SET_UP_ONE = re.compile(
-    r"(?:(?<=[.!?]\s)|(?<=, )|(?<=\n)|^)(?:for [\w\u2019' ]+ )?(?:can you |could you )?(?:please )?(?:set up|run"
-    r"|build|do|create|prepare"
-    r"|give me|I need) "
-    r"(?:the|a) (?:one|case|test|scenario|situation) (?:with|of|about|for) (?:the|a|an) (?:[\w-]+ ){0,3}[\w-]+:",
-    re.IGNORECASE,
-)
-_LETS_HAVE = re.compile(
-    r"(?:(?<=[.!?]\s)|(?<=\n)|^)Let['\u2019]s (?:have|do|start with|take|begin with|try|look at) (?:the |an? "
-    r"|another )?"
-    r"(?:[\w-]+ ){0,3}?(?:case|one|scenario|situation|variant)(?: first| next| now)?(?: so (?:that )?[^.!?\d]{0,60})?"
-    r"[.!](?=\s)",
-    re.IGNORECASE,
-)
 _CLEARS_TURN = re.compile(r"\bclear(s)? (?:its|his|her) own turn\b", re.IGNORECASE)
-_TURN_DONE = re.compile(r" \(turn (?:complete|completed|done|finished)\)", re.IGNORECASE)
-_THINKS_BETTER = re.compile(r",? (?:then )?thinks? better of it(?=,| and\b)", re.IGNORECASE)
 
 
 def _completes(found: re.Match[str]) -> str:
@@ -408,9 +389,7 @@ PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...
     (_YOU_START, "Place "),
     (_ENDS_STANDING, "ends in a stop"),
     (_TRIGGER_FOR, "Trigger"),
-    (_WHAT_FOLLOWS, "Then"),
     (_ARRIVAL_OFF, r"time to \1 \2\3"),
-    (_BEFORE_ALL, ""),
     (_THAT_IS_WHERE, " is where "),
     (_NOTHING_UNTIL, "When"),
     (_TRAILS_BY, r"is \2 behind \1"),
@@ -425,8 +404,6 @@ PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...
     (_NOT_BEFORE_IS, r"Once \1, \2 accelerates"),
     (_RIGHT_ON, "keeps "),
     (_FORMER_FROM, r" away from \1 and \2, respectively"),
-    (_LIKES_IT, ""),
-    (_WITHOUT_CARE, ""),
     (_FOR_THAT_STOP, ""),
     (_DENIES, r"won't yield to \1"),
     (_ON_THE_CLOCK, r"at \1"),
@@ -438,6 +415,13 @@ PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...
     (_OF_TRAVEL, r"\1"),
     (_AFTER_STOP, "Then "),
     (_BRAKES_OF, "brake "),
+    (_FOR_WHOM_IT_IS, r"\1 has "),
+    (_FRONTED, _unfronted),
+    (_FRONTED_VERB, _unfronted_verb),
+    (_DESCENDS, _leaves),
+    (_GAP_WITH_WHICH, r"\1 from \2 to \3 \4"),
+    (_REMAINING_TO, r"remaining for \1 to \2"),
+    (_FIRST_AND_AFTER, r", \1 ahead of \2"),
     (_THAT_OF, r";that of \1 is "),
     (_END_POSITION, r"\1 stops"),
     (_IN_RESPONSE, r"When \1 is "),
@@ -449,35 +433,19 @@ PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...
     (_NIPS, "goes past "),
     (_WOULD_LIKE, "wanted to "),
     (_IT_IS_WHO, r"\1 "),
-    (_CLOSES_IN, ""),
-    (_SHOULD_HAVE_SAID, ""),
     (_WHAT_SETS_OFF, r"When \1 is "),
-    (_BACK_TO_START, "Initially "),
-    (_NOT_SURE, ""),
     (_MAKES_STOP, "stop"),
     (_IE_EGO, r"\1"),
     (_GIVEN_INLINE, r"\1. When \2, "),
     (_FIRST_PAST, r"passes \1 first"),
     (_THERE_IT_STANDS, r"\2 stops \1"),
-    (_SET_UP_ONE, ""),
-    (_LETS_HAVE, ""),
     (_CLEARS_TURN, _completes_turn),
-    (_TURN_DONE, ""),
-    (_THINKS_BETTER, ""),
     (_THAT_IS_WHEN, _when),
     (_GOES_ON_BRAKES, _brakes),
-    (_BEHAVES, r"\1 "),
-    (_THAT_BEHAVES, ""),
-    (_TRIGGER_KIND, "Trigger"),
     (_PROVIDED_THEN, r" and \1"),
-    (_YOU_HAVE, "There is "),
-    (_NOT_SO, "But "),
-    (_FOR_THIS, ""),
     (_LETS_UP, "brakes until"),
-    (_ALTHOUGH_COULD, ""),
     (_TTA_FROM, ""),
     (_TRAILS_NAMED, r"is \2 behind \1"),
     (_LET_IN, r"won't yield to \1"),
-    (_WELL, ""),
     (_END_UP_IN, "drive into "),
 )

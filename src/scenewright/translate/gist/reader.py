@@ -7,6 +7,7 @@ or order is left over; words that are not known are set aside, and said to be.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from scenewright.errors import Span, TranslationError
@@ -41,6 +42,11 @@ from scenewright.translate.itineraries import Itineraries
 from scenewright.translate.tokens import Token
 
 _SHOWN = 60
+_SAME_WAY = re.compile(
+    r"\b(?:(?:come|drive|travel)(?:s|ing)? along (?:the|a) road (?:the same way|in the same direction)"
+    r"|one behind the other|in single file)\b",
+    re.IGNORECASE,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,6 +117,9 @@ def check_told(gist: Gist, routes: Itineraries, text: str, name: str) -> None:
     for title in gist.titles:
         if not any(all(fits(route, way) for way in title) for route in (routes.ego, routes.hero)):
             raise words.refuse("neither vehicle does this", title[0].span)
+    ego, hero = routes.ego.headings, routes.hero.headings
+    if (same := _SAME_WAY.search(text)) and ego[0] != hero[0]:
+        raise words.refuse("the two vehicles do not go the same way", Span(*same.span()))
     if gist.meets and find_conflict(routes.ego, routes.hero) is None:
         raise words.refuse("it is said that the ways of the two vehicles meet, but they do not", gist.meets[0])
     if find_conflict(routes.ego, routes.hero) is None and (near := _near_conflict(gist.facts)) is not None:

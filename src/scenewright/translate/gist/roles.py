@@ -102,6 +102,8 @@ class Roles:
             return "into"
         if preposition == "in" and self.words.tag(at, "area") == "driveway" and "turn" in before:
             return None  # "turns left in the driveway" may be into it or out of it
+        if preposition == "in" and self.words.word(back - 1) == "go" and self.words.word(back - 2) == "to":
+            return "into"  # "wants to go in the driveway"
         if preposition in ("on", "in") and (before & {"enter"} or (turned and self.words.tag(at, "area") == "road")):
             return "into"  # "enters in the driveway", "turns left on the road"
         if verb == "pull_out" and word.startswith(("join", "merg")):

@@ -75,7 +75,17 @@ class StoryTeller:
         if goes or (denies and not slows):
             self._go(goes, denies, after_stop=bool(slows))
         self._order(goes)
+        self._check_first()
         return self.facts
+
+    def _check_first(self) -> None:
+        """Refuse "The ego gets past the point first ..." where the hero is told to be."""
+        for clause in self.words.clauses:
+            passes = self.words.verbs(clause.inside) & {"pass", "go", "reach", "complete"}
+            first = self.words.where(clause.inside, "adverb", "first")
+            ego = clause.subject == EGO_ID and clause.named and clause.link in ("main", "and", "colon")
+            if ego and passes and first is not None and self.facts.order is not None and self.facts.order.hero_first:
+                raise self.words.refuse("each vehicle is said to be first", self.words.span(clause))
 
     def _refuse_loose_moments(self) -> None:
         """Refuse "... then the ego begins its turn", told after what the hero does, where it orders nothing."""

@@ -137,6 +137,8 @@ def _is_keyed(words: Words, clause: Clause, at: int) -> bool:
     while words.has([back], "determiner", "actor_adjective"):
         back -= 1
     keyed = words.word(back) == "of" and words.has([back - 1], "aspect", "key", "measure")
+    if keyed and words.has([back - 1], "measure") and words.word(back - 1).startswith("initial"):
+        return True  # "The initial distance of the ego to it is 65 m and its initial speed 8 m/s."
     return keyed and words.has([clause.end], "colon") and not words.has(clause.inside, "verb", "be")
 
 

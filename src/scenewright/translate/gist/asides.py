@@ -1,0 +1,175 @@
+"""Turns of phrase that people put beside what they tell: requests, remarks, changes of mind, fillers.
+
+What enters: nothing. What leaves: `ASIDES`, patterns with what is left of them, in their order: "Not sure if this is
+the right place, but:" is nothing, "It revokes this and goes" is "It goes". Nothing that is left is longer.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+# "It behaves courteously: it brakes", "the left turner that behaves itself"
+_BEHAVES = re.compile(
+    r"\b((?:he|she|it|the [\w-]+)) behaves (?:itself|himself|herself|\w+ly|well|badly|nicely)"
+    r"(?: and (?=\w+s\b)|: (?=(?:he|she|it|the |from|when|as soon as|once)\b))",
+    re.IGNORECASE,
+)
+_THAT_BEHAVES = re.compile(r",? (?:that|who|which) behaves (?:itself|himself|herself|\w+ly|well|badly)(?=[,.;]| and\b)")
+_TRIGGER_KIND = re.compile(
+    r"(?:(?<=[.!?;]\s)|(?<=\n)|^)(?:The )?(?:trigger|triggering|condition) is (?:purely |entirely |only )?"
+    r"(?:temporal|spatial|time-based|distance-based|based on (?:time|distances?|times))(?=:)",
+    re.IGNORECASE,
+)
+_YOU_HAVE = re.compile(
+    r"(?:(?<=[.!?;]\s)|(?<=\n)|^)(?:(?:Then|And|So|Now),? )?(?:You|We|I)(?: (?:also|then|now))? (?:have|got|"
+    r"['\u2019]ve got|have got)(?: also)? (?=(?:the|a|an|our|another|one) )",
+    re.IGNORECASE,
+)
+_NOT_SO = re.compile(r"(?:(?<=[.!?;]\s)|^)Not so (?=(?:the|our|a) )")
+_FOR_THIS = re.compile(
+    r"(?:(?<=[.!?;]\s)|^)(?:For|To do|To achieve|To manage) (?:this|that|it),? (?=(?:it|he|she|the) )"
+)
+_ALTHOUGH_COULD = re.compile(
+    r",? (?:although|though|even though|while) (?:it|he|she|they) (?:could|might|would have had time|should|ought to)"
+    r"(?=[.,;]|$)",
+    re.IGNORECASE,
+)
+_WELL = re.compile(
+    r"(?:(?<=[.!?]\s)|(?<=\n)|^)(?:right|ok|okay|alright|all right|so|well|now)(?:,| so| then)+ (?=[a-z])", re.I
+)
+_SET_UP_ONE = re.compile(
+    r"(?:(?<=[.!?]\s)|(?<=, )|(?<=\n)|^)(?:for [\w\u2019' ]+ )?(?:can you |could you )?(?:please )?(?:set up|run"
+    r"|build|do|create|prepare"
+    r"|give me|I need) "
+    r"(?:the|a) (?:one|case|test|scenario|situation) (?:with|of|about|for) (?:the|a|an) (?:[\w-]+ ){0,3}[\w-]+:",
+    re.IGNORECASE,
+)
+_LETS_HAVE = re.compile(
+    r"(?:(?<=[.!?]\s)|(?<=\n)|^)Let['\u2019]s (?:have|do|start with|take|begin with|try|look at) (?:the |an? "
+    r"|another )?"
+    r"(?:[\w-]+ ){0,3}?(?:case|one|scenario|situation|variant)(?: first| next| now)?(?: so (?:that )?[^.!?\d]{0,60})?"
+    r"[.!](?=\s)",
+    re.IGNORECASE,
+)
+_TURN_DONE = re.compile(r" \(turn (?:complete|completed|done|finished)\)", re.IGNORECASE)
+_THINKS_BETTER = re.compile(r",? (?:then )?thinks? better of it(?=,| and\b)", re.IGNORECASE)
+_SHOULD_HAVE_SAID = re.compile(
+    r"(?:(?<=[.!?]\s)|^)I (?:should|ought to) have (?:said|mentioned)(?: first| before)? that ", re.IGNORECASE
+)
+_NOT_SURE = re.compile(r"(?:(?<=[.!?]\s)|^)Not sure (?:if|whether) [^.!?:\d]*?,? but[:,]? ", re.IGNORECASE)
+_CLOSES_IN = re.compile(
+    r"\b(?:Then )?(?:the ego|the AV|the SUT|our car|it|we) (?:then )?(?:closes? in|catch(?:es)? up|draws? (?:closer"
+    r"|nearer)),? and (?=when )",
+    re.IGNORECASE,
+)
+_BACK_TO_START = re.compile(
+    r"(?:(?<=[.!?]\s)|^)(?:To go back|Going back|Back) to the (?:beginning|start|outset)[:,]", re.IGNORECASE
+)
+_LIKES_IT = re.compile(r",? whether (?:it|he|she|they|we) likes? it or not\b", re.IGNORECASE)
+_WITHOUT_CARE = re.compile(
+    r"(?<=\w) without (?:looking|hesitat(?:ion|ing)|(?:any )?warning|thinking|further ado|a second thought|delay)"
+    r"(?=[,.;]| and\b| but\b|$)",
+    re.IGNORECASE,
+)
+_WHAT_FOLLOWS = re.compile(
+    r"(?:(?<=[.!?;]\s)|(?<=\n)|^)What (?:follows|comes next|happens next|happens then):", re.IGNORECASE
+)
+_BEFORE_ALL = re.compile(r"(?:(?<=[.!?]\s)|(?<=\n))Before (?:all )?(?:that|this), ?", re.IGNORECASE)
+_STOPPED_BY_WORDS = re.compile(
+    r"(?<= )full stop(?= (?:(?:it|the|when|then|and|so|ego|hero|our|a|initially)\b)|\s*\Z)", re.IGNORECASE
+)
+_NOTHING_BUT = re.compile(r"\bwants (?:nothing but|no more than|to do no more than|only) to\b", re.IGNORECASE)
+_CATCHING_UP = re.compile(
+    r", (?:gradually |slowly )?(?:catching up|closing in|drawing nearer)(?: on it| with it)?,(?= is| are)",
+    re.IGNORECASE,
+)
+_NOT_CARING = re.compile(
+    r"(?:(?<=[.!?]\s)|^)Not caring about (?:the (?:priority|right of way) of )?(?:the \w+|us|it), (?=the |it )"
+    r"|,? without (?:any )?(?:caring about|regard for|looking at|a thought for) (?:the (?:ego|AV|SUT)|us)(?=[.,;])",
+)
+_SO_THAT_IT_TURNS = re.compile(
+    r",? (?:where it (?:remains|stays|waits) )?so that (?:the \w+|it|we) (?:may|can|could|might|is able to) (?:turn"
+    r"|go|drive on|pull out)"
+    r"(?: first| ahead)?(?=[.,;]|$)",
+    re.IGNORECASE,
+)
+_RESUMING = re.compile(r", (?:resuming|continuing) its (?:turn|way|drive|journey|course),", re.IGNORECASE)
+_REVOKES = re.compile(
+    r"\b(?:revokes|revises|reverses|reconsiders|abandons|takes back) (?:this|that|it|its decision|this decision|its "
+    r"intention),? "
+    r"(?:and (?:then )?)?(?=accelerates|goes|drives|starts|sets|moves)",
+    re.IGNORECASE,
+)
+_WITHOUT_EITHER = re.compile(
+    r"\bWithout (?:speeding up|accelerating) (?:or|and) (?:without )?(?:slowing down|slowing|braking)(?: for "
+    r"[\w ]{2,20}?)?,",
+    re.IGNORECASE,
+)
+_OPENS_WITH = re.compile(
+    r"(?:(?<=[.!?]\s)|^)(?:Our|The) (?:first|opening|initial) (?:frame|scene|shot|picture|image) (?:has|shows|finds) ",
+    re.IGNORECASE,
+)
+_AGAINST_IT = re.compile(
+    r"(?:(?<=[.!?]\s)|^)Against (?:it|this|that|the ego) (?:we|I) (?:set|put|place|pit) ", re.IGNORECASE
+)
+_THEN_BETTER = re.compile(r"\b((?:it|he|she) then) thinks better of it(?:,| and)", re.IGNORECASE)
+_GOES_ON_AGAIN = re.compile(
+    r"(?:(?<=[.!?;]\s)|^)When (?:it|he|she) (?:goes|drives|moves|carries|rolls) on(?: again)?, (?=it |he |she )",
+    re.IGNORECASE,
+)
+_UNDER_THIS = re.compile(
+    r"(?:(?<=[.!?;]\s)|^)Under (?:this|that|these|those) conditions?,? (?=the |it )", re.IGNORECASE
+)
+_WITHOUT_LETTING = re.compile(
+    r",? (?:but )?without (?:letting|allowing) (?:the \w+|it|us) (?:to )?(?:go|pass|turn|through|in)(?: "
+    r"first)?(?=[,.;])",
+    re.I,
+)
+_FOR_ITS_PART = re.compile(r", (?:for its part|on its part|in turn|on the other hand),", re.IGNORECASE)
+
+
+def _stop_said(found: re.Match[str]) -> str:
+    """Return the mark for "full stop" in a dictated text, which has no marks of its own."""
+    said = len(re.findall(r"\bfull stop\b", found.string, re.IGNORECASE)) > 2
+    return "." if said and not re.search(r"[.;!?]\s", found.string) else found.group()
+
+
+# In this order: what one rule leaves, the next may read.
+ASIDES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+    (_BEHAVES, r"\1 "),
+    (_THAT_BEHAVES, ""),
+    (_TRIGGER_KIND, "Trigger"),
+    (_YOU_HAVE, "There is "),
+    (_NOT_SO, "But "),
+    (_FOR_THIS, ""),
+    (_ALTHOUGH_COULD, ""),
+    (_WELL, ""),
+    (_SET_UP_ONE, ""),
+    (_LETS_HAVE, ""),
+    (_TURN_DONE, ""),
+    (_THINKS_BETTER, ""),
+    (_SHOULD_HAVE_SAID, ""),
+    (_NOT_SURE, ""),
+    (_CLOSES_IN, ""),
+    (_BACK_TO_START, "Initially "),
+    (_LIKES_IT, ""),
+    (_WITHOUT_CARE, ""),
+    (_WHAT_FOLLOWS, "Then"),
+    (_BEFORE_ALL, ""),
+    (_STOPPED_BY_WORDS, _stop_said),
+    (_NOTHING_BUT, "wants to"),
+    (_CATCHING_UP, ""),
+    (_NOT_CARING, ""),
+    (_SO_THAT_IT_TURNS, ""),
+    (_RESUMING, ""),
+    (_REVOKES, ""),
+    (_WITHOUT_EITHER, "At constant speed,"),
+    (_OPENS_WITH, "Initially "),
+    (_AGAINST_IT, "There is "),
+    (_THEN_BETTER, r"\1"),
+    (_GOES_ON_AGAIN, "Then "),
+    (_UNDER_THIS, "At that moment "),
+    (_FOR_ITS_PART, ""),
+    (_WITHOUT_LETTING, ""),
+)
