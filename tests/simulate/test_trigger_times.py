@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from stories import YIELDS_DISTANCE
+from stories import YIELDS_DISTANCE, YIELDS_TIME
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.program.structure import read_structure
@@ -19,9 +19,9 @@ NOW_S = 5.0
 HERO_MOTION = Profile(chain(0.0, 0.0, 8.0, [(60.0, 0.0, 0)]))
 
 
-def times() -> tuple[TriggerTimes, float]:
-    """Return when the trigger of a hero that is to yield comes, and the ego's place (m) at it."""
-    scene = ground(parse_program(YIELDS_DISTANCE), load_map("t_intersection"), {})
+def times(text: str = YIELDS_DISTANCE) -> tuple[TriggerTimes, float]:
+    """Return when the trigger of a hero that is to yield comes, and the ego's place (m) at it, at no speed."""
+    scene = ground(parse_program(text), load_map("t_intersection"), {})
     structure = read_structure(scene.program)
     conditions = linear_conditions(scene, structure)
     found = TriggerTimes(scene, structure, conditions, ConstantAcceleration(cruise_mps=13.9))
@@ -64,3 +64,19 @@ def test_only_one_that_is_slow_may_come_notably_sooner(speed_mps: float, hasty: 
     earliest = found.earliest_s(found.scene.program.heroes[0], NOW_S, ego, NOW_S + 4.0)
     assert bool(earliest) is hasty
     assert all(NOW_S <= begin_s <= arrival_s <= NOW_S + 4.0 for begin_s, arrival_s in earliest)
+
+
+@pytest.mark.parametrize(("late_m", "due"), [(0.02, True), (0.05, True), (0.6, False)])
+def test_a_time_that_was_met_between_two_ticks_is_not_waited_for_again(late_m: float, due: bool) -> None:
+    """An ego that slows down later is as near in time once more, when it stops; the trigger was to come now."""
+    found, place_m = times(YIELDS_TIME)
+    hero = found.scene.program.heroes[0]
+    side = found.ego_side(hero)
+    assert side is not None
+    lead_s = side.weights[EGO][1] / side.weights[EGO][0]
+    began_m, way = place_m - lead_s * 4.0 + late_m, [(1.5, 0.0, 0), (4.0 / 1.5, -1.5, 0), (20.0, 0.0, 0)]
+    ego = Profile(chain(NOW_S, began_m, 4.0, way))
+    (instant_s,) = found.instants_s(hero, NOW_S, ego, {}, PlannedTrigger(NOW_S + 0.01, HERO_MOTION))
+    assert (instant_s < NOW_S + 0.1) is due
+    (later_s,) = found.instants_s(hero, NOW_S, ego, {}, PlannedTrigger(NOW_S + 3.0, HERO_MOTION))
+    assert later_s > NOW_S + 1.5

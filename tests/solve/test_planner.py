@@ -30,7 +30,7 @@ from scenewright.program.structure import knots_of
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.backends.z3_backend import Z3Backend
-from scenewright.solve.limits import COUNTER, Limits
+from scenewright.solve.limits import ACCEL_MAX_MPSS, COUNTER, STANDSTILL_MIN_S, Limits
 from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.solve.planner import Planner
 from scenewright.solve.reach import Prospects
@@ -234,3 +234,22 @@ def test_a_hero_is_ready_for_an_ego_that_makes_haste_and_for_one_that_stops(
                 left_s = np.interp(segment.end_s, [0.0, expected_s], [arrival_s, expected_s]) - segment.end_s
                 reach_m = segment.end_speed_mps * left_s + 0.5 * limits_of(scene)[1].accel_max_mpss * left_s**2
                 assert segment.end_s_m + reach_m >= place - 1e-3
+
+
+def test_one_that_is_late_goes_as_soon_and_as_hard_as_it_can() -> None:
+    """It stands, and the ego will be there before it: no time is lost that another whim of the ego may give back."""
+    scene = YIELDS_THEN_GOES.scene()
+    planner = planner_of(scene)
+    situation = situation_of(scene, 12.0, 4.0)
+    first = planner.first_plan([situation]).plan
+    assert first is not None
+    profile = first.profiles[1]
+    now_s = profile.knot_times_s["t2"] + 0.1
+    past = {knot: profile.knot_times_s[knot] for knot in ("t0", "t1", "t2")}
+    hero = HeroState(now_s, profile.state(now_s)[0], 0.0, 2, past, profile)
+    after = replace(situation, time_s=now_s, heroes={1: hero}, trigger_s={})
+    plans = (planner.replan([after]).plan for _ in range(20))  # a tick makes a few tries, the next one goes on
+    plan = next(each for each in plans if each is not None)
+    stands_s = plan.profiles[1].knot_times_s["t3"] - past["t2"]
+    assert STANDSTILL_MIN_S <= stands_s <= STANDSTILL_MIN_S + 0.03
+    assert max(segment.accel_mpss for segment in plan.profiles[1].segments) >= 0.97 * ACCEL_MAX_MPSS

@@ -25,13 +25,15 @@ _FAR_S = 40.0
 # An ego that makes haste does so like this (m/s^2, from m/s), from these shares of the time left; how much sooner (s,
 # and as a share of the time left) it has to be there to be worth it.
 _HASTE_MPSS, _SETS_OFF_MPS, _HASTE_SHARES = 1.5, 0.4, (0.0, 0.25, 0.5, 0.75, 1.0)
-_HASTE_HORIZON_S, _NOTABLY_EARLIER_S, _NOTABLE_SHARE = 12.0, 0.25, 0.15
+_HASTE_HORIZON_S, _NOTABLY_EARLIER_S, _NOTABLE_SHARE = 25.0, 0.25, 0.15
 _FIRST_TRIGGERS_S = (2.5, 3.5, 4.5, 6.0, 8.0, 10.0, 13.0, 16.0, 2.0, 1.5, 1.0, 20.0, 25.0)
 # Whom the ego follows is answered: the sooner the trigger comes, the better it is foreseen.
 _FIRST_TRIGGERS_WHEN_FOLLOWED_S = (1.5, 2.0, *_FIRST_TRIGGERS_S)
 _RETRY_TRIGGERS_S = (0.0, 0.25, -0.25, 0.75, 1.5, 3.0, 6.0, 10.0)
 # How near (in tight tolerances) and how soon before it is planned (s) a trigger that both decide may come at once.
 _NEAR, _NEARLY_S = 0.5, 0.5
+# How soon a trigger was to come (s) that the ego may have met between two ticks; how late it would come again.
+_DUE_S, _AGAIN_S = 0.12, 0.2
 # Who does not get nearer to its place than this before it stands is there.
 _STANDS_MPS, _STANDS_THERE_M = 0.02, 0.9 * TIGHT_LENGTH_M
 
@@ -113,6 +115,8 @@ class TriggerTimes:
         if side is not None:
             arrival_s = self._ego_arrival_s(side, time_s, prediction)
             stands = None if planned is None else _standing(side, time_s, prediction, arrival_s)
+            if planned is not None and self._is_due(hero, time_s, prediction, planned.time_s, arrival_s):
+                return [max(planned.time_s, time_s + SHORTEST_LEAD_S)]
             if planned is None or stands is None:
                 return [arrival_s]
             return [min(max(planned.time_s, stands[0]), stands[1])]
@@ -121,6 +125,15 @@ class TriggerTimes:
         if planned is None:
             return list(_FIRST_TRIGGERS_WHEN_FOLLOWED_S if hero.id in self.leaders else _FIRST_TRIGGERS_S)
         return self._joint_instants(hero, time_s, prediction, planned)
+
+    def _is_due(self, hero: Actor, time_s: float, prediction: Profile, planned_s: float, arrival_s: float) -> bool:
+        """Whether a trigger may come as planned, now, though the ego was at its side a moment sooner than foreseen.
+
+        A time to arrival that was met between two ticks may come again, much later, where the ego slows down.
+        """
+        due_s = max(planned_s, time_s + SHORTEST_LEAD_S)
+        late = arrival_s > due_s + _AGAIN_S and planned_s < time_s + _DUE_S
+        return late and self.ego_miss(hero, prediction, due_s) <= _NEAR
 
     def _ego_arrival_s(self, condition: LinearCondition, time_s: float, prediction: Profile) -> float:
         """Return when the ego will be at its side: at once where it is past it, late where that is not in sight."""

@@ -21,7 +21,7 @@ _SLOWEST_TOP_MPS = 8.0
 _SLOWEST_PACE_MPS = 4.0
 # Slower than this, "begins to brake" cannot be seen and "drives" is not driving.
 MOVING_MPS = 1.0
-STANDSTILL_MIN_S = 0.36
+STANDSTILL_MIN_S = 0.34
 # Who is settled does not accelerate visibly, and half of that at most in the sense of what is to begin.
 SETTLED_MPSS = 0.45
 BEGINNING_MPSS = 0.25

@@ -21,7 +21,7 @@ from scenewright.program.expressions import Compare
 from scenewright.program.structure import Role, Structure
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
-from scenewright.solve.arrival import LinearCondition
+from scenewright.solve.arrival import LinearCondition, hero_side
 from scenewright.solve.clearance import Clearance
 from scenewright.solve.hero_problem import HeroProblem
 from scenewright.solve.limits import Limits, Manner
@@ -30,11 +30,11 @@ from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.solve.problem import Backend, Satisfiable, Unknown
 from scenewright.solve.reach import Prospects
 from scenewright.solve.situation import SHORTEST_LEAD_S, Situation
-from scenewright.solve.trials import COAST, EXACT, HASTY, Trial, first_trials, off, opening, relaxed, trials
+from scenewright.solve.trials import COAST, EXACT, Trial, first_trials, hasty, off, opening, relaxed, trials
 
 _TRIES_A_TICK = 5
-# Steps in which the best for a denied outcome is searched, and what is left to later re-solves (s).
-_HASTENINGS, _HASTE_SLACK_S = 4, 0.05
+# Halvings in which the best for an outcome in doubt is searched: one that is promised by no more than this (s).
+_HASTENINGS, _DOUBTFUL_S = 5, 0.1
 # What arithmetic calls just out of reach may be rounding.
 _HOPE_SLACK = 0.02
 # By how much of what the ego may be off its side the trigger is moved: no more than it takes.
@@ -113,6 +113,10 @@ class Planner:
         self._leads = any(c is not None and c.ahead and not c.closing for c in clearances)
         self._prospects = Prospects(scene, structure, limits, conditions)
         self.trials = trials(self._outcome)
+        # One that is timed at its trigger is near it where it is slow, and has less to brake.
+        sides = [(hero.id, hero_side(conditions, structure, hero.id)) for hero in scene.program.heroes]
+        timed = any(side is not None and side.weights[hero][1] for hero, side in sides)
+        self._hasty = hasty(self._outcome and not timed)
         self._held = self.trials[0].manner
         self._replans = 0
         self._position = 0
@@ -129,29 +133,28 @@ class Planner:
         ways = [(trial, situation) for situation in soon for trial in drawing_away]
         ways += [(trial, situation) for trials_, some in groups for trial in trials_ for situation in some]
         attempt, found = self._search(ways, budget_s, 2 * len(ways))
-        if attempt.plan is None or found is None or found[1].manner.outcome_margin_s > 0:
-            return attempt
-        return self._hastened(attempt, self.trials.index(found[1]), found[2])
+        return attempt if found is None else self._soonest(attempt, found[1], found[2], _FIRST_EFFORT)
 
-    def _hastened(self, attempt: Attempt, index: int, situation: Situation) -> Attempt:
-        """Return the best that can be done for an outcome that the prediction denies, between two steps of the search.
+    def _soonest(self, attempt: Attempt, trial: Trial, situation: Situation, effort: int) -> Attempt:
+        """Return the best that can be done for an outcome that the prediction puts in doubt, between two trials.
 
-        The trial found keeps what was found out, so that later re-solves do not fall behind it.
+        From a step to the next it may be a second, and what is not needed here may be missing when the ego makes haste.
         """
-        trial, best = self.trials[index], attempt
-        low, high = self.trials[index - 1].manner.outcome_margin_s, trial.manner.outcome_margin_s
+        margin_s = trial.manner.outcome_margin_s
+        doubtful = trial.manner.outcome and margin_s <= _DOUBTFUL_S and not trial.tolerance
+        if attempt.plan is None or not doubtful or trial not in self.trials:
+            return attempt
+        low, high = self.trials[self.trials.index(trial) - 1].manner.outcome_margin_s, margin_s
         for _ in range(_HASTENINGS):
             middle = 0.5 * (low + high)
-            found = self._solve(
-                situation, replace(trial.manner, outcome_margin_s=middle), Fraction(0), DEFAULT_BUDGET_S
-            )
+            manner = replace(trial.manner, outcome_margin_s=middle)
+            timed = self._timed(Trial(manner), situation)
+            found = None if timed is None else self._solve(timed, manner, Fraction(0), DEFAULT_BUDGET_S, effort)
             if isinstance(found, Plan):
-                high, best = middle, replace(best, plan=found)
+                high, attempt = middle, replace(attempt, plan=found)
             else:
                 low = middle
-        hastened = Trial(replace(trial.manner, outcome_margin_s=high - _HASTE_SLACK_S))
-        self.trials = (*self.trials[:index], hastened, *self.trials[index + 1 :])
-        return best
+        return attempt
 
     def replan(self, situations: Sequence[Situation]) -> Attempt:
         """Plan the rest; begins with what the last re-solve needed, now and then one gentler, and makes a few tries."""
@@ -173,6 +176,7 @@ class Planner:
             self._position = first + tried[0] - len(preferred)
         if attempt.plan is not None and tried is not None:
             self._held = tried[1].manner
+            attempt = self._soonest(attempt, tried[1], tried[2], _EFFORT)
         return attempt
 
     def _ways(
@@ -188,7 +192,7 @@ class Planner:
         more gently may put it off for ever.
         """
         preferred = [(trial, situation) for trial in COAST for situation in situations if situation.coasting]
-        preferred += [(trial, situation) for trial in HASTY for situation in situations if situation.earliest_s]
+        preferred += [(trial, situation) for trial in self._hasty for situation in situations if situation.earliest_s]
         situations = [situation for situation in situations if not situation.coasting]
         near, far = situations[:_NEAR], situations[_NEAR:]
         in_time = [situation for situation in near if not _is_put_off(situation)]

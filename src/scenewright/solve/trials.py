@@ -38,10 +38,14 @@ class Trial:
 
 COAST = (Trial(COASTING), Trial(COASTING, Fraction(1, 2)))
 # Where the ego may make haste: to its place and wait there, or at least never far from it.
-HASTY = (Trial(replace(COUNTER, ready=True)),)
+_READY = Trial(replace(COUNTER, ready=True))
+_READY_QUICK = Trial(replace(COUNTER_QUICK, outcome_margin_s=0.3, ready=True))
 EXACT = tuple(Trial(manner) for manner in (GENTLE, FIRM, WHOLE, COUNTER, CLOSE))
 # Where the prediction denies the outcome, the hero does the most it can for it: the ego may still give way.
 _QUICK = tuple(Trial(manner) for manner in (GENTLE_QUICK, FIRM_QUICK, WHOLE_QUICK, COUNTER_QUICK, CLOSE_QUICK))
+# Before a gentler way that the prediction promises no more than just: the same haste, as much of it as there is.
+_JUST_QUICK = tuple(Trial(replace(trial.manner, outcome_margin_s=0.3)) for trial in _QUICK)
+_IN_HASTE = tuple(Trial(replace(HASTE, outcome_margin_s=margin_s, clear=False)) for margin_s in (0.7, 0.5, 0.3))
 _FOR_OUTCOME = tuple(
     Trial(replace(HASTE, outcome_margin_s=-late_s, clear=False))
     for late_s in (-0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0)
@@ -63,7 +67,15 @@ _OFF = (
 
 def trials(outcome: bool) -> tuple[Trial, ...]:
     """Return what to try at the start and for what meets the trigger exactly; with an outcome that first."""
-    return (*_QUICK, *EXACT, *_FOR_OUTCOME, *_WITHOUT_OUTCOME) if outcome else EXACT
+    return (*_QUICK, *_JUST_QUICK, *_IN_HASTE, *EXACT, *_FOR_OUTCOME, *_WITHOUT_OUTCOME) if outcome else EXACT
+
+
+def hasty(outcome: bool) -> tuple[Trial, ...]:
+    """Return what to try first where the ego may make haste.
+
+    Who is to be first waits where it can still be fast at its trigger, and so loses no time after it.
+    """
+    return (_READY_QUICK, _READY) if outcome else (_READY,)
 
 
 def relaxed(held: Manner, least: Callable[[Manner], float]) -> tuple[Trial, ...]:
