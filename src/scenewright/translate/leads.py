@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 from scenewright.errors import Place, ScenewrightError, Span, TranslationError
-from scenewright.program.types import EGO, PieceKind, Program
+from scenewright.program.types import EGO, HeadingsRoute, PieceKind, Program
 from scenewright.roads import RoadMap, Route, all_routes
 from scenewright.translate.events import HERO_ID
 from scenewright.translate.gist.clauses import cut
@@ -23,11 +23,16 @@ from scenewright.translate.gist.wishes import fits
 from scenewright.translate.gist.words import Clause, Words
 from scenewright.translate.tokens import Token
 
-_FIRST = re.compile(r"\s*(?P<said>[^.!?;\n]{12,240}[.!?])(?=\s+\S)")
+_FIRST = re.compile(
+    r"(?:\s*(?:hello|hi|hey|dear)\b[^\n.!?]{0,30}[,!]?[ \t]*\n)?\s*"
+    r"(?P<said>[^.!?;\n]{12,240}[.!?])(?=\s+\S)",
+    re.IGNORECASE,
+)
 # What somebody says of the test: words that are not known change nothing there.
 _FRAME = re.compile(
     r"(?:(?:hi|hello|hey|so|ok|okay|well|right|now)\b[\w ]{0,12},? )?(?:"
-    r"(?:my|our) \w+ (?:has |have )?(?:asked|told|wants|wanted|needs)\b"
+    r"(?:my|our|the|a) (?:customer|client|boss|manager|supervisor|team|professor|colleague|lead) "
+    r"(?:has |have )?(?:asked|told|wants|wanted|needs)\b"
     r"|(?:i|we)(?: would|['\u2019]d| am|['\u2019]m| are)? (?:like|want|need|remember|recall|try|trying|looking"
     r"|testing)\b"
     r"|(?:i|we) (?:keep|kept|get|got|had|have had|see|saw|often|always|sometimes)\b"
@@ -48,7 +53,7 @@ _ASKS = re.compile(
     r"|policy|we)\b"
 )
 _WHAT_HAPPENS = re.compile(r"\bwhat happens (?:when|if)\b", re.IGNORECASE)
-_STEPPED_OVER = ("lateral manoeuvres", "pedestrians and bicycles")
+_STEPPED_OVER = ("lateral manoeuvres", "people and bicycles", "more than one other actor")
 _BINDING = ("when", "before", "after", "until")
 _KINDS = {
     "let": "dec",
@@ -94,7 +99,8 @@ def find_lead(text: str, name: str) -> Span | None:
 
 
 def _is_finite(token: Token) -> bool:
-    return bool(token.tags.keys() & {"be", "auxiliary"} or ("verb" in token.tags and "s" in token.forms))
+    acts = "verb" in token.tags and bool(token.forms & {"s", "base"}) and "event_noun" not in token.tags
+    return bool(token.tags.keys() & {"be", "auxiliary"}) or acts
 
 
 def _tells(tokens: list[Token], at: int, *, framed: bool) -> bool:
@@ -142,7 +148,11 @@ def check_lead(span: Span, text: str, name: str, program: Program, road_map: Roa
 
 def _routes(program: Program, road_map: RoadMap) -> dict[int, Route]:
     by_headings = {route.headings: route for route in all_routes(road_map)}
-    return {actor.id: by_headings[actor.route.headings] for actor in program.actors}
+    found = {}
+    for actor in program.actors:
+        assert isinstance(actor.route, HeadingsRoute)  # as the offline translator writes them
+        found[actor.id] = by_headings[actor.route.headings]
+    return found
 
 
 def _deeds(program: Program) -> set[str]:
@@ -183,6 +193,7 @@ def _strange(words: Words, routes: dict[int, Route], deeds: set[str], *, of_ego:
             "negation" in words.tags(i) and _denied(words.tokens, i) == at for i in range(max(0, at - _NEAR), at)
         )
         denied = denied or words.word(at - 1) in ("without", "instead of")
+        denied = denied or "fail" in words.verbs(range(max(0, at - 2), at))
         kind = "go" if denied else kind
         subject = next((clause.subject for clause in words.clauses if at in clause.inside), HERO_ID)
         if kind is not None and kind not in deeds and not (of_ego and subject != HERO_ID):

@@ -28,7 +28,7 @@ _AFTER_OUT = ("comma", "end", "colon")
 
 def noted(tokens: list[Token]) -> list[Token]:
     """Return the tokens with notes as sentences."""
-    tokens = _turned_out(_drives_in(_leads(_stop_noted(_abbreviated(tokens)))))
+    tokens = _turned_out(_drives_in(_leads(_stop_noted(abbreviated(tokens)))))
     return _turn_completed(_respectively(same_unit(_arrows(_through(tokens)))))
 
 
@@ -44,7 +44,7 @@ def sentence_end(tokens: list[Token], at: int) -> int:
     return at
 
 
-def _abbreviated(tokens: list[Token]) -> list[Token]:
+def abbreviated(tokens: list[Token]) -> list[Token]:
     """Let "RT" and "LT" in capitals be turns and "@" be "at", as in tickets."""
     read: list[Token] = []
     for token in tokens:

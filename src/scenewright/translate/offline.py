@@ -60,6 +60,11 @@ _AT_ONCE = re.compile(
     re.IGNORECASE,
 )
 
+_SAME_WAY = re.compile(
+    r"\b(?:(?:come|drive|travel)(?:s|ing)? along (?:the|a) road (?:the same way|in the same direction)"
+    r"|one behind the other|in single file)\b",
+    re.IGNORECASE,
+)
 _AT_TRIGGER = re.compile(r"\b(?:at|on|upon) (?:the )?trigger\b", re.IGNORECASE)
 
 # A heading with keys under it, further in: whose heading that is, the grammar of clauses does not know.
@@ -308,6 +313,14 @@ def _assembled(
     name: str,
 ) -> Translation:
     """Build the program, and say what every event came to."""
+    if (same := _SAME_WAY.search(text)) and routes.ego.headings[0] != routes.hero.headings[0]:
+        raise TranslationError(
+            "the two vehicles do not come the same way",
+            place=Place(name, text, Span(*same.span())),
+            found=same.group(),
+            expected=f"what fits {routes.ego} and {routes.hero}",
+            fix="check the turns and the directions of travel",
+        )
     assembler = Assembler(facts, routes, text, name)
     program = assembler.program(map_name)
     _all_amounts_used(program, tokens, text, name)

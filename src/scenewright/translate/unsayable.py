@@ -253,7 +253,8 @@ _PHRASES = tuple(
             "a vehicle that stands passes nothing",
         ),
         (
-            r"\bmov(?:es?|ed|ing) (?:over|across) (?:in)?to\b|\b(?:in|to|into|onto) the next lane\b",
+            r"\bmov(?:es?|ed|ing) (?:over|across) (?:(?:in)?to|one lane|a lane)\b|\b(?:in|to|into|onto) the next "
+            r"lane\b",
             "a lane or a place that the map does not have",
         ),
         (
@@ -274,6 +275,41 @@ _PHRASES = tuple(
             "what works in a vehicle and what does not",
         ),
         (r"\bwith (?:its|his|her|the|all) (?:passengers?|occupants?|riders?|load|cargo)\b", "what somebody else does"),
+        (
+            r"\b(?:pulls?|goes|steers|drives|swings|moves) (?:out )?(?:a)?round (?:it|him|the (?:hero|ego|car|van"
+            r"|other))\b",
+            "motion off its path",
+        ),
+        (
+            r"\bat (?:[\d.]+ ?(?:m/s|km/h|mph)|\w+_(?:mps|kmph|mph)),? (?:all the way|throughout|all along|the "
+            r"whole (?:time|way))\b"
+            r"[^.]*\.[^.]*\b(?:accelerat|brak|decelerat|stop)",
+            "a vehicle that keeps its speed all the way changes it",
+        ),
+        (
+            r"\b(?:has|have|had) (?:honked|hooted|beeped|flashed|waved|signalled|signaled|indicated)\b"
+            r"|\bstill rolling at\b",
+            "a gesture, or a stop that is none",
+        ),
+        (
+            r", (?:just |already |now )?(?:past|beyond) the (?:conflict point|stop line|intersection), is "
+            r"[^,.;]{1,30} from\b",
+            "a vehicle that is past a place is not before it",
+        ),
+        (
+            r"\bonly (?:applies|apply|holds|valid|happens|occurs|counts|relevant)\b|\b(?:applies|apply|holds|valid"
+            r"|relevant) only\b",
+            "what holds at times only",
+        ),
+        (r"\bhorns?\b(?! lane)", "a gesture"),
+        (
+            r"\bno,? (?:that|this|it) (?:was|is) (?:the other|wrong|not)\b|\bthe other way (?:round|around)\b"
+            r"|\balternate (?:days|runs)\b"
+            r"|\b(?:these|the|those|them) (?:distances?|times?|amounts?|numbers?|speeds?|figures?)? ?(?:is|are) "
+            r"(?:wrong|incorrect)\b",
+            "what is taken back",
+        ),
+        (r"\b(?:next to|alongside|level with) (?:the|a|an) (?!ego\b|hero\b)", "a place beside the road"),
         (
             r"\bback (?:to )?where (?:it|he|she|they) (?:started|began|came from|was|were|had been|set out)\b",
             "a way that no route leads",

@@ -32,7 +32,7 @@ _FOR_THIS = re.compile(
 )
 _ALTHOUGH_COULD = re.compile(
     r",? (?:although|though|even though|while) (?:it|he|she|they) (?:could|might|would have had time|should|ought to)"
-    r"(?=[.,;]|$)",
+    r"(?: not)?(?=[.,;]|$)",
     re.IGNORECASE,
 )
 _WELL = re.compile(
@@ -59,8 +59,9 @@ _SHOULD_HAVE_SAID = re.compile(
 )
 _NOT_SURE = re.compile(r"(?:(?<=[.!?]\s)|^)Not sure (?:if|whether) [^.!?:\d]*?,? but[:,]? ", re.IGNORECASE)
 _CLOSES_IN = re.compile(
-    r"\b(?:Then )?(?:the ego|the AV|the SUT|our car|it|we) (?:then )?(?:closes? in|catch(?:es)? up|draws? (?:closer"
-    r"|nearer)),? and (?=when )",
+    r"\b(?:Then )?(?:the ego|the AV|the SUT|our car|it|we) (?:then )?(?:closes? (?:in|up)|catch(?:es)? up|draws? "
+    r"(?:closer"
+    r"|nearer)),? and (?=when |the moment |as soon as |once )",
     re.IGNORECASE,
 )
 _BACK_TO_START = re.compile(
@@ -86,7 +87,8 @@ _CATCHING_UP = re.compile(
 )
 _NOT_CARING = re.compile(
     r"(?:(?<=[.!?]\s)|^)Not caring about (?:the (?:priority|right of way) of )?(?:the \w+|us|it), (?=the |it )"
-    r"|,? without (?:any )?(?:caring about|regard for|looking at|a thought for) (?:the (?:ego|AV|SUT)|us)(?=[.,;])",
+    r"|,? without (?:any )?(?:caring about|regard for|looking at|a thought for) (?:the (?:ego|AV|SUT)|us)"
+    r"(?=\.|;|,(?! (?:who|which|that|whose)\b))",
 )
 _SO_THAT_IT_TURNS = re.compile(
     r",? (?:where it (?:remains|stays|waits) )?so that (?:the \w+|it|we) (?:may|can|could|might|is able to) (?:turn"
@@ -126,7 +128,43 @@ _WITHOUT_LETTING = re.compile(
     r"first)?(?=[,.;])",
     re.I,
 )
+_FOR_GOOD = re.compile(r"(?<=stops) for good\b|(?<=stop) for good\b", re.IGNORECASE)
+_AS_IT_SHOULD = re.compile(
+    r"(?:(?<=[.!?]\s)|^)(?:It|He|She|The \w+) does (?:what|as) (?:it|he|she) (?:should|must"
+    r"|ought to)(?: do)?[.:]"
+)
+_IN_SECONDS = re.compile(
+    r"(?:(?<=[.!?]\s)|^)(?:Here,? )?[Ee]verything (?:here )?is (?:given |measured |told )?in (?:seconds|metres"
+    r"|meters|times?"
+    r"|distances?)\b[^.\d]{0,40}\."
+)
+_HERE_IS = re.compile(r"\b((?:The|the) (?:ego|hero|AV|SUT|VUT|POV|NPC)(?: vehicle)?) here is (?=an? )")
+_ITS_DRIVER = re.compile(r"\bits driver (?=intend|want|mean|meant|plan|wish|is about|was about)", re.IGNORECASE)
+_IN_A_HURRY = re.compile(r"\b(?:who is )?in a (?:great |terrible )?hurry\b", re.IGNORECASE)
+_ITS_TURN_TO_WAIT = re.compile(
+    r"(?<=[.!?] )(?:But |However, )?([Ii]t|[Hh]e|[Ss]he) waits (?:its|his|her) turn(?:, "
+    r"though)?(?=[.:])"
+)
+_HAVE_IT = re.compile(r"\blets (?:the ego|us|it|the AV|the SUT) have it(?=[:.])")
+_LOCATED = re.compile(r"\b(is|are|was|were) (?:located|found|situated|positioned) (?=[\d.]+ |\w+_(?:m|s|ft)\b)")
+_FOR_NOBODY = re.compile(r"\b(?:waits|stops|brakes|slows) for nobody\b", re.IGNORECASE)
+_SPEED_TO_NOTHING = re.compile(r"\breduces its speed to (?:nothing|nil|naught|nought)\b", re.IGNORECASE)
+_CAN_WE = re.compile(
+    r"(?:(?<=[.!?]\s)|^)(?:You['\u2019]ll like this one|Here['\u2019]s one with [\w ]{2,30}"
+    r"|Say)[.:]? ",
+    re.IGNORECASE,
+)
 _FOR_ITS_PART = re.compile(r", (?:for its part|on its part|in turn|on the other hand),", re.IGNORECASE)
+
+_STARTING_CONDITION = re.compile(r"(?<=[.;] )Starting condition(?=:)|(?<=\n)Starting condition(?=:)", re.IGNORECASE)
+_ASKED = re.compile(r"\b(?:when|once|as soon as|if|trigger\w*|moment|until)\b", re.IGNORECASE)
+_PLACED = re.compile(r"\d ?(?:m|s|ft|yd)\b|\w+_(?:m|s|ft)\b")
+
+
+def _starts_it(found: re.Match[str]) -> str:
+    """Return "Starting condition" as the trigger where amounts stand before it and nothing else is one."""
+    told = _PLACED.search(found.string[: found.start()]) and not _ASKED.search(found.string)
+    return "Trigger" if told else found.group()
 
 
 def _stop_said(found: re.Match[str]) -> str:
@@ -170,6 +208,18 @@ ASIDES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...]
     (_THEN_BETTER, r"\1"),
     (_GOES_ON_AGAIN, "Then "),
     (_UNDER_THIS, "At that moment "),
+    (_FOR_GOOD, ""),
+    (_AS_IT_SHOULD, ""),
+    (_IN_SECONDS, ""),
+    (_HERE_IS, r"\1 is "),
+    (_ITS_DRIVER, "it "),
+    (_IN_A_HURRY, ""),
+    (_ITS_TURN_TO_WAIT, r"\1 yields"),
+    (_HAVE_IT, "yields"),
+    (_LOCATED, r"\1 "),
+    (_FOR_NOBODY, "won't yield"),
+    (_SPEED_TO_NOTHING, "stops"),
+    (_STARTING_CONDITION, _starts_it),
     (_FOR_ITS_PART, ""),
     (_WITHOUT_LETTING, ""),
 )

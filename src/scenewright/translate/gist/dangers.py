@@ -112,7 +112,9 @@ def _is_harmless(words: Words, at: int) -> bool:
     if (not before or "end" in before) and after.keys() & {"colon", "end"}:
         return kind == "more than one other actor"  # "Actors:"
     if kind == "lateral manoeuvres":
-        return _only_goes_first(words, at)
+        heads = not before or "end" in before  # "Cut-in from the driveway: a hero turns left ..."
+        heads = heads and any(words.word(i) == ":" for i in range(at + 1, min(at + 7, len(words.tokens))))
+        return heads or words.word(at - 1) in ("instead of", "rather than") or _only_goes_first(words, at)
     if kind in ("collisions", "alternatives and chance"):
         return _is_remark(words, at, kind) or (kind != "collisions" and _asks_people(words, at))
     return kind == "more than one other actor" and (

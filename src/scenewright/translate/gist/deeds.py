@@ -182,7 +182,7 @@ class DeedReader:
         """Read "to a full stop", "speed zero", "over the conflict point", "through it"."""
         tags = self.words.tags(at)
         if "stop_noun" in tags and "verb" not in tags and negation is None:
-            self._add("stop", at, clause)
+            self._add("wait" if self._is_placed_standing(at, clause) else "stop", at, clause)
         if tags.get("adverb") == "steady" and clause.subject == HERO_ID and negation is None:
             self._add("keep", at, clause)  # "passes it without any acceleration"
         there = tags.get("preposition") == "at" and "be" in self.words.tags(at - 1) and clause.subject == HERO_ID
@@ -254,6 +254,21 @@ class DeedReader:
         if kind == "pass" and overtakes and actor == HERO_ID and self.words.tag(at, "verb") == "pass":
             raise self.words.refuse("overtaking cannot be orchestrated", self.words.span(clause))
         self.deeds.append(Deed(kind, at, clause, span, passed, actor))
+
+    def _is_placed_standing(self, at: int, clause: Clause) -> bool:
+        """Whether a vehicle is put somewhere standing: "is initialised at a standstill at the stop line"."""
+        words = self.words
+        asked = any(c.link == "when" and c.start < at and words.has(c.inside, "quantity") for c in words.clauses)
+        at_rest = "at" in (words.word(at - 1), words.word(at - 2))
+        comes = words.verbs(range(clause.start, at)) & {"brake", "come", "stop", "accelerate", "decelerate"}
+        line = words.where(range(at + 1, min(at + 5, clause.end)), "landmark", "stop_line")
+        return (
+            at_rest
+            and not asked
+            and not comes
+            and line is not None
+            and words.has(range(clause.start, at), "be", "verb")
+        )
 
     def _stands_already(self, at: int, clause: Clause) -> bool:
         """Whether this tells how a vehicle is before anything happens: "there is a van stopped at the stop line"."""

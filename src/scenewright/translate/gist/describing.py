@@ -83,6 +83,7 @@ class Describing:
     def _is_meant(self, at: int) -> bool:
         """Whether a turn is what a vehicle was about to make."""
         about = self.words.word(at - 1) in ("was about to", "were about to", "is about to", "are about to")
+        about = about or self.words.word(at - 1) == "would"
         was = self.words.word(at - 1) == "to" and self.words.word(at - 2) in ("was", "were", "was going", "were going")
         wanted = self.words.word(at - 1) == "to" and self.words.word(at - 2) in ("wanted", "meant", "intended")
         return about or was or wanted

@@ -14,7 +14,7 @@ from scenewright.errors import Span
 from scenewright.translate.aliases import letters
 from scenewright.translate.gist.disclaimers import disclaimers
 from scenewright.translate.gist.idioms import without_idioms
-from scenewright.translate.notes import same_unit
+from scenewright.translate.notes import abbreviated, same_unit
 from scenewright.translate.tokens import Token, tokenise
 from scenewright.units import unit_of_name
 
@@ -25,6 +25,7 @@ _WRAPPED_AT = 70
 _BOLD = re.compile(r"\*\*|__(?=\S)|(?<=\S)__")
 # "Trigger - ego 3 s from it" at the beginning of a line
 _DASHED = re.compile(r"^([ \t]*(?:[-*] )?[A-Za-z][\w ()]{0,30}?) ([-\u2013\u2014])(?= )", re.MULTILINE)
+_HASH = re.compile(r"^[ \t]*#{1,6}(?= )", re.MULTILINE)
 _PLUS = re.compile(r"(?<= )[+&](?= )")
 
 
@@ -35,7 +36,7 @@ def laid_out(text: str, name: str) -> list[Token]:
         tokens = [
             replace(token, tags={"noun": "motorcycle"}) if token.text.lower() == "bike" else token for token in tokens
         ]
-    tokens = _named_by_letter(_makes(tokens), letters(text))
+    tokens = _named_by_letter(_makes(abbreviated(tokens)), letters(text))
     tokens = _without_short_names([_bar(_as_written(token)) for token in tokens])
     return same_unit(_with_lines(_is(_nought(tokens)), text))
 
@@ -43,6 +44,7 @@ def laid_out(text: str, name: str) -> list[Token]:
 def _plain(text: str) -> str:
     """Return the text with keys such as "ego_route" as words, without marks; every character keeps its place."""
     text = _BOLD.sub("  ", text)
+    text = _HASH.sub(lambda found: " " * len(found.group()), text)
     for span in disclaimers(text):
         text = text[: span.start] + " " * (span.end - span.start) + text[span.end :]
     if "\n" in text.strip():

@@ -333,7 +333,7 @@ class MomentReader:
             r"\bfirst (?:position|place|distance|spot|location)\b", told
         ):
             return True
-        if "initial" in told or _START_POINT.search(told):
+        if "initial" in told or "speed at first" in told or _START_POINT.search(told):
             return True
         if any(words.word(at) in _SETS_OUT for at in range(clause.start, made.at)):
             return True  # "The ego set out 30 m short of the line"
@@ -348,7 +348,12 @@ class MomentReader:
         verbless = not words.has(plain, "verb", "be")  # "and the lead vehicle 22 m from it"
         moving = words.verbs(plain) <= {"drive", "go", "come"} and "ing" in words.tokens[clause.start].forms
         verbless = verbless or (made.kind == "speed" and moving)  # "... 62 m from it and travelling at 12 m/s"
-        earlier = any(each.clause is before and self.moments.get(each.at) == "start" for each in self.measured)
+        told_before = [each for each in self.measured if each.clause is before and self.moments.get(each.at) == "start"]
+        same = any(each.actor == made.actor for each in told_before) and clause.link == "and"
+        verbless = verbless or (
+            made.kind == "speed" and same and not words.verbs(plain) - {"drive", "go", "come", "make"}
+        )
+        earlier = bool(told_before)
         own = clause.named or made.kind == "speed"
         return alone or (earlier and verbless and own and clause.link in ("and", "main"))
 

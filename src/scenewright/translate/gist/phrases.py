@@ -19,7 +19,11 @@ _NO_NOTICE = re.compile(
     r"(?=the |it\b|us\b|me\b|[A-Z])",
     re.IGNORECASE,
 )
-_FOR_THAT_STOP = re.compile(r"(?<=ing) for (?:that|this|the|its) (?:stop|halt|standstill)(?= )", re.IGNORECASE)
+_FOR_THAT_STOP = re.compile(
+    r"(?:(?<=ing)|(?<=brake)|(?<=slow down)) for (?:that|this|the|its) (?:stop|halt"
+    r"|standstill)(?= )",
+    re.IGNORECASE,
+)
 _DENIES = re.compile(
     r"\b(?:denies|refuses|denied|refused) (the [\w-]+(?: vehicle| car)?|us|it|[A-Z]{2,}) (?:the |its )?"
     r"(?:right of way|right-of-way|priority|precedence)\b",
@@ -221,7 +225,8 @@ _IT_IS_WHO = re.compile(
     r"\b(?:this time )?it is ((?:our|the) [\w-]+(?: vehicle| car)?) (?:that|which|who) (?=\w+s\b)", re.IGNORECASE
 )
 _WHAT_SETS_OFF = re.compile(
-    r"(?:(?<=[.!?]\s)|^)What (?:gets it going|sets (?:it|this|him) off|triggers (?:it|this|the [\w-]+)|starts it) is "
+    r"(?:(?<=[.!?]\s)|^)What (?:gets it going|sets (?:it|this|him) off|triggers (?:it|this|the [\w-]+)|starts (?:it "
+    r"all|it|this|things)) is "
     r"((?:the|our) [\w-]+(?: vehicle| car)?) being (?=[\d.]+ |\w+_(?:m|s|ft)\b)",
 )
 _MAKES_STOP = re.compile(r"\bmakes? (?:a )?full stop\b", re.IGNORECASE)
@@ -255,9 +260,9 @@ _FRONTED_VERB = re.compile(
 )
 _DESCENDS = re.compile(r"\bdescend(s|ing)? the driveway\b", re.IGNORECASE)
 _GAP_WITH_WHICH = re.compile(
-    r"\b(time gap|gap|distance|headway) (?:with|at|by) which ((?:the )?[\w-]+) (?:follows|is behind|trails) ((?:the "
-    r")?[\w-]+) "
-    r"(is|becoming|falls to|has become)\b",
+    r"\b(time gap|gap|distance|headway) (?:with|at|by) which ((?:the )?[\w-]+(?: vehicle| car)?) (?:follows|is "
+    r"behind|trails)"
+    r" ((?:the )?[\w-]+(?: vehicle| car)?) (is|becoming|falls to|has become|has fallen to|has dropped to|drops to)\b",
     re.IGNORECASE,
 )
 _REMAINING_TO = re.compile(
@@ -268,6 +273,24 @@ _FIRST_AND_AFTER = re.compile(r", (the [\w-]+|Hero|Ego) first and (the [\w-]+|He
 _FOR_WHOM_IT_IS = re.compile(
     r"(?<!; )\b[Ff]or ((?:the |our )?[\w-]+(?: vehicle)?) it is (?:still |only )?"
     r"(?=(?:[\d.]+|[a-z]+(?: and a half)?) (?:m|s|ft|yd|met(?:er|re)s|seconds|feet|yards)\b|\w+_(?:m|s|ft)\b)"
+)
+
+_APPROACHES_FROM = re.compile(
+    r"\bapproach(es|ing) (the (?:stop line|intersection|conflict point))((?: (?!from\b)\w+){0,4}?) from "
+    r"([\d.]+ ?\w+|\w+_(?:m|s|ft)) away\b",
+    re.IGNORECASE,
+)
+_NOT_YIELDING_THUS = re.compile(
+    r"(\bbefore (?:the \w+|it|we) [^,.;]*), (?:thereby |thus |thereby thus )not (?:yielding|giving way)"
+    r"(?: to (?:the \w+|it|us))?(?=[.;])",
+    re.IGNORECASE,
+)
+_WHEN_WE_START = re.compile(r"\bwhen we (?:start|begin),? (?=(?:it|the \w+) is\b)", re.IGNORECASE)
+_AFTER_A_START = re.compile(r"\bafter a start (?=[\d.]+ |\w+_(?:m|s|ft)\b)", re.IGNORECASE)
+_IN_FRONT_OF_US = re.compile(
+    r" and (?:turns|pulls out|drives|goes) (?:out )?(?:right )?in front of (?:us|it|the \w+)(?=: it "
+    r"[^.]*\bbefore\b)",
+    re.IGNORECASE,
 )
 
 
@@ -299,6 +322,12 @@ def _leaves(found: re.Match[str]) -> str:
     """Return "descending the driveway" as "leaving the driveway"."""
     ending = (found.group(1) or "").lower()
     return {"ing": "leaving", "s": "leaves"}.get(ending, "leave") + " the driveway"
+
+
+def _is_away(found: re.Match[str]) -> str:
+    """Return "approaches the stop line from 8 s away" as "is 8 s from the stop line"."""
+    verb = "is" if found.group(1).lower() == "es" else "being"
+    return f"{verb} {found.group(4)} from {found.group(2)}{found.group(3)}"
 
 
 def _waives(found: re.Match[str]) -> str:
@@ -415,6 +444,11 @@ PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...
     (_OF_TRAVEL, r"\1"),
     (_AFTER_STOP, "Then "),
     (_BRAKES_OF, "brake "),
+    (_APPROACHES_FROM, _is_away),
+    (_NOT_YIELDING_THUS, r"\1"),
+    (_WHEN_WE_START, "initially "),
+    (_AFTER_A_START, "starting "),
+    (_IN_FRONT_OF_US, ""),
     (_FOR_WHOM_IT_IS, r"\1 has "),
     (_FRONTED, _unfronted),
     (_FRONTED_VERB, _unfronted_verb),

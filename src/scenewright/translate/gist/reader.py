@@ -7,7 +7,6 @@ or order is left over; words that are not known are set aside, and said to be.
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 
 from scenewright.errors import Span, TranslationError
@@ -31,6 +30,7 @@ from scenewright.translate.gist.strangers import (
     refuse_strange_conditions,
     refuse_strange_deeds,
     refuse_strange_places,
+    refuse_strange_ways,
     refuse_strangers,
     refuse_third_parties,
 )
@@ -42,11 +42,6 @@ from scenewright.translate.itineraries import Itineraries
 from scenewright.translate.tokens import Token
 
 _SHOWN = 60
-_SAME_WAY = re.compile(
-    r"\b(?:(?:come|drive|travel)(?:s|ing)? along (?:the|a) road (?:the same way|in the same direction)"
-    r"|one behind the other|in single file)\b",
-    re.IGNORECASE,
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,9 +112,6 @@ def check_told(gist: Gist, routes: Itineraries, text: str, name: str) -> None:
     for title in gist.titles:
         if not any(all(fits(route, way) for way in title) for route in (routes.ego, routes.hero)):
             raise words.refuse("neither vehicle does this", title[0].span)
-    ego, hero = routes.ego.headings, routes.hero.headings
-    if (same := _SAME_WAY.search(text)) and ego[0] != hero[0]:
-        raise words.refuse("the two vehicles do not go the same way", Span(*same.span()))
     if gist.meets and find_conflict(routes.ego, routes.hero) is None:
         raise words.refuse("it is said that the ways of the two vehicles meet, but they do not", gist.meets[0])
     if find_conflict(routes.ego, routes.hero) is None and (near := _near_conflict(gist.facts)) is not None:
@@ -149,6 +141,7 @@ def _read(words: Words, title: tuple[Token, ...], road_map: RoadMap) -> Gist:
     words.clauses = cut(words)
     give_subjects(words)
     refuse_strangers(words)
+    refuse_strange_ways(words)
     meets = _set_remarks_aside(words)
     measured = AmountReader(words).read()
     share(words, measured)
@@ -173,7 +166,7 @@ def _read(words: Words, title: tuple[Token, ...], road_map: RoadMap) -> Gist:
     events = [*(said.event for each in facts.wishes.values() for said in each.values()), *teller.events]
     titles: dict[int, list[Way]] = {}
     for way in ways.titles:
-        titles.setdefault(next(each.sentence for each in words.clauses if way.at in each.inside), []).append(way)
+        titles.setdefault(next(each.start for each in words.clauses if way.at in each.inside), []).append(way)
     told: list[tuple[str, Span]] = []
     told += [(token.tags[key], token.span) for token in title for key in _told_by(token)]
     events = sorted({id(event): event for event in events}.values(), key=lambda event: event.span.start)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import Literal
 
 from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place, Relation, goes_on
@@ -23,6 +24,11 @@ _GOES = ("accelerate", "pass", "complete", "keep", "go")
 _MOVES = (*_SLOWS, "accelerate")
 # What the ego may do of itself: nobody tells it to, and it changes nothing of what is orchestrated.
 _EGO_MAY = ("before", "after", "let_reach", "go", "turn", "let", "keep", "yield")
+_OUGHT = re.compile(
+    r"\b(?:should|ought|supposed|must|has to|have to|had to|would|could|might|although|though|instead|not|n't|never"
+    r"|no)\b",
+    re.IGNORECASE,
+)
 _STANDS = re.compile(r"\b(?:stand|stood|stationary|stopped|standstill|still|rest|idl)", re.IGNORECASE)
 
 
@@ -101,7 +107,8 @@ class StoryTeller:
         start = self.moments.moments[made.at] == "start"
         beside = [each for each in self.moments.of("trigger") if each is not made and each.actor == made.actor]
         waits = any(deed.clause is made.clause and deed.kind in ("wait", "stop") for deed in self.deeds)
-        if made.quantity is None and made.relation == "just_before" and not waits and (start or beside):
+        loose = made.relation in ("just_before", "past")
+        if made.quantity is None and loose and not waits and (start or beside):
             raise self.words.refuse("it is not clear at which moment this holds", made.span)
         if made.quantity is None and (start or beside):
             return  # "stands at the stop line" at first, "at the stop line" beside an amount
@@ -232,6 +239,10 @@ class StoryTeller:
         slowed = not kinds & {"stop", "wait"} and any(made.kind == "speed" for made in self.moments.of("deed"))
         if slows and kinds & ({"not_yield"} if slowed else {"not_yield", "not_stop"}):
             raise self.words.refuse("the hero is said to stop and not to stop", slows[0].span)
+        yields = next((d for d in self.deeds if d.kind == "yield" and d.actor == HERO_ID), None)
+        modal = yields is not None and _OUGHT.search(self.words.span(yields.clause).excerpt(self.words.text))
+        if yields is not None and goes and not slows and not modal and yields.clause.link in ("main", "and", "colon"):
+            raise self.words.refuse("the hero is said to yield and to go first", yields.span)
         last = max(made.at for made in self.moments.of("trigger"))
         kept = next((deed for deed in told if deed.kind == "keep" and deed.at > last), None)
         if kept is not None and slows and kept.at < slows[0].at and slows[0].clause.sentence == kept.clause.sentence:
@@ -444,6 +455,12 @@ class StoryTeller:
             at = self.words.where(deed.clause.inside, "adverb", "first")
             if at is not None:
                 return [Deed("before", at, deed.clause, self.words.tokens[at].span, "same", EGO_ID)]
+        for clause, following in pairwise(self.words.clauses):  # "Order: hero first, then ego"
+            at = self.words.where(clause.inside, "adverb", "first")
+            alone = at is not None and not self.words.has(clause.inside, "verb", "be", "quantity")
+            other = following.named and following.subject == EGO_ID and following.sentence == clause.sentence
+            if alone and at is not None and goes and clause.named and clause.subject == HERO_ID and other:
+                return [Deed("before", at, clause, self.words.tokens[at].span, "same", EGO_ID)]
         return []
 
     # -- helpers ------------------------------------------------------------------------------------------------------

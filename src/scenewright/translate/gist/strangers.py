@@ -179,6 +179,22 @@ def refuse_strange_places(words: Words, deeds: list[Deed], trigger_sentence: int
                 raise words.refuse("it is not known where this is", words.tokens[at].span)
 
 
+def refuse_strange_ways(words: Words) -> None:
+    """Refuse "RT into drvwy": where a vehicle goes has to be known."""
+    for at, token in enumerate(words.tokens):
+        if token.tags.get("preposition") != "into":
+            continue
+        ahead = at + 1
+        while words.has([ahead], "determiner", "actor_adjective", "area_adjective", "possessive", "same"):
+            ahead += 1
+        if (
+            "unknown" in words.tags(ahead)
+            and ahead not in words.names.actors
+            and words.has([ahead + 1], "end", "comma")
+        ):
+            raise words.refuse("it is not known where this is", words.tokens[ahead].span)
+
+
 def refuse_strange_company(words: Words, deeds: list[Deed], trigger_sentence: int) -> None:
     """Refuse "brakes, skating over ice" and "as the street lamps go out, it starts": what goes with a deed is known."""
     acting = {deed.clause.sentence for deed in deeds if deed.actor == HERO_ID and deed.kind in _ACTS}

@@ -268,6 +268,9 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
         raise words.refuse("it is not clear which vehicle is meant", words.span(clause))  # "Both turn left; it is 8 m"
     if clause.link == "colon" and before.named and own and not words.has(before.inside, "verb", "be", "quantity"):
         return before.subject  # "Hero action: it brakes"
+    that = words.word(clause.start - 1) in ("that", "this") and words.tag(clause.start, "event_noun") == "turn"
+    if that and acting:
+        return HERO_ID  # "... speeds up to complete its turn ... That turn is a left turn"
     if clause.link in _MAIN and acting and "fail" in verbs:
         return HERO_ID  # "..., thereby failing to yield"
     relative = clause.link == "that" and words.word(clause.start - 1) in ("which", "who", "that", "where", "whose")
