@@ -311,6 +311,27 @@ _PHRASES = tuple(
         ),
         (r"\b(?:next to|alongside|level with) (?:the|a|an) (?!ego\b|hero\b)", "a place beside the road"),
         (
+            r"\b(?:the|a) (?:traffic )?(?:light|signal)s? (?:is|are|turns?|goes|shows?|has|have|was|were|changes)\b",
+            "a traffic light",
+        ),
+        (
+            r"(?:\d ?\w+|\w_(?:m|s|ft)|\b(?:met(?:er|re)s|seconds|feet|yards)) (?:behind|before|from|short of|past"
+            r"|beyond|after|of|to|away"
+            r" from|in front of) (?:the|a|its|our) (?:(?:petrol|gas|fuel) station|car park|parking lot|garage"
+            r"|factory|shop|school|house"
+            r"|supermarket)\b",
+            "a place that the map does not have",
+        ),
+        (
+            r"\b(?:place|spot|point|rate|distance|speed) as (?:last|before\b|the last|in the (?:last|previous))"
+            r"|\bas last time\b|\bthe (?:second|third|next|other) time (?:that|when|the|it)\b",
+            "an amount that is not told",
+        ),
+        (
+            r"\bget(?:s|ting)? (?:a)?round (?:it|him|the (?:hero|ego|car|van|other))\b|\bback(?:s|ing|ed)? up\b",
+            "motion off its path",
+        ),
+        (
             r"\bback (?:to )?where (?:it|he|she|they) (?:started|began|came from|was|were|had been|set out)\b",
             "a way that no route leads",
         ),

@@ -13,6 +13,7 @@ from functools import partial
 
 from scenewright.translate.aliases import without_aliases
 from scenewright.translate.gist.asides import ASIDES
+from scenewright.translate.gist.moment_phrases import MOMENT_PHRASES
 from scenewright.translate.gist.phrases import PHRASES
 
 _WAYS = r"(?:paths|ways|lanes|routes|tracks|trajectories|courses)"
@@ -292,6 +293,7 @@ _RULES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...]
     (_AFTER_THIS, r"\1 \3"),
     (_UNDERSCORE, r"\1 \2"),
     *ASIDES,
+    *MOMENT_PHRASES,
     *PHRASES,
     (_WHERE_CROSS, ""),
     (_ITS_WAY_MEETS, "conflict point"),

@@ -133,8 +133,9 @@ class MeasureReader:
         words = self.words
         of = [words.word(made.at - i) for i in (3, 2, 1)] == ["a", "distance", "of"]
         ahead = range(made.at + 1, min(made.at + 10, len(words.tokens)))
-        other = words.where(ahead, "quantity", "length")
-        like = other is not None and words.word(other - 1) == "of" and words.word(other - 2) in ("one", "that")
+        other = words.where(ahead, "quantity", "length", "time")
+        like = other is not None and words.word(other - 1) == "of"
+        like = like and other is not None and (words.word(other - 2) in ("one", "that", "distance"))
         return of and like and words.named(ahead) is not None
 
     def _check_known_place(self, made: Measured) -> None:

@@ -29,7 +29,6 @@ _DENIES = re.compile(
     r"(?:right of way|right-of-way|priority|precedence)\b",
     re.IGNORECASE,
 )
-_THEN_BEING = re.compile(r"\bat (?:that|this) (?:moment|time|instant|point) being (?=[\d.]+ )", re.IGNORECASE)
 _KEEP_RIGHT = re.compile(
     r",? so (?:that )?(we|the ego|the (?:vehicle|car) under test|the AV|the SUT) (?:keeps?|has|have|get to keep"
     r"|retains?) "
@@ -79,22 +78,8 @@ _YOU_START = re.compile(
 _ENDS_STANDING = re.compile(
     r"\bends with (?:it|the [\w-]+) (?:stationary|stopped|at rest|standing(?: still)?|at a standstill)\b", re.IGNORECASE
 )
-_TRIGGER_FOR = re.compile(
-    r"(?:(?<=[.!?;]\s)|(?<=\n)|^)(?:The )?(?:trigger|cue|signal|condition) for (?:its|his|this|(?:the|that)(?:"
-    r" [\w-]+['\u2019]s)?)"
-    r" (?:braking|stop|acceleration|action|manoeuvre|maneuver|reaction|deceleration)(?: of the [\w-]+)?(?=:)",
-    re.IGNORECASE,
-)
-_ARRIVAL_OFF = re.compile(
-    r"\barrival at (the [a-z ]+?) (is )?((?:[\d.]+|[a-z-]+) (?:s|seconds?)) (?:off|away|ahead)\b", re.IGNORECASE
-)
 _THAT_IS_WHERE = re.compile(r": (?:that|this|there) is where (?=the |our |we )", re.IGNORECASE)
 _NOTHING_UNTIL = re.compile(r"(?:(?<=[.!?]\s)|(?<=\n)|^)Nothing (?:happens|changes) until\b", re.IGNORECASE)
-_TRAILS_BY = re.compile(
-    r"\b(?:trails|follows) (it|the [\w-]+) by ((?:[\d.]+|[a-z-]+) (?:m|metres?|meters?|ft|feet|yards?|yd|s"
-    r"|seconds?))\b",
-    re.I,
-)
 _APPLIES = re.compile(
     r"\bappl(?:ies|y) an? (?:constant |steady |uniform )?(deceleration|acceleration) of (?=[\d.]|\w+_mpss)",
     re.IGNORECASE,
@@ -105,11 +90,6 @@ _SHOWS = re.compile(
     r"(?: and |: (?=(?:he|she|it|the )\b))",
     re.IGNORECASE,
 )
-_SWITCHING = re.compile(
-    r"\b(?:switching|the switch|the change) (?:takes place|occurs|happens) (?=when |with |at |once |as soon as )",
-    re.IGNORECASE,
-)
-_SWITCHED = re.compile(r"\bat the (?:switching|triggering|critical) (?:instant|moment|time)\b", re.IGNORECASE)
 _ENTERS_PHASE = re.compile(r"\benters (?:its|the|an?) (braking|deceleration|acceleration) phase\b", re.IGNORECASE)
 _END_STATE = re.compile(
     r", the (?:terminal|final|end) state of which is (?:zero speed|(?:a )?standstill)\b|\bsettles (?:at|to|in) (?:a )?"
@@ -132,19 +112,10 @@ _NOT_BEFORE_IS = re.compile(
     r"(?:accelerated|accelerate)\b",
 )
 _RIGHT_ON = re.compile(r"\bkeeps right on (?=going|driving|rolling|coming)", re.IGNORECASE)
-# "the ego is 4 s and the van 2 s away, the former from the conflict point and the latter from its stop line"
-_FORMER_FROM = re.compile(
-    r"(?: away| off| out)?,? the (?:former|first)(?: one)? from ((?:the|its|his) (?:conflict point|stop line)),?"
-    r" and the "
-    r"(?:latter|second)(?: one)? from ((?:the|its|his) (?:conflict point|stop line))",
-    re.IGNORECASE,
-)
 _ON_THE_CLOCK = re.compile(
     r"\b(?:with|having|showing) ([\d.]+ ?(?:km/h|kph|mph|m/s)) on the (?:clock|dial|speedometer|speedo)\b",
     re.IGNORECASE,
 )
-# "On the VUT being 22 m from it"
-_ON_BEING = re.compile(r"\b[Oo]n (the [\w-]+|[A-Z]+) being (?=[\d.]+ |\w+_(?:m|s)\b)")
 _BY_WHICH = re.compile(r", by which (?=(?:the [\w-]+|[A-Z]+) is brought\b)")
 # "precedence being conceded to the VUT", "right of way not being given"
 _CONCEDED = re.compile(
@@ -160,9 +131,6 @@ _ORDER_IS = re.compile(
     r"(?: then)? ((?:the )?[\w-]+)(?: second| next| last| after it)?(?=[.,;]|$)",
     re.IGNORECASE,
 )
-_OF_TRAVEL = re.compile(
-    r"\b(seconds?|s) of (?:travel|driving|travelling)(?: time)?(?= (?:separate|lie|remain|are|is)\b)", re.I
-)
 _AFTER_STOP = re.compile(
     r"(?:(?<=[.!?;:]\s)|^)After (?:the|this|that|its|an?) (?:complete |full |short |brief )?(?:standstill|stop"
     r"|halt|rest|pause|wait),? "
@@ -170,19 +138,11 @@ _AFTER_STOP = re.compile(
 )
 _BRAKES_OF = re.compile(r"\bapply (?:the )?brakes of (?=the )", re.IGNORECASE)
 
-_PROVIDED_THEN = re.compile(
-    r",? (?:provided|on condition|as long as) (?:that )?((?:the [\w ]+?|[A-Z]+|it|he|we|they) (?:is|are) (?:then )?"
-    r"(?:[\d.]+ ?\w+|\w+_(?:m|ft|s)) (?:away )?(?:from|before|short of) [\w ]+?),? "
-    r"at (?:that|this|the same) (?:moment|time|instant|point)",
-    re.IGNORECASE,
-)
 _LETS_UP = re.compile(
     r"\b(?:doesn['\u2019]t|does not|won['\u2019]t) (?:let up|ease off|let off|stop braking|release the brakes?) "
     r"until\b",
     re.IGNORECASE,
 )
-_TTA_FROM = re.compile(r"(?<=\d s) (?:TTA|TTC|time to arrival) (?=(?:from|to) (?:the|its) )")
-_TRAILS_NAMED = re.compile(r"\b(?:trails|follows) (it|the [\w-]+) by (\w+_(?:m|ft|s))\b", re.IGNORECASE)
 _LET_IN = re.compile(
     r"\b(?:won['\u2019]t|will not|does not|doesn['\u2019]t|do not|don['\u2019]t|refuses to) let (us|the ego|the AV"
     r"|it|him|me)"
@@ -196,10 +156,6 @@ _THAT_IS_WHEN = re.compile(
     r"(?:exactly |precisely |just )?(?:when|the (?:moment|instant|point)(?: when| that| at which)?) ",
 )
 _GOES_ON_BRAKES = re.compile(r"\bgo(?P<s>es)? (?:hard )?on the brakes?\b", re.IGNORECASE)
-_IN_RESPONSE = re.compile(
-    r"\b[Ii]n (?:response|reaction) to ((?:the |an? )?[\w-]+(?: [\w-]+){0,3}?) (?:being|getting|coming|reaching) "
-    r"(?=(?:at a (?:distance|time to arrival) of )?[\d.]+ |\w+_(?:m|s|ft)\b|at a )"
-)
 _PRIORITY_OF = re.compile(
     r"\b(?:disregard|ignore|violate|neglect|take|infringe)s? (?:the )?(?:priority|right of way|right-of-way"
     r"|precedence) (?:of|from)"
@@ -224,11 +180,6 @@ _WOULD_LIKE = re.compile(r"\bwould have liked to (?=turn|go|drive)", re.IGNORECA
 _IT_IS_WHO = re.compile(
     r"\b(?:this time )?it is ((?:our|the) [\w-]+(?: vehicle| car)?) (?:that|which|who) (?=\w+s\b)", re.IGNORECASE
 )
-_WHAT_SETS_OFF = re.compile(
-    r"(?:(?<=[.!?]\s)|^)What (?:gets it going|sets (?:it|this|him) off|triggers (?:it|this|the [\w-]+)|starts (?:it "
-    r"all|it|this|things)) is "
-    r"((?:the|our) [\w-]+(?: vehicle| car)?) being (?=[\d.]+ |\w+_(?:m|s|ft)\b)",
-)
 _MAKES_STOP = re.compile(r"\bmakes? (?:a )?full stop\b", re.IGNORECASE)
 _IE_EGO = re.compile(
     r"\b(ego|AV|SUT|VUT|(?:vehicle|car) (?:under test|we test|being tested)|test (?:vehicle|car)), "
@@ -236,61 +187,36 @@ _IE_EGO = re.compile(
     r"(?:ego|AV|SUT|VUT|(?:vehicle|car) (?:under test|we test|being tested)|test (?:vehicle|car)),",
     re.IGNORECASE,
 )
-_GIVEN_INLINE = re.compile(
-    r"\bGiven (?:that )?((?:the |an? )[^.;]*?), when (?=(?:the|it|both|an?) )([^.;]*?), then (?=(?:the|it) )"
-)
-_THAT_OF = re.compile(r"; for (the [\w-]+) it is (?=[\d.]+ |\w+_(?:m|s|ft)\b)")
 _END_POSITION = re.compile(
     r"^(\W*(?:the )?(?:hero|npc|pov|target|other car|other vehicle|vehicle)) (?:end|final|stop|stopping|rest) "
     r"(?:position|place|point|location)[ \t]*:",
     re.IGNORECASE | re.MULTILINE,
 )
 
-# "Being 8 s from the intersection, the ego comes ..."
-_FRONTED = re.compile(
-    r"(?:(?<=[.!?]\s)|^)Being ((?:[^.;]|\.\d)*?(?:\d|_(?:m|s|ft)\b|(?:seconds?|metres?|meters?|feet|yards?)\b)"
-    r"(?:[^,.;]|\.\d)*), ((?:the|our) (?:[\w-]+ )?(?:vehicle under test|ego|hero|vehicle|car|van|truck|AV|SUT|VUT)"
-    r"(?: vehicle)?|Ego|Hero)(?= )"
-)
-_FRONTED_VERB = re.compile(
-    r"(?:(?<=[.!?]\s)|^)((?:Wanting|Intending|Wishing|Planning|Meaning|Leading|Following|Tailing|Trailing"
-    r"|Preceding) [^,.;]*), "
-    r"((?:the|our) (?:[\w-]+ )?(?:vehicle under test|ego|hero|vehicle|car|van|truck|AV|SUT|VUT)(?: vehicle)?|Ego"
-    r"|Hero)(?= )"
-)
 _DESCENDS = re.compile(r"\bdescend(s|ing)? the driveway\b", re.IGNORECASE)
-_GAP_WITH_WHICH = re.compile(
-    r"\b(time gap|gap|distance|headway) (?:with|at|by) which ((?:the )?[\w-]+(?: vehicle| car)?) (?:follows|is "
-    r"behind|trails)"
-    r" ((?:the )?[\w-]+(?: vehicle| car)?) (is|becoming|falls to|has become|has fallen to|has dropped to|drops to)\b",
-    re.IGNORECASE,
-)
-_REMAINING_TO = re.compile(
-    r"\bremaining (?:to|for) ((?:the )?[\w-]+) before (the (?:stop line|conflict point|intersection))", re.IGNORECASE
-)
 _FIRST_AND_AFTER = re.compile(r", (the [\w-]+|Hero|Ego) first and (the [\w-]+|Hero|Ego) after it\b", re.IGNORECASE)
 
-_FOR_WHOM_IT_IS = re.compile(
-    r"(?<!; )\b[Ff]or ((?:the |our )?[\w-]+(?: vehicle)?) it is (?:still |only )?"
-    r"(?=(?:[\d.]+|[a-z]+(?: and a half)?) (?:m|s|ft|yd|met(?:er|re)s|seconds|feet|yards)\b|\w+_(?:m|s|ft)\b)"
-)
 
-_APPROACHES_FROM = re.compile(
-    r"\bapproach(es|ing) (the (?:stop line|intersection|conflict point))((?: (?!from\b)\w+){0,4}?) from "
-    r"([\d.]+ ?\w+|\w+_(?:m|s|ft)) away\b",
-    re.IGNORECASE,
-)
 _NOT_YIELDING_THUS = re.compile(
     r"(\bbefore (?:the \w+|it|we) [^,.;]*), (?:thereby |thus |thereby thus )not (?:yielding|giving way)"
     r"(?: to (?:the \w+|it|us))?(?=[.;])",
     re.IGNORECASE,
 )
-_WHEN_WE_START = re.compile(r"\bwhen we (?:start|begin),? (?=(?:it|the \w+) is\b)", re.IGNORECASE)
-_AFTER_A_START = re.compile(r"\bafter a start (?=[\d.]+ |\w+_(?:m|s|ft)\b)", re.IGNORECASE)
 _IN_FRONT_OF_US = re.compile(
     r" and (?:turns|pulls out|drives|goes) (?:out )?(?:right )?in front of (?:us|it|the \w+)(?=: it "
     r"[^.]*\bbefore\b)",
     re.IGNORECASE,
+)
+
+_ORDER_AT = re.compile(r"\bOrder: (?:the )?([\w-]+) at the conflict point before\b")
+_YIELDS_THEN_GOES = re.compile(
+    r"(?<=: )(the [\w-]+) yields,? (?:and )?then goes[;:] it (?=brakes|slows|decelerates"
+    r"|stops)",
+    re.I,
+)
+
+_RIGHT_BEHIND = re.compile(
+    r"\b(follow(?:s|ing|ed)?) (?:right|close|closely|directly|just|straight) behind\b", re.IGNORECASE
 )
 
 
@@ -305,29 +231,10 @@ def _completes_turn(found: re.Match[str]) -> str:
     return f"complete{found.group(1) or ''} its turn"
 
 
-def _unfronted(found: re.Match[str]) -> str:
-    """Return "Being 8 s from it, the ego comes" as "The ego, 8 s from it, comes"."""
-    who = found.group(2)
-    return f"{who[0].upper()}{who[1:]}, {found.group(1)},"
-
-
-def _unfronted_verb(found: re.Match[str]) -> str:
-    """Return "Wanting to turn left, the ego is" as "The ego, wanting to turn left, is"."""
-    who, said = found.group(2), found.group(1)
-    said = f"{who[0].upper()}{who[1:]} {said[0].lower()}{said[1:]},"
-    return said if len(said) <= len(found.group()) else found.group()
-
-
 def _leaves(found: re.Match[str]) -> str:
     """Return "descending the driveway" as "leaving the driveway"."""
     ending = (found.group(1) or "").lower()
     return {"ing": "leaving", "s": "leaves"}.get(ending, "leave") + " the driveway"
-
-
-def _is_away(found: re.Match[str]) -> str:
-    """Return "approaches the stop line from 8 s away" as "is 8 s from the stop line"."""
-    verb = "is" if found.group(1).lower() == "es" else "being"
-    return f"{verb} {found.group(4)} from {found.group(2)}{found.group(3)}"
 
 
 def _waives(found: re.Match[str]) -> str:
@@ -399,7 +306,6 @@ def _yields(found: re.Match[str]) -> str:
 PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
     (_DIRECTION_OF, r"\2 drives \1"),
     (_NO_NOTICE, "won't yield to "),
-    (_THEN_BEING, "being "),
     (_KEEP_RIGHT, r", yielding to \1"),
     (_NOT_UNTIL_THEN, "only then "),
     (_FIRST_BY, r"is passed by \1 before \2"),
@@ -417,48 +323,33 @@ PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...
     (_NO_TURN_IN_MIND, "not turning"),
     (_YOU_START, "Place "),
     (_ENDS_STANDING, "ends in a stop"),
-    (_TRIGGER_FOR, "Trigger"),
-    (_ARRIVAL_OFF, r"time to \1 \2\3"),
     (_THAT_IS_WHERE, " is where "),
     (_NOTHING_UNTIL, "When"),
-    (_TRAILS_BY, r"is \2 behind \1"),
     (_APPLIES, _at_rate),
     (_SHOWS, _acts),
-    (_SWITCHING, "the trigger is "),
-    (_SWITCHED, "at the trigger"),
     (_ENTERS_PHASE, _at_rate),
     (_END_STATE, _comes_to_rest),
     (_COMPLETION, "it completes its turn before "),
     (_PRIOR_PASSAGE, r"before \1 passes the "),
     (_NOT_BEFORE_IS, r"Once \1, \2 accelerates"),
     (_RIGHT_ON, "keeps "),
-    (_FORMER_FROM, r" away from \1 and \2, respectively"),
     (_FOR_THAT_STOP, ""),
     (_DENIES, r"won't yield to \1"),
     (_ON_THE_CLOCK, r"at \1"),
-    (_ON_BEING, r"When \1 is "),
     (_BY_WHICH, ", and "),
     (_CONCEDED, _yields),
     (_IN_MIND, r"making \1"),
     (_ORDER_IS, r"\1 passes the conflict point before \2 does"),
-    (_OF_TRAVEL, r"\1"),
     (_AFTER_STOP, "Then "),
     (_BRAKES_OF, "brake "),
-    (_APPROACHES_FROM, _is_away),
+    (_RIGHT_BEHIND, r"\1 behind"),
+    (_ORDER_AT, r"\1 passes the conflict point before"),
+    (_YIELDS_THEN_GOES, r"\1 "),
     (_NOT_YIELDING_THUS, r"\1"),
-    (_WHEN_WE_START, "initially "),
-    (_AFTER_A_START, "starting "),
     (_IN_FRONT_OF_US, ""),
-    (_FOR_WHOM_IT_IS, r"\1 has "),
-    (_FRONTED, _unfronted),
-    (_FRONTED_VERB, _unfronted_verb),
     (_DESCENDS, _leaves),
-    (_GAP_WITH_WHICH, r"\1 from \2 to \3 \4"),
-    (_REMAINING_TO, r"remaining for \1 to \2"),
     (_FIRST_AND_AFTER, r", \1 ahead of \2"),
-    (_THAT_OF, r";that of \1 is "),
     (_END_POSITION, r"\1 stops"),
-    (_IN_RESPONSE, r"When \1 is "),
     (_PRIORITY_OF, "won't yield to "),
     (_WAIVES, _waives),
     (_FORCES_WAY, "won't yield to "),
@@ -467,19 +358,14 @@ PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...
     (_NIPS, "goes past "),
     (_WOULD_LIKE, "wanted to "),
     (_IT_IS_WHO, r"\1 "),
-    (_WHAT_SETS_OFF, r"When \1 is "),
     (_MAKES_STOP, "stop"),
     (_IE_EGO, r"\1"),
-    (_GIVEN_INLINE, r"\1. When \2, "),
     (_FIRST_PAST, r"passes \1 first"),
     (_THERE_IT_STANDS, r"\2 stops \1"),
     (_CLEARS_TURN, _completes_turn),
     (_THAT_IS_WHEN, _when),
     (_GOES_ON_BRAKES, _brakes),
-    (_PROVIDED_THEN, r" and \1"),
     (_LETS_UP, "brakes until"),
-    (_TTA_FROM, ""),
-    (_TRAILS_NAMED, r"is \2 behind \1"),
     (_LET_IN, r"won't yield to \1"),
     (_END_UP_IN, "drive into "),
 )

@@ -268,6 +268,8 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
         raise words.refuse("it is not clear which vehicle is meant", words.span(clause))  # "Both turn left; it is 8 m"
     if clause.link == "colon" and before.named and own and not words.has(before.inside, "verb", "be", "quantity"):
         return before.subject  # "Hero action: it brakes"
+    if (owner := _whose_measure(words, index)) is not None:
+        return owner
     that = words.word(clause.start - 1) in ("that", "this") and words.tag(clause.start, "event_noun") == "turn"
     if that and acting:
         return HERO_ID  # "... speeds up to complete its turn ... That turn is a left turn"
@@ -330,6 +332,19 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
         named_later = _named_later(words, index)
         return named_later if named_later is not None else last
     return last
+
+
+def _whose_measure(words: Words, index: int) -> int | None:
+    """Return whom "Its time to it is 7 s" is about after "The ego drives behind a van that is about to turn"."""
+    clause = words.clauses[index]
+    own = words.word(clause.start) == "its" and words.has([clause.start + 1], "measure")
+    if not own or words.sentence(clause)[0] is not clause or not index:
+        return None
+    before = words.sentence(words.clauses[index - 1])
+    first, last = before[0], before[-1]
+    there = words.word(first.start) == "there" or first.both
+    alone = first.named and first.subject is not None and not there and len(before) <= 2
+    return first.subject if alone and last.link == "that" and last.subject != first.subject else None
 
 
 def _former(words: Words, index: int, named_last: int | None) -> int | None:

@@ -1,0 +1,152 @@
+"""Turns of phrase for amounts and moments: whose they are, and that they are the trigger.
+
+What enters: nothing. What leaves: `MOMENT_PHRASES`, patterns with what to say instead, in their order: "in response to
+the van being 9 m from it" is "when the van is 9 m from it". Nothing that is said instead is longer.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+_THEN_BEING = re.compile(r"\bat (?:that|this) (?:moment|time|instant|point) being (?=[\d.]+ )", re.IGNORECASE)
+_TRIGGER_FOR = re.compile(
+    r"(?:(?<=[.!?;]\s)|(?<=\n)|^)(?:The )?(?:trigger|cue|signal|condition) for (?:its|his|this|(?:the|that)(?:"
+    r" [\w-]+['\u2019]s)?)"
+    r" (?:braking|stop|acceleration|action|manoeuvre|maneuver|reaction|deceleration)(?: of the [\w-]+)?(?=:)",
+    re.IGNORECASE,
+)
+_ARRIVAL_OFF = re.compile(
+    r"\barrival at (the [a-z ]+?) (is )?((?:[\d.]+|[a-z-]+) (?:s|seconds?)) (?:off|away|ahead)\b", re.IGNORECASE
+)
+_TRAILS_BY = re.compile(
+    r"\b(?:trails|follows) (it|the [\w-]+) by ((?:[\d.]+|[a-z-]+) (?:m|metres?|meters?|ft|feet|yards?|yd|s"
+    r"|seconds?))\b",
+    re.I,
+)
+_SWITCHING = re.compile(
+    r"\b(?:switching|the switch|the change) (?:takes place|occurs|happens) (?=when |with |at |once |as soon as )",
+    re.IGNORECASE,
+)
+_SWITCHED = re.compile(r"\bat the (?:switching|triggering|critical) (?:instant|moment|time)\b", re.IGNORECASE)
+# "the ego is 4 s and the van 2 s away, the former from the conflict point and the latter from its stop line"
+_FORMER_FROM = re.compile(
+    r"(?: away| off| out)?,? the (?:former|first)(?: one)? from ((?:the|its|his) (?:conflict point|stop line)),?"
+    r" and the "
+    r"(?:latter|second)(?: one)? from ((?:the|its|his) (?:conflict point|stop line))",
+    re.IGNORECASE,
+)
+# "On the VUT being 22 m from it"
+_ON_BEING = re.compile(r"\b[Oo]n (the [\w-]+|[A-Z]+) being (?=[\d.]+ |\w+_(?:m|s)\b)")
+_OF_TRAVEL = re.compile(
+    r"\b(seconds?|s) of (?:travel|driving|travelling)(?: time)?(?= (?:separate|lie|remain|are|is)\b)", re.I
+)
+# "Given the ego on the road, and given a hero in the driveway: when ..., then ..."
+_GIVEN_AND_GIVEN = re.compile(
+    r"(?:(?<=[.!?]\s)|^)Given (?:that )?((?:[^.;:]|\.\d)*?),? and given (?:that )?((?:[^.;:]|\.\d)*?)(?::|,) when "
+    r"(?=the |both |it )"
+)
+_TEMPORAL = re.compile(r"\b(?:temporal|time) distance(?= of (?:[\d.]+ ?s\b|[a-z-]+ seconds|\w+_s\b))", re.IGNORECASE)
+_APPROACHES_FROM = re.compile(
+    r"\bapproach(es|ing) (the (?:stop line|intersection|conflict point))((?: (?!from\b)\w+){0,4}?) from "
+    r"([\d.]+ ?\w+|\w+_(?:m|s|ft)) away\b",
+    re.IGNORECASE,
+)
+_WHEN_WE_START = re.compile(r"\bwhen we (?:start|begin),? (?=(?:it|the \w+) is\b)", re.IGNORECASE)
+_AFTER_A_START = re.compile(r"\bafter a start (?=[\d.]+ |\w+_(?:m|s|ft)\b)", re.IGNORECASE)
+_FOR_WHOM_IT_IS = re.compile(
+    r"(?<!; )\b[Ff]or ((?:the |our )?[\w-]+(?: vehicle)?) it is (?:still |only )?"
+    r"(?=(?:[\d.]+|[a-z]+(?: and a half)?) (?:m|s|ft|yd|met(?:er|re)s|seconds|feet|yards)\b|\w+_(?:m|s|ft)\b)"
+)
+# "Being 8 s from the intersection, the ego comes ..."
+_FRONTED = re.compile(
+    r"(?:(?<=[.!?]\s)|^)Being ((?:[^.;]|\.\d)*?(?:\d|_(?:m|s|ft)\b|(?:seconds?|metres?|meters?|feet|yards?)\b)"
+    r"(?:[^,.;]|\.\d)*), ((?:the|our) (?:[\w-]+ )?(?:vehicle under test|ego|hero|vehicle|car|van|truck|AV|SUT|VUT)"
+    r"(?: vehicle)?|Ego|Hero)(?= )"
+)
+_FRONTED_VERB = re.compile(
+    r"(?:(?<=[.!?]\s)|^)((?:Wanting|Intending|Wishing|Planning|Meaning|Leading|Following|Tailing|Trailing"
+    r"|Preceding) [^,.;]*), "
+    r"((?:the|our) (?:[\w-]+ )?(?:vehicle under test|ego|hero|vehicle|car|van|truck|AV|SUT|VUT)(?: vehicle)?|Ego"
+    r"|Hero)(?= )"
+)
+_GAP_WITH_WHICH = re.compile(
+    r"\b(time gap|gap|distance|headway) (?:with|at|by) which ((?:the )?[\w-]+(?: vehicle| car)?) (?:follows|is "
+    r"behind|trails)"
+    r" ((?:the )?[\w-]+(?: vehicle| car)?) (is|becoming|falls to|has become|has fallen to|has dropped to|drops to)\b",
+    re.IGNORECASE,
+)
+_REMAINING_TO = re.compile(
+    r"\bremaining (?:to|for) ((?:the )?[\w-]+) before (the (?:stop line|conflict point|intersection))", re.IGNORECASE
+)
+_THAT_OF = re.compile(r"; for (the [\w-]+) it is (?=[\d.]+ |\w+_(?:m|s|ft)\b)")
+_IN_RESPONSE = re.compile(
+    r"\b[Ii]n (?:response|reaction) to ((?:the |an? )?[\w-]+(?: [\w-]+){0,3}?) (?:being|getting|coming|reaching) "
+    r"(?=(?:at a (?:distance|time to arrival) of )?[\d.]+ |\w+_(?:m|s|ft)\b|at a )"
+)
+_WHAT_SETS_OFF = re.compile(
+    r"(?:(?<=[.!?]\s)|^)What (?:gets it going|sets (?:it|this|him) off|triggers (?:it|this|the [\w-]+)|starts (?:it "
+    r"all|it|this|things)) is "
+    r"((?:the|our) [\w-]+(?: vehicle| car)?) being (?=[\d.]+ |\w+_(?:m|s|ft)\b)",
+)
+_GIVEN_INLINE = re.compile(
+    r"\bGiven (?:that )?((?:the |an? )[^.;]*?), when (?=(?:the|it|both|an?) )([^.;]*?), then (?=(?:the|it) )"
+)
+_PROVIDED_THEN = re.compile(
+    r",? (?:provided|on condition|as long as) (?:that )?((?:the [\w ]+?|[A-Z]+|it|he|we|they) (?:is|are) (?:then )?"
+    r"(?:[\d.]+ ?\w+|\w+_(?:m|ft|s)) (?:away )?(?:from|before|short of) [\w ]+?),? "
+    r"at (?:that|this|the same) (?:moment|time|instant|point)",
+    re.IGNORECASE,
+)
+_TTA_FROM = re.compile(r"(?<=\d s) (?:TTA|TTC|time to arrival) (?=(?:from|to) (?:the|its) )")
+_TRAILS_NAMED = re.compile(r"\b(?:trails|follows) (it|the [\w-]+) by (\w+_(?:m|ft|s))\b", re.IGNORECASE)
+
+
+def _unfronted(found: re.Match[str]) -> str:
+    """Return "Being 8 s from it, the ego comes" as "The ego, 8 s from it, comes"."""
+    who = found.group(2)
+    return f"{who[0].upper()}{who[1:]}, {found.group(1)},"
+
+
+def _unfronted_verb(found: re.Match[str]) -> str:
+    """Return "Wanting to turn left, the ego is" as "The ego, wanting to turn left, is"."""
+    who, said = found.group(2), found.group(1)
+    said = f"{who[0].upper()}{who[1:]} {said[0].lower()}{said[1:]},"
+    return said if len(said) <= len(found.group()) else found.group()
+
+
+def _is_away(found: re.Match[str]) -> str:
+    """Return "approaches the stop line from 8 s away" as "is 8 s from the stop line"."""
+    verb = "is" if found.group(1).lower() == "es" else "being"
+    return f"{verb} {found.group(4)} from {found.group(2)}{found.group(3)}"
+
+
+# In this order: what one rule leaves, the next may read.
+MOMENT_PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+    (_THEN_BEING, "being "),
+    (_TRIGGER_FOR, "Trigger"),
+    (_ARRIVAL_OFF, r"time to \1 \2\3"),
+    (_TRAILS_BY, r"is \2 behind \1"),
+    (_SWITCHING, "the trigger is "),
+    (_SWITCHED, "at the trigger"),
+    (_FORMER_FROM, r" away from \1 and \2, respectively"),
+    (_ON_BEING, r"When \1 is "),
+    (_OF_TRAVEL, r"\1"),
+    (_GIVEN_AND_GIVEN, r"\1. \2. When "),
+    (_TEMPORAL, "distance"),
+    (_APPROACHES_FROM, _is_away),
+    (_WHEN_WE_START, "initially "),
+    (_AFTER_A_START, "starting "),
+    (_FOR_WHOM_IT_IS, r"\1 has "),
+    (_FRONTED, _unfronted),
+    (_FRONTED_VERB, _unfronted_verb),
+    (_GAP_WITH_WHICH, r"\1 from \2 to \3 \4"),
+    (_REMAINING_TO, r"remaining for \1 to \2"),
+    (_THAT_OF, r";that of \1 is "),
+    (_IN_RESPONSE, r"When \1 is "),
+    (_WHAT_SETS_OFF, r"When \1 is "),
+    (_GIVEN_INLINE, r"\1. When \2, "),
+    (_PROVIDED_THEN, r" and \1"),
+    (_TTA_FROM, ""),
+    (_TRAILS_NAMED, r"is \2 behind \1"),
+)
