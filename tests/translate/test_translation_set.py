@@ -78,8 +78,8 @@ def test_free_texts_mean_the_same_or_are_refused(name: str, least: float) -> Non
     assert len(outcomes) >= 40
 
 
-# What one would have to know of the world to refuse it: a green arrow that goes out is a traffic light, there is no petrol
-# station at the end of the driveway, and nobody closes up from 20 m to 35 m.
+# What one would have to know of the world to refuse it: a green arrow that goes out is a traffic light, there is no
+# petrol station at the end of the driveway, and nobody closes up from 20 m to 35 m.
 ACCEPTED = {"rr-03", "ec-51", "vrf-48"}
 
 
