@@ -36,8 +36,8 @@ def test_a_moment_in_other_words(trigger: str) -> None:
 def test_given_and_given_when_then() -> None:
     text = (
         "Given the ego on the road, 7 s ahead of the intersection, heading east and about to turn left into the "
-        "driveway, and given a van on the road that keeps to its lane westbound: when the ego is 3 s and the van 4 s from the "
-        "conflict point, then " + STOPS
+        "driveway, and given a van on the road that keeps to its lane westbound: when the ego is 3 s and the van "
+        f"4 s from the conflict point, then {STOPS}"
     )
     assert formulas(text) == formulas(PLAIN)
 
