@@ -140,6 +140,7 @@ _IN_SECONDS = re.compile(
 )
 _HERE_IS = re.compile(r"\b((?:The|the) (?:ego|hero|AV|SUT|VUT|POV|NPC)(?: vehicle)?) here is (?=an? )")
 _ITS_DRIVER = re.compile(r"\bits driver (?=intend|want|mean|meant|plan|wish|is about|was about)", re.IGNORECASE)
+_ABBREVIATIONS = re.compile(r" ?\((?:LT|RT) ?/ ?(?:LT|RT) ?=[^)]*\)")
 _IN_A_HURRY = re.compile(r"\b(?:who is )?in a (?:great |terrible )?hurry\b", re.IGNORECASE)
 _ITS_TURN_TO_WAIT = re.compile(
     r"(?<=[.!?] )(?:But |However, )?([Ii]t|[Hh]e|[Ss]he) waits (?:its|his|her) turn(?:, "
@@ -213,6 +214,7 @@ ASIDES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...]
     (_IN_SECONDS, ""),
     (_HERE_IS, r"\1 is "),
     (_ITS_DRIVER, "it "),
+    (_ABBREVIATIONS, ""),
     (_IN_A_HURRY, ""),
     (_ITS_TURN_TO_WAIT, r"\1 yields"),
     (_HAVE_IT, "yields"),

@@ -26,7 +26,7 @@ _MOVES = (*_SLOWS, "accelerate")
 _EGO_MAY = ("before", "after", "let_reach", "go", "turn", "let", "keep", "yield")
 _OUGHT = re.compile(
     r"\b(?:should|ought|supposed|must|has to|have to|had to|would|could|might|although|though|instead|not|n't|never"
-    r"|no)\b",
+    r"|no|without|far from|fail\w*|disregard\w*|ignor\w*|neglect\w*|refus\w*|den(?:y|ies|ied))\b",
     re.IGNORECASE,
 )
 _STANDS = re.compile(r"\b(?:stand|stood|stationary|stopped|standstill|still|rest|idl)", re.IGNORECASE)

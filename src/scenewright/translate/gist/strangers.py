@@ -187,11 +187,9 @@ def refuse_strange_ways(words: Words) -> None:
         ahead = at + 1
         while words.has([ahead], "determiner", "actor_adjective", "area_adjective", "possessive", "same"):
             ahead += 1
-        if (
-            "unknown" in words.tags(ahead)
-            and ahead not in words.names.actors
-            and words.has([ahead + 1], "end", "comma")
-        ):
+        right = words.word(ahead) in ("priority", "precedence")  # "holds on to its priority"
+        strange = "unknown" in words.tags(ahead) and ahead not in words.names.actors and not right
+        if strange and words.has([ahead + 1], "end", "comma"):
             raise words.refuse("it is not known where this is", words.tokens[ahead].span)
 
 
