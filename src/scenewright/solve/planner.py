@@ -33,8 +33,9 @@ from scenewright.solve.situation import SHORTEST_LEAD_S, Situation
 from scenewright.solve.trials import COAST, EXACT, Trial, first_trials, hasty, off, opening, relaxed, trials
 
 _TRIES_A_TICK = 5
-# Halvings in which the best for an outcome in doubt is searched: one that is promised by no more than this (s).
-_HASTENINGS, _DOUBTFUL_S = 5, 0.1
+# Halvings in which the best for an outcome in doubt is searched: one that is promised by no more than this (s). What
+# comes after the trigger is asked again at every tick; only just before it begins (s) is it worth that.
+_HASTENINGS, _DOUBTFUL_S, _JUST_BEFORE_S = 5, 0.1, 0.25
 # What arithmetic calls just out of reach may be rounding.
 _HOPE_SLACK = 0.02
 # By how much of what the ego may be off its side the trigger is moved: no more than it takes.
@@ -143,6 +144,10 @@ class Planner:
         margin_s = trial.manner.outcome_margin_s
         doubtful = trial.manner.outcome and margin_s <= _DOUBTFUL_S and not trial.tolerance
         if attempt.plan is None or not doubtful or trial not in self.trials:
+            return attempt
+        knots = [knot_s for profile in attempt.plan.profiles.values() for knot_s in profile.knot_times_s.values()]
+        now_s = situation.time_s
+        if not situation.trigger_s and not any(now_s < knot_s <= now_s + _JUST_BEFORE_S for knot_s in knots):
             return attempt
         low, high = self.trials[self.trials.index(trial) - 1].manner.outcome_margin_s, margin_s
         for _ in range(_HASTENINGS):

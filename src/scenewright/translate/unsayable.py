@@ -309,7 +309,7 @@ _PHRASES = tuple(
             r"(?:wrong|incorrect)\b",
             "what is taken back",
         ),
-        (r"\b(?:next to|alongside|level with) (?:the|a|an) (?!ego\b|hero\b)", "a place beside the road"),
+        (r"\b(?:next to|alongside) (?:the|a|an) (?!ego\b|hero\b)", "a place beside the road"),
         (
             r"\b(?:the|a) (?:traffic )?(?:light|signal)s? (?:is|are|turns?|goes|shows?|has|have|was|were|changes)\b",
             "a traffic light",
