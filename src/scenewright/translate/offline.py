@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import itertools
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -325,7 +326,8 @@ def _assembled(
     program = assembler.program(map_name)
     _all_amounts_used(program, tokens, text, name)
     assumptions = tuple(dict.fromkeys((*assumed, *facts.assumptions, *routes.assumptions, *assembler.assumptions)))
-    readings = (_reading(event, facts, routes, assembler, program, text) for event in events)
+    roles = read_structure(program).roles
+    readings = (_reading(event, facts, routes, assembler, roles, text) for event in events)
     return Translation(program, tuple(_rated(each, assumptions) for each in readings), assumptions)
 
 
@@ -447,10 +449,9 @@ def _all_amounts_used(program: Program, tokens: list[Token], text: str, name: st
 
 
 def _reading(
-    event: Event, facts: Facts, routes: Itineraries, assembler: Assembler, program: Program, text: str
+    event: Event, facts: Facts, routes: Itineraries, assembler: Assembler, roles: Mapping[str, Role], text: str
 ) -> Reading:
     ids = tuple(dict.fromkeys(assembler.ids.get(id(event), ())))
-    roles = read_structure(program).roles
     parts = list(
         dict.fromkeys([*(_ROLES[roles[identifier]] for identifier in ids), *facts.understood.get(id(event), ())])
     )
