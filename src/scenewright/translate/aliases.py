@@ -15,7 +15,8 @@ _KINDS = (
 _LETTERED = re.compile(rf"\b(?:the )?{_KINDS} ([A-HP-TX-Z]|\d|one|two)\b(?! ?(?:m|s|ft|yd|km/h|mph)\b)", re.IGNORECASE)
 _NUMBERED = re.compile(r"\b(?!T\d)([A-Z][A-Za-z]{0,3}[-_]?\d)\b(?!\s*=\s*\d)")
 _EGOS = (
-    r"(?:ego(?: vehicle| car)?|subject|(?:car|vehicle|one) (?:under test|being tested)|AV|ADS|SUT|VUT|"
+    r"(?:ego(?: vehicle| car)?|subject|(?:(?:automated|autonomous|robotic|self-driving) )?(?:car|vehicle|one) "
+    r"(?:under test|being tested)|AV|ADS|SUT|VUT|"
     r"(?:subject|test|tested|host|own) (?:car|vehicle))"
 )
 # "The exiting vehicle, which is the ego, ...", "Rear car = vehicle under test"

@@ -38,6 +38,7 @@ _FRAME = re.compile(
     r"|(?:i|we) (?:keep|kept|get|got|had|have had|see|saw|often|always|sometimes)\b"
     r"|as an? [\w ]+,? (?:i|we) (?:want|need|would like)\b"
     r"|(?:need|want|wanted|needed|looking for|request|reproduce|replay|recreate|repro)\b"
+    r"|(?:what|how|who|will|would|can|does|do|is|are|watch|picture|imagine|expect|never trust|beware|meet)\b"
     r"|(?:this|it|that|the (?:test|scenario|case|idea|situation|thing))(?: one| test| scenario| case| time)? "
     r"(?:is|was|checks|covers|tests|concerns|deals|failed|happened|comes|came)\b"
     r"|(?:the )?(?:validation |test |safety |main )?(?:objective|purpose|goal|aim|motivation|background|hazard"
@@ -88,6 +89,8 @@ def find_lead(text: str, name: str) -> Span | None:
         return None
     if any(_tells(tokens, at, framed=framed) for at in range(len(tokens))):
         return None
+    if said.endswith("?"):
+        plain = re.sub(r"\bif\b", "", plain)  # "What would it do if somebody pulled out?"
     if re.search(r"\b(?:only|except|unless|until|before|after|when|if|once|or|but not)\b", plain, re.IGNORECASE):
         return None
     try:

@@ -346,6 +346,16 @@ _PHRASES = tuple(
             r"spare\b",
             "an amount that is not told",
         ),
+        (r"\bovert(?:ake|akes|aken|ook|aking) (?:it|him|her|us|the [a-z]+)\b|\b(?:have|has|be|is|been) overtaken\b", "overtaking"),
+        (
+            r"\b(?:one|either|whichever) of (?:the two|them|the (?:two )?(?:vehicles|cars))\b(?:[^.;]|\.\d)*\bthe other(?: one)? "
+            r"(?:then )?(?:brakes|stops|slows|accelerates|yields|goes|drives|waits)\b",
+            "either vehicle, whichever it may be",
+        ),
+        (
+            r"\b(?:rate|deceleration|acceleration) of [\d.]+ ?(?:m/s|km/h|kph|mph|ft/s)(?![\w/^²])",
+            "an acceleration in the unit of a speed",
+        ),
         (r"\broll(?:s|ing|ed)? back\b|\bin reverse\b|\bbacks up\b", "driving backwards"),
     )
 )

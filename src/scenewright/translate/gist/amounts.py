@@ -34,7 +34,9 @@ class AmountReader(MeasureReader):
 
     def _of_each(self, made: Measured) -> list[Measured]:
         """Return an amount once for each vehicle where it is told of both: "both at 15 m/s"."""
-        alone = sum(self.words.tokens[at].quantity is not None for at in made.clause.inside) == 1
+        quantities = [self.words.tokens[at].quantity for at in made.clause.inside]
+        alike = [each for each in quantities if each and made.quantity and each.dimension == made.quantity.dimension]
+        alone = len(alike) == 1 and (made.kind == "speed" or sum(each is not None for each in quantities) == 1)
         if made.clause.both and alone and made.kind in ("speed", "place") and not made.target:
             return [replace(made, actor=EGO_ID), replace(made, actor=HERO_ID)]
         return [made]
@@ -63,6 +65,17 @@ class AmountReader(MeasureReader):
         if beside:
             made.actor = self.words.names.actors.get(at, made.actor)
         made.target = self._is_target(made.at, made.clause)
+        self._check_owner(made)
+
+    def _check_owner(self, made: Measured) -> None:
+        """Refuse "The two go west. The initial speed is 20 m/s.": it may be that of either, or of both."""
+        words, clause = self.words, made.clause
+        spoken = any(at in words.names.pronouns or at in words.names.actors for at in clause.inside) or clause.both
+        index = words.clauses.index(clause)
+        before = words.clauses[index - 1] if index else None
+        plain = words.where(range(clause.start, made.at), "measure", "speed") is not None and not clause.labels
+        if plain and not spoken and before is not None and before.both:
+            raise words.refuse("it is not said whose speed this is", made.span)
 
     def _leads_to_speed(self, at: int) -> bool:
         filler = self.words.has([at], "adverb", "comma") or self.words.tag(at, "preposition") in ("at", "with")

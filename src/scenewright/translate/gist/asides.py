@@ -9,6 +9,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+# "Ego = SUT, hero = POV."
+_EQUATED = re.compile(
+    r"(?:(?<=[.!?]\s)|(?<=\n)|^)(?:Ego ?= ?(?:SUT|VUT|AV|ADS)|(?:SUT|VUT|AV|ADS) ?= ?ego)(?:[,;] (?:and )?"
+    r"(?:hero ?= ?(?:POV|NPC|TV|OV|target)|(?:POV|NPC|TV|OV|target) ?= ?hero))?\.(?=\s)",
+    re.IGNORECASE,
+)
 # "It behaves courteously: it brakes", "the left turner that behaves itself"
 _BEHAVES = re.compile(
     r"\b((?:he|she|it|the [\w-]+)) behaves (?:itself|himself|herself|\w+ly|well|badly|nicely)"
@@ -176,6 +182,7 @@ def _stop_said(found: re.Match[str]) -> str:
 
 # In this order: what one rule leaves, the next may read.
 ASIDES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+    (_EQUATED, ""),
     (_BEHAVES, r"\1 "),
     (_THAT_BEHAVES, ""),
     (_TRIGGER_KIND, "Trigger"),

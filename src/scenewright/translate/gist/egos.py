@@ -5,6 +5,7 @@ What enters: tokens, and where a vehicle is named. What leaves: whether it is th
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 
 from scenewright.translate.lexicon import load_lexicon
@@ -20,6 +21,15 @@ RELATIVE = {
     "through_one": "straight",
 }
 
+_TESTS = "test|trial|evaluation|assessment|examination|scrutiny|investigation|observation"
+_TESTING = "test|evaluat|assess|examin|judg|scrutinis|scrutiniz|investigat|check"
+_TESTED = re.compile(
+    rf"(, |is )?(the one |(which|that|who)( is| 's|'s) )?"
+    rf"((under|on|in) (the |our )?({_TESTS})\b|being ({_TESTING})(e?d)\b"
+    rf"|((that|which|whom|whose (software|stack|planner|driver|policy)) )?(we|i)(( are| 're|'re| am| 'm|'m)"
+    rf" ({_TESTING})ing| ({_TESTING})e?| (want|would like) to know about)\b)"
+)
+
 
 def is_predicate(tokens: list[Token], at: int) -> bool:
     """Whether this says what the ego is: "the ego is an old car", "the ego, a van,"."""
@@ -34,6 +44,8 @@ def is_predicate(tokens: list[Token], at: int) -> bool:
     closes = at + 1 >= len(tokens) or bool(tokens[at + 1].tags.keys() & {"comma", "end", "link"})
     going = at + 1 < len(tokens) and "ing" in tokens[at + 1].forms
     closes = closes or (going and (_is_yielded_to(tokens, back - 1) or _ends_without_verb(tokens, at + 2)))
+    if "colon" in tokens[back].tags:
+        return not (tokens[at + 1].tags.keys() & {"be", "auxiliary"} or "s" in tokens[at + 1].forms)  # "Ego: a van"
     placed = back > 1 and "relation" in tokens[back - 2].tags  # "Ahead of the ego is a car"
     if placed or any(each.tags.get("determiner") == "another" for each in tokens[back:at]):
         return False
@@ -78,14 +90,9 @@ def is_tested(tokens: list[Token], at: int) -> bool:
     following = [each.text.lower() for each in tokens[at + 1 : at + 3]]
     tested = following and "test" in following[0] and "comment" in tokens[at + 1].tags  # "the shuttle we are testing"
     ahead = [each.text.lower() for each in tokens[at + 1 : at + 6]]
-    short = ahead[:1] == ["we"] and "testing" in ahead[1:3]  # "the car we're testing"
     apposed = ahead[1:3] == ["the", "one"] and any("comment" in each.tags for each in tokens[at + 4 : at + 5])
-    being = " ".join(ahead[:4]).startswith(("that 's being tested", "that is being tested", "being tested"))
-    being = being or " ".join(ahead[:4]).startswith(("that's being tested", "in the test", "on test"))
-    under = being or ahead[1:] == ["the", "one", "under", "test"]  # "the robot car, the one under test,"
-    return (
-        under or following == ["under", "test"] or bool(tested) or short or (apposed and "test" in " ".join(ahead[3:]))
-    )
+    said = " ".join(each.text.lower() for each in tokens[at + 1 : at + 9])
+    return bool(tested) or (apposed and "test" in " ".join(ahead[3:])) or _TESTED.match(said) is not None
 
 
 def _is_the_ego(tokens: list[Token], at: int) -> bool:
@@ -143,7 +150,7 @@ def is_called(tokens: list[Token], at: int) -> bool:
         return False  # "The car in the rear is the ego"
     which = tokens[at + 2].text.lower() in ("which", "that") and "be" in tokens[min(at + 3, len(tokens) - 1)].tags
     ahead = at + 2 + (2 if which else 0)
-    ahead += ahead < len(tokens) and "determiner" in tokens[ahead].tags
+    ahead += ahead < len(tokens) and ("determiner" in tokens[ahead].tags or "our" in tokens[ahead].tags.values())
     if ahead >= len(tokens) or "ego" not in tokens[ahead].tags:
         return False
     closes = ahead + 1 >= len(tokens) or bool(tokens[ahead + 1].tags.keys() & {"comma", "end"})

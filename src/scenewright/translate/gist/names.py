@@ -20,20 +20,14 @@ from scenewright.translate.gist.egos import (
     marks_of_ego,
     our_own_words,
 )
+from scenewright.translate.gist.people import PERSONS, drivers_of_ego, owners, owns, short_names, sits_in_one
 from scenewright.translate.gist.words import Names
 from scenewright.translate.tokens import Token
 
 FIRST_PERSON = frozenset(("i", "me", "we", "us", "myself", "ourselves", "mine", "ours"))
 PERSONAL = frozenset(("he", "she", "him", "himself", "herself", "hers"))
-# Whoever these are, in a text about two vehicles they drive the one that is not under test.
-PERSONS = frozenset(
-    ["man", "woman", "guy", "chap", "bloke", "fellow", "lady", "gentleman", "kid", "teenager", "somebody", "someone",
-     "stranger", "owner", "operator", "commuter", "courier", "trucker", "neighbour", "neighbor", "father", "mother",
-     "human", "cabbie", "biker", "lad", "lass", "girl", "boy", "mate", "pal", "dude", "fella",
-     "colleague", "friend", "student", "volunteer", "resident", "visitor", "uncle", "aunt", "grandmother", "grandma",
-     "granny", "grandfather", "grandpa"]
-)  # fmt: skip
 _GOES = ("turn", "go", "leave", "pull_out", "enter", "drive")
+_THIS = ("this", "that", "said", "the said")
 _NAMED = frozenset(("ego", "hero", "noun"))
 
 
@@ -44,7 +38,11 @@ def find_names(tokens: list[Token]) -> Names:
     speaker = _speaker(tokens)
     tails = {t.text.lower().split()[-1] for t in tokens if t.tags.keys() & {"noun", "hero"} and " " in t.text}
     unknown = _unknown_vehicle(tokens)
-    owners, ours = _owners(tokens), our_own_words(tokens)
+    owning, ours = owners(tokens), our_own_words(tokens)
+    drivers = drivers_of_ego(tokens)
+    ours |= drivers
+    names.driven = bool(drivers)
+    short = short_names(tokens)
     spoken = speaker == EGO_ID and any(each.text.lower() in ("we", "us") for each in tokens)
     brands = _brands(tokens)
     ours |= {"you"} if _drives_it(tokens) else set()
@@ -71,7 +69,9 @@ def find_names(tokens: list[Token]) -> Names:
             if _is_one_more(tokens, at) and HERO_ID in names.actors.values():
                 names.kinds |= {"hero", "another"}
             _name_vehicle(tokens, at, names, kinds, marks)
-        elif (word in owners and not _owns(tokens, at)) or _sits_in_one(tokens, at) or token.text in brands:
+        elif short.get(word, at) < at and short[word] in names.actors and _is_definite(tokens, at):
+            names.actors[at] = names.actors[short[word]]
+        elif (word in owning and not owns(tokens, at)) or sits_in_one(tokens, at) or token.text in brands:
             names.actors[at] = HERO_ID
         elif word in PERSONS or word == unknown or _is_hero(tokens, at) or ("unknown" in token.tags and word in tails):
             names.actors[at] = HERO_ID
@@ -82,6 +82,7 @@ def find_names(tokens: list[Token]) -> Names:
     names.spoken = bool(egos) and all(each.split()[0] in FIRST_PERSON for each in egos)
     names.guessed = unknown
     _name_by_kind(tokens, names)
+    _name_this(tokens, names)
     names.unclear = _either(tokens, names)
     return names
 
@@ -136,6 +137,17 @@ def _name_by_kind(tokens: list[Token], names: Names) -> None:
         return
     for at in generic:
         names.actors[at] = EGO_ID
+
+
+def _name_this(tokens: list[Token], names: Names) -> None:
+    """Let "this car" be who was last called a car: "the car under test ... When this car is 80 m from it"."""
+    for at, actor in names.actors.items():
+        word = tokens[at].text.lower()
+        if actor != HERO_ID or "noun" not in tokens[at].tags or not at or tokens[at - 1].text.lower() not in _THIS:
+            continue
+        called = [i for i in names.actors if i < at - 1 and word in tokens[i].text.lower().split()]
+        if called and all(names.actors[i] == EGO_ID for i in called):
+            names.actors[at] = EGO_ID
 
 
 def _either(tokens: list[Token], names: Names) -> int | None:
@@ -278,6 +290,8 @@ def _one_of_them(tokens: list[Token], at: int) -> bool:
     """Whether only one is meant: "the second of the two"; "neither of them" means both."""
     if at < 2 or tokens[at - 1].tags.get("preposition") != "of":
         return False
+    if tokens[at].text.lower().split()[0] in ("both", "each") or "measure" in tokens[at - 2].tags:
+        return False  # "the speed of both"
     return "negation" not in tokens[at - 2].tags and tokens[at - 2].text.lower() != "neither"
 
 
@@ -316,6 +330,12 @@ def _brands(tokens: list[Token]) -> set[str]:
     return set(found) if len(found) == 1 else set()
 
 
+def _is_definite(tokens: list[Token], at: int) -> bool:
+    """Whether "the" stands before a word, and what it does, or where it is, after it."""
+    acts = tokens[at + 1].tags.keys() & {"verb", "be", "auxiliary", "quantity", "comma", "link", "genitive"}
+    return tokens[at - 1].tags.get("determiner") == "definite" and bool(acts)
+
+
 def _acts_next(token: Token, tokens: list[Token]) -> bool:
     """Whether a name that stands after "the" several times does something: "the old Chevy ... the Chevy brakes"."""
     places = [at for at, each in enumerate(tokens[:-1]) if each.text == token.text]
@@ -323,35 +343,12 @@ def _acts_next(token: Token, tokens: list[Token]) -> bool:
     return len(places) > 1 and acts
 
 
-def _owners(tokens: list[Token]) -> set[str]:
-    """Return who drives the hero by what belongs to them: "resident" in "a resident's car"."""
-    return {
-        token.text.lower()
-        for at, token in enumerate(tokens)
-        if "unknown" in token.tags and _owns(tokens, at) and at and "determiner" in tokens[at - 1].tags
-    }
-
-
-def _sits_in_one(tokens: list[Token], at: int) -> bool:
-    """Whether this is "mum" in "a mum in a station wagon"."""
-    rest = tokens[at + 1 : at + 5]
-    if "unknown" not in tokens[at].tags or not at or "determiner" not in tokens[at - 1].tags or len(rest) < 4:
-        return False
-    sits = rest[0].text.lower() == "in" and "determiner" in rest[1].tags
-    makes = any("unknown" in each.tags and each.text[:1].isupper() for each in rest[2:3])
-    return sits and (makes or any("noun" in each.tags for each in rest[2:4]))
-
-
-def _owns(tokens: list[Token], at: int) -> bool:
-    """Whether "resident" is followed by "'s car"."""
-    following = tokens[at + 1 : at + 3]
-    return len(following) == 2 and "genitive" in following[0].tags and "noun" in following[1].tags
-
-
 def _is_told_later(tokens: list[Token], at: int) -> bool:
     """Whether this says of amounts that they are alike: "3 s and 4 s, both to the line", not "both of them turning"."""
-    acts = at + 1 < len(tokens) and ("ing" in tokens[at + 1].forms or "be" in tokens[at + 1].tags)
-    return "measured_word" in tokens[at].tags and not acts
+    following = tokens[at + 1 : at + 3]
+    acts = bool(following) and ("ing" in following[0].forms or "be" in following[0].tags)
+    fast = len(following) > 1 and following[0].text.lower() == "at" and following[1].tags.get("quantity") == "speed"
+    return "measured_word" in tokens[at].tags and not acts and not fast
 
 
 def _both_and(tokens: list[Token], at: int) -> bool:

@@ -249,7 +249,9 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     pronouns = [at for at in clause.inside if at in words.names.pronouns]
     verbs = words.verbs(clause.inside)
     if any(words.word(at) in _HIS for at in pronouns):
-        return HERO_ID
+        return words.named(range(clause.start - 1, -1, -1)) if words.names.driven else HERO_ID
+    if "deed" in clause.labels and not pronouns and verbs & {"brake", "stop", "accelerate"}:
+        return HERO_ID  # "Hero action: brakes to standstill"
     own = [at for at in pronouns if not words.has([at - 1], "preposition")]
     if words.names.spoken and words.has(own, "pronoun", "possessive"):
         return HERO_ID  # "we" are the ego, so "it" is the other one

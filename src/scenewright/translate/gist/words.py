@@ -40,6 +40,8 @@ class Names:
         Kinds of vehicle that the hero is called: more than one kind is more than one vehicle.
     spoken
         Whether the ego is only "I" and "we", so that "it" is the other vehicle.
+    driven
+        Whether somebody is said to drive the ego: "my pupil drives the car under test".
     guessed
         A word that is not known and was taken for the other vehicle.
     unclear
@@ -52,6 +54,7 @@ class Names:
     relative: dict[int, str] = field(default_factory=dict)
     kinds: set[str] = field(default_factory=set)
     spoken: bool = False
+    driven: bool = False
     guessed: str | None = None
     unclear: int | None = None
 
