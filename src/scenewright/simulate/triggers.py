@@ -32,6 +32,8 @@ _FIRST_TRIGGERS_WHEN_FOLLOWED_S = (1.5, 2.0, *_FIRST_TRIGGERS_S)
 _RETRY_TRIGGERS_S = (0.0, 0.25, -0.25, 0.75, 1.5, 3.0, 6.0, 10.0)
 # How near (in tight tolerances) and how soon before it is planned (s) a trigger that both decide may come at once.
 _NEAR, _NEARLY_S = 0.5, 0.5
+# What is so near (s) is waited for a while (s) beyond all patience: to move now would put it off again.
+_NEARLY_THERE_S, _MOST_PATIENCE_S = 1.5, 4.0
 # How soon a trigger was to come (s) that the ego may have met between two ticks; how late it would come again.
 _DUE_S, _AGAIN_S = 0.12, 0.2
 # Who does not get nearer to its place than this before it stands is there.
@@ -174,7 +176,8 @@ class TriggerTimes:
         motion = Profile(chain(time_s, state.s_m, state.speed_mps, [(1.0, 0.0, state.piece)]))
         crossing = both[0].first_time({EGO: prediction, hero.id: motion}, time_s)
         soonest_s = time_s + SHORTEST_LEAD_S
-        if crossing is not None and crossing < max(latest_s, time_s + _NEARLY_S):
+        soon_s = _NEARLY_THERE_S if time_s < latest_s + _MOST_PATIENCE_S else _NEARLY_S
+        if crossing is not None and crossing < max(latest_s, time_s + soon_s):
             return max(crossing, soonest_s)
         # Between two ticks it may have come sooner than foreseen.
         near = self.joint_miss(hero, prediction, soonest_s, motion) <= _NEAR

@@ -20,7 +20,7 @@ from scenewright.roads.conflicts import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition, hero_side
 from scenewright.solve.clearance import APART_M, Clearance, out_of_way_mps
-from scenewright.solve.limits import BRAKE_MAX_MPSS, MOVING_MPS, Limits, Manner
+from scenewright.solve.limits import BRAKE_MAX_MPSS, CLOSE, MOVING_MPS, Limits, Manner
 from scenewright.solve.lowering import Lowering, NotYet
 from scenewright.solve.problem import Problem
 from scenewright.solve.readiness import readiness
@@ -106,7 +106,8 @@ class HeroProblem:
         if clearance is not None:
             self._led.add(hero.id)
         side = hero_side(self.conditions, self.structure, hero.id)
-        if _turns_before_trigger(TurnSpan.of(self.scene.routes[hero.id]), side, hero.id):
+        place = side or self._joint_side(hero)
+        if _turns_before_trigger(TurnSpan.of(self.scene.routes[hero.id]), place, hero.id):
             self._turning.add(hero.id)
         now: Value | None = start
         for k, stretch in enumerate(stretches):
@@ -117,6 +118,8 @@ class HeroProblem:
                 shortest = Fraction(0)
                 if not begun and not stretch.cruise:
                     shortest = shortest_s(self.manner, hero, stretch.piece, self.structure.trigger_knot(hero.id), side)
+                    if self.manner.steps == 1 and rate_is_given(self.scene.program, hero, stretch.piece):
+                        shortest = min(shortest, pin(CLOSE.seen_s))  # who is slow has soon done what it is told
                 problem.bound(duration, shortest, _LONGEST_S, f"{hero.name}'s pieces take some time")
             else:
                 duration = stretch.duration_s
@@ -170,6 +173,16 @@ class HeroProblem:
         least = pin(self.situation.ego.state(instant_s)[1] + opening_mps)
         most = least + pin(_OPENING_RANGE_MPS)
         self.problem.bound(speed, least, most, f"{hero.name} draws away from the ego at its trigger")
+
+    def _joint_side(self, hero: Actor) -> LinearCondition | None:
+        """Return the hero's side of a trigger that both decide, with the ego where it will be then."""
+        instant_s = self.situation.trigger_s.get(hero.id)
+        for condition in self.conditions:
+            if instant_s is None or set(condition.weights) != {EGO, hero.id}:
+                continue
+            if condition.moments <= self.structure.triggers[hero.id]:
+                return condition.given(EGO, *self.situation.ego.state(instant_s)[:2])
+        return None
 
     def _first_state(self, hero: Actor, state: HeroState | None) -> tuple[Value, Value, Value]:
         """Return time, position and speed to go on from: what they are, or free within the route."""

@@ -89,6 +89,8 @@ def find_lead(text: str, name: str) -> Span | None:
         return None
     if any(_tells(tokens, at, framed=framed) for at in range(len(tokens))):
         return None
+    if said.endswith("?") and re.search(r"\b(?:nobody|no one|none|never|neither|nothing)\b", said, re.IGNORECASE):
+        return None
     if said.endswith("?"):
         plain = re.sub(r"\bif\b", "", plain)  # "What would it do if somebody pulled out?"
     if re.search(r"\b(?:only|except|unless|until|before|after|when|if|once|or|but not)\b", plain, re.IGNORECASE):

@@ -356,6 +356,11 @@ _PHRASES = tuple(
             r"\b(?:rate|deceleration|acceleration) of [\d.]+ ?(?:m/s|km/h|kph|mph|ft/s)(?![\w/^²])",
             "an acceleration in the unit of a speed",
         ),
+        (
+            r"\b(?:harder|softer|faster|slower|sooner|later|earlier|nearer|closer|farther|further|more|less) than (?:(?:it|he|she)"
+            r" (?:did|was|had|would|usually|normally)|(?:in|during) the (?:previous|last|first|other)|usual|before)\b",
+            "a comparison with what is not told",
+        ),
         (r"\broll(?:s|ing|ed)? back\b|\bin reverse\b|\bbacks up\b", "driving backwards"),
     )
 )

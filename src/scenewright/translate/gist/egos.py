@@ -22,7 +22,7 @@ RELATIVE = {
 }
 
 _TESTS = "test|trial|evaluation|assessment|examination|scrutiny|investigation|observation"
-_TESTING = "test|evaluat|assess|examin|judg|scrutinis|scrutiniz|investigat|check"
+_TESTING = "test|evaluat|assess|validat|examin|judg|scrutinis|scrutiniz|investigat|check"
 _TESTED = re.compile(
     rf"(, |is )?(the one |(which|that|who)( is| 's|'s) )?"
     rf"((under|on|in) (the |our )?({_TESTS})\b|being ({_TESTING})(e?d)\b"

@@ -15,6 +15,7 @@ from scenewright.translate.aliases import without_aliases
 from scenewright.translate.gist.asides import ASIDES
 from scenewright.translate.gist.moment_phrases import MOMENT_PHRASES
 from scenewright.translate.gist.phrases import PHRASES
+from scenewright.translate.gist.report_phrases import REPORT_PHRASES
 from scenewright.translate.gist.spoken_phrases import SPOKEN_PHRASES
 
 _WAYS = r"(?:paths|ways|lanes|routes|tracks|trajectories|courses)"
@@ -296,6 +297,7 @@ _RULES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...]
     *ASIDES,
     *MOMENT_PHRASES,
     *SPOKEN_PHRASES,
+    *REPORT_PHRASES,
     *PHRASES,
     (_WHERE_CROSS, ""),
     (_ITS_WAY_MEETS, "conflict point"),

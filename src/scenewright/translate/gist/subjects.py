@@ -377,8 +377,19 @@ def _same_which(words: Words, clause: Clause) -> Clause | None:
 
 
 def _resumed(words: Words, clause: Clause, pronouns: list[int]) -> Clause | None:
-    """Return the name that a sentence begins with, where only amounts stand between it and its verb."""
-    first = words.sentence(clause)[0]
+    """Return the name that a sentence begins with, or its last one, where only amounts stand between it and its verb."""
+    earlier = [each for each in words.sentence(clause) if each.start < clause.start]
+    opposed = [each for each in earlier if words.word(each.start - 1) in ("while", "whereas", "whilst")]
+    last = next((each for each in reversed(opposed) if each.named), None)
+    for name in dict.fromkeys((last.start if last is not None else clause.start, words.sentence(clause)[0].start)):
+        first = next(each for each in words.sentence(clause) if each.start == name)
+        if (found := _resumed_after(words, clause, first, pronouns)) is not None:
+            return found
+    return None
+
+
+def _resumed_after(words: Words, clause: Clause, first: Clause, pronouns: list[int]) -> Clause | None:
+    """Return `first` where it is a mere name, and `clause` has its verb."""
     finite = any("verb" in words.tags(i) and "ing" not in words.tokens[i].forms for i in first.inside)
     alone = first is not clause and first.named and not finite
     forms = words.tokens[clause.start].forms

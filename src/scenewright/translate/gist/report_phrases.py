@@ -1,0 +1,162 @@
+"""Turns of phrase of reports and of verbose writers: nouns for what vehicles do, remarks about the text itself.
+
+What enters: nothing. What leaves: `REPORT_PHRASES`, patterns with what to say instead, in their order: "commences an
+acceleration that lets it pass" is "accelerates to pass". Nothing that is said instead is longer.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+_AMOUNT = r"(?:(?:[\d.]+ ?|[a-z-]+ )(?:m|met(?:re|er)s?|ft|feet|foot|yd|yards?|s|seconds?)\b|\w+_(?:m|s|ft|yd)\b)"
+_WHO = r"(?:(?:the|our) [\w-]+(?: vehicle| car| under test)?|it|he|she|[A-Z]{2,})"
+_EGO = r"(?:ego(?: vehicle| car)?|AV|SUT|VUT|ADS)"
+
+# "the distance by which the ego trails the hero has shrunk to 12 m"
+_BY_WHICH = re.compile(
+    rf"\bthe (distance|gap|time) by which ({_WHO}) (?:follows|trails|is behind|lags behind) ({_WHO}) (?=has|is|falls|drops)",
+    re.IGNORECASE,
+)
+_HAVING_BEGUN = re.compile(rf"\bHaving (?:begun|started|set out) (?={_AMOUNT})")
+_OF_SCENARIO = re.compile(
+    r"\b(vehicles|cars|actors) (?:of|in) (?:this|the) (?:scenario|test|scene|case)(?= (?:are|come|drive|want|travel|go))", re.I
+)
+_CONTINUING = re.compile(
+    r",? (?:and )?(?:continuing|continues|keeps going|goes on)(?: to (?:do so|brake|decelerate)| braking| this| so)? "
+    r"until (?=(?:it|he|she) (?:is|has|stands|comes))",
+    re.IGNORECASE,
+)
+_AN_ACCELERATION = re.compile(
+    r"\b(?:commences|begins|starts|initiates|undertakes|performs) an acceleration(?:,? (?:that|which) (?:lets|allows"
+    r"|enables) it (?:to )?| in order to | so as to )",
+    re.IGNORECASE,
+)
+_ALLOWS_IT = re.compile(
+    r"(?<=accelerat)(e|es|ing), which (?:allows|lets|enables|permits) (?:it|him|her) (?:to )?", re.IGNORECASE
+)
+_FINDS = re.compile(rf"\b(?:at|from) the (?:instant|moment|point) (?:that|which) finds ({_WHO}) ", re.IGNORECASE)
+_NOT_STOP_BRAKING = re.compile(
+    r"\b(?:does not|doesn['\u2019]t) (?:stop|cease|finish) (?:braking|decelerating|slowing down) (?:before|until) "
+    r"(?=(?:it|he|she) (?:has|is|stands))",
+    re.IGNORECASE,
+)
+_NO_OTHER = re.compile(
+    r"\bhas no (?:other )?(?:intention|plan|aim|wish|desire) (?:other )?than to\b|\bhas no plan but to\b", re.IGNORECASE
+)
+_SCENARIO_STARTS = re.compile(
+    rf",? and the (?:scenario|test|run|simulation|recording) (?:starts|begins) (?:when|with) (?:it|him|her)(?: is)? "
+    rf"(?={_AMOUNT})",
+    re.IGNORECASE,
+)
+_KEEP_SIMPLE = re.compile(
+    r"(?:(?<=[.!?]\s)|(?<=\n))(?:Nothing else,? )?(?:(?:please|just) )*keep it (?:simple|short)[.!]|"
+    r"(?:(?<=[.!?]\s)|(?<=\n))(?:Please )?let (?:me|us) know (?:when|if|whether|once|how) [^.!?\d]{1,60}[.!?]",
+    re.IGNORECASE,
+)
+_POLICY_SWITCHES = re.compile(
+    r"(?:(?<=[.!?]\s)|^)(?:The )?[\w-]+(?:['\u2019]s)? (?:policy|behaviou?r|mode|controller) (?:switches|changes) when\b"
+)
+_AFTER_SWITCH = re.compile(r"(?:(?<=[.!?]\s)|^)After the (?:switch|change|switching|transition),", re.IGNORECASE)
+_LET_EGO = re.compile(rf"\bwe (?:let|make|have) the {_EGO} (?=follow|drive|turn|come|approach|go|leave)", re.IGNORECASE)
+_CLOSING_TO = re.compile(rf"\bclos(?:ing|es) (?:in )?to ({_AMOUNT} behind)\b", re.IGNORECASE)
+_TO_BE_TESTED = re.compile(
+    rf"(?<=\b)({_EGO}), which is (?:the|our) (?:vehicle|car|one) (?:to be tested|under test|that is tested|being tested"
+    r"|we test|tested),",
+    re.IGNORECASE,
+)
+_SO_THAT_AFTER = re.compile(
+    r", so that it (?:would|will) (?:afterwards|then|subsequently) (?:drive|travel|go|head) on the road\b", re.IGNORECASE
+)
+_NOT_ON_BUT = re.compile(r"\b(is|are) not (?:on|in) the (?:road|driveway) but (?=(?:on|in) the)", re.IGNORECASE)
+_TURN_OF = re.compile(
+    rf"\b(?:before|prior to) the (?:beginning|start|onset|commencement) of the turn (?:of|by) ({_WHO})(?: vehicle)?\b",
+    re.IGNORECASE,
+)
+_PASSAGE_OF_SAME = re.compile(
+    rf"\b(?:before|prior to|ahead of) the passage (?:of|through) (?:the same|that|this|the conflict) point by ({_WHO})",
+    re.IGNORECASE,
+)
+# "Upon the attainment by the ego of a distance of 35 ft from the stop line"
+_ATTAINMENT = re.compile(
+    rf"\b(?:upon|at|on) (?:the )?attainment by ({_WHO}) of (?:a |the )?(?:distance|time to arrival|time) of "
+    rf"({_AMOUNT}) ",
+    re.IGNORECASE,
+)
+_HAS_OBJECTIVE = re.compile(
+    r"\b(?:has|have) (?:the |as its )?(?:objective|purpose|task) (?:of|to make|to perform|:) ?(?=a (?:left|right) turn\b)",
+    re.IGNORECASE,
+)
+_PASSED_BY = re.compile(
+    rf"\bbefore ({_WHO}) (?:begins|starts) (?:its turn|to turn),? the conflict point (?:has been|is|will have been) "
+    rf"passed by ({_WHO})(?: car| vehicle)?(?=[.,;])",
+    re.IGNORECASE,
+)
+_RIGHT_IGNORED = re.compile(
+    r"(?:(?<=[.!?;]\s)|^)(?:Right of way|Priority|Precedence) is (?:ignored|disregarded|not (?:granted|respected)): ?",
+    re.IGNORECASE,
+)
+_NO_COURTESY = re.compile(
+    r"(?:(?<=[.!?;]\s)|^)(?:No|Little|Some|Great) (?:courtesy|patience|respect|consideration) is shown(?: here| this time)?"
+    r"[:.] ?",
+    re.IGNORECASE,
+)
+_APPROACHED_TO = re.compile(
+    rf"\bhas approached (the (?:conflict point|stop line|intersection)) to ({_AMOUNT})(?= and|,| while)", re.IGNORECASE
+)
+_BY_A_TURN = re.compile(
+    r"(?:(?<=[.!?;]\s)|^)By (a (?:left|right) turn) (the [\w-]+|it) (?:is to|will|is about to|wants to|intends to) ",
+    re.IGNORECASE,
+)
+_LEFT_FOR_IT = re.compile(
+    rf"\b(?:only )?({_AMOUNT}) (?:are|is|remain|remains) left for (it|him|her|{_WHO}) (?:to|until) (the (?:stop line"
+    r"|conflict point))",
+    re.IGNORECASE,
+)
+_SQUEEZES = re.compile(r"\b(?:squeezes|scoots|whizzes|sails|rolls) (?:through|past|across) (?=the conflict point)", re.I)
+_ONE_UNDER_TEST = re.compile(rf"\b(ours|mine|that car|this car|the latter), (?:which is )?the one under test,", re.I)
+_WE_ASSESS = re.compile(
+    r"\b(vehicle|car|van|taxi|shuttle|truck|bus|lorry|hatchback|robotaxi) (?:that |which )?(?:we|I)(?: are|['\u2019]re)? "
+    r"(?:evaluat|assess|examin|judg|validat)(?:ing|e)?\b",
+    re.IGNORECASE,
+)
+_HIS_OWN = re.compile(r"\b(his|her) own (?=car|vehicle|van)", re.IGNORECASE)
+_HE_HIMSELF = re.compile(r"\b(?:he himself|she herself|it itself) (?=is\b)", re.IGNORECASE)
+
+
+# In this order: what one rule leaves, the next may read.
+REPORT_PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+    (_BY_WHICH, r"the \1 from \2 to \3 "),
+    (_HAVING_BEGUN, "Starting "),
+    (_OF_SCENARIO, r"\1"),
+    (_CONTINUING, " until "),
+    (_AN_ACCELERATION, "accelerates to "),
+    (_ALLOWS_IT, r"\1 to "),
+    (_FINDS, r"when \1 is "),
+    (_NOT_STOP_BRAKING, "brakes until "),
+    (_NO_OTHER, "wants to"),
+    (_SCENARIO_STARTS, ", initially "),
+    (_KEEP_SIMPLE, ""),
+    (_POLICY_SWITCHES, "When"),
+    (_AFTER_SWITCH, "Then"),
+    (_LET_EGO, "the ego is to "),
+    (_CLOSING_TO, r"being \1"),
+    (_TO_BE_TESTED, r"\1"),
+    (_SO_THAT_AFTER, " onto the road"),
+    (_NOT_ON_BUT, r"\1 "),
+    (_TURN_OF, r"before \1 begins to turn"),
+    (_PASSAGE_OF_SAME, r"before \1 passes it"),
+    (_ATTAINMENT, r"when \1 is \2 "),
+    (_HAS_OBJECTIVE, "makes "),
+    (_PASSED_BY, r"\2 passes the conflict point before \1 begins its turn"),
+    (_RIGHT_IGNORED, ""),
+    (_NO_COURTESY, ""),
+    (_APPROACHED_TO, r"is \2 from \1"),
+    (_BY_A_TURN, r"\2 makes \1 to "),
+    (_LEFT_FOR_IT, r"\2 is \1 from \3"),
+    (_SQUEEZES, "passes "),
+    (_WE_ASSESS, r"\1 we test"),
+    (_HIS_OWN, r"\1 "),
+    (_HE_HIMSELF, "he "),
+    (_ONE_UNDER_TEST, "the ego"),
+)
