@@ -136,6 +136,7 @@ def kinds_of_ego(tokens: list[Token]) -> set[str]:
             is_tested(tokens, at)
             or is_called(tokens, at)
             or is_ours(tokens, at)
+            or is_predicate(tokens, at)
             or (kind in RELATIVE and _ego_is(tokens, at))
         ):
             kinds.add(kind)
@@ -153,7 +154,8 @@ def is_called(tokens: list[Token], at: int) -> bool:
     ahead += ahead < len(tokens) and ("determiner" in tokens[ahead].tags or "our" in tokens[ahead].tags.values())
     if ahead >= len(tokens) or "ego" not in tokens[ahead].tags:
         return False
-    closes = ahead + 1 >= len(tokens) or bool(tokens[ahead + 1].tags.keys() & {"comma", "end"})
+    after = min(ahead + 1, len(tokens) - 1)
+    closes = bool(tokens[after].tags.keys() & {"comma", "end"}) or tokens[after].text.lower() in ("under", "under test")
     return closes or "be" in tokens[at + 1].tags
 
 

@@ -216,7 +216,7 @@ def _unknown_vehicle(tokens: list[Token]) -> str | None:
 def _name_vehicle(tokens: list[Token], at: int, names: Names, ego_kinds: set[str], ego_marks: set[str]) -> None:
     kind = tokens[at].tags["noun"]
     marked = at > 0 and (tokens[at - 1].text.lower() in ego_marks or "ego" in tokens[at - 1].tags)  # "the ADS car"
-    called = is_called(tokens, at) and "be" in tokens[at + 1].tags
+    called = is_called(tokens, at)
     ego = (
         marked
         or called

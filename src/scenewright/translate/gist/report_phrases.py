@@ -124,8 +124,24 @@ _HIS_OWN = re.compile(r"\b(his|her) own (?=car|vehicle|van)", re.IGNORECASE)
 _HE_HIMSELF = re.compile(r"\b(?:he himself|she herself|it itself) (?=is\b)", re.IGNORECASE)
 
 
+# "To evaluate false-positive braking, we let the ego follow its lane"
+_TO_EVALUATE = re.compile(
+    r"(?:(?<=[.!?]\s)|^)To (?:evaluate|test|assess|check|study|examine|investigate|measure|probe) [^,.\d]{1,60}, "
+    r"(?=(?:we|the|an?|our) )"
+)
+_THRU = re.compile(r"(?<=, )thru (?=(?:the )?(?:CP|conflict point)\b)", re.IGNORECASE)
+_GIVES_UP_TURN = re.compile(r"\bgives up (?:its|his|her) (?:turn|right) for (?:the moment|now|a while)\b", re.IGNORECASE)
+_SO_IT_SEEMS = re.compile(r", or so (?:it|he|she|the \w+) (?:seems|thinks|believes|appears):?", re.IGNORECASE)
+_LEAD_GAP = re.compile(r"\b(?:an?|the) car (?:that|which) is supposed to (?=turn|go|drive)", re.IGNORECASE)
+
+
 # In this order: what one rule leaves, the next may read.
 REPORT_PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+    (_TO_EVALUATE, ""),
+    (_THRU, "past "),
+    (_GIVES_UP_TURN, "yields"),
+    (_SO_IT_SEEMS, ","),
+    (_LEAD_GAP, "a car that wants to "),
     (_BY_WHICH, r"the \1 from \2 to \3 "),
     (_HAVING_BEGUN, "Starting "),
     (_OF_SCENARIO, r"\1"),
