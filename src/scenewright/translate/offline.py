@@ -30,6 +30,7 @@ from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, Event
 from scenewright.translate.facts import Facts
 from scenewright.translate.fronting import unfronted
 from scenewright.translate.geometry import is_remark
+from scenewright.translate.gist.amounts import WHOSE_SPEED
 from scenewright.translate.gist.reader import check_told, names_in, read_gist
 from scenewright.translate.headlines import untold
 from scenewright.translate.interpret import Interpreter
@@ -240,7 +241,9 @@ def _check_second_reading(program: Program, text: str, road_map: RoadMap, name: 
     """Refuse a text of which its facts alone say something else than its grammar: one of the readings is wrong."""
     try:
         other = _by_facts(text, road_map, name).program
-    except TranslationError:
+    except TranslationError as error:
+        if error.message == WHOSE_SPEED:
+            raise  # by its grammar it is that of whoever was named first
         return
     if [(each.route, each.sketch) for each in program.actors] != [(each.route, each.sketch) for each in other.actors]:
         place, found = Place(name, text, Span(0, len(text))), "another route, or another order of what the hero does"

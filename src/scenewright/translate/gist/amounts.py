@@ -14,6 +14,7 @@ from scenewright.translate.gist.owners import measure_of, measure_word, owner_of
 from scenewright.translate.gist.places import SKIPPED
 from scenewright.translate.gist.words import Clause
 
+WHOSE_SPEED = "it is not said whose speed this is"
 _BESIDE = frozenset(("determiner", "actor_adjective", "possessive", "unknown"))
 _STANDS = frozenset(("stop", "wait", "sit"))
 
@@ -71,11 +72,11 @@ class AmountReader(MeasureReader):
         """Refuse "The two go west. The initial speed is 20 m/s.": it may be that of either, or of both."""
         words, clause = self.words, made.clause
         spoken = any(at in words.names.pronouns or at in words.names.actors for at in clause.inside) or clause.both
-        index = words.clauses.index(clause)
-        before = words.clauses[index - 1] if index else None
+        earlier = words.clauses[: words.clauses.index(clause)]
+        before = next((each for each in reversed(earlier) if each.named or each.both), None)
         plain = words.where(range(clause.start, made.at), "measure", "speed") is not None and not clause.labels
         if plain and not spoken and before is not None and before.both:
-            raise words.refuse("it is not said whose speed this is", made.span)
+            raise words.refuse(WHOSE_SPEED, made.span)
 
     def _leads_to_speed(self, at: int) -> bool:
         filler = self.words.has([at], "adverb", "comma") or self.words.tag(at, "preposition") in ("at", "with")

@@ -17,7 +17,12 @@ _DANGERS = frozenset(
      "backing", "backwards", "backward", "reversing", "supposedly", "allegedly", "hypothetically",
      "vanishes", "disappears", "flyover", "overpass", "underpass", "viaduct", "tunnel"]
 )  # fmt: skip
-_EDGE_OF_TURN = re.compile(r"\b(?:start|beginning|end) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b", re.IGNORECASE)
+# "at the end of its turn", but not "before the beginning of the turn of the ego", which is an order
+_EDGE_OF_TURN = re.compile(
+    r"(?<!before the )(?<!prior to the )\b(?:start|beginning|end) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b"
+    r"|\bend of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b",
+    re.IGNORECASE,
+)
 _COUNTED = re.compile(
     r"(?:[A-Za-z]-|#|\[|\b(?:run|test|number|no\.?|case|phase|step|milestone|stage|unit|item|day|version|v|scene"
     r"|act|exercise|lesson"

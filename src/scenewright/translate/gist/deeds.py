@@ -243,6 +243,9 @@ class DeedReader:
             named = self.words.named(range(at + 2, min(at + 5, clause.end)))  # "the braking of the ego"
             actor = named if named is not None else actor
         self.words.used.add(at)
+        first = self.words.where(clause.inside, "adverb", "initially") is not None or "start" in clause.labels
+        if kind == "go" and first and self.words.has(clause.inside, "quantity"):
+            return  # "The hero travels at 13 m/s at the beginning" is told after all
         if kind == "stop" and self._stands_already(at, clause):
             kind = "wait"
         span = self.words.tokens[at].span

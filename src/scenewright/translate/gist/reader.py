@@ -60,6 +60,8 @@ class Gist:
         Ways told of no vehicle in a sentence: one vehicle must go all of them.
     meets
         Where it is said that the two ways meet.
+    unplaced
+        Whose way has to touch the driveway, and where it is spoken of, where nothing else was understood of it.
     assumptions
         What was set aside or taken for granted.
     """
@@ -70,6 +72,7 @@ class Gist:
     told: list[tuple[str, Span]]
     titles: list[list[Way]]
     meets: list[Span]
+    unplaced: list[tuple[int, Span]]
     assumptions: tuple[str, ...]
 
 
@@ -116,6 +119,9 @@ def check_told(gist: Gist, routes: Itineraries, text: str, name: str) -> None:
         raise words.refuse("it is said that the ways of the two vehicles meet, but they do not", gist.meets[0])
     if find_conflict(routes.ego, routes.hero) is None and (near := _near_conflict(gist.facts)) is not None:
         raise words.refuse("the ways of the two vehicles have no conflict point", near)
+    for actor, span in gist.unplaced:
+        if "driveway" not in (routes.of(actor).origin_kind, routes.of(actor).destination_kind):
+            raise words.refuse("it is not clear what this vehicle has to do with the driveway", span)
     for phase in gist.facts.phases:
         if phase.place is not None and phase.place.target == "stop_line" and routes.hero.origin_kind != "driveway":
             raise words.refuse("the hero comes to no stop line", phase.place.span)
@@ -170,7 +176,7 @@ def _read(words: Words, title: tuple[Token, ...], road_map: RoadMap) -> Gist:
     told: list[tuple[str, Span]] = []
     told += [(token.tags[key], token.span) for token in title for key in _told_by(token)]
     events = sorted({id(event): event for event in events}.values(), key=lambda event: event.span.start)
-    return Gist(facts, events, words.tokens, told, list(titles.values()), meets, _assumptions(words, title))
+    return Gist(facts, events, words.tokens, told, list(titles.values()), meets, ways.unplaced, _assumptions(words, title))
 
 
 def _set_remarks_aside(words: Words) -> list[Span]:

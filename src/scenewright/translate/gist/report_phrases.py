@@ -69,10 +69,6 @@ _SO_THAT_AFTER = re.compile(
     r", so that it (?:would|will) (?:afterwards|then|subsequently) (?:drive|travel|go|head) on the road\b", re.IGNORECASE
 )
 _NOT_ON_BUT = re.compile(r"\b(is|are) not (?:on|in) the (?:road|driveway) but (?=(?:on|in) the)", re.IGNORECASE)
-_TURN_OF = re.compile(
-    rf"\b(?:before|prior to) the (?:beginning|start|onset|commencement) of the turn (?:of|by) ({_WHO})(?: vehicle)?\b",
-    re.IGNORECASE,
-)
 _PASSAGE_OF_SAME = re.compile(
     rf"\b(?:before|prior to|ahead of) the passage (?:of|through) (?:the same|that|this|the conflict) point by ({_WHO})",
     re.IGNORECASE,
@@ -124,6 +120,31 @@ _HIS_OWN = re.compile(r"\b(his|her) own (?=car|vehicle|van)", re.IGNORECASE)
 _HE_HIMSELF = re.compile(r"\b(?:he himself|she herself|it itself) (?=is\b)", re.IGNORECASE)
 
 
+_ARM = r"(?:arm|leg|branch|approach|end|side)(?: of the (?:(?:main )?road|junction|intersection))?\b"
+_FROM_ARM = re.compile(rf"\bfrom the (west|east|north|south)(?:ern)? {_ARM}", re.IGNORECASE)
+_TO_ARM = re.compile(
+    rf"\b(to|into|towards?|onto|along) the (west|east)ern (?:{_ARM}|one\b)(?! (?:is|has|comes|brakes|stops))", re.IGNORECASE
+)
+_WAY_OF = re.compile(
+    r"^(\W*(?:the )?(?:ego|hero|other (?:car|vehicle)|AV|SUT|POV|NPC))['\u2019]s (?:way|route|path|journey|itinerary) ?:",
+    re.IGNORECASE | re.MULTILINE,
+)
+_EASES = re.compile(r"\beases to (?=(?:a|an|its) (?:complete |full )?(?:stop|halt|standstill)\b)", re.IGNORECASE)
+
+
+_SEPARATE = re.compile(
+    rf"\b({_AMOUNT}) separates? ({_WHO}) from ((?:the|its) (?:stop line|conflict point|intersection)) and ({_AMOUNT}) "
+    rf"({_WHO}) from ((?:the|its) (?:stop line|conflict point|intersection))",
+    re.IGNORECASE,
+)
+
+
+# "the cab's time to reach the conflict point is 3.5 s"
+_TIME_TO_REACH = re.compile(
+    rf"\b(the [\w-]+|[A-Z]+)['\u2019]s time to (?:reach|arrive at|get to) (the (?:stop line|conflict point"
+    rf"|intersection)) is ({_AMOUNT})",
+    re.IGNORECASE,
+)
 # "To evaluate false-positive braking, we let the ego follow its lane"
 _TO_EVALUATE = re.compile(
     r"(?:(?<=[.!?]\s)|^)To (?:evaluate|test|assess|check|study|examine|investigate|measure|probe) [^,.\d]{1,60}, "
@@ -137,11 +158,17 @@ _LEAD_GAP = re.compile(r"\b(?:an?|the) car (?:that|which) is supposed to (?=turn
 
 # In this order: what one rule leaves, the next may read.
 REPORT_PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+    (_SEPARATE, r"\2 is \1 from \3 and \5 \4 from \6"),
+    (_FROM_ARM, r"from the \1"),
+    (_TO_ARM, r"\1 the \2"),
+    (_WAY_OF, r"\1:"),
+    (_EASES, "comes to "),
     (_TO_EVALUATE, ""),
     (_THRU, "past "),
     (_GIVES_UP_TURN, "yields"),
     (_SO_IT_SEEMS, ","),
     (_LEAD_GAP, "a car that wants to "),
+    (_TIME_TO_REACH, r"\1 is \3 from \2"),
     (_BY_WHICH, r"the \1 from \2 to \3 "),
     (_HAVING_BEGUN, "Starting "),
     (_OF_SCENARIO, r"\1"),
@@ -160,7 +187,6 @@ REPORT_PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str
     (_TO_BE_TESTED, r"\1"),
     (_SO_THAT_AFTER, " onto the road"),
     (_NOT_ON_BUT, r"\1 "),
-    (_TURN_OF, r"before \1 begins to turn"),
     (_PASSAGE_OF_SAME, r"before \1 passes it"),
     (_ATTAINMENT, r"when \1 is \2 "),
     (_HAS_OBJECTIVE, "makes "),

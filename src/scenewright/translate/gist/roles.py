@@ -94,6 +94,9 @@ class Roles:
         bound = preposition == "to" and self.words.word(back - 1).endswith("way")  # "on its way to the driveway"
         if word == "after" and "be" in self.words.tags(back - 1):
             return "into"
+        aimed = {self.words.word(i) for i in range(at + 2, at + 4)} & {"destination", "goal", "target", "aim"}
+        if self.words.word(at + 1) == "as" and aimed:
+            return "into"  # "has the driveway as its destination"
         if word in ("->", "-->", "=>", "\u2192", "\u21d2") and self.words.has([back - 1], "direction", "event_noun"):
             return "into"  # "eastbound -> left turn -> driveway"
         if word == "(" and self.words.word(at + 1) == ")" and self.words.has([back - 1], "direction", "event_noun"):
@@ -104,6 +107,8 @@ class Roles:
             return None  # "turns left in the driveway" may be into it or out of it
         if preposition == "in" and self.words.word(back - 1) == "go" and self.words.word(back - 2) == "to":
             return "into"  # "wants to go in the driveway"
+        if word == "up" and self.words.tag(at, "area") == "driveway" and (turned or self._turned(back - 1, clause)):
+            return "into"  # "turns left, up the driveway"
         if preposition in ("on", "in") and (before & {"enter"} or (turned and self.words.tag(at, "area") == "road")):
             return "into"  # "enters in the driveway", "turns left on the road"
         if verb == "pull_out" and word.startswith(("join", "merg")):
@@ -128,6 +133,9 @@ class Roles:
             return "past"
         if preposition == "of" and self.words.has([back - 1], "mouth", "landmark"):
             mouth = "landmark" not in self.words.tags(back - 1)
+            beyond = self.words.where(range(back - 3, back), "relation", "past") is not None
+            if mouth and (beyond or "pass" in self.words.verbs(range(back - 3, back))):
+                return "past"  # "carries on past the mouth of the driveway"
             if mouth and self.words.has(range(back - 5, back), "quantity"):
                 return None  # "55 m from the mouth of the driveway"
             return "on"  # "at the end of the driveway"

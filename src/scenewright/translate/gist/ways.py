@@ -44,6 +44,9 @@ class WayReader:
         Ways of no vehicle, which one of them must fit: "Eastbound tailing case."
     alike
         Whose way is like the other's: "makes the same turn".
+    unplaced
+        Where the driveway is spoken of and it is not understood what a vehicle has to do with it: on a way that does
+        not touch the driveway that was misread.
     """
 
     words: Words
@@ -51,6 +54,7 @@ class WayReader:
     titles: list[Way] = field(default_factory=list)
     relations: list[LaneRelation] = field(default_factory=list)
     alike: list[tuple[int, int]] = field(default_factory=list)
+    unplaced: list[tuple[int, Span]] = field(default_factory=list)
     roles: Roles = field(init=False)
 
     def __post_init__(self) -> None:
@@ -151,8 +155,9 @@ class WayReader:
         while "determiner" in self.words.tags(back):
             back -= 1
         lane = self.words.has([at + 1], "area", "noun", "hero", "side_noun")
+        comes_from = False
         if self.words.word(back).split()[-1:] == ["from"] and not lane and not self.words.word(at).endswith("bound"):
-            value = OPPOSITE[value]  # who comes from the east drives west
+            value, comes_from = OPPOSITE[value], True  # who comes from the east drives west
         from_lane = self.words.word(back) == "from" and self.words.has([at + 1], "area", "side_noun")
         comes = "ing" in self.words.tokens[at - 1].forms and at - 2 in self.words.names.actors
         if at > 1 and comes and self.words.has([at - 1], "verb"):  # "across a target coming westbound"
@@ -176,7 +181,7 @@ class WayReader:
                 Way("origin_heading", value, at, self.words.tokens[at].span, each) for each in (EGO_ID, HERO_ID)
             ]
             return
-        key: Key = "origin_heading" if from_lane else "heading"  # "a right turn from the westbound lane"
+        key: Key = "origin_heading" if from_lane or comes_from else "heading"  # "a right turn from the westbound lane"
         self._say(key, value, at, self._whose(at, clause), clause)
 
     def _direction(self, at: int, clause: Clause) -> None:
@@ -295,6 +300,9 @@ class WayReader:
             if self.roles.is_title(clause):  # "It has to wait with its left turn into the driveway."
                 place: Key = "destination_kind" if role == "into" else "origin_kind"
                 self.titles.append(Way(place, "driveway", at, self.words.tokens[at].span, None))
+        elif role is None and kind == "driveway" and clause.subject is not None and not clause.both:
+            if not self.words.has(range(max(clause.start, at - 6), at), "quantity"):
+                self.unplaced.append((clause.subject, self.words.tokens[at].span))
         elif role is not None and (clause.subject is not None or clause.both):
             if kind == "driveway":
                 self._say(
