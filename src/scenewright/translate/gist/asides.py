@@ -24,7 +24,7 @@ _BEHAVES = re.compile(
 _THAT_BEHAVES = re.compile(r",? (?:that|who|which) behaves (?:itself|himself|herself|\w+ly|well|badly)(?=[,.;]| and\b)")
 _TRIGGER_KIND = re.compile(
     r"(?:(?<=[.!?;]\s)|(?<=\n)|^)(?:The )?(?:trigger|triggering|condition) is (?:purely |entirely |only )?"
-    r"(?:temporal|spatial|time-based|distance-based|based on (?:time|distances?|times))(?=:)",
+    r"(?:temporal|spatial|time-based|distance-based|by (?:time|distance)|based on (?:time|distances?|times))(?:(?=:)|\.(?=\s))",
     re.IGNORECASE,
 )
 _YOU_HAVE = re.compile(
@@ -180,12 +180,17 @@ def _stop_said(found: re.Match[str]) -> str:
     return "." if said and not re.search(r"[.;!?]\s", found.string) else found.group()
 
 
+def _trigger(found: re.Match[str]) -> str:
+    """Return "The trigger is temporal:" and "The trigger is by time." as "Trigger:"."""
+    return "Trigger:" if found.group().endswith(".") else "Trigger"
+
+
 # In this order: what one rule leaves, the next may read.
 ASIDES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
     (_EQUATED, ""),
     (_BEHAVES, r"\1 "),
     (_THAT_BEHAVES, ""),
-    (_TRIGGER_KIND, "Trigger"),
+    (_TRIGGER_KIND, _trigger),
     (_YOU_HAVE, "There is "),
     (_NOT_SO, "But "),
     (_FOR_THIS, ""),
