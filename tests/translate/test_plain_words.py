@@ -70,8 +70,10 @@ MEETING = [
 ]  # fmt: skip
 CALLED = [("the ego", "the hero"), ("the test car", "the van"), ("the AV", "the lorry"), ("our car", "the other car")]
 EGOS = [
-    "the ego", "the vehicle under test", "the car we are testing", "the automated shuttle", "the SUT", "the car on trial",
-    "the robotaxi", "the car with our software", "the ADS-equipped vehicle", "the vehicle we assess", "the assessed vehicle",
+    "the ego", "the vehicle under test", "the car we are testing", "the automated shuttle", "the SUT", "the car on "
+    "trial",
+    "the robotaxi", "the car with our software", "the ADS-equipped vehicle", "the vehicle we assess", "the assessed "
+    "vehicle",
 ]  # fmt: skip
 HEROES = [
     "the hero", "a van", "another car", "a lorry", "the other vehicle", "an elderly driver", "a school bus", "the POV",
@@ -95,7 +97,8 @@ DEEDS = {
         "A0x(t2) == turn_start",
         "A1(t2) < A0(t2)",
     },
-    "stops 7 m before the conflict point, remains stopped for 2 s, then sets off again and is through the conflict point "
+    "stops 7 m before the conflict point, remains stopped for 2 s, then sets off again and is through the conflict "
+    "point "
     "before the ego begins its turn.": {
         "A1x(t2) == conflict_point - 7",
         "A1(t3) - A1(t2) == 2",
@@ -159,10 +162,11 @@ def test_ways() -> None:
             first, second = generator.choice(CALLED)
             ego_place, hero_place = ("stop line" if way[0] == "S" else "conflict point" for way in (ego, hero))
             brought_in = second if second in ("the hero", "the other car") else second.replace("the ", "a ")
+            ego_told = ego_way.format(first[0].upper() + first[1:])
+            hero_told = hero_way.format(brought_in[0].upper() + brought_in[1:])
             text = (
-                f"{ego_way.format(first[0].upper() + first[1:])} {hero_way.format(brought_in[0].upper() + brought_in[1:])} "
-                f"When {first} is 20 m from the {ego_place} and {second} is 25 m from the {hero_place}, {second} brakes "
-                f"and stops 5 m before the {hero_place}."
+                f"{ego_told} {hero_told} When {first} is 20 m from the {ego_place} and {second} is 25 m from the "
+                f"{hero_place}, {second} brakes and stops 5 m before the {hero_place}."
             )
             texts += 1
             program = program_of(text)
@@ -180,8 +184,10 @@ def test_names(ego: str) -> None:
         noun = hero.split(" ", 1)[1]
         again = "the other car" if hero == "another car" else f"the {noun}"
         text = (
-            f"{ego[0].upper()}{ego[1:]} comes out of the driveway and turns left; at first it is 40 m from the stop line. "
-            f"{hero[0].upper()}{hero[1:]} drives west on the road and goes straight. When {ego} is 12 m from the stop line "
+            f"{ego[0].upper()}{ego[1:]} comes out of the driveway and turns left; at first it is 40 m from the stop "
+            f"line. "
+            f"{hero[0].upper()}{hero[1:]} drives west on the road and goes straight. When {ego} is 12 m from the "
+            f"stop line "
             f"and {again} is 34 m from the conflict point, {again} brakes and stops 7 m before the conflict point."
         )
         program = program_of(text)
@@ -222,12 +228,15 @@ def test_gaps(trigger: str) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "Ego and hero go straight westbound. The initial gap is 40 m. The initial speed is 20 m/s. When the ego is 1.2 s "
+        "Ego and hero go straight westbound. The initial gap is 40 m. The initial speed is 20 m/s. When the ego is "
+        "1.2 s "
         "behind the hero, the hero brakes at 3 m/s^2 to a standstill.",
-        f"{OUT_AND_BY}When the ego is 12 m from the stop line and the hero 34 m from the conflict point, the hero brakes at "
+        f"{OUT_AND_BY}When the ego is 12 m from the stop line and the hero 34 m from the conflict point, the hero "
+        f"brakes at "
         "a rate of 3 m/s to a standstill.",
         f"{OUT_AND_BY}When one of the two is 30 m from the conflict point, the other brakes and stops 5 m before it.",
-        f"{OUT_AND_BY}When the ego is 12 m from the stop line and the hero 34 m from the conflict point, the hero brakes to "
+        f"{OUT_AND_BY}When the ego is 12 m from the stop line and the hero 34 m from the conflict point, the hero "
+        f"brakes to "
         "a stop 6 m before the conflict point, harder than it did in the previous test.",
         "Ego and hero go straight westbound. When the ego is 25 m behind the hero, the hero brakes at 3.5 m/s^2 to a "
         "standstill, but the ego must by then have overtaken it.",

@@ -31,7 +31,8 @@ _FIRST = re.compile(
 # What somebody says of the test: words that are not known change nothing there.
 _FRAME = re.compile(
     r"(?:(?:hi|hello|hey|so|ok|okay|well|right|now|dear|good (?:morning|day|evening))\b[\w ]{0,12},? )?(?:"
-    r"(?:(?:legal|marketing|sales|management|safety|homologation|validation|planning|everybody) |(?:my|our|the|a) (?:customer|client|boss|manager|supervisor|team|professor|colleague|lead|committee|board) )"
+    r"(?:(?:legal|marketing|sales|management|safety|homologation|validation|planning|everybody) |(?:my|our|the|a) "
+    r"(?:customer|client|boss|manager|supervisor|team|professor|colleague|lead|committee|board) )"
     r"(?:has |have )?(?:asked|told|wants|wanted|needs)\b"
     r"|(?:i|we)(?: would|['\u2019]d| am|['\u2019]m| are)? (?:like|want|need|remember|recall|try|trying|looking"
     r"|testing)\b"

@@ -52,7 +52,8 @@ _LIMIT = re.compile(
     rf"(?P<joint>(?:^|(?<=[.;!?]\s)|(?<=\n)|, and |, | and )(?:(?:limit(?:ation)?|constraint|restriction) ?[:=]"
     rf" ?)?)(?P<before>{_WINDOW}\b[^.;!?\n]*?,? )?"
     rf"(?:(?P<who>{_SUBJECT}) (?:{_NOT} {_ABOVE}|{_BELOW})|(?P<bare>stays|keeps|remains) (?:at or )?(?:below|under)"
-    r"|(?P<braking>(?:please )?(?:it |he |she |the [\w-]+ )?(?:never )?brak(?:ing|es)|decelerat(?:ing|es)|with a deceleration(?: of)?)"
+    r"|(?P<braking>(?:please )?(?:it |he |she |the [\w-]+ )?(?:never )?brak(?:ing|es)|decelerat(?:ing|es)|with a "
+    r"deceleration(?: of)?)"
     r" (?:not|no|never) (?:harder|stronger|more|greater|higher) than"
     rf"|(?P<no>at no (?:moment|time|point|instant)) (?P<during>[^.;!?\n]*? )?(?:does|shall|may|must|did|should|is)"
     rf" (?P<whom>{_SUBJECT}) {_ABOVE_BARE}) (?P<amount>{_SPEED}|{_RATE})"
@@ -78,9 +79,8 @@ _AT_GOAL = (
 )
 _ANY = r"(?:at (?:any|all) (?:time|times|moment|point)|throughout|ever)"
 _TRIGGER = (
-    r"(?:the (?:trigger(?: event)?|event|onset|cue)|then|there|that (?:moment|instant)|this (?:moment|instant)|the moment "
-    + _BEGUN
-    + ")"
+    r"(?:the (?:trigger(?: event)?|event|onset|cue)|then|there|that (?:moment|instant)|this (?:moment|instant)|the "
+    r"moment " + _BEGUN + ")"
 )
 _START = r"(?:the (?:start|beginning|outset)(?: of the (?:test|run|scenario))?)"
 _TOLD: tuple[tuple[str, tuple[Moment, Moment]], ...] = (

@@ -346,9 +346,13 @@ _PHRASES = tuple(
             r"spare\b",
             "an amount that is not told",
         ),
-        (r"\bovert(?:ake|akes|aken|ook|aking) (?:it|him|her|us|the [a-z]+)\b|\b(?:have|has|be|is|been) overtaken\b", "overtaking"),
         (
-            r"\b(?:one|either|whichever) of (?:the two|them|the (?:two )?(?:vehicles|cars))\b(?:[^.;]|\.\d)*\bthe other(?: one)? "
+            r"\bovert(?:ake|akes|aken|ook|aking) (?:it|him|her|us|the [a-z]+)\b|\b(?:have|has|be|is|been) overtaken\b",
+            "overtaking",
+        ),
+        (
+            r"\b(?:one|either|whichever) of (?:the two|them|the (?:two )?(?:vehicles|cars))\b(?:[^.;]|\.\d)*\bthe "
+            r"other(?: one)? "
             r"(?:then )?(?:brakes|stops|slows|accelerates|yields|goes|drives|waits)\b",
             "either vehicle, whichever it may be",
         ),
@@ -357,7 +361,8 @@ _PHRASES = tuple(
             "an acceleration in the unit of a speed",
         ),
         (
-            r"\b(?:harder|softer|faster|slower|sooner|later|earlier|nearer|closer|farther|further|more|less) than (?:(?:it|he|she)"
+            r"\b(?:harder|softer|faster|slower|sooner|later|earlier|nearer|closer|farther|further|more|less) than "
+            r"(?:(?:it|he|she)"
             r" (?:did|was|had|would|usually|normally)|(?:in|during) the (?:previous|last|first|other)|usual|before)\b",
             "a comparison with what is not told",
         ),

@@ -10,9 +10,12 @@ from scenewright.program.types import HeadingsRoute
 from scenewright.translate.offline import translate_offline
 
 STORY = (
-    "The ego drives east on the road and turns left into the driveway; it starts 60 m before the intersection. The hero "
-    "drives west and goes straight on. When the ego is 20 m and the hero 48 m from the conflict point, the hero brakes and "
-    "comes to a stop 14 m before the conflict point. Then it drives on and passes the conflict point before the ego begins "
+    "The ego drives east on the road and turns left into the driveway; it starts 60 m before the intersection. The "
+    "hero "
+    "drives west and goes straight on. When the ego is 20 m and the hero 48 m from the conflict point, the hero "
+    "brakes and "
+    "comes to a stop 14 m before the conflict point. Then it drives on and passes the conflict point before the ego "
+    "begins "
     "its turn."
 )
 
@@ -34,7 +37,10 @@ def meaning(text: str) -> tuple[list[tuple[str, ...]], set[str]]:
         ("When the ego", "Right when the ego"),
         ("the hero brakes and", "the hero begins to brake right then and"),
         ("; it starts 60 m before the intersection", ", starting the run 60 m before the intersection"),
-        ("; it starts 60 m before the intersection", ". Sixty metres is the ego's initial distance from the intersection"),
+        (
+            "; it starts 60 m before the intersection",
+            ". Sixty metres is the ego's initial distance from the intersection",
+        ),
         ("; it starts 60 m before the intersection", "; its distance before the intersection is 60 m at the start"),
         ("; it starts 60 m before the intersection", ", and the scenario starts when it is 60 m from the intersection"),
         ("The hero drives west", "The hero comes from the eastern arm"),
@@ -57,8 +63,10 @@ def test_told(plain: str, told: str) -> None:
 
 
 GOES_FIRST = (
-    "The AV is on the driveway and turns left; at first it is 6 s from the stop line. A cab drives west on the road and "
-    "goes straight. When the AV is 2 s from the stop line and the cab 3.5 s from the conflict point, the cab accelerates "
+    "The AV is on the driveway and turns left; at first it is 6 s from the stop line. A cab drives west on the road "
+    "and "
+    "goes straight. When the AV is 2 s from the stop line and the cab 3.5 s from the conflict point, the cab "
+    "accelerates "
     "and passes the conflict point before the AV begins its turn."
 )
 
@@ -71,12 +79,16 @@ GOES_FIRST = (
         ("accelerates and passes", "commences an acceleration that lets it pass"),
         ("accelerates and passes", "begins to accelerate, which allows it to pass"),
         ("When the AV is", "At the instant that finds the AV"),
-        ("passes the conflict point before the AV begins its turn", "is through the conflict point before the AV begins its turn"),
+        (
+            "passes the conflict point before the AV begins its turn",
+            "is through the conflict point before the AV begins its turn",
+        ),
         ("before the AV begins its turn", "before the AV starts its own turn"),
         ("When the AV is 2 s from the stop line", "When for the AV remain 2 s to the stop line"),
         (
             "When the AV is 2 s from the stop line and the cab 3.5 s from the conflict point",
-            "The moment the AV's time to arrival at the stop line is 2 s and the cab's time to reach the conflict point is 3.5 s",
+            "The moment the AV's time to arrival at the stop line is 2 s and the cab's time to reach the conflict "
+            "point is 3.5 s",
         ),
         ("the cab accelerates", "the cabbie steps on the gas"),
         ("A cab drives west", "A cab, in no mood to wait, drives west"),
@@ -104,13 +116,15 @@ def test_before_it_begins_its_turn_somebody_has_passed() -> None:
     "named",
     [
         "My pupil drives the ego. She is on the driveway and turns left; at first she is 6 s from the stop line.",
-        "The learner's car, our ego, is on the driveway and turns left; the learner is at first 6 s from the stop line.",
+        "The learner's car, our ego, is on the driveway and turns left; the learner is at first 6 s from the stop "
+        "line.",
         "The pupil in our car (the ego) is on the driveway and turns left, at first 6 s from the stop line.",
     ],
 )
 def test_who_drives_the_ego_is_the_ego(named: str) -> None:
     text = (
-        f"{named} The hero drives west on the road and goes straight. When the ego is 2 s from the stop line and the hero "
+        f"{named} The hero drives west on the road and goes straight. When the ego is 2 s from the stop line and "
+        f"the hero "
         "3.5 s from the conflict point, the hero brakes and stops 8 m before the conflict point."
     )
     routes, formulas = meaning(text)
@@ -120,8 +134,10 @@ def test_who_drives_the_ego_is_the_ego(named: str) -> None:
 
 def test_a_shuttle_is_no_bus() -> None:
     text = (
-        "The automated shuttle is on the driveway and turns left. A bus drives east on the road and goes straight. When the "
-        "shuttle is 14 m from the stop line and the bus 45 m from the conflict point, the bus accelerates and passes the "
+        "The automated shuttle is on the driveway and turns left. A bus drives east on the road and goes straight. "
+        "When the "
+        "shuttle is 14 m from the stop line and the bus 45 m from the conflict point, the bus accelerates and "
+        "passes the "
         "conflict point before the shuttle begins its turn."
     )
     routes, formulas = meaning(text)
@@ -131,8 +147,10 @@ def test_a_shuttle_is_no_bus() -> None:
 
 def test_another_learner_is_the_hero() -> None:
     text = (
-        "The ego drives west on the road and goes straight. A learner driver comes out of the driveway and turns right. When "
-        "the learner is 20 m from the stop line and the ego 65 m from the conflict point, the learner brakes and stops 2 m "
+        "The ego drives west on the road and goes straight. A learner driver comes out of the driveway and turns "
+        "right. When "
+        "the learner is 20 m from the stop line and the ego 65 m from the conflict point, the learner brakes and "
+        "stops 2 m "
         "before the stop line."
     )
     routes, formulas = meaning(text)

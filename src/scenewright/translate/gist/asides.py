@@ -24,7 +24,8 @@ _BEHAVES = re.compile(
 _THAT_BEHAVES = re.compile(r",? (?:that|who|which) behaves (?:itself|himself|herself|\w+ly|well|badly)(?=[,.;]| and\b)")
 _TRIGGER_KIND = re.compile(
     r"(?:(?<=[.!?;]\s)|(?<=\n)|^)(?:The )?(?:trigger|triggering|condition) is (?:purely |entirely |only )?"
-    r"(?:temporal|spatial|time-based|distance-based|by (?:time|distance)|based on (?:time|distances?|times))(?:(?=:)|\.(?=\s))",
+    r"(?:temporal|spatial|time-based|distance-based|by (?:time|distance)|based on (?:time|distances?"
+    r"|times))(?:(?=:)|\.(?=\s))",
     re.IGNORECASE,
 )
 _YOU_HAVE = re.compile(

@@ -168,7 +168,13 @@ class EgoMoments:
         own = "turn" in verbs or self.words.where(clause.inside, "event_noun", "turn") is not None
         if "begin" in verbs and "reach" in verbs and mark is None and own:
             return "turn_start"  # "before the ego gets to begin its turn"
-        if "begin" in verbs and "turn" not in verbs and own and mark is not None and not self.words.has([mark - 1, mark - 2], "preposition"):
+        if (
+            "begin" in verbs
+            and "turn" not in verbs
+            and own
+            and mark is not None
+            and not self.words.has([mark - 1, mark - 2], "preposition")
+        ):
             raise self.words.refuse("it is not clear which moment of the ego this is", self.words.span(clause))
         strange = any("unknown" in self.words.tags(at) for at in clause.inside) or self.words.has(clause.inside, "area")
         if "enter" in verbs and mark is None and strange:

@@ -24,7 +24,8 @@ _CROSSING = re.compile(
     r"(?:(?:point|spot|place|bit) (?:where|at which|in which)|(?<=from )where|(?<=short of )where|(?<=to )where"
     r"|(?<=of )where) "
     rf"(?:their|the|the two|both|our|its|your|these|two) (?:two )?{_WAYS} (?:would |will )?{_MEET}\b"
-    r"|(?:(?:point|spot|place|bit) (?:where|at which)|(?<=from )where) (?:they|the two|both)(?:['\u2019]d| would| will)? (?:meet|cross"
+    r"|(?:(?:point|spot|place|bit) (?:where|at which)|(?<=from )where) (?:they|the two|both)(?:['\u2019]d| would| "
+    r"will)? (?:meet|cross"
     r"|collide|merge)\b",
     re.IGNORECASE,
 )

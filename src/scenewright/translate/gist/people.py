@@ -33,7 +33,9 @@ def drivers_of_ego(tokens: list[Token]) -> set[str]:
                 found.add(token.text.lower())
             continue
         ahead += ahead < len(tokens) and "comma" in tokens[ahead].tags
-        drives = ahead < len(tokens) and (tokens[ahead].text.lower() == "in" or tokens[ahead].tags.get("verb") == "drive")
+        drives = ahead < len(tokens) and (
+            tokens[ahead].text.lower() == "in" or tokens[ahead].tags.get("verb") == "drive"
+        )
         ahead += 1
         while drives and ahead < len(tokens) and tokens[ahead].tags.keys() & {"determiner", "possessive"}:
             ahead += 1

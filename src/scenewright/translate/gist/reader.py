@@ -176,7 +176,9 @@ def _read(words: Words, title: tuple[Token, ...], road_map: RoadMap) -> Gist:
     told: list[tuple[str, Span]] = []
     told += [(token.tags[key], token.span) for token in title for key in _told_by(token)]
     events = sorted({id(event): event for event in events}.values(), key=lambda event: event.span.start)
-    return Gist(facts, events, words.tokens, told, list(titles.values()), meets, ways.unplaced, _assumptions(words, title))
+    return Gist(
+        facts, events, words.tokens, told, list(titles.values()), meets, ways.unplaced, _assumptions(words, title)
+    )
 
 
 def _set_remarks_aside(words: Words) -> list[Span]:

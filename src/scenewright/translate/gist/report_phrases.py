@@ -15,12 +15,15 @@ _EGO = r"(?:ego(?: vehicle| car)?|AV|SUT|VUT|ADS)"
 
 # "the distance by which the ego trails the hero has shrunk to 12 m"
 _BY_WHICH = re.compile(
-    rf"\bthe (distance|gap|time) by which ({_WHO}) (?:follows|trails|is behind|lags behind) ({_WHO}) (?=has|is|falls|drops)",
+    rf"\bthe (distance|gap|time) by which ({_WHO}) (?:follows|trails|is behind|lags behind) ({_WHO}) (?=has|is"
+    rf"|falls|drops)",
     re.IGNORECASE,
 )
 _HAVING_BEGUN = re.compile(rf"\bHaving (?:begun|started|set out) (?={_AMOUNT})")
 _OF_SCENARIO = re.compile(
-    r"\b(vehicles|cars|actors) (?:of|in) (?:this|the) (?:scenario|test|scene|case)(?= (?:are|come|drive|want|travel|go))", re.I
+    r"\b(vehicles|cars|actors) (?:of|in) (?:this|the) (?:scenario|test|scene|case)(?= (?:are|come|drive|want|travel"
+    r"|go))",
+    re.I,
 )
 _CONTINUING = re.compile(
     r",? (?:and )?(?:continuing|continues|keeps going|goes on)(?: to (?:do so|brake|decelerate)| braking| this| so)? "
@@ -55,7 +58,8 @@ _KEEP_SIMPLE = re.compile(
     re.IGNORECASE,
 )
 _POLICY_SWITCHES = re.compile(
-    r"(?:(?<=[.!?]\s)|^)(?:The )?[\w-]+(?:['\u2019]s)? (?:policy|behaviou?r|mode|controller) (?:switches|changes) when\b"
+    r"(?:(?<=[.!?]\s)|^)(?:The )?[\w-]+(?:['\u2019]s)? (?:policy|behaviou?r|mode|controller) (?:switches|changes) "
+    r"when\b"
 )
 _AFTER_SWITCH = re.compile(r"(?:(?<=[.!?]\s)|^)After the (?:switch|change|switching|transition),", re.IGNORECASE)
 _LET_EGO = re.compile(rf"\bwe (?:let|make|have) the {_EGO} (?=follow|drive|turn|come|approach|go|leave)", re.IGNORECASE)
@@ -66,7 +70,8 @@ _TO_BE_TESTED = re.compile(
     re.IGNORECASE,
 )
 _SO_THAT_AFTER = re.compile(
-    r", so that it (?:would|will) (?:afterwards|then|subsequently) (?:drive|travel|go|head) on the road\b", re.IGNORECASE
+    r", so that it (?:would|will) (?:afterwards|then|subsequently) (?:drive|travel|go|head) on the road\b",
+    re.IGNORECASE,
 )
 _NOT_ON_BUT = re.compile(r"\b(is|are) not (?:on|in) the (?:road|driveway) but (?=(?:on|in) the)", re.IGNORECASE)
 _PASSAGE_OF_SAME = re.compile(
@@ -80,7 +85,8 @@ _ATTAINMENT = re.compile(
     re.IGNORECASE,
 )
 _HAS_OBJECTIVE = re.compile(
-    r"\b(?:has|have) (?:the |as its )?(?:objective|purpose|task) (?:of|to make|to perform|:) ?(?=a (?:left|right) turn\b)",
+    r"\b(?:has|have) (?:the |as its )?(?:objective|purpose|task) (?:of|to make|to perform|:) ?(?=a (?:left|right) "
+    r"turn\b)",
     re.IGNORECASE,
 )
 _PASSED_BY = re.compile(
@@ -93,7 +99,8 @@ _RIGHT_IGNORED = re.compile(
     re.IGNORECASE,
 )
 _NO_COURTESY = re.compile(
-    r"(?:(?<=[.!?;]\s)|^)(?:No|Little|Some|Great) (?:courtesy|patience|respect|consideration) is shown(?: here| this time)?"
+    r"(?:(?<=[.!?;]\s)|^)(?:No|Little|Some|Great) (?:courtesy|patience|respect|consideration) is shown(?: here| "
+    r"this time)?"
     r"[:.] ?",
     re.IGNORECASE,
 )
@@ -109,10 +116,13 @@ _LEFT_FOR_IT = re.compile(
     r"|conflict point))",
     re.IGNORECASE,
 )
-_SQUEEZES = re.compile(r"\b(?:squeezes|scoots|whizzes|sails|rolls) (?:through|past|across) (?=the conflict point)", re.I)
-_ONE_UNDER_TEST = re.compile(rf"\b(ours|mine|that car|this car|the latter), (?:which is )?the one under test,", re.I)
+_SQUEEZES = re.compile(
+    r"\b(?:squeezes|scoots|whizzes|sails|rolls) (?:through|past|across) (?=the conflict point)", re.I
+)
+_ONE_UNDER_TEST = re.compile(r"\b(ours|mine|that car|this car|the latter), (?:which is )?the one under test,", re.I)
 _WE_ASSESS = re.compile(
-    r"\b(vehicle|car|van|taxi|shuttle|truck|bus|lorry|hatchback|robotaxi) (?:that |which )?(?:we|I)(?: are|['\u2019]re)? "
+    r"\b(vehicle|car|van|taxi|shuttle|truck|bus|lorry|hatchback|robotaxi) (?:that |which )?(?:we|I)(?: are"
+    r"|['\u2019]re)? "
     r"(?:evaluat|assess|examin|judg|validat)(?:ing|e)?\b",
     re.IGNORECASE,
 )
@@ -123,10 +133,12 @@ _HE_HIMSELF = re.compile(r"\b(?:he himself|she herself|it itself) (?=is\b)", re.
 _ARM = r"(?:arm|leg|branch|approach|end|side)(?: of the (?:(?:main )?road|junction|intersection))?\b"
 _FROM_ARM = re.compile(rf"\bfrom the (west|east|north|south)(?:ern)? {_ARM}", re.IGNORECASE)
 _TO_ARM = re.compile(
-    rf"\b(to|into|towards?|onto|along) the (west|east)ern (?:{_ARM}|one\b)(?! (?:is|has|comes|brakes|stops))", re.IGNORECASE
+    rf"\b(to|into|towards?|onto|along) the (west|east)ern (?:{_ARM}|one\b)(?! (?:is|has|comes|brakes|stops))",
+    re.IGNORECASE,
 )
 _WAY_OF = re.compile(
-    r"^(\W*(?:the )?(?:ego|hero|other (?:car|vehicle)|AV|SUT|POV|NPC))['\u2019]s (?:way|route|path|journey|itinerary) ?:",
+    r"^(\W*(?:the )?(?:ego|hero|other (?:car|vehicle)|AV|SUT|POV|NPC))['\u2019]s (?:way|route|path|journey"
+    r"|itinerary) ?:",
     re.IGNORECASE | re.MULTILINE,
 )
 _EASES = re.compile(r"\beases to (?=(?:a|an|its) (?:complete |full )?(?:stop|halt|standstill)\b)", re.IGNORECASE)
@@ -151,7 +163,9 @@ _TO_EVALUATE = re.compile(
     r"(?=(?:we|the|an?|our) )"
 )
 _THRU = re.compile(r"(?<=, )thru (?=(?:the )?(?:CP|conflict point)\b)", re.IGNORECASE)
-_GIVES_UP_TURN = re.compile(r"\bgives up (?:its|his|her) (?:turn|right) for (?:the moment|now|a while)\b", re.IGNORECASE)
+_GIVES_UP_TURN = re.compile(
+    r"\bgives up (?:its|his|her) (?:turn|right) for (?:the moment|now|a while)\b", re.IGNORECASE
+)
 _SO_IT_SEEMS = re.compile(r", or so (?:it|he|she|the \w+) (?:seems|thinks|believes|appears):?", re.IGNORECASE)
 _LEAD_GAP = re.compile(r"\b(?:an?|the) car (?:that|which) is supposed to (?=turn|go|drive)", re.IGNORECASE)
 

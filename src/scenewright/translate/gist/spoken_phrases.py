@@ -1,7 +1,8 @@
 """Turns of phrase of people who tell a colleague rather than write a specification, with plain words for them.
 
 What enters: nothing. What leaves: `SPOKEN_PHRASES`, patterns with what to say instead, in their order: "rolls to a
-stop" is "comes to a stop", "for the ego remain 2 s to" is "the ego is 2 s from". Nothing that is said instead is longer.
+stop" is "comes to a stop", "for the ego remain 2 s to" is "the ego is 2 s from". Hardly anything that is said instead
+is longer.
 """
 
 from __future__ import annotations
@@ -24,7 +25,8 @@ _CALL_HIM = re.compile(
     re.IGNORECASE,
 )
 _ROLLS_TO_STOP = re.compile(
-    r"\b(roll|glid|coast|draw)(s|ing|es|e)? to (?=(?:a|an|its) (?:complete |full )?(?:stop|halt|standstill)\b(?! line))",
+    r"\b(roll|glid|coast|draw)(s|ing|es|e)? to (?=(?:a|an|its) (?:complete |full )?(?:stop|halt|standstill)\b(?! "
+    r"line))",
     re.IGNORECASE,
 )
 _KEEPS_IT = re.compile(
@@ -55,7 +57,9 @@ _TURNING = frozenset(
 _REMAIN = re.compile(
     rf"\bfor ((?:the |our )?[\w-]+) (?:there )?(?:remains?|(?:is|are) left) ({_AMOUNT})(?: left)? to\b", re.IGNORECASE
 )
-_ONE_OF_THEM = re.compile(r"(?<=: )one (?=[A-Z]{2,}\b|truck|van|lorry|car|bus|taxi)|\b[Aa] single (?=(?:\w+bound )?\w+)")
+_ONE_OF_THEM = re.compile(
+    r"(?<=: )one (?=[A-Z]{2,}\b|truck|van|lorry|car|bus|taxi)|\b[Aa] single (?=(?:\w+bound )?\w+)"
+)
 _AT_REST_WHEN = re.compile(
     r"\bis (?:at rest|stationary|standing|stopped) (?:when|with) "
     rf"({_AMOUNT}) (?:remain|are left|remaining|left) (?:between (?:it|him|her) and|to) "
@@ -75,7 +79,8 @@ _NOT_FOR_GOOD = re.compile(
     r"(?:(?<=[.!?;]\s)|^)(?:But )?(?:not|never) (?:for good|for long|for ever|forever): ", re.IGNORECASE
 )
 _DOES_NOT_STAY = re.compile(
-    r"(?:(?<=[.!?;]\s)|^)(?:But )?(?:it|he|she) (?:doesn['\u2019]t|does not|won['\u2019]t) (?:stay (?:put|there|like that)"
+    r"(?:(?<=[.!?;]\s)|^)(?:But )?(?:it|he|she) (?:doesn['\u2019]t|does not|won['\u2019]t) (?:stay (?:put|there"
+    r"|like that)"
     r"|leave it at that),? ?(?:though|however)?[,:;] ",
     re.IGNORECASE,
 )
@@ -91,7 +96,9 @@ _BEGINS_TEST = re.compile(
     r"\b(begins|starts) the (?:test|run|scenario|simulation) (?=on |at |in |from |with |[\d.]+ )", re.IGNORECASE
 )
 _FULL_STOP_AT_ZERO = re.compile(r"\bto v ?= ?0(?=[.,;\s]|$)(?!\.\d)")
-_SECOND_ONE = re.compile(r"\bthe second(?: one)?(?= (?:is|brakes|stops|slows|accelerates|has|comes|passes|starts|begins)\b)", re.I)
+_SECOND_ONE = re.compile(
+    r"\bthe second(?: one)?(?= (?:is|brakes|stops|slows|accelerates|has|comes|passes|starts|begins)\b)", re.I
+)
 _A_SECOND = re.compile(r"\ba second (?:vehicle|car|driver|motorist)\b", re.IGNORECASE)
 
 # "initial_ego_s left until it reaches the intersection", "with 7 seconds remaining before it arrives at the line"
@@ -128,10 +135,12 @@ _DISTANCE_BEFORE = re.compile(r"\b(distance) before (?=the |its )", re.IGNORECAS
 _UNDER_TEST_IS = re.compile(r"(?:(?<=[.!?]\s)|(?<=\n)|^)Under test is (?:an?|the|our) (?=[a-z])", re.IGNORECASE)
 _IN_MIND = re.compile(
     r"(?:(?<=[.!?]\s)|(?<=\n)|^)(Left|Right|Straight)\b([^:.;]*): (?:that['\u2019]s|that is|this is) (?:what|the "
-    r"(?:wish|plan|aim|intention|goal) of) ((?:an?|the|our) [\w ]+?)(?: has in mind| wants| has planned| intends)?(?=[,.])"
+    r"(?:wish|plan|aim|intention|goal) of) ((?:an?|the|our) [\w ]+?)(?: has in mind| wants| has planned| "
+    r"intends)?(?=[,.])"
 )
 _CUTS_ACROSS = re.compile(
-    r"\b(?:To get there,? )?it (?:must|has to|needs to|will) (?:cut across|cross|merge into|join) the (?:path|way|lane) "
+    r"\b(?:To get there,? )?it (?:must|has to|needs to|will) (?:cut across|cross|merge into|join) the (?:path|way"
+    r"|lane) "
     r"of (?=an? )",
     re.IGNORECASE,
 )
@@ -150,10 +159,11 @@ _IS_DISTANCE = re.compile(
     re.IGNORECASE,
 )
 _LET_COME = re.compile(
-    rf"(?:(?<=[.!?]\s)|^)Let ((?:the|our) [\w-]+|it) (?:come|get|advance|drive|approach|go) to ({_AMOUNT})", re.IGNORECASE
+    rf"(?:(?<=[.!?]\s)|^)Let ((?:the|our) [\w-]+|it) (?:come|get|advance|drive|approach|go) to ({_AMOUNT})",
+    re.IGNORECASE,
 )
 _THAT_IS_WHEN = re.compile(r"\b(?:that|this)(?:['\u2019]s| is) (?:when|the moment)\b", re.IGNORECASE)
-_NOW_ACTS = re.compile(rf"(?<=[a-z]): now (?=(?:the|it|he|she)\b)")
+_NOW_ACTS = re.compile(r"(?<=[a-z]): now (?=(?:the|it|he|she)\b)")
 _RESOLVES = re.compile(r"\bresolves (?=(?:not )?to\b)", re.IGNORECASE)
 _ONTO_BRAKES = re.compile(r"\bgoes onto the brakes\b", re.IGNORECASE)
 _OWN_IS = re.compile(r"['\u2019]s own (?=is )")
@@ -168,9 +178,7 @@ _AFTER_STOPPED = re.compile(
     re.IGNORECASE,
 )
 _BECAUSE_WANTS = re.compile(r"\bbecause (?:it|he|she) (?=wants to|is to|is going to|intends to)", re.IGNORECASE)
-_APPROACHES_ROAD = re.compile(
-    r"\bapproach(es|ing) the (?:main )?road (?:on|along) (?=the |a )", re.IGNORECASE
-)
+_APPROACHES_ROAD = re.compile(r"\bapproach(es|ing) the (?:main )?road (?:on|along) (?=the |a )", re.IGNORECASE)
 _AMOUNT_OF = re.compile(
     rf"\b({_AMOUNT}) \((the \w+|\w+) (?:to|from) (the (?:stop line|conflict point|intersection))\)", re.IGNORECASE
 )
@@ -216,7 +224,8 @@ def _goal(found: re.Match[str]) -> str:
 
 
 _CONSISTS_OF = re.compile(
-    r"\b(?:the )?oncoming traffic,? (?:which consists|consisting|that consists) of (?:a|one) (?:single )?", re.IGNORECASE
+    r"\b(?:the )?oncoming traffic,? (?:which consists|consisting|that consists) of (?:a|one) (?:single )?",
+    re.IGNORECASE,
 )
 _NO_MOOD = re.compile(
     r"\b(?:is|are) (?:in no mood|not (?:willing|prepared|inclined)|unwilling) to (wait|yield|give way)\b", re.IGNORECASE

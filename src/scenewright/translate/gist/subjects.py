@@ -377,7 +377,7 @@ def _same_which(words: Words, clause: Clause) -> Clause | None:
 
 
 def _resumed(words: Words, clause: Clause, pronouns: list[int]) -> Clause | None:
-    """Return the name that a sentence begins with, or its last one, where only amounts stand between it and its verb."""
+    """Return the name that a sentence begins with, or an opposed one, where only amounts part it from its verb."""
     earlier = [each for each in words.sentence(clause) if each.start < clause.start]
     opposed = [each for each in earlier if words.word(each.start - 1) in ("while", "whereas", "whilst")]
     last = next((each for each in reversed(opposed) if each.named), None)
