@@ -16,7 +16,8 @@ PY := $(BIN)/python
 PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3; do \
 	"$$p" -c 'import sys; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1 && { echo "$$p"; break; }; done)
 UV := $(shell uv --version >/dev/null 2>&1 && echo uv)
-PYTEST_ARGS ?=
+# In one process for each core; `make test PYTEST_ARGS=-x` and the like take other arguments instead.
+PYTEST_ARGS ?= -n auto --dist worksteal
 LOCK_ARGS ?=
 
 # $(call install,LOCK): what the lock names, then this project itself, editable and without looking anywhere else.

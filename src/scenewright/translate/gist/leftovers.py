@@ -17,6 +17,7 @@ def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> 
     _refuse_unmeasured(words, trigger_sentence)
     _refuse_each(words, trigger_sentence)
     _refuse_turns_of_ego(words, trigger_sentence)
+    _refuse_strange_links(words, trigger_sentence)
     _refuse_lost_orders(words, deeds, trigger_sentence)
     for at, token in enumerate(words.tokens):
         if at in words.used:
@@ -46,6 +47,18 @@ def refuse_left_over(words: Words, deeds: list[Deed], trigger_sentence: int) -> 
             lost = _is_strange_condition(words, at, clause)
         if lost:
             raise words.refuse(f"'{token.text}' has no part in what was understood", token.span)
+
+
+def _refuse_strange_links(words: Words, trigger_sentence: int) -> None:
+    """Refuse "gets by that point ere the ego does": a word that is not known ties the ego to what the hero does."""
+    for clause in (each for each in words.clauses if each.sentence >= trigger_sentence and not each.aside):
+        for at in clause.inside[1:]:
+            named = words.skip(at + 2, frozenset(("actor_adjective", "heading")))
+            strange = "unknown" in words.tags(at) and at not in words.names.actors and not words.word(at).endswith("ly")
+            tied = "determiner" in words.tags(at + 1) and words.names.actors.get(named) == EGO_ID
+            acted = words.verbs(range(clause.start, at)) & DEEDS
+            if strange and tied and acted and not words.has([at - 1], "comma", "end", "link"):
+                raise words.refuse(f"'{words.word(at)}' was not understood: it may be an order", words.tokens[at].span)
 
 
 def _refuse_meanwhile(words: Words, deeds: list[Deed], trigger_sentence: int) -> None:

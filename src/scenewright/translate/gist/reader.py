@@ -173,12 +173,12 @@ def _read(words: Words, title: tuple[Token, ...], road_map: RoadMap) -> Gist:
     titles: dict[int, list[Way]] = {}
     for way in ways.titles:
         titles.setdefault(next(each.start for each in words.clauses if way.at in each.inside), []).append(way)
+    straight = {way.actor for way in ways.ways if way.key == "turn" and way.value == "straight"}
+    unplaced = [(actor, span) for actor, span in ways.unplaced if actor not in straight]
     told: list[tuple[str, Span]] = []
     told += [(token.tags[key], token.span) for token in title for key in _told_by(token)]
     events = sorted({id(event): event for event in events}.values(), key=lambda event: event.span.start)
-    return Gist(
-        facts, events, words.tokens, told, list(titles.values()), meets, ways.unplaced, _assumptions(words, title)
-    )
+    return Gist(facts, events, words.tokens, told, list(titles.values()), meets, unplaced, _assumptions(words, title))
 
 
 def _set_remarks_aside(words: Words) -> list[Span]:
