@@ -47,6 +47,8 @@ class Assembler(ConditionAssembler):
         """Build the program."""
         for condition in sorted(self.facts.initial, key=_canonical):
             self._add(self._condition(condition, "t0"), condition.event)
+        self._check_speeds()
+        self._check_passing()
         sketch = self._interaction()
         if self.facts.let_goal is not None and self.facts.order is None:
             landmark, event = self.facts.let_goal
@@ -65,6 +67,26 @@ class Assembler(ConditionAssembler):
         names = [n.name for c in self.constraints for n in walk(c.formula) if isinstance(n, ParameterRef)]
         parameters = tuple(Parameter(name) for name in dict.fromkeys(names))
         return Program(self.name, actors, tuple(self.constraints), parameters, map_name, self.text)
+
+    def _check_speeds(self) -> None:
+        """Refuse "at 45 km/h ... decelerates to 60 km/h": one of the two speeds is a slip."""
+        first = next((c.speed for c in self.facts.initial if c.actor == HERO_ID and c.speed is not None), None)
+        for phase in self.facts.phases[:1]:
+            if first is None or phase.to_speed is None or phase.kind not in ("dec", "acc"):
+                continue
+            begins, ends = first.term, phase.to_speed.term
+            if not (isinstance(begins, Number) and isinstance(ends, Number)):
+                continue
+            if (begins.value <= ends.value) if phase.kind == "dec" else (begins.value >= ends.value):
+                does = "slows down" if phase.kind == "dec" else "speeds up"
+                raise self._refuse(f"who {does} does not get to this speed from that", phase.to_speed.span)
+
+    def _check_passing(self) -> None:
+        """Refuse a hero that follows the ego all the way and is somewhere before it."""
+        follows = next((each for each in self.facts.relations if each.kind == "ego_leads"), None)
+        order, same = self.facts.order, self.routes.ego.headings == self.routes.hero.headings
+        if follows is not None and order is not None and order.hero_first and same:
+            raise self._refuse("who follows in one lane is never first", order.event.span)
 
     # -- the interaction --------------------------------------------------------------------------------------------
     def _trigger(self) -> None:
