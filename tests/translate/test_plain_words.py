@@ -238,10 +238,10 @@ def test_gaps(trigger: str) -> None:
         f"{OUT_AND_BY}When the ego is 12 m from the stop line and the hero 34 m from the conflict point, the hero "
         f"brakes to "
         "a stop 6 m before the conflict point, harder than it did in the previous test.",
-        "The ego drives west on the road, straight on. The hero is 20 m behind the ego in the same lane and goes straight "
-        "too. When the ego is 30 m from the intersection, the hero accelerates and passes it before the ego does.",
-        "The ego is on the driveway and turns right. The hero drives west on the road at 45 km/h. When the ego is 17 m from "
-        "the stop line and the hero 37 m from the conflict point, the hero decelerates to 60 km/h.",
+        "The ego drives west on the road, straight on. The hero is 20 m behind the ego in the same lane, going "
+        "straight too. When the ego is 30 m from the intersection, the hero accelerates and passes it before the ego.",
+        "The ego is on the driveway and turns right. The hero drives west on the road at 45 km/h. When the ego is 17 m "
+        "from the stop line and the hero 37 m from the conflict point, the hero decelerates to 60 km/h.",
         "Ego and hero go straight westbound. When the ego is 25 m behind the hero, the hero brakes at 3.5 m/s^2 to a "
         "standstill, but the ego must by then have overtaken it.",
     ],
