@@ -11,7 +11,7 @@ import time
 import pytest
 
 from scenewright.errors import SolverError
-from scenewright.study.workers import Crash, ItemsLeft, each_done
+from scenewright.study.workers import Crash, each_done
 
 
 @pytest.mark.parametrize("workers", [0, 1, 3])
@@ -29,25 +29,6 @@ def test_what_a_task_raises_is_told_and_the_others_go_on(workers: int) -> None:
 
 def test_exit_is_not_the_end() -> None:
     assert dict(each_done(operator.call, [exit_now], 0))[exit_now] == Crash("SystemExit: 3")
-
-
-def test_items_that_belong_together_come_back_once_too() -> None:
-    done = list(each_done(math.factorial, range(20), 2, together=lambda n: n % 3))
-    assert sorted(done) == [(n, math.factorial(n)) for n in range(20)]
-
-
-def test_each_process_keeps_to_its_own_group() -> None:
-    left: ItemsLeft[str] = ItemsLeft(["a1", "a2", "a3", "b1", "b2", "c1"], operator.itemgetter(0))
-    first, second = object(), object()
-    order = [left.next_for(each) for each in (first, second, first, second, second, first)]
-    assert order == ["a1", "b1", "a2", "b2", "c1", "a3"]
-    assert not left
-
-
-def test_who_has_nothing_left_helps_with_the_group_of_another() -> None:
-    left: ItemsLeft[str] = ItemsLeft(["a1", "a2", "b1"], operator.itemgetter(0))
-    first, second = object(), object()
-    assert [left.next_for(each) for each in (first, second, second)] == ["a1", "b1", "a2"]
 
 
 def exit_now() -> None:

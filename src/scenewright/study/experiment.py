@@ -187,7 +187,7 @@ class Experiment:
     ) -> None:
         log, progress = CaseLog(self.folder), self.progress
         try:
-            for case, outcome in each_done(run_bench_case, left, workers, stop, together=_asking_the_same):
+            for case, outcome in each_done(run_bench_case, left, workers, stop):
                 record = _crashed(case, outcome) if isinstance(outcome, Crash) else outcome
                 log.append(record)
                 progress.done += 1
@@ -239,11 +239,6 @@ class Experiment:
         (self.folder / PROGRAMS).mkdir(exist_ok=True)
         for row in self.plan.rows:
             (self.folder / program_file(row)).write_text(benchmark_row(row).program_text, encoding="utf-8")
-
-
-def _asking_the_same(case: BenchCase) -> tuple[int, int]:
-    """Return what cases have in common whose check and first plan ask the solver mostly the same."""
-    return case.row, case.draw
 
 
 def _crashed(case: BenchCase, crash: Crash) -> CaseRecord:

@@ -11,8 +11,7 @@ import os
 import signal
 import threading
 import time
-from collections import deque
-from collections.abc import Callable, Hashable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
@@ -41,7 +40,6 @@ def each_done(
     workers: int,
     stop: Callable[[], bool] = lambda: False,
     limit_s: float = 600.0,
-    together: Callable[[T], Hashable] | None = None,
 ) -> Iterator[tuple[T, R | Crash]]:
     """Do `task` on every item and yield each item with its result as soon as it is there.
 
@@ -53,8 +51,6 @@ def each_done(
         Asked a few times a second; once it says yes, running tasks are dropped and no more is yielded.
     limit_s
         Wall time after which a task counts as crashed.
-    together
-        What items have in common that one process should do, where they ask the same: it remembers. None for no matter.
 
     Raises
     ------
@@ -67,7 +63,7 @@ def each_done(
                 return
             yield item, _attempt(task, item)
         return
-    pool = _Pool(task, min(workers, len(items)), limit_s, together)
+    pool = _Pool(task, min(workers, len(items)), limit_s)
     try:
         yield from pool.run(items, stop)
     finally:
@@ -84,23 +80,20 @@ def _attempt(task: Callable[[T], R], item: T) -> R | Crash:
 class _Pool(Generic[T, R]):
     """Processes, each with a pipe of its own and at most one item under way."""
 
-    def __init__(
-        self, task: Callable[[T], R], size: int, limit_s: float, together: Callable[[T], Hashable] | None = None
-    ) -> None:
+    def __init__(self, task: Callable[[T], R], size: int, limit_s: float) -> None:
         # Started afresh, not forked: a child of this process would inherit the other children's pipes and threads.
         self._context = multiprocessing.get_context("spawn")
         self._task = task
         self._limit_s = limit_s
-        self._together = together or (lambda item: None)
         self._workers: list[_Worker[T]] = [self._start() for _ in range(size)]
 
     def run(self, items: Sequence[T], stop: Callable[[], bool]) -> Iterator[tuple[T, R | Crash]]:
         """Hand out the items and yield them as they come back."""
-        left = ItemsLeft(items, self._together)
+        left = list(reversed(items))
         while (left or any(worker.busy for worker in self._workers)) and not stop():
             for worker in self._workers:
                 if left and worker.ready and not worker.busy:
-                    worker.give(left.next_for(worker))
+                    worker.give(left.pop())
             wait([thing for worker in self._workers for thing in worker.waits_for], _POLL_S)
             for place, worker in enumerate(self._workers):
                 ended = worker.collect(self._limit_s)
@@ -121,31 +114,6 @@ class _Pool(Generic[T, R]):
         """End all processes, whatever they are doing."""
         for worker in self._workers:
             worker.end()
-
-
-class ItemsLeft(Generic[T]):
-    """What is left to do, in groups: each worker keeps to its own group as long as there is anything in it."""
-
-    def __init__(self, items: Sequence[T], together: Callable[[T], Hashable]) -> None:
-        self._groups: dict[Hashable, deque[T]] = {}
-        for item in items:
-            self._groups.setdefault(together(item), deque()).append(item)
-        self._of: dict[int, Hashable] = {}  # the group of each worker, by id()
-
-    def __bool__(self) -> bool:
-        return bool(self._groups)
-
-    def next_for(self, worker: object) -> T:
-        """Return the next item of the worker's group; else of one that nobody has; else of any."""
-        group = self._of.get(id(worker))
-        if id(worker) not in self._of or group not in self._groups:
-            taken = set(self._of.values())
-            group = next((each for each in self._groups if each not in taken), next(iter(self._groups)))
-            self._of[id(worker)] = group
-        item = self._groups[group].popleft()
-        if not self._groups[group]:
-            del self._groups[group]
-        return item
 
 
 class _Worker(Generic[T]):
