@@ -106,8 +106,8 @@ class HeroProblem:
         if clearance is not None:
             self._led.add(hero.id)
         side = hero_side(self.conditions, self.structure, hero.id)
-        place = side or self._joint_side(hero)
-        if _turns_before_trigger(TurnSpan.of(self.scene.routes[hero.id]), place, hero.id):
+        turn = TurnSpan.of(self.scene.routes[hero.id])
+        if turn is not None and _turns_before_trigger(turn, side or self._joint_side(hero), hero.id):
             self._turning.add(hero.id)
         now: Value | None = start
         for k, stretch in enumerate(stretches):

@@ -47,6 +47,11 @@ _PURPOSE = re.compile(
     r"(?=[.!;](?:\s|$)|$))(?=\s|[.!;]|$)",
     re.IGNORECASE,
 )
+# "To evaluate false-positive braking, we let the ego follow its lane"
+_AIM = re.compile(
+    r"(?:(?<=[.!?]\s)|(?<=\n)|^)To (?:evaluate|test|assess|check|study|examine|investigate|measure|probe) "
+    r"[^,.;:\d\n]{1,60},(?= (?:we|the|an?|our) )"
+)
 _OF_EGO = re.compile(
     r"\b(?:how|whether|if|that|for) (?:the |our )?(?:ego|AV|ADS|SUT|VUT|vehicle under test|planner|policy)\b"
 )
@@ -63,11 +68,13 @@ def take_purposes(text: str, name: str) -> tuple[str, tuple[Span, ...]]:
     last, title = _LAST.search(text), _TITLE.match(text)
     spans = []
     inside = _PURPOSE.finditer(text, title.end() if title else 0, last.start() if last else len(text))
-    for found in filter(None, (title, *inside, last)):
+    for found in filter(None, (title, *_AIM.finditer(text), *inside, last)):
         tokens = tokenise(" " * found.start() + found.group(), name)
         told = {"quantity"} if found in (title, last) else {"heading", "area", "quantity"}
         if any(token.tags.keys() & told for token in tokens):
             continue  # it tells where somebody drives
+        if not _OF_EGO.search(found.group()) and any("negation" in token.tags for token in tokens):
+            continue  # it tells what somebody does not do
         harmless = ("lateral manoeuvres", "more than one other actor")  # "a driver who cuts in", "oncoming traffic"
         refuse_dangers(Words(text, name, [each for each in tokens if each.tags.get("unsupported") not in harmless]))
         spans.append(Span(*found.span()))

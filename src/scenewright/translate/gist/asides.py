@@ -7,7 +7,8 @@ the right place, but:" is nothing, "It revokes this and goes" is "It goes". Noth
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+
+from scenewright.translate.gist.rewriting import Rules
 
 # "Ego = SUT, hero = POV."
 _EQUATED = re.compile(
@@ -187,7 +188,7 @@ def _trigger(found: re.Match[str]) -> str:
 
 
 # In this order: what one rule leaves, the next may read.
-ASIDES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+ASIDES: Rules = (
     (_EQUATED, ""),
     (_BEHAVES, r"\1 "),
     (_THAT_BEHAVES, ""),

@@ -16,6 +16,7 @@ from scenewright.translate.gist.asides import ASIDES
 from scenewright.translate.gist.moment_phrases import MOMENT_PHRASES
 from scenewright.translate.gist.phrases import PHRASES
 from scenewright.translate.gist.report_phrases import REPORT_PHRASES
+from scenewright.translate.gist.rewriting import Rules
 from scenewright.translate.gist.spoken_phrases import SPOKEN_PHRASES
 
 _WAYS = r"(?:paths|ways|lanes|routes|tracks|trajectories|courses)"
@@ -148,7 +149,9 @@ _CONDITION_HOLDS = re.compile(
 _UNTIL_NOUGHT = re.compile(r"\buntil v ?= ?0\b")
 _MOTION_ENDS = re.compile(r"\b(?:its|his|her) (?:motion|movement|ride|drive) ends\b", re.IGNORECASE)
 _BEFORE_THAT = re.compile(r"\bbefore that (?=(?:the|our|it|he|she) )", re.IGNORECASE)
-_TO_NOUGHT = re.compile(r"\bto (?:v ?= ?0(?: ?(?:km/h|mph|m/s|kph))?|0 ?(?:km/h|mph|m/s|kph))(?![\w/.])", re.IGNORECASE)
+_TO_NOUGHT = re.compile(
+    r"\bto (?:v ?= ?0(?: ?(?:km/h|mph|m/s|kph))?|0 ?(?:km/h|mph|m/s|kph))(?![\w/]|\.\d)", re.IGNORECASE
+)
 # "When both are met, the van brakes": what was told before is the trigger
 _BOTH_MET = re.compile(
     r"\b(?:when|once|as soon as|if) (?:both|these|all|both of (?:these|them)|(?:the|these|both|all) (?:two )?conditions"
@@ -249,7 +252,7 @@ def _stop(found: re.Match[str]) -> str:
 
 
 # In this order: what one rule leaves, the next may read.
-_RULES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+_RULES: Rules = (
     (_PRECEDES, _comes_before),
     (_BOTH_MET, _then_or_when),
     (_HOLD, "When"),

@@ -7,7 +7,8 @@ the van being 9 m from it" is "when the van is 9 m from it". Nothing that is sai
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+
+from scenewright.translate.gist.rewriting import Rules
 
 _THEN_BEING = re.compile(r"\bat (?:that|this) (?:moment|time|instant|point) being (?=[\d.]+ )", re.IGNORECASE)
 _TRIGGER_FOR = re.compile(
@@ -122,7 +123,7 @@ def _is_away(found: re.Match[str]) -> str:
 
 
 # In this order: what one rule leaves, the next may read.
-MOMENT_PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+MOMENT_PHRASES: Rules = (
     (_THEN_BEING, "being "),
     (_TRIGGER_FOR, "Trigger"),
     (_ARRIVAL_OFF, r"time to \1 \2\3"),

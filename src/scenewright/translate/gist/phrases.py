@@ -7,7 +7,8 @@ of" is "brakes at", "after the standstill it" is "then it". Nothing that is said
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+
+from scenewright.translate.gist.rewriting import Rules
 
 # "East is the direction of the ego"
 _DIRECTION_OF = re.compile(
@@ -303,7 +304,7 @@ def _yields(found: re.Match[str]) -> str:
 
 
 # In this order: what one rule leaves, the next may read.
-PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+PHRASES: Rules = (
     (_DIRECTION_OF, r"\2 drives \1"),
     (_NO_NOTICE, "won't yield to "),
     (_KEEP_RIGHT, r", yielding to \1"),

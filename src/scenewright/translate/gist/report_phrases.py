@@ -7,26 +7,23 @@ acceleration that lets it pass" is "accelerates to pass". Nothing that is said i
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 
-_AMOUNT = r"(?:(?:[\d.]+ ?|[a-z-]+ )(?:m|met(?:re|er)s?|ft|feet|foot|yd|yards?|s|seconds?)\b|\w+_(?:m|s|ft|yd)\b)"
-_WHO = r"(?:(?:the|our) [\w-]+(?: vehicle| car| under test)?|it|he|she|[A-Z]{2,})"
-_EGO = r"(?:ego(?: vehicle| car)?|AV|SUT|VUT|ADS)"
+from scenewright.translate.gist.rewriting import AMOUNT, EGO, WHO, Rules
 
 # "the distance by which the ego trails the hero has shrunk to 12 m"
 _BY_WHICH = re.compile(
-    rf"\bthe (distance|gap|time) by which ({_WHO}) (?:follows|trails|is behind|lags behind) ({_WHO}) (?=has|is"
+    rf"\bthe (distance|gap|time) by which ({WHO}) (?:follows|trails|is behind|lags behind) ({WHO}) (?=has|is"
     rf"|falls|drops)",
     re.IGNORECASE,
 )
-_HAVING_BEGUN = re.compile(rf"\bHaving (?:begun|started|set out) (?={_AMOUNT})")
+_HAVING_BEGUN = re.compile(rf"\bHaving (?:begun|started|set out) (?={AMOUNT})")
 _OF_SCENARIO = re.compile(
     r"\b(vehicles|cars|actors) (?:of|in) (?:this|the) (?:scenario|test|scene|case)(?= (?:are|come|drive|want|travel"
     r"|go))",
     re.I,
 )
 _CONTINUING = re.compile(
-    r",? (?:and )?(?:continuing|continues|keeps going|goes on)(?: to (?:do so|brake|decelerate)| braking| this| so)? "
+    r",? (?:and )?(?:continuing|continues)(?: to (?:do so|brake|decelerate)| braking| this| so)? "
     r"until (?=(?:it|he|she) (?:is|has|stands|comes))",
     re.IGNORECASE,
 )
@@ -38,7 +35,7 @@ _AN_ACCELERATION = re.compile(
 _ALLOWS_IT = re.compile(
     r"(?<=accelerat)(e|es|ing), which (?:allows|lets|enables|permits) (?:it|him|her) (?:to )?", re.IGNORECASE
 )
-_FINDS = re.compile(rf"\b(?:at|from) the (?:instant|moment|point) (?:that|which) finds ({_WHO}) ", re.IGNORECASE)
+_FINDS = re.compile(rf"\b(?:at|from) the (?:instant|moment|point) (?:that|which) finds ({WHO}) ", re.IGNORECASE)
 _NOT_STOP_BRAKING = re.compile(
     r"\b(?:does not|doesn['\u2019]t) (?:stop|cease|finish) (?:braking|decelerating|slowing down) (?:before|until) "
     r"(?=(?:it|he|she) (?:has|is|stands))",
@@ -49,7 +46,7 @@ _NO_OTHER = re.compile(
 )
 _SCENARIO_STARTS = re.compile(
     rf",? and the (?:scenario|test|run|simulation|recording) (?:starts|begins) (?:when|with) (?:it|him|her)(?: is)? "
-    rf"(?={_AMOUNT})",
+    rf"(?={AMOUNT})",
     re.IGNORECASE,
 )
 _KEEP_SIMPLE = re.compile(
@@ -58,14 +55,14 @@ _KEEP_SIMPLE = re.compile(
     re.IGNORECASE,
 )
 _POLICY_SWITCHES = re.compile(
-    r"(?:(?<=[.!?]\s)|^)(?:The )?[\w-]+(?:['\u2019]s)? (?:policy|behaviou?r|mode|controller) (?:switches|changes) "
-    r"when\b"
+    rf"(?:(?<=[.!?]\s)|^)(?:The )?(?!{EGO}\b)[\w-]+(?:['\u2019]s)? (?:policy|behaviou?r|mode|controller) "
+    r"(?:switches|changes) when\b"
 )
 _AFTER_SWITCH = re.compile(r"(?:(?<=[.!?]\s)|^)After the (?:switch|change|switching|transition),", re.IGNORECASE)
-_LET_EGO = re.compile(rf"\bwe (?:let|make|have) the {_EGO} (?=follow|drive|turn|come|approach|go|leave)", re.IGNORECASE)
-_CLOSING_TO = re.compile(rf"\bclos(?:ing|es) (?:in )?to ({_AMOUNT} behind)\b", re.IGNORECASE)
+_LET_EGO = re.compile(rf"\bwe (?:let|make|have) the {EGO} (?=follow|drive|turn|come|approach|go|leave)", re.IGNORECASE)
+_CLOSING_TO = re.compile(rf"\bclos(?:ing|es) (?:in )?to ({AMOUNT} behind)\b", re.IGNORECASE)
 _TO_BE_TESTED = re.compile(
-    rf"(?<=\b)({_EGO}), which is (?:the|our) (?:vehicle|car|one) (?:to be tested|under test|that is tested|being tested"
+    rf"\b({EGO}), which is (?:the|our) (?:vehicle|car|one) (?:to be tested|under test|that is tested|being tested"
     r"|we test|tested),",
     re.IGNORECASE,
 )
@@ -75,13 +72,13 @@ _SO_THAT_AFTER = re.compile(
 )
 _NOT_ON_BUT = re.compile(r"\b(is|are) not (?:on|in) the (?:road|driveway) but (?=(?:on|in) the)", re.IGNORECASE)
 _PASSAGE_OF_SAME = re.compile(
-    rf"\b(?:before|prior to|ahead of) the passage (?:of|through) (?:the same|that|this|the conflict) point by ({_WHO})",
+    rf"\b(?:before|prior to|ahead of) the passage (?:of|through) (?:the same|that|this|the conflict) point by ({WHO})",
     re.IGNORECASE,
 )
 # "Upon the attainment by the ego of a distance of 35 ft from the stop line"
 _ATTAINMENT = re.compile(
-    rf"\b(?:upon|at|on) (?:the )?attainment by ({_WHO}) of (?:a |the )?(?:distance|time to arrival|time) of "
-    rf"({_AMOUNT}) ",
+    rf"\b(?:upon|at|on) (?:the )?attainment by ({WHO}) of (?:a |the )?(?:distance|time to arrival|time) of "
+    rf"({AMOUNT}) ",
     re.IGNORECASE,
 )
 _HAS_OBJECTIVE = re.compile(
@@ -90,29 +87,19 @@ _HAS_OBJECTIVE = re.compile(
     re.IGNORECASE,
 )
 _PASSED_BY = re.compile(
-    rf"\bbefore ({_WHO}) (?:begins|starts) (?:its turn|to turn),? the conflict point (?:has been|is|will have been) "
-    rf"passed by ({_WHO})(?: car| vehicle)?(?=[.,;])",
-    re.IGNORECASE,
-)
-_RIGHT_IGNORED = re.compile(
-    r"(?:(?<=[.!?;]\s)|^)(?:Right of way|Priority|Precedence) is (?:ignored|disregarded|not (?:granted|respected)): ?",
-    re.IGNORECASE,
-)
-_NO_COURTESY = re.compile(
-    r"(?:(?<=[.!?;]\s)|^)(?:No|Little|Some|Great) (?:courtesy|patience|respect|consideration) is shown(?: here| "
-    r"this time)?"
-    r"[:.] ?",
+    rf"\bbefore ({WHO}) (?:begins|starts) (?:its turn|to turn),? the conflict point (?:has been|is|will have been) "
+    rf"passed by ({WHO})(?: car| vehicle)?(?=[.,;])",
     re.IGNORECASE,
 )
 _APPROACHED_TO = re.compile(
-    rf"\bhas approached (the (?:conflict point|stop line|intersection)) to ({_AMOUNT})(?= and|,| while)", re.IGNORECASE
+    rf"\bhas approached (the (?:conflict point|stop line|intersection)) to ({AMOUNT})(?= and|,| while)", re.IGNORECASE
 )
 _BY_A_TURN = re.compile(
     r"(?:(?<=[.!?;]\s)|^)By (a (?:left|right) turn) (the [\w-]+|it) (?:is to|will|is about to|wants to|intends to) ",
     re.IGNORECASE,
 )
 _LEFT_FOR_IT = re.compile(
-    rf"\b(?:only )?({_AMOUNT}) (?:are|is|remain|remains) left for (it|him|her|{_WHO}) (?:to|until) (the (?:stop line"
+    rf"\b(?:only )?({AMOUNT}) (?:are|is|remain|remains) left for (it|him|her|{WHO}) (?:to|until) (the (?:stop line"
     r"|conflict point))",
     re.IGNORECASE,
 )
@@ -127,13 +114,13 @@ _WE_ASSESS = re.compile(
     re.IGNORECASE,
 )
 _HIS_OWN = re.compile(r"\b(his|her) own (?=car|vehicle|van)", re.IGNORECASE)
-_HE_HIMSELF = re.compile(r"\b(?:he himself|she herself|it itself) (?=is\b)", re.IGNORECASE)
+_HIMSELF = re.compile(r"\b(he|she|it) (?:himself|herself|itself) (?=is\b)", re.IGNORECASE)
 
 
 _ARM = r"(?:arm|leg|branch|approach|end|side)(?: of the (?:(?:main )?road|junction|intersection))?\b"
 _FROM_ARM = re.compile(rf"\bfrom the (west|east|north|south)(?:ern)? {_ARM}", re.IGNORECASE)
 _TO_ARM = re.compile(
-    rf"\b(to|into|towards?|onto|along) the (west|east)ern (?:{_ARM}|one\b)(?! (?:is|has|comes|brakes|stops))",
+    rf"\b(to|into|towards?) the (west|east)ern (?:{_ARM}|one\b)(?! (?:is|has|comes|brakes|stops))",
     re.IGNORECASE,
 )
 _WAY_OF = re.compile(
@@ -141,12 +128,11 @@ _WAY_OF = re.compile(
     r"|itinerary) ?:",
     re.IGNORECASE | re.MULTILINE,
 )
-_EASES = re.compile(r"\beases to (?=(?:a|an|its) (?:complete |full )?(?:stop|halt|standstill)\b)", re.IGNORECASE)
 
 
 _SEPARATE = re.compile(
-    rf"\b({_AMOUNT}) separates? ({_WHO}) from ((?:the|its) (?:stop line|conflict point|intersection)) and ({_AMOUNT}) "
-    rf"({_WHO}) from ((?:the|its) (?:stop line|conflict point|intersection))",
+    rf"\b({AMOUNT}) separates? ({WHO}) from ((?:the|its) (?:stop line|conflict point|intersection)) and ({AMOUNT}) "
+    rf"({WHO}) from ((?:the|its) (?:stop line|conflict point|intersection))",
     re.IGNORECASE,
 )
 
@@ -154,34 +140,27 @@ _SEPARATE = re.compile(
 # "the cab's time to reach the conflict point is 3.5 s"
 _TIME_TO_REACH = re.compile(
     rf"\b(the [\w-]+|[A-Z]+)['\u2019]s time to (?:reach|arrive at|get to) (the (?:stop line|conflict point"
-    rf"|intersection)) is ({_AMOUNT})",
+    rf"|intersection)) is ({AMOUNT})",
     re.IGNORECASE,
-)
-# "To evaluate false-positive braking, we let the ego follow its lane"
-_TO_EVALUATE = re.compile(
-    r"(?:(?<=[.!?]\s)|^)To (?:evaluate|test|assess|check|study|examine|investigate|measure|probe) [^,.\d]{1,60}, "
-    r"(?=(?:we|the|an?|our) )"
 )
 _THRU = re.compile(r"(?<=, )thru (?=(?:the )?(?:CP|conflict point)\b)", re.IGNORECASE)
 _GIVES_UP_TURN = re.compile(
     r"\bgives up (?:its|his|her) (?:turn|right) for (?:the moment|now|a while)\b", re.IGNORECASE
 )
 _SO_IT_SEEMS = re.compile(r", or so (?:it|he|she|the \w+) (?:seems|thinks|believes|appears):?", re.IGNORECASE)
-_LEAD_GAP = re.compile(r"\b(?:an?|the) car (?:that|which) is supposed to (?=turn|go|drive)", re.IGNORECASE)
+_SUPPOSED_TO = re.compile(r"\b(an?|the) car (?:that|which) is supposed to (?=turn|go|drive)", re.IGNORECASE)
 
 
 # In this order: what one rule leaves, the next may read.
-REPORT_PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+REPORT_PHRASES: Rules = (
     (_SEPARATE, r"\2 is \1 from \3 and \5 \4 from \6"),
     (_FROM_ARM, r"from the \1"),
     (_TO_ARM, r"\1 the \2"),
     (_WAY_OF, r"\1:"),
-    (_EASES, "comes to "),
-    (_TO_EVALUATE, ""),
     (_THRU, "past "),
     (_GIVES_UP_TURN, "yields"),
     (_SO_IT_SEEMS, ","),
-    (_LEAD_GAP, "a car that wants to "),
+    (_SUPPOSED_TO, r"\1 car that wants to "),
     (_TIME_TO_REACH, r"\1 is \3 from \2"),
     (_BY_WHICH, r"the \1 from \2 to \3 "),
     (_HAVING_BEGUN, "Starting "),
@@ -205,14 +184,12 @@ REPORT_PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str
     (_ATTAINMENT, r"when \1 is \2 "),
     (_HAS_OBJECTIVE, "makes "),
     (_PASSED_BY, r"\2 passes the conflict point before \1 begins its turn"),
-    (_RIGHT_IGNORED, ""),
-    (_NO_COURTESY, ""),
     (_APPROACHED_TO, r"is \2 from \1"),
     (_BY_A_TURN, r"\2 makes \1 to "),
     (_LEFT_FOR_IT, r"\2 is \1 from \3"),
     (_SQUEEZES, "passes "),
     (_WE_ASSESS, r"\1 we test"),
     (_HIS_OWN, r"\1 "),
-    (_HE_HIMSELF, "he "),
+    (_HIMSELF, r"\1 "),
     (_ONE_UNDER_TEST, "the ego"),
 )

@@ -8,10 +8,9 @@ is longer.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 
-_UNIT = r"(?:m|met(?:re|er)s?|ft|feet|foot|yd|yards?|s|seconds?)"
-_AMOUNT = rf"(?:(?:[\d.]+ ?|[a-z-]+ ){_UNIT}\b|\w+_(?:m|s|ft|yd)\b)"
+from scenewright.translate.gist.rewriting import AMOUNT, EGO, Rules
+
 # "the tested vehicle, named ego, is", "the vehicle under test, referred to as the ego, is"
 _NAMED = re.compile(
     r", (?:(?:which is |who is )?(?:here )?(?:named|called|referred to(?: here)? as|known as|denoted|termed|labelled)|"
@@ -25,7 +24,7 @@ _CALL_HIM = re.compile(
     re.IGNORECASE,
 )
 _ROLLS_TO_STOP = re.compile(
-    r"\b(roll|glid|coast|draw)(s|ing|es|e)? to (?=(?:a|an|its) (?:complete |full )?(?:stop|halt|standstill)\b(?! "
+    r"\b(roll|glid|coast|draw|eas)(s|ing|es|e)? to (?=(?:a|an|its) (?:complete |full )?(?:stop|halt|standstill)\b(?! "
     r"line))",
     re.IGNORECASE,
 )
@@ -50,19 +49,20 @@ _RIGHT = re.compile(
     r"(?P<before>[\w']+ |[,;:.] |^)(?P<right>[Rr]ight) "
     r"(?=(?:when|as|behind|across|after|away|at (?:that|this|the) (?:moment|instant|time))\b)"
 )
-_TURNING = frozenset(
-    ["turn", "turns", "turning", "turned", "go", "goes", "going", "head", "heads", "heading", "pull", "pulls", "bear",
-     "bears", "drive", "drives", "driving", "the", "a", "its", "to", "off", "out", "left", "keep", "keeps", "hard"]
+# "brakes right when", but not "swings right when"
+_BEFORE_JUST = frozenset(
+    ["brake", "brakes", "braking", "stop", "stops", "stopping", "decelerate", "decelerates", "accelerate",
+     "accelerates", "act", "acts", "start", "starts", "begin", "begins", "and", "point", "line", "speed"]
 )  # fmt: skip
 _REMAIN = re.compile(
-    rf"\bfor ((?:the |our )?[\w-]+) (?:there )?(?:remains?|(?:is|are) left) ({_AMOUNT})(?: left)? to\b", re.IGNORECASE
+    rf"\bfor ((?:the |our )?[\w-]+) (?:there )?(?:remains?|(?:is|are) left) ({AMOUNT})(?: left)? to\b", re.IGNORECASE
 )
 _ONE_OF_THEM = re.compile(
     r"(?<=: )one (?=[A-Z]{2,}\b|truck|van|lorry|car|bus|taxi)|\b[Aa] single (?=(?:\w+bound )?\w+)"
 )
 _AT_REST_WHEN = re.compile(
     r"\bis (?:at rest|stationary|standing|stopped) (?:when|with) "
-    rf"({_AMOUNT}) (?:remain|are left|remaining|left) (?:between (?:it|him|her) and|to) "
+    rf"({AMOUNT}) (?:remain|are left|remaining|left) (?:between (?:it|him|her) and|to) "
     r"(?=the |its )",
     re.IGNORECASE,
 )
@@ -95,7 +95,6 @@ _HAS_GOAL = re.compile(r"\bhas the (?:goal|aim|intention|wish|plan|desire) to (?
 _BEGINS_TEST = re.compile(
     r"\b(begins|starts) the (?:test|run|scenario|simulation) (?=on |at |in |from |with |[\d.]+ )", re.IGNORECASE
 )
-_FULL_STOP_AT_ZERO = re.compile(r"\bto v ?= ?0(?=[.,;\s]|$)(?!\.\d)")
 _SECOND_ONE = re.compile(
     r"\bthe second(?: one)?(?= (?:is|brakes|stops|slows|accelerates|has|comes|passes|starts|begins)\b)", re.I
 )
@@ -103,18 +102,19 @@ _A_SECOND = re.compile(r"\ba second (?:vehicle|car|driver|motorist)\b", re.IGNOR
 
 # "initial_ego_s left until it reaches the intersection", "with 7 seconds remaining before it arrives at the line"
 _LEFT_UNTIL = re.compile(
-    rf"\b({_AMOUNT}) (?:left|remaining|to go) (?:until|before|till) (?:it|he|she|the ego|the hero) "
+    rf"\b({AMOUNT}) (?:left|remaining|to go) (?:until|before|till) (?:it|he|she|the ego|the hero) "
     r"(?:reaches|arrives at|gets to|comes to) (?=(?:the|its) (?:stop line|intersection|conflict point)\b)",
     re.IGNORECASE,
 )
 _BEGINS_WHEN_AT = re.compile(
-    r"\b(begins|starts) (?!to\b|\w+ing\b)((?:[^.;,]|\.\d)*(?:, \w+,?)?) when (?:it|he|she) is (?=" + _AMOUNT + r")",
+    r"\b(begins|starts) (?=(?:the (?:test|run) )?(?:on|in|at|from)\b)((?:[^.;,]|\.\d)*(?:, \w+,?)?) "
+    rf"when (?:it|he|she) is (?={AMOUNT})",
     re.IGNORECASE,
 )
 _TIMES_TO_REACH = re.compile(
     rf"\b(the [\w-]+|[A-Z]+)['\u2019]s (?:time|distance) to (?:reach |arrive at |get to )?"
-    rf"(the (?:conflict point|stop line|intersection)) is ({_AMOUNT}),? and (the [\w-]+|[A-Z]+)['\u2019]s "
-    rf"(?:time|distance) to (?:reach |arrive at |get to )?it is ({_AMOUNT})(?=[,.;])",
+    rf"(the (?:conflict point|stop line|intersection)) is ({AMOUNT}),? and (the [\w-]+|[A-Z]+)['\u2019]s "
+    rf"(?:time|distance) to (?:reach |arrive at |get to )?it is ({AMOUNT})(?=[,.;])",
     re.IGNORECASE,
 )
 _IS_IN_FRONT = re.compile(
@@ -122,7 +122,7 @@ _IS_IN_FRONT = re.compile(
 )
 _ITSELF = re.compile(r"\b(road|driveway|street|lane) itself\b", re.IGNORECASE)
 _AFTER_BEGINNING = re.compile(
-    rf"\bafter (?:having )?(?:begun|started|beginning|starting|set out|setting out) (?={_AMOUNT})", re.IGNORECASE
+    rf"\bafter (?:having )?(?:begun|started|beginning|starting|set out|setting out) (?={AMOUNT})", re.IGNORECASE
 )
 _FIRST_OF_ALL = re.compile(r"\b(Hero|POV|NPC|Target|The hero), (?:1st|first|step 1):", re.IGNORECASE)
 _SECOND_OF_ALL = re.compile(r"\b(Hero|POV|NPC|Target|The hero), (?:2nd|second|step 2):", re.IGNORECASE)
@@ -154,12 +154,12 @@ _MADE_TURN = re.compile(
     re.IGNORECASE,
 )
 _IS_DISTANCE = re.compile(
-    rf"(?:(?<=[.!?]\s)|^)({_AMOUNT}) is (the [\w-]+['\u2019]s (?:initial |starting )?(?:distance|time) (?:from|to) "
+    rf"(?:(?<=[.!?]\s)|^)({AMOUNT}) is (the [\w-]+['\u2019]s (?:initial |starting )?(?:distance|time) (?:from|to) "
     r"the (?:intersection|stop line|conflict point))",
     re.IGNORECASE,
 )
 _LET_COME = re.compile(
-    rf"(?:(?<=[.!?]\s)|^)Let ((?:the|our) [\w-]+|it) (?:come|get|advance|drive|approach|go) to ({_AMOUNT})",
+    rf"(?:(?<=[.!?]\s)|^)Let ((?:the |our )?{EGO}|it) (?:come|get|advance|drive|approach|go) to ({AMOUNT})",
     re.IGNORECASE,
 )
 _THAT_IS_WHEN = re.compile(r"\b(?:that|this)(?:['\u2019]s| is) (?:when|the moment)\b", re.IGNORECASE)
@@ -180,14 +180,21 @@ _AFTER_STOPPED = re.compile(
 _BECAUSE_WANTS = re.compile(r"\bbecause (?:it|he|she) (?=wants to|is to|is going to|intends to)", re.IGNORECASE)
 _APPROACHES_ROAD = re.compile(r"\bapproach(es|ing) the (?:main )?road (?:on|along) (?=the |a )", re.IGNORECASE)
 _AMOUNT_OF = re.compile(
-    rf"\b({_AMOUNT}) \((the \w+|\w+) (?:to|from) (the (?:stop line|conflict point|intersection))\)", re.IGNORECASE
+    rf"\b({AMOUNT}) \((the \w+|\w+) (?:to|from) (the (?:stop line|conflict point|intersection))\)", re.IGNORECASE
+)
+_CONSISTS_OF = re.compile(
+    r"\b(?:the )?oncoming traffic,? (?:which consists|consisting|that consists) of (?:a|one) (?:single )?",
+    re.IGNORECASE,
+)
+_NO_MOOD = re.compile(
+    r"\b(?:is|are) (?:in no mood|not (?:willing|prepared|inclined)|unwilling) to (wait|yield|give way)\b", re.IGNORECASE
 )
 
 
 def _right(found: re.Match[str]) -> str:
-    """Return "right when" as "when", but leave "turn right when"."""
+    """Return "brakes right when" as "brakes when", but leave "swings right when"."""
     before = found["before"]
-    if before.strip().lower() in _TURNING:
+    if before.strip().isalpha() and before.strip().lower() not in _BEFORE_JUST:
         return found.group()
     return before if before.strip() not in ("", ".") else before + "Just "
 
@@ -223,18 +230,8 @@ def _goal(found: re.Match[str]) -> str:
     return f"wanting to {found.group(1)}" if " to " in found.group() else found.group(1)
 
 
-_CONSISTS_OF = re.compile(
-    r"\b(?:the )?oncoming traffic,? (?:which consists|consisting|that consists) of (?:a|one) (?:single )?",
-    re.IGNORECASE,
-)
-_NO_MOOD = re.compile(
-    r"\b(?:is|are) (?:in no mood|not (?:willing|prepared|inclined)|unwilling) to (wait|yield|give way)\b", re.IGNORECASE
-)
-_OBLIGES = re.compile(r"(?<=[.!?;]) (?:The [\w-]+|It|He|She) (?:obliges|plays along|does(?: just)? that)\.(?=\s)")
-
-
 # In this order: what one rule leaves, the next may read.
-SPOKEN_PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+SPOKEN_PHRASES: Rules = (
     (_NAMED, r", the \1"),
     (_CALL_HIM, "the hero"),
     (_ROLLS_TO_STOP, _comes),
@@ -260,7 +257,6 @@ SPOKEN_PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str
     (_GOAL, _goal),
     (_CONSISTS_OF, "an oncoming "),
     (_NO_MOOD, r"won't \1"),
-    (_OBLIGES, ""),
     (_SECOND_ONE, _other),
     (_LEFT_UNTIL, r"\1 from "),
     (_BEGINS_WHEN_AT, r"\1 \2 "),
@@ -290,5 +286,4 @@ SPOKEN_PHRASES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str
     (_APPROACHES_ROAD, _approaches),
     (_AMOUNT_OF, r"\2 \1 from \3"),
     (_BEGINS_TEST, r"\1 "),
-    (_FULL_STOP_AT_ZERO, "to zero"),
 )
