@@ -15,7 +15,7 @@ from scenewright.judge.case import Box
 from scenewright.judge.judgement import judge
 from scenewright.judge.tolerance import LOOSE, TIGHT
 from scenewright.program.text import parse_program
-from scenewright.trace.model import COLUMNS, ActorTrace, Trace
+from scenewright.trace.model import COLUMNS, ActorTrace, FloatArray, Trace
 
 PARAMETERS = {"gap_m": 20.0, "rate_mpss": 4.0}
 HERO_LATE_S = 10.0  # the hero of this play stands from 8.7 s on
@@ -122,9 +122,9 @@ class Line:
     def __init__(self, shift_m: float) -> None:
         self.shift_m = shift_m
 
-    def pose(self, s_m: float, /) -> tuple[float, float, float]:
+    def poses(self, s_m: FloatArray, /) -> FloatArray:
         x0, y0, heading = YIELDS.hero_line
-        return x0 + self.shift_m, y0 - s_m, heading
+        return np.column_stack([np.full_like(s_m, x0 + self.shift_m), y0 - s_m, np.full_like(s_m, heading)])
 
 
 @pytest.mark.parametrize(("shift_m", "holds"), [(0.0, True), (0.19, True), (0.3, False)])

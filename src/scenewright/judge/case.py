@@ -17,7 +17,7 @@ from scenewright.errors import InputError
 from scenewright.judge.timeline import Timeline
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.types import EGO, Program
-from scenewright.trace.model import COLUMNS, ActorTrace, Trace
+from scenewright.trace.model import COLUMNS, ActorTrace, FloatArray, Trace
 
 
 class CannotJudge(Exception):  # noqa: N818 - a reason that ends in a failed condition, not an error of the user
@@ -35,8 +35,8 @@ class NotReached(CannotJudge):
 class PathLike(Protocol):
     """What is needed of a route's path."""
 
-    def pose(self, s_m: float, /) -> tuple[float, float, float]:
-        """Return x (m), y (m) and heading (rad) at an arc length."""
+    def poses(self, s_m: FloatArray, /) -> FloatArray:
+        """Return x (m), y (m) and heading (rad) at arc lengths, shape (N, 3)."""
 
 
 @dataclass(frozen=True, slots=True)

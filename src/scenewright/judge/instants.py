@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from scenewright.judge.tolerance import FloatArray
 
@@ -37,7 +38,7 @@ def minima(score: Score, grid_s: FloatArray) -> list[Minimum]:
     after = np.concatenate((values[1:], [np.inf]))
     low = np.flatnonzero((values < before) & (values <= after) & np.isfinite(values))
     low = low[np.argsort(values[low], kind="stable")][:_MOST]
-    found = [_refine(score, grid_s, int(index)) for index in low]
+    found = _refined(score, grid_s, low) if len(low) else []
     return sorted(found, key=lambda minimum: (round(minimum.score, 9), minimum.time_s))
 
 
@@ -46,18 +47,20 @@ def sharpen(score: Score, grid_s: FloatArray) -> FloatArray:
     return np.array([minimum.time_s for minimum in minima(score, grid_s)[:4]], dtype=np.float64)
 
 
-def _refine(score: Score, grid_s: FloatArray, index: int) -> Minimum:
-    low = float(grid_s[max(index - 1, 0)])
-    high = float(grid_s[min(index + 1, len(grid_s) - 1)])
-    best = Minimum(float(grid_s[index]), float(score(grid_s[index : index + 1])[0]))
+def _refined(score: Score, grid_s: FloatArray, lowest: NDArray[np.intp]) -> list[Minimum]:
+    """Refine all minima at once: a call of `score` costs more than the instants it is asked for."""
+    low, high = grid_s[np.maximum(lowest - 1, 0)], grid_s[np.minimum(lowest + 1, len(grid_s) - 1)]
+    best_s, best = grid_s[lowest], score(grid_s[lowest])
+    each = np.arange(len(lowest))
     for _ in range(_ROUNDS):
-        points = np.linspace(low, high, _POINTS)
-        values = score(points)
-        at = int(np.argmin(values))
-        if values[at] < best.score or (values[at] == best.score and points[at] < best.time_s):
-            best = Minimum(float(points[at]), float(values[at]))
-        low, high = float(points[max(at - 1, 0)]), float(points[min(at + 1, _POINTS - 1)])
-    return best
+        points = np.linspace(low, high, _POINTS, axis=1)
+        values = score(points.ravel()).reshape(points.shape)
+        at = np.argmin(values, axis=1)
+        point_s, value = points[each, at], values[each, at]
+        better = (value < best) | ((value == best) & (point_s < best_s))
+        best_s, best = np.where(better, point_s, best_s), np.where(better, value, best)
+        low, high = points[each, np.maximum(at - 1, 0)], points[each, np.minimum(at + 1, _POINTS - 1)]
+    return [Minimum(float(time_s), float(value)) for time_s, value in zip(best_s, best, strict=True)]
 
 
 def first_crossing(level: Score, grid_s: FloatArray) -> float | None:

@@ -82,9 +82,8 @@ def _wrapped(angle: FloatArray) -> FloatArray:
 
 
 def _map_error(case: Case, actor: Actor) -> float:
-    states, path = case.timelines[actor.id].states, case.paths[actor.name]
-    worst = 0.0
-    for s, d, x, y in zip(states.s_m, states.d_m, states.x_m, states.y_m, strict=True):
-        px, py, heading = path.pose(float(s))
-        worst = max(worst, float(np.hypot(x - (px - d * np.sin(heading)), y - (py + d * np.cos(heading)))))
-    return worst
+    states = case.timelines[actor.id].states
+    x_m, y_m, heading = case.paths[actor.name].poses(states.s_m).T
+    off_x_m = states.x_m - (x_m - states.d_m * np.sin(heading))
+    off_y_m = states.y_m - (y_m + states.d_m * np.cos(heading))
+    return float(np.max(np.hypot(off_x_m, off_y_m)))

@@ -153,6 +153,11 @@ class Program:
     parameters: tuple[Parameter, ...] = ()
     map_name: str = DEFAULT_MAP
     description: str | None = None
+    heroes: tuple[Actor, ...] = field(init=False, compare=False, repr=False)  # the actors that are orchestrated
+
+    def __post_init__(self) -> None:
+        # Asked for at every step of a simulation.
+        object.__setattr__(self, "heroes", tuple(actor for actor in self.actors if not actor.is_ego))
 
     def actor(self, actor_id: int) -> Actor:
         """Return the actor with this id; raises KeyError where there is none."""
@@ -165,11 +170,6 @@ class Program:
     def ego(self) -> Actor:
         """The actor that the policy under test drives."""
         return self.actor(EGO)
-
-    @property
-    def heroes(self) -> tuple[Actor, ...]:
-        """The actors that are orchestrated."""
-        return tuple(actor for actor in self.actors if not actor.is_ego)
 
     def constraint(self, constraint_id: str) -> Constraint:
         """Return the constraint with this id; raises KeyError where there is none."""

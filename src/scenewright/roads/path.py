@@ -20,6 +20,7 @@ _STEP_LIMIT_M = 2.0
 _GAUSS_NODES, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(5)
 
 Segment = tuple[float, float, float, float, float, float, float, float]
+_Foot = tuple[float, float, float, float, float]  # arc length, x, y, and the derivatives of x and y
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -119,17 +120,18 @@ class Path:
             Arc length of the foot point, lateral distance (left positive) and heading relative to the path, in
             (-pi, pi]. Before the path's start s is negative, behind its end it exceeds the length.
         """
-        s = None if near_s_m is None else self._foot(x_m, y_m, near_s_m)
-        if s is None or (near_s_m is not None and abs(s - near_s_m) > _NEAR_M):
-            s = self._foot_anywhere(x_m, y_m)
-        x, y, heading = self.pose(s)
-        d = (y_m - y) * cos(heading) - (x_m - x) * sin(heading)
+        foot = None if near_s_m is None else self._foot(x_m, y_m, near_s_m)
+        if foot is None or (near_s_m is not None and abs(foot[0] - near_s_m) > _NEAR_M):
+            foot = self._foot_anywhere(x_m, y_m)
+        s, x, y, dx, dy = foot
+        heading = atan2(dy, dx)
+        d = ((y_m - y) * dx - (x_m - x) * dy) / hypot(dx, dy)
         return s, d, 0.0 if heading_rad is None else wrap_rad(heading_rad - heading)
 
     def _derivatives(self, s_m: float) -> tuple[float, float, float, float, float, float]:
         knots = self.knots_m
         if 0.0 <= s_m <= knots[-1]:
-            index = min(bisect_right(knots, s_m), len(knots) - 1) - 1
+            index = bisect_right(knots, s_m, 1, len(knots) - 1) - 1
             t = s_m - knots[index]
             ax, bx, cx, dx, ay, by, cy, dy = self.segments[index]
             return (
@@ -155,7 +157,7 @@ class Path:
             0.0,
         )
 
-    def _foot(self, x_m: float, y_m: float, guess_m: float) -> float | None:
+    def _foot(self, x_m: float, y_m: float, guess_m: float) -> _Foot | None:
         """Newton's method for the foot of the perpendicular; None where it does not settle."""
         s = guess_m
         for _ in range(25):
@@ -165,18 +167,17 @@ class Path:
             # Beyond the centre of curvature the slope changes sign; a floor keeps the step downhill.
             step = (rx * dx + ry * dy) / max(slope, 0.1)
             if abs(step) < 1e-9:
-                return s
+                return s, x, y, dx, dy
             # A straight extension is met in one step; on the path itself long steps may leave the basin.
             if 0.0 <= s <= self.knots_m[-1]:
                 step = max(-_STEP_LIMIT_M, min(_STEP_LIMIT_M, step))
             s += step
-        return s if abs(step) < 1e-6 else None
+        return (s, *self._derivatives(s)[:4]) if abs(step) < 1e-6 else None
 
-    def _foot_anywhere(self, x_m: float, y_m: float) -> float:
+    def _foot_anywhere(self, x_m: float, y_m: float) -> _Foot:
         offsets = self.points_xy - (x_m, y_m)
-        nearest = int(np.argmin(offsets[:, 0] ** 2 + offsets[:, 1] ** 2))
-        s = self._foot(x_m, y_m, self.knots_m[nearest])
-        return self.knots_m[nearest] if s is None else s
+        nearest = self.knots_m[int(np.argmin(offsets[:, 0] ** 2 + offsets[:, 1] ** 2))]
+        return self._foot(x_m, y_m, nearest) or (nearest, *self._derivatives(nearest)[:4])
 
 
 def wrap_rad(angle_rad: float) -> float:

@@ -13,7 +13,6 @@ import numpy as np
 
 from scenewright.drive.protocol import VehicleState
 from scenewright.errors import PolicyError
-from scenewright.motion.profile import Profile
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, Scene
 from scenewright.simulate.heroes import HeroDriver
@@ -29,6 +28,8 @@ _AFTER_HEROES_S = 2.0
 _WAIT_FOR_EGO_S = 10.0
 _STALLED_S = 20.0
 _MOVES_MPS = 0.5
+
+HeroMotion = tuple[float, float, float]  # arc length (m), speed (m/s), acceleration (m/s^2)
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +87,7 @@ def simulate(
             states = {hero.id: heroes.plan.profiles[hero.id].state(time_s) for hero in scene.program.heroes}
             action = ego.decide(time_s, _seen(scene, states), rates.step_s)
             log.add(time_s, ego, states)
-            if _is_over(scene, heroes, ego, time_s):
+            if _is_over(scene, heroes, ego, states, time_s):
                 break
             ego.advance(action, rates.step_s)
             step += 1
@@ -103,7 +104,7 @@ def simulate(
     return Run(log.trace(), first_plan, heroes.plan, heroes.records, status, fault, knots, findings)
 
 
-def _seen(scene: Scene, states: Mapping[int, tuple[float, float, float]]) -> tuple[VehicleState, ...]:
+def _seen(scene: Scene, states: Mapping[int, HeroMotion]) -> tuple[VehicleState, ...]:
     """Return the heroes as the ego sees them: where they are, not where they are going."""
     seen = []
     for hero in scene.program.heroes:
@@ -125,7 +126,7 @@ class _Log:
         self._scene = scene
         self._rows: dict[int, list[tuple[float, ...]]] = {actor.id: [] for actor in scene.program.actors}
 
-    def add(self, time_s: float, ego: EgoVehicle, states: Mapping[int, tuple[float, float, float]]) -> None:
+    def add(self, time_s: float, ego: EgoVehicle, states: Mapping[int, HeroMotion]) -> None:
         """Write down the state of everybody at the beginning of a step."""
         self._times.append(time_s)
         self._rows[EGO].append((ego.s_m, ego.d_m, *ego.pose, ego.speed_mps, ego.accel_mpss))
@@ -154,35 +155,33 @@ class _Log:
         return np.ascontiguousarray(np.asarray(self._rows[actor][:count]).T)
 
 
-def _is_over(scene: Scene, heroes: HeroDriver, ego: EgoVehicle, time_s: float) -> bool:
+def _is_over(
+    scene: Scene, heroes: HeroDriver, ego: EgoVehicle, states: Mapping[int, HeroMotion], time_s: float
+) -> bool:
     """Whether all that the program tells of has happened, or will not happen any more."""
     if time_s >= LONGEST_RUN_S:
         return True
-    profiles = heroes.plan.profiles
-    last_knot_s = max(max(profiles[hero.id].knot_times_s.values()) for hero in scene.program.heroes)
     end_m = ego.route.landmarks["route_end"]
-    if ego.s_m >= end_m - 3.0 or _any_at_end(scene, profiles, time_s):
+    if ego.s_m >= end_m - 3.0 or _any_at_end(scene, states):
         return True
+    profiles = heroes.plan.profiles
+    last_knot_s = max([max(profiles[hero].knot_times_s.values()) for hero in states])
     if time_s < last_knot_s + _AFTER_HEROES_S:
         return _stalled(heroes, time_s)
-    if time_s < last_knot_s + _WAIT_FOR_EGO_S and _any_turning(scene, profiles, time_s):
+    if time_s < last_knot_s + _WAIT_FOR_EGO_S and _any_turning(scene, states):
         return False
     passed = ego.s_m > ego.route.landmarks.get("junction_end", end_m) + 5.0
     return passed or time_s >= last_knot_s + _WAIT_FOR_EGO_S
 
 
-def _any_at_end(scene: Scene, profiles: Mapping[int, Profile], time_s: float) -> bool:
-    for hero in scene.program.heroes:
-        if profiles[hero.id].state(time_s)[0] >= scene.routes[hero.id].landmarks["route_end"] - 3.0:
-            return True
-    return False
+def _any_at_end(scene: Scene, states: Mapping[int, HeroMotion]) -> bool:
+    return any(s_m >= scene.routes[hero].landmarks["route_end"] - 3.0 for hero, (s_m, _, _) in states.items())
 
 
-def _any_turning(scene: Scene, profiles: Mapping[int, Profile], time_s: float) -> bool:
+def _any_turning(scene: Scene, states: Mapping[int, HeroMotion]) -> bool:
     """Whether a hero is on its way through the junction: which way it went is part of the story."""
-    for hero in scene.program.heroes:
-        places = scene.routes[hero.id].landmarks
-        s_m, speed_mps, _ = profiles[hero.id].state(time_s)
+    for hero, (s_m, speed_mps, _) in states.items():
+        places = scene.routes[hero].landmarks
         end_m = places.get("junction_end")
         if end_m is not None and speed_mps > _MOVES_MPS and places.get("junction_start", end_m) < s_m < end_m:
             return True
