@@ -83,6 +83,7 @@ class DeedReader:
                 (self.ego.is_bound(clause) or self.ego.is_allowed(clause))
                 and self.ego.read(clause if self.ego.is_bound(clause) else replace(clause, link="until"))
             ):
+                self.ego.check_told_when(clause)
                 self._clause(clause)
         for deed in list(self.deeds):
             self._in_front(deed)

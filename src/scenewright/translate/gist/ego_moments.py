@@ -72,6 +72,13 @@ class EgoMoments:
         named = clause.subject == EGO_ID and clause.named and passed and not told
         return named and (clause.link == "then" or closed) and self.next_place(clause) is not None
 
+    def check_told_when(self, clause: Clause) -> None:
+        """Refuse "and somehow do we start our turn" after the hero has passed: some order, not known which."""
+        passed = any(each.kind in ("pass", "complete") and each.actor == HERO_ID for each in self.deeds)
+        own = clause.subject == EGO_ID and clause.named and not self.words.has(clause.inside, "quantity", "negation")
+        if passed and own and {"begin", "turn"} <= self.words.verbs(clause.inside):
+            raise self.words.refuse("it is not clear when the ego does this", self.words.span(clause), "before, after")
+
     def next_place(self, clause: Clause) -> str | None:
         """Return what the ego does after the hero: it begins its turn, or passes the conflict point."""
         verbs = self.words.verbs(clause.inside)
@@ -166,6 +173,8 @@ class EgoMoments:
             verbs & {"turn", "pull_out", "begin"} or self.words.where(clause.inside, "event_noun", "turn") is not None
         )
         own = "turn" in verbs or self.words.where(clause.inside, "event_noun", "turn") is not None
+        if {"begin", "turn", "pass"} <= verbs:
+            raise self.words.refuse("it is not clear which moment of the ego this is", self.words.span(clause))
         if "begin" in verbs and "reach" in verbs and mark is None and own:
             return "turn_start"  # "before the ego gets to begin its turn"
         if (

@@ -32,6 +32,11 @@ _PAST = ("was", "were", "had")
 _THEN = ("then", "by then", "at the time", "at that time", "at that point", "at this point")
 _FAR = 12
 _AT_TRIGGER = re.compile(r"[Ss]peed of [\w ]+ at the trigger ?:|[\w ]+['\u2019]?s? speed at the trigger ?:")
+# "its speed at the start of the test", "its starting speed"
+_FROM_START = re.compile(
+    r"\b(?:at|from|in|since) (?:the |its )?(?:very )?(?:start|beginning|outset|commencement)\b|\bstarting (?:speed"
+    r"|velocity)"
+)
 _START_POINT = re.compile(r"\bstart(?:ing)? (?:point|position|place|spot|location)\b")
 
 
@@ -143,7 +148,12 @@ class MomentReader:
                 raise self.words.refuse(UNCLEAR, made.span)
             if made.actor == EGO_ID and not made.target and self._after_trigger(clause):
                 raise self.words.refuse(UNCLEAR, made.span)  # nobody tells the ego how fast to go
-            return "deed" if made.target or self._after_trigger(clause) else "start"
+            if made.target or not self._after_trigger(clause):
+                return "deed" if made.target else "start"
+            spoken = " ".join(self.words.span(each).excerpt(self.words.text) for each in self.words.sentence(clause))
+            if "initial" in spoken or _FROM_START.search(spoken):
+                raise self.words.refuse(UNCLEAR, made.span)
+            return "deed"
         asked = "trigger" in clause.labels or self._is_asked(clause)
         comes = self.words.verbs(range(clause.start, made.at)) & {"come", "drive", "go", "approach", "pull_out"}
         if self.words.word(made.at - 1) == "from" and made.kind == "place" and clause.link != "when" and comes:
@@ -335,6 +345,8 @@ class MomentReader:
             return True
         if "initial" in told or "speed at first" in told or _START_POINT.search(told):
             return True
+        if made.kind == "speed" and (_FROM_START.search(told) or self._goes_on_with_speeds(made)):
+            return True
         if any(words.word(at) in _SETS_OUT for at in range(clause.start, made.at)):
             return True  # "The ego set out 30 m short of the line"
         at = words.clauses.index(clause)
@@ -356,6 +368,13 @@ class MomentReader:
         earlier = bool(told_before)
         own = clause.named or made.kind == "speed"
         return alone or (earlier and verbless and own and clause.link in ("and", "main"))
+
+    def _goes_on_with_speeds(self, made: Measured) -> bool:
+        """Whether this is the second of "The initial speeds are 36 km/h (ego) and 28 km/h (hero)"."""
+        sentence = self.words.sentence(made.clause)
+        told = [each for each in self.measured if each.clause in sentence and each is not made]
+        alike = all(each.kind == "speed" and self.moments.get(each.at) == "start" for each in told)
+        return bool(told) and alike and not self.words.verbs(range(told[-1].at, made.at))
 
     def _opens(self, before: Clause, clause: Clause) -> bool:
         """Whether nothing is said but "The test begins", "The scene opens"."""

@@ -36,7 +36,17 @@ _KEEP_RIGHT = re.compile(
     r"(?:the |its |our )?(?:right of way|priority|precedence)(?=[.,;]|$)",
     re.IGNORECASE,
 )
-_NOT_UNTIL_THEN = re.compile(r"\bnot until (?:then|that(?: moment)?) (?=do(?:es)? |will |shall )", re.IGNORECASE)
+_NOT_UNTIL_THEN = re.compile(
+    r"\b(?:not until (?:then|that(?: moment)?)|only (?:later|after) than that|only later(?: on)?) (?=do(?:es)? "
+    r"|will |shall )",
+    re.IGNORECASE,
+)
+# "By the time we start turning they've already gone past it"
+_BY_THE_TIME = re.compile(
+    r"\b(by the time (?:we|it|he|she|the [\w-]+) [^,.;\d]{5,40}?) (they|it|he|she|the [\w-]+)('ve|'s| have| has) "
+    r"already ",
+    re.IGNORECASE,
+)
 _FIRST_BY = re.compile(
     r"\b(?:is|are|being) (?:passed|reached|crossed) first by (the [\w-]+|[A-Z]+),? and (?:only )?(?:then|afterwards"
     r"|after that|later|second)(?: on)? by (the [\w-]+|[A-Z]+)\b",
@@ -309,6 +319,7 @@ PHRASES: Rules = (
     (_NO_NOTICE, "won't yield to "),
     (_KEEP_RIGHT, r", yielding to \1"),
     (_NOT_UNTIL_THEN, "only then "),
+    (_BY_THE_TIME, r"\1, \2\3 "),
     (_FIRST_BY, r"is passed by \1 before \2"),
     (_BRINGS_TURN, _completes),
     (_ANY_TURNING, r"before \1 \2 to turn"),
