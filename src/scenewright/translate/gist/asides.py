@@ -18,7 +18,7 @@ _EQUATED = re.compile(
 )
 # "It behaves courteously: it brakes", "the left turner that behaves itself"
 _BEHAVES = re.compile(
-    r"\b((?:he|she|it|the [\w-]+)) behaves (?:itself|himself|herself|\w+ly|well|badly|nicely)"
+    r"\b((?:he|she|it|the [\w-]+)) behaves(?: (?:itself|himself|herself|\w+ly|well|badly|nicely))?"
     r"(?: and (?=\w+s\b)|: (?=(?:he|she|it|the |from|when|as soon as|once)\b))",
     re.IGNORECASE,
 )
@@ -169,6 +169,26 @@ _STARTING_CONDITION = re.compile(r"(?<=[.;] )Starting condition(?=:)|(?<=\n)Star
 _ASKED = re.compile(r"\b(?:when|once|as soon as|if|trigger\w*|moment|until)\b", re.IGNORECASE)
 _PLACED = re.compile(r"\d ?(?:m|s|ft|yd)\b|\w+_(?:m|s|ft)\b")
 
+# 'So this one's the "after you, no, after me" deal.'
+_NICKNAME = re.compile(
+    r"(?:(?<=[.!?]\s)|^)(?:So |OK,? )*(?:this|that|here)(?: one| time)?(?:['\u2019]s| is) (?:the|our|another|a|one "
+    r"of the) "
+    r"[\"\u201c'\u2018][^\"\u201d\n]{2,60}[\"\u201d'\u2019] (?:deal|case|one|scenario|story|situation|thing|type"
+    r"|sort)\.",
+    re.IGNORECASE,
+)
+_OUR_GUY = re.compile(r"\bour (?:guy|man|boy|girl|side|lad|own)\b(?!['\u2019])(?= (?!of\b))", re.IGNORECASE)
+_UNDER_NOSE = re.compile(
+    r",? (?:right |just )?(?:under|in front of) (?:my|our|its|the ego['\u2019]s|the AV['\u2019]s) (?:very "
+    r")?nose(?=[.,;:])",
+    re.IGNORECASE,
+)
+_ITSELF_APART = re.compile(
+    r"\b((?:the|our) [\w-]+), (?:itself|himself|herself|polite|in a hurry|impatient"
+    r"|courteous), ",
+    re.I,
+)
+
 
 def _starts_it(found: re.Match[str]) -> str:
     """Return "Starting condition" as the trigger where amounts stand before it and nothing else is one."""
@@ -238,4 +258,8 @@ ASIDES: Rules = (
     (_STARTING_CONDITION, _starts_it),
     (_FOR_ITS_PART, ""),
     (_WITHOUT_LETTING, ""),
+    (_NICKNAME, ""),
+    (_OUR_GUY, "the ego"),
+    (_UNDER_NOSE, ""),
+    (_ITSELF_APART, r"\1 "),
 )

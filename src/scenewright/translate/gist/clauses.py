@@ -434,6 +434,8 @@ def _is_aside(words: Words, clause: Clause) -> bool:
         at += 1
     if "unknown" not in words.tags(at) or words.word(at) in NEGATIVES or at in names.actors or at in names.pronouns:
         return False
+    if words.tokens[clause.start].text.endswith("ly") and words.has([clause.start + 1], "verb"):
+        return False  # "..., kindly stops"
     while at < clause.end and "unknown" in words.tags(at) and at not in names.actors:
         at += 1
     if at >= clause.end or at in names.actors:

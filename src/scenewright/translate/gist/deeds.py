@@ -6,6 +6,7 @@ understood. Which of them belong to the story is decided by `story`.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field, replace
 
 from scenewright.translate.events import EGO_ID, HERO_ID
@@ -44,6 +45,8 @@ _WISHES = ("wanting", "ready", "intent_noun")
 # "Has to brake" tells what is done.
 _NOUNS_AFTER = ("traffic", "reaction", "pedal", "test")
 _OBLIGES = ("has to", "have to", "needs to", "need to", "had to")
+
+_TO_THE_END = re.compile(r"\b(?:to|till|until|up to) the (?:very )?end\b(?! of the (?:turn|road|driveway))")
 
 
 @dataclass(slots=True)
@@ -85,8 +88,18 @@ class DeedReader:
             ):
                 self.ego.check_told_when(clause)
                 self._clause(clause)
+        self._check_end()
         for deed in list(self.deeds):
             self._in_front(deed)
+
+    def _check_end(self) -> None:
+        """Refuse "It stands there to the end of the test. Then it drives on"."""
+        own = [each for each in self.deeds if each.actor == HERO_ID]
+        for index, deed in enumerate(own):
+            told = self.words.span(deed.clause).excerpt(self.words.text)
+            goes = any(each.kind in ("accelerate", "pass", "complete") for each in own[index + 1 :])
+            if deed.kind in ("wait", "stop") and goes and _TO_THE_END.search(told):
+                raise self.words.refuse("it stands to the end and yet goes on", self.words.span(deed.clause))
 
     def _clause(self, clause: Clause) -> None:
         if self._only_denies(clause) or self._calls(clause):
@@ -311,6 +324,9 @@ class DeedReader:
             return True  # "it stops, but it does not stay there"
         stopped = any(each.kind in ("stop", "wait") and each.actor == HERO_ID for each in self.deeds)
         later = self.words.verbs(range(at + 1, len(self.words.tokens))) & {"go", "accelerate", "drive", "pull_out"}
+        timed = any(each.kind == "wait" and self.words.has(each.clause.inside, "quantity") for each in self.deeds)
+        if verb == "wait" and timed and "stand" in self.words.word(at):
+            raise self.words.refuse("it was said to stand for some time", self.words.span(clause))
         if verb == "wait" and stopped and ("ing" in self.words.tokens[at].forms or later):
             return True  # "Without waiting for the ego it then drives on"
         if verb in _WAITS:

@@ -18,6 +18,7 @@ from scenewright.translate.gist.phrases import PHRASES
 from scenewright.translate.gist.report_phrases import REPORT_PHRASES
 from scenewright.translate.gist.rewriting import Rules
 from scenewright.translate.gist.spoken_phrases import SPOKEN_PHRASES
+from scenewright.translate.gist.test_marks import TEST_MARKS
 
 _WAYS = r"(?:paths|ways|lanes|routes|tracks|trajectories|courses)"
 _MEET = r"(?:cross|meet|merge|intersect|join|conflict|(?:come|run) together)"
@@ -298,6 +299,7 @@ _RULES: Rules = (
     (_IS_IT, "If "),
     (_AFTER_THIS, r"\1 \3"),
     (_UNDERSCORE, r"\1 \2"),
+    *TEST_MARKS,
     *ASIDES,
     *MOMENT_PHRASES,
     *SPOKEN_PHRASES,

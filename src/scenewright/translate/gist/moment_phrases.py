@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import re
 
-from scenewright.translate.gist.rewriting import Rules
+from scenewright.translate.gist.rewriting import AMOUNT, WHO, Rules
+from scenewright.translate.tokens import tokenise
 
 _THEN_BEING = re.compile(r"\bat (?:that|this) (?:moment|time|instant|point) being (?=[\d.]+ )", re.IGNORECASE)
 _TRIGGER_FOR = re.compile(
@@ -102,6 +103,64 @@ _PROVIDED_THEN = re.compile(
 _TTA_FROM = re.compile(r"(?<=\d s) (?:TTA|TTC|time to arrival) (?=(?:from|to) (?:the|its) )")
 _TRAILS_NAMED = re.compile(r"\b(?:trails|follows) (it|the [\w-]+) by (\w+_(?:m|ft|s))\b", re.IGNORECASE)
 
+# "When X_m is the distance the ego still has to the conflict point"
+_IS_THE_TIME = re.compile(
+    rf"\b({AMOUNT}) is the (?:time|distance) (?:that |which )?({WHO}|(?:the )?\w+) (?:still )?(?:needs|has|requires)"
+    r"(?: left| to go)? (?:to|until|to reach) (?=(?:the|its) )",
+    re.IGNORECASE,
+)
+# "When the conflict point is 9 m ahead of ego and 12 m ahead of hero"
+_AHEAD_OF_BOTH = re.compile(
+    rf"\b(the (?:conflict point|stop line)) is ({AMOUNT}) (?:ahead of|in front of|away from) ((?:the )?[\w-]+) and "
+    rf"({AMOUNT}) (?:ahead of|in front of|away from) ((?:the )?[\w-]+)",
+    re.IGNORECASE,
+)
+# "where there remain 35 m to the ego until the conflict point, and 6 m to the hero until the stop line"
+_REMAIN_TO = re.compile(
+    rf"\bthere (?:remains?|(?:is|are) left) ({AMOUNT}) (?:to|for) ({WHO}) (?:until|to|before) (the [a-z]+ (?:point"
+    rf"|line)|the "
+    rf"intersection),? and ({AMOUNT}) (?:to|for) ({WHO}) (?:until|to|before) (?=the [a-z]+ (?:point|line)|the "
+    rf"intersection)",
+    re.IGNORECASE,
+)
+_WHEN_WE_LOOK = re.compile(
+    r"\bwhen (?:we|you) (?:start|begin) (?:to look|looking|watching|to watch|observing|to observe)(?: at it)?,? "
+    r"(?=it |the )",
+    re.IGNORECASE,
+)
+_FIRST_FRAME = re.compile(
+    r"\b[Ii]n the (?:very )?(?:first|opening|initial) (?:frame|shot|picture|image|instant|moment)(?: of (?:the|our) "
+    r"\w+)?,? "
+    r"(?=(?:we|it|the|our) )"
+)
+_TIME_ONWARDS = re.compile(r"\bfrom the (time|moment|instant) (?:onwards?|on) (?=when |at which |that )", re.IGNORECASE)
+_STARTS_BRAKING = re.compile(
+    r"(?:(?<=[.!?]\s)|(?<=\n))(?:Start|Begin|Beginning|Onset) of (?:the )?braking: ?(?=ego"
+    r"|hero|the )"
+)
+_ENDS_BRAKING = re.compile(
+    r"(?:(?<=[.!?]\s)|(?<=\n))End of (?:the )?braking: ?(?:the )?hero (?:is )?(?:at rest|stationary|at a standstill"
+    r"|standing) "
+)
+_IS_OVER = re.compile(
+    r",? and (?:it )?(?:is over|ends|is finished|is completed|is complete|finishes) (?:when|once|with) ((?:the|its) "
+    r"[\w-]+|it) "
+    r"(?:is )?(?:stationary|at a standstill|at rest|standing|stopped)\b",
+    re.IGNORECASE,
+)
+_NOW_AWAY = re.compile(rf"(?<=, )now (?={AMOUNT} (?:from|before|short of))")
+
+# "three and a half seconds (3.5 s)": said twice
+_SAID_TWICE = re.compile(
+    r"\b((?:an? )?[A-Za-z]+(?:[ -](?:and|a|an|half|point|[a-z]+)){0,5}) ?\((\d+(?:\.\d+)? ?(?:m|s|ft|yd|m/s|km/h"
+    r"|mph))\)"
+)
+_TIME_FOR_AND = re.compile(
+    r"\b([Aa]t|[Ww]ith) ((?:[\d.]+|[a-z]+(?: and a half)?)) (s|m|ft|yd|seconds|metres|meters|feet|yards) from (the "
+    r"(?:conflict "
+    r"point|stop line)) for ((?:the )?[\w-]+) and ((?:[\d.]+|[a-z]+(?: and a half)?)) for ((?:the )?[\w-]+)(?=,)"
+)
+
 
 def _unfronted(found: re.Match[str]) -> str:
     """Return "Being 8 s from it, the ego comes" as "The ego, 8 s from it, comes"."""
@@ -120,6 +179,14 @@ def _is_away(found: re.Match[str]) -> str:
     """Return "approaches the stop line from 8 s away" as "is 8 s from the stop line"."""
     verb = "is" if found.group(1).lower() == "es" else "being"
     return f"{verb} {found.group(4)} from {found.group(2)}{found.group(3)}"
+
+
+def _once(found: re.Match[str]) -> str:
+    """Return "three and a half seconds (3.5 s)" without what stands in brackets, where it is the same."""
+    said = [token.quantity for token in tokenise(found.group(1), "") if token.quantity is not None]
+    again = [token.quantity for token in tokenise(found.group(2), "") if token.quantity is not None]
+    same = len(said) == len(again) == 1 and said[0].term == again[0].term and said[0].dimension == again[0].dimension
+    return found.group(1) if same else found.group()
 
 
 # In this order: what one rule leaves, the next may read.
@@ -150,4 +217,16 @@ MOMENT_PHRASES: Rules = (
     (_PROVIDED_THEN, r" and \1"),
     (_TTA_FROM, ""),
     (_TRAILS_NAMED, r"is \2 behind \1"),
+    (_IS_THE_TIME, r"\2 is \1 from "),
+    (_AHEAD_OF_BOTH, r"\3 is \2 and \5 \4 from \1"),
+    (_REMAIN_TO, r"\2 is \1 from \3 and \5 \4 from "),
+    (_WHEN_WE_LOOK, "initially "),
+    (_FIRST_FRAME, "At first "),
+    (_TIME_ONWARDS, r"from the \1 "),
+    (_STARTS_BRAKING, "Hero brakes when "),
+    (_ENDS_BRAKING, "Hero stops "),
+    (_IS_OVER, r" until \1 is at rest"),
+    (_NOW_AWAY, "at first "),
+    (_SAID_TWICE, _once),
+    (_TIME_FOR_AND, r"When \5 is \2 \3 and \7 \6 \3 from \4"),
 )

@@ -150,6 +150,8 @@ class MomentReader:
                 raise self.words.refuse(UNCLEAR, made.span)  # nobody tells the ego how fast to go
             if made.target or not self._after_trigger(clause):
                 return "deed" if made.target else "start"
+            if clause.start == made.at and not self.words.has(clause.inside, "verb", "be") and clause.link == "main":
+                raise self.words.refuse("it is not clear whose speed this is", made.span)
             spoken = " ".join(self.words.span(each).excerpt(self.words.text) for each in self.words.sentence(clause))
             if "initial" in spoken or _FROM_START.search(spoken):
                 raise self.words.refuse(UNCLEAR, made.span)

@@ -230,6 +230,55 @@ _RIGHT_BEHIND = re.compile(
     r"\b(follow(?:s|ing|ed)?) (?:right|close|closely|directly|just|straight) behind\b", re.IGNORECASE
 )
 
+_FAILS_RIGHT = re.compile(
+    r"\b(?:fails? to (?:respect|observe|grant|honou?r|heed)|failing to (?:respect|observe|grant|honou?r|heed)"
+    r"|disregards?"
+    r"|ignores?|violates?) the (?:right of way|right-of-way|priority|precedence) of (?=the |our |us\b|[A-Z])",
+    re.IGNORECASE,
+)
+_TAKES_PRECEDENCE = re.compile(
+    r"\btakes (?:the )?(?:precedence|priority|right of way)(?: (?:without (?:being entitled to it|having it)|that "
+    r"is not its own"
+    r"|it does not have|it has not got))?(?=[:,;.])",
+    re.IGNORECASE,
+)
+_YOU_EXPECT = re.compile(
+    r"(?:(?<=[.!?;]\s)|^)(?:You|One|We|Anyone)(?:['\u2019]d| would| might) (?:expect|think|want) (it|him|her|the "
+    r"[\w-]+) to "
+    r"(?:wait|yield|give way)[.,;:] (?:[Bb]ut )?(?:[Ii]t|[Hh]e|[Ss]he) (?:doesn['\u2019]t|does not|won['\u2019]t)\b",
+)
+_PREPARES_TURN = re.compile(r"\bprepares (?:for )?(?:its|his|her|the) turn: (?:it|he|she) ", re.IGNORECASE)
+_AS_ITS_GOAL = re.compile(
+    r",? with (a (?:left|right) turn[^,.;]{0,50}?) as (?:its|his|her|the) (?:goal|aim|intention|plan|target),",
+    re.IGNORECASE,
+)
+_DROPS_ANCHOR = re.compile(
+    r"\b(?:drops|throws out|throws) (?:the |its |his |her )?anchors?\b|\bstands on the anchors\b", re.IGNORECASE
+)
+_REPENTS = re.compile(
+    r"\b(it|he|she|the \w+) (?:repents|regrets (?:it|this|that)|has second thoughts|thinks again|reconsiders),? "
+    r"(?:and )?"
+    r"(?=accelerates|goes|drives|starts|sets|moves|speeds|pulls)",
+    re.IGNORECASE,
+)
+_IN_A_MOOD = re.compile(
+    r"\b((?:the )?\w+)(?:['\u2019]s| is) (?:not |in )*in (?:a|no|the) [\w-]+ mood(?: today)?: (?:it|he|she) ",
+    re.IGNORECASE,
+)
+_FROM_BOUND = re.compile(r"\b(?:coming )?from the (east|west)bound direction\b", re.IGNORECASE)
+_BOUND_DIRECTION = re.compile(r"\bin (?:the )?(east|west)bound direction\b", re.IGNORECASE)
+_AT_ITS_SPEED = re.compile(
+    r" at (?:its|his|her|the) (?:own )?(?:present|current|momentary)(?: speed)?(?=[ ,.;])(?! of)"
+    r"| at its own(?= speed[,.;]|[,.;])(?: speed)?",
+    re.IGNORECASE,
+)
+_I_WOULD_LET = re.compile(r"(?:(?<=[.!?;]\s)|^)(?:I|We)(?:['\u2019]d| would) (?:then )?let (?=the )", re.IGNORECASE)
+_STAYS_STOPPED = re.compile(r"\bstays (stopped|standing)\b", re.IGNORECASE)
+
+_ARRIVES_THERE = re.compile(r"\bthere arrives (?=the |an? )", re.IGNORECASE)
+_WINS = re.compile(r"(?<=, and )(the [\w-]+|it|he|she) wins(?: the race| this)?(?=[:;.])", re.IGNORECASE)
+_CHANGE_MIND = re.compile(r"\b(they|we) change (?:their|our) minds?(?:,? and|,)(?= )", re.IGNORECASE)
+
 
 def _when(found: re.Match[str]) -> str:
     """Return "We get to 18 m behind it, and that's when it" as "When we get to 18 m behind it, it"."""
@@ -380,4 +429,20 @@ PHRASES: Rules = (
     (_LETS_UP, "brakes until"),
     (_LET_IN, r"won't yield to \1"),
     (_END_UP_IN, "drive into "),
+    (_FAILS_RIGHT, "won't yield to "),
+    (_TAKES_PRECEDENCE, "won't yield"),
+    (_YOU_EXPECT, "It won't yield"),
+    (_PREPARES_TURN, ""),
+    (_AS_ITS_GOAL, r" making \1,"),
+    (_DROPS_ANCHOR, "brakes"),
+    (_REPENTS, r"\1 "),
+    (_IN_A_MOOD, r"\1 "),
+    (_FROM_BOUND, r"travelling \1bound"),
+    (_BOUND_DIRECTION, r"\1bound"),
+    (_AT_ITS_SPEED, ""),
+    (_I_WOULD_LET, "Let "),
+    (_STAYS_STOPPED, "stops"),
+    (_ARRIVES_THERE, "there comes "),
+    (_WINS, r"\1 won't wait"),
+    (_CHANGE_MIND, r"\1"),
 )

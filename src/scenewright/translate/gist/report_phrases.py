@@ -45,7 +45,8 @@ _NO_OTHER = re.compile(
     r"\bhas no (?:other )?(?:intention|plan|aim|wish|desire) (?:other )?than to\b|\bhas no plan but to\b", re.IGNORECASE
 )
 _SCENARIO_STARTS = re.compile(
-    rf",? and the (?:scenario|test|run|simulation|recording) (?:starts|begins) (?:when|with) (?:it|him|her)(?: is)? "
+    rf",? and (?:the|our) (?:scenario|test|run|simulation|recording|film|clip|video|footage|story) (?:starts"
+    rf"|begins) (?:when|with) (?:it|him|her)(?: is)? "
     rf"(?={AMOUNT})",
     re.IGNORECASE,
 )
@@ -61,11 +62,6 @@ _POLICY_SWITCHES = re.compile(
 _AFTER_SWITCH = re.compile(r"(?:(?<=[.!?]\s)|^)After the (?:switch|change|switching|transition),", re.IGNORECASE)
 _LET_EGO = re.compile(rf"\bwe (?:let|make|have) the {EGO} (?=follow|drive|turn|come|approach|go|leave)", re.IGNORECASE)
 _CLOSING_TO = re.compile(rf"\bclos(?:ing|es) (?:in )?to ({AMOUNT} behind)\b", re.IGNORECASE)
-_TO_BE_TESTED = re.compile(
-    rf"\b({EGO}), which is (?:the|our) (?:vehicle|car|one) (?:to be tested|under test|that is tested|being tested"
-    r"|we test|tested),",
-    re.IGNORECASE,
-)
 _SO_THAT_AFTER = re.compile(
     r", so that it (?:would|will) (?:afterwards|then|subsequently) (?:drive|travel|go|head) on the road\b",
     re.IGNORECASE,
@@ -150,6 +146,17 @@ _GIVES_UP_TURN = re.compile(
 _SO_IT_SEEMS = re.compile(r", or so (?:it|he|she|the \w+) (?:seems|thinks|believes|appears):?", re.IGNORECASE)
 _SUPPOSED_TO = re.compile(r"\b(an?|the) car (?:that|which) is supposed to (?=turn|go|drive)", re.IGNORECASE)
 
+# "The ego and, ahead of it in the same lane, the hero are westbound"
+_AND_AHEAD = re.compile(
+    r"\b(the [\w-]+(?: vehicle)?) and, (ahead of|in front of|behind) it(?: in (?:the same|its) lane)?, (the "
+    r"[\w-]+(?: vehicle)?)"
+    r" are\b",
+    re.IGNORECASE,
+)
+_IS_ONCOMING = re.compile(
+    r"(?<= )(is|are|am|being) the oncoming (?:car|vehicle|one|party|driver)(?=[,.;])",
+    re.IGNORECASE,
+)
 
 # In this order: what one rule leaves, the next may read.
 REPORT_PHRASES: Rules = (
@@ -177,7 +184,6 @@ REPORT_PHRASES: Rules = (
     (_AFTER_SWITCH, "Then"),
     (_LET_EGO, "the ego is to "),
     (_CLOSING_TO, r"being \1"),
-    (_TO_BE_TESTED, r"\1"),
     (_SO_THAT_AFTER, " onto the road"),
     (_NOT_ON_BUT, r"\1 "),
     (_PASSAGE_OF_SAME, r"before \1 passes it"),
@@ -192,4 +198,6 @@ REPORT_PHRASES: Rules = (
     (_HIS_OWN, r"\1 "),
     (_HIMSELF, r"\1 "),
     (_ONE_UNDER_TEST, "the ego"),
+    (_AND_AHEAD, r"\3 is \2 \1; both are"),
+    (_IS_ONCOMING, r"\1 oncoming"),
 )
