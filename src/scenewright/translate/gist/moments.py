@@ -150,7 +150,8 @@ class MomentReader:
                 raise self.words.refuse(UNCLEAR, made.span)  # nobody tells the ego how fast to go
             if made.target or not self._after_trigger(clause):
                 return "deed" if made.target else "start"
-            if clause.start == made.at and not self.words.has(clause.inside, "verb", "be") and clause.link == "main":
+            alone = clause.start == made.at and not self.words.has(clause.inside, "verb", "be")
+            if alone and not self._is_keyed(clause):
                 raise self.words.refuse("it is not clear whose speed this is", made.span)
             spoken = " ".join(self.words.span(each).excerpt(self.words.text) for each in self.words.sentence(clause))
             if "initial" in spoken or _FROM_START.search(spoken):
@@ -177,6 +178,13 @@ class MomentReader:
         if made.kind == "place" and self._is_told_then(clause):
             return "trigger"
         return "trigger" if self._deed_beside(clause) else "open"
+
+    def _is_keyed(self, clause: Clause) -> bool:
+        """Whether a speed that stands alone goes on with what was told, or has a key: "Its speed: 9 m/s"."""
+        if clause.link != "colon":
+            return clause.link != "main"
+        key = self.words.clauses[self.words.clauses.index(clause) - 1]
+        return key.named or self.words.has(key.inside, "measure", "label", "possessive")
 
     def _is_told_then(self, clause: Clause) -> bool:
         """Whether this is told of the moment before: "it brakes when it is 8 m from it; the ego is 70 m away then"."""
