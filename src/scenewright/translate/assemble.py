@@ -133,9 +133,10 @@ class Assembler(ConditionAssembler):
     def _from_standstill(self, standing: Event, phases: list[Phase]) -> Sketch:
         """Build the script of a hero that waits for its trigger and then goes."""
         event, phase = phases[0].events[0], phases[0]
-        if len(phases) > 1 or phase.kind not in ("turn", "acc") or phase.to_speed is not None:
+        possible = phase.kind == "acc" or (phase.kind == "turn" and phase.to_speed is None)
+        if len(phases) > 1 or not possible:
             raise self._refuse(
-                "a hero that stands at the start can only go, turn or pass then",
+                "a hero that stands at the start can only go, speed up, turn or pass then",
                 event.span,
                 "that it turns, or accelerates to pass the conflict point",
             )

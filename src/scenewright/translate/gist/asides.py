@@ -95,7 +95,7 @@ _CATCHING_UP = re.compile(
 )
 _NOT_CARING = re.compile(
     r"(?:(?<=[.!?]\s)|^)Not caring about (?:the (?:priority|right of way) of )?(?:the \w+|us|it), (?=the |it )"
-    r"|,? without (?:any )?(?:caring about|regard for|looking at|a thought for) (?:the (?:ego|AV|SUT)|us)"
+    r"|,? without (?:any )?(?:caring about|regard for|looking at|a thought for) (?:(?:the )?(?:ego|AV|SUT)|us)"
     r"(?=\.|;|,(?! (?:who|which|that|whose)\b))",
 )
 _SO_THAT_IT_TURNS = re.compile(

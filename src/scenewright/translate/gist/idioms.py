@@ -12,6 +12,7 @@ from collections.abc import Callable
 from functools import partial
 
 from scenewright.translate.aliases import without_aliases
+from scenewright.translate.gist.approach_phrases import APPROACH_PHRASES
 from scenewright.translate.gist.asides import ASIDES
 from scenewright.translate.gist.moment_phrases import MOMENT_PHRASES
 from scenewright.translate.gist.phrases import PHRASES
@@ -301,6 +302,7 @@ _RULES: Rules = (
     (_UNDERSCORE, r"\1 \2"),
     *TEST_MARKS,
     *ASIDES,
+    *APPROACH_PHRASES,
     *MOMENT_PHRASES,
     *SPOKEN_PHRASES,
     *REPORT_PHRASES,

@@ -161,6 +161,11 @@ _TIME_FOR_AND = re.compile(
     r"point|stop line)) for ((?:the )?[\w-]+) and ((?:[\d.]+|[a-z]+(?: and a half)?)) for ((?:the )?[\w-]+)(?=,)"
 )
 
+_HINGES = re.compile(
+    r"\b(?:It|Everything|All) (?:all )?(?:hinges|depends|turns) on (?:one|this|a single) (?:moment|instant"
+    r"|point)(?: in time)?:"
+)
+
 
 def _unfronted(found: re.Match[str]) -> str:
     """Return "Being 8 s from it, the ego comes" as "The ego, 8 s from it, comes"."""
@@ -229,4 +234,5 @@ MOMENT_PHRASES: Rules = (
     (_NOW_AWAY, "at first "),
     (_SAID_TWICE, _once),
     (_TIME_FOR_AND, r"When \5 is \2 \3 and \7 \6 \3 from \4"),
+    (_HINGES, "Trigger:"),
 )

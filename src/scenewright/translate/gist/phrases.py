@@ -279,6 +279,59 @@ _ARRIVES_THERE = re.compile(r"\bthere arrives (?=the |an? )", re.IGNORECASE)
 _WINS = re.compile(r"(?<=, and )(the [\w-]+|it|he|she) wins(?: the race| this)?(?=[:;.])", re.IGNORECASE)
 _CHANGE_MIND = re.compile(r"\b(they|we) change (?:their|our) minds?(?:,? and|,)(?= )", re.IGNORECASE)
 
+_WITHOUT_TURN = re.compile(
+    r", (?:which|that) (?:it|he|she) (?:is going to|will|wants to|intends to|is to|crosses|passes)(?: (?:cross"
+    r"|pass)(?: over)?)?"
+    r"(?: straight)? without turning\b",
+    re.IGNORECASE,
+)
+_UNWILLING = re.compile(
+    r"(?:(?<=[.!?;]\s)|^)(?:Being )?(?:unwilling|not willing|unprepared|refusing|declining) to (?:yield|give way|wait)"
+    r"(?: to (?:the \w+|us))?, (it|he|she|the \w+) ",
+    re.IGNORECASE,
+)
+_PURSUES_TURN = re.compile(r"\b(?:pursues|carries out|undertakes) (?=a (?:left|right) turn\b)", re.IGNORECASE)
+_THAT_LEADS = re.compile(
+    r"\b(turn) (?:that|which) (?:leads|takes|brings|carries) (?:it|him|her) (?=(?:\w+bound "
+    r")?(?:onto|into|on to))",
+    re.I,
+)
+_ONE_IN_FRONT = re.compile(
+    r"\bThe (?:vehicle|car|one) (?:immediately |directly |right |just )?(in front|ahead) of (it|the ego) is the "
+    r"hero(?: vehicle| car)?\b",
+)
+_IS_SUSTAINED = re.compile(
+    r",? (?:and (?:it|this|that) |which )is (?:sustained|maintained|kept up|held|continued) (?=until\b)", re.IGNORECASE
+)
+_REACHES_STOP = re.compile(
+    r"\breaches (?=a (?:complete |full |total )?(?:standstill|stop|halt)\b(?! line))",
+    re.IGNORECASE,
+)
+_ROUTE_LEADS = re.compile(
+    r"\b(?:its|his|her|whose) (?:intended |planned |own )?(?:route|way|path|journey) (?:leads|takes it|goes|runs"
+    r"|turns) (?=left|right)",
+    re.IGNORECASE,
+)
+_TRAFFIC_OF_ONE = re.compile(
+    r"\b(east|west)bound traffic(?: on the road)? consists of (?:a|one|just one|only one) (?:single )?(?:vehicle"
+    r"|car),(?: namely)? the hero,?",
+    re.IGNORECASE,
+)
+_ROAD_WITH = re.compile(
+    r"(?:(?<=[.!?]\s)|^)On (?:a|the) road with an? (?:driveway|junction|exit|side road), (?=the "
+    r"|an? |our )"
+)
+_FINISHES_STANDING = re.compile(
+    r"\b(?:finishes|ends up|ends) at a (?:complete )?(?:standstill|stop)(?: line)?,? "
+    r"(?=[\d.]+ |\w+_(?:m|ft|yd)\b|[a-z]+ (?:m|ft))",
+    re.I,
+)
+_DONE_WITH_TURN = re.compile(r"\bis (?:done|finished|through) with (its|his|her|the) turn\b", re.IGNORECASE)
+_TO_BE_DONE = re.compile(r"\bto be (?:done|finished|through) with (its|his|her|the) turn\b", re.IGNORECASE)
+_GOES_BY = re.compile(r"\bgoes (?:by|past|beyond) (?=the conflict point\b)", re.IGNORECASE)
+_TURN_IN_MIND = re.compile(r"\bwith (a (?:left|right) turn[^,.;]{0,50}?) in mind\b", re.IGNORECASE)
+_WAITS_FOR_NOTHING = re.compile(r"\b((?:the )?\w+) waits for nothing(?: and nobody)?(?=[:;.,])", re.IGNORECASE)
+
 
 def _when(found: re.Match[str]) -> str:
     """Return "We get to 18 m behind it, and that's when it" as "When we get to 18 m behind it, it"."""
@@ -445,4 +498,20 @@ PHRASES: Rules = (
     (_ARRIVES_THERE, "there comes "),
     (_WINS, r"\1 won't wait"),
     (_CHANGE_MIND, r"\1"),
+    (_WITHOUT_TURN, ", going straight"),
+    (_UNWILLING, r"\1 won't yield and "),
+    (_PURSUES_TURN, "makes "),
+    (_THAT_LEADS, r"\1 "),
+    (_ONE_IN_FRONT, r"The hero is \1 of \2"),
+    (_IS_SUSTAINED, " "),
+    (_REACHES_STOP, "comes to "),
+    (_ROUTE_LEADS, "it turns "),
+    (_TRAFFIC_OF_ONE, r"the hero is \1bound on the road,"),
+    (_ROAD_WITH, "On the road, "),
+    (_FINISHES_STANDING, "stops "),
+    (_DONE_WITH_TURN, r"completes \1 turn"),
+    (_TO_BE_DONE, r"to complete \1 turn"),
+    (_GOES_BY, "passes "),
+    (_TURN_IN_MIND, r"wanting to make \1"),
+    (_WAITS_FOR_NOTHING, r"\1 won't wait"),
 )

@@ -45,7 +45,7 @@ _NO_OTHER = re.compile(
     r"\bhas no (?:other )?(?:intention|plan|aim|wish|desire) (?:other )?than to\b|\bhas no plan but to\b", re.IGNORECASE
 )
 _SCENARIO_STARTS = re.compile(
-    rf",? and (?:the|our) (?:scenario|test|run|simulation|recording|film|clip|video|footage|story) (?:starts"
+    rf",? and (?:the|our) (?:scenario|test|run|simulation|recording|film|clip|video|footage|story|clock) (?:starts"
     rf"|begins) (?:when|with) (?:it|him|her)(?: is)? "
     rf"(?={AMOUNT})",
     re.IGNORECASE,

@@ -190,6 +190,13 @@ _NO_MOOD = re.compile(
     r"\b(?:is|are) (?:in no mood|not (?:willing|prepared|inclined)|unwilling) to (wait|yield|give way)\b", re.IGNORECASE
 )
 
+# "GVT: at a standstill at the stop line"
+_LISTED_STANDING = re.compile(
+    r"(?<=: )(?:at (?:a )?standstill|stationary|at rest|standing(?: still)?|stopped|parked) (?=at (?:the|its) stop "
+    r"line\b)",
+    re.IGNORECASE,
+)
+
 
 def _right(found: re.Match[str]) -> str:
     """Return "brakes right when" as "brakes when", but leave "swings right when"."""
@@ -286,4 +293,5 @@ SPOKEN_PHRASES: Rules = (
     (_APPROACHES_ROAD, _approaches),
     (_AMOUNT_OF, r"\2 \1 from \3"),
     (_BEGINS_TEST, r"\1 "),
+    (_LISTED_STANDING, "stands "),
 )

@@ -304,7 +304,7 @@ class StoryTeller:
                 self._stop_place(phase, made)
             elif made.kind == "duration":
                 phase.wait, phase.wait_bound = made.quantity, made.bound
-            elif made.kind == "rate" and self._deed_of(made, _MOVES) in _SLOWS:
+            elif made.kind == "rate" and self._deed_of(made, (*_MOVES, "go")) in _SLOWS:
                 phase.rate, phase.rate_event = made.quantity, self._event_at(made)
             elif made.kind == "speed" and self._deed_of(made, (*_MOVES, "pass", "go")) in _SLOWS:
                 phase.to_speed = made.quantity
@@ -336,11 +336,13 @@ class StoryTeller:
             phase.goal = "turn_end" if goal.kind == "complete" else goal.landmark or "conflict_point"
             phase.goal_event = self._event(goal)
         for made in self.moments.of("deed"):
-            of = self._deed_of(made, (*_MOVES, "pass", "go") if made.kind == "speed" else _MOVES)
+            of = self._deed_of(made, (*_MOVES, "pass", "go") if made.kind == "speed" else (*_MOVES, "go"))
             own = not after_stop or of not in _SLOWS
             if made.kind == "rate" and own:
                 phase.rate, phase.rate_event = made.quantity, self._event_at(made)
             elif made.kind == "speed" and own:
+                if self.facts.standing is not None and not made.target:
+                    raise self.words.refuse("the hero is said to stand, and to drive at a speed", made.span)
                 phase.to_speed = made.quantity
             elif made.kind in ("duration", "place") and not after_stop and not self._stands_at(made):
                 raise self.words.refuse("this amount does not belong to what the hero does", made.span)

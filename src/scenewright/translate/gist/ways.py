@@ -107,6 +107,8 @@ class WayReader:
             self._same_heading(at, named)
         elif "same" in tags or self.words.word(at) == "likewise":
             self._same(at, clause)
+        elif self.words.word(at) in ("so", "as", "and so") and (alike := self._so_does(at)) is not None:
+            self.alike.append((alike, at))
 
     def _comes_from_there(self, clause: Clause) -> None:
         """Read "into the driveway [that] I am coming out of"."""
@@ -251,7 +253,7 @@ class WayReader:
         """Read "makes the same turn", "heading the same way", "with the same intention"."""
         does = self.words.tag(at - 1, "verb") == "make" or self.words.word(at - 2) in _DOES
         does = does or (self.words.tag(at - 2, "adverb") == "exact" and self.words.word(at - 3) in _DOES)
-        if does and self.words.has([at + 1], "end", "comma") and clause.subject is not None:
+        if does and self.words.has([at + 1], "end", "comma", "relation") and clause.subject is not None:
             self.alike.append((clause.subject, at))  # "does the same"
             return
         for ahead in (at + 1, at + 2):
@@ -265,6 +267,14 @@ class WayReader:
             ):
                 self.alike.append((clause.subject, at))
                 return
+
+    def _so_does(self, at: int) -> int | None:
+        """Return who does as the other one, in "and so is the hero", "as does the van"."""
+        if not self.words.has([at + 1], "be", "auxiliary") and self.words.tag(at + 1, "verb") != "do_so":
+            return None
+        named = self.words.skip(at + 2, frozenset(("determiner", "actor_adjective")))
+        ends = self.words.has([named + 1], "end", "comma", "relation") or self.words.has([named + 1], "link")
+        return self.words.names.actors.get(named) if ends else None
 
     # -- areas --------------------------------------------------------------------------------------------------------
 
