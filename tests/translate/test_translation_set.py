@@ -78,9 +78,9 @@ def test_free_texts_mean_the_same_or_are_refused(name: str, least: float) -> Non
     assert len(outcomes) >= 40
 
 
-# What one would have to know of the world to refuse it: a green arrow that goes out is a traffic light, there is no
-# petrol station at the end of the driveway, and nobody closes up from 20 m to 35 m.
-ACCEPTED = {"rr-03", "ec-51", "vrf-48"}
+# What one would have to know of the world to refuse it: a green arrow that goes out is a traffic light, and nobody
+# closes up from 20 m to 35 m.
+ACCEPTED = {"rr-03", "vrf-48"}
 
 
 @pytest.mark.parametrize(("name", "least"), [("paper_kind.toml", 0.97), ("prose.toml", 0.8), ("traps.toml", 0.0)])
