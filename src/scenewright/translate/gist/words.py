@@ -141,7 +141,8 @@ class Words:
 
     def has(self, stretch: Iterable[int], *keys: str) -> bool:
         """Whether a token of the stretch has one of these tags."""
-        return any(self.tags(at).keys() & set(keys) for at in stretch)
+        wanted = frozenset(keys)
+        return any(not wanted.isdisjoint(self.tags(at)) for at in stretch)
 
     def where(self, stretch: Iterable[int], key: str, *values: str) -> int | None:
         """Return the first token of the stretch whose tag has one of the values (any value where none is given)."""
