@@ -61,6 +61,28 @@ def assert_means_the_same(story: str, plain: str, other: str) -> None:
         ("Then it drives on", "It doesn't stay put, though: it drives on"),
         ("The ego drives", "To evaluate false-positive braking, we let the ego drive"),
         ("The ego drives", "Somebody wants to see this again, so: the ego drives"),
+        ("The ego drives", "Ego (the car we are testing) drives"),
+        ("The ego drives", "The vehicle evaluated (the ego) drives"),
+        (
+            "into the driveway; it starts 60 m before the intersection",
+            "into the driveway. In the first frame we are 60 m from the intersection",
+        ),
+        ("the hero brakes and", "the hero, itself, brakes and"),
+        ("the hero brakes and", "the hero kindly brakes and"),
+        ("Then it drives on", "Then it has second thoughts, drives on"),
+        (
+            "the ego is 20 m and the hero 48 m from the conflict point",
+            "the conflict point is 20 m ahead of the ego and 48 m ahead of the hero",
+        ),
+        (
+            "the ego is 20 m and the hero 48 m from the conflict point",
+            "there remain 20 m for the ego until the conflict point, and 48 m for the hero until the conflict point",
+        ),
+        (
+            "comes to a stop 14 m before the conflict point",
+            "stops, leaving fourteen metres (14 m) between itself and the conflict point",
+        ),
+        ("comes to a stop 14 m before the conflict point", "stops 14 m before reaching the conflict point"),
     ],
 )
 def test_told(plain: str, told: str) -> None:
@@ -97,6 +119,17 @@ GOES_FIRST = (
         ),
         ("the cab accelerates", "the cabbie steps on the gas"),
         ("A cab drives west", "A cab, in no mood to wait, drives west"),
+        ("the cab accelerates", "the cab accelerates, disregarding the priority of the AV,"),
+        ("the cab accelerates", "the cab fails to respect the right of way of the AV; it accelerates"),
+        (
+            "The AV is on the driveway and turns left; at first it is 6 s from the stop line",
+            "The AV is on the driveway, with a left turn in mind; at first it is 6 s from the stop line",
+        ),
+        (
+            "The AV is on the driveway and turns left; at first it is 6 s from the stop line",
+            "The AV is on the driveway and "
+            "turns left. It approaches the stop line, from which it is initially 6 s away",
+        ),
     ],
 )
 def test_reported(plain: str, reported: str) -> None:

@@ -9,12 +9,18 @@ from __future__ import annotations
 import re
 
 from scenewright.translate.gist.rewriting import AMOUNT, Rules
+from scenewright.translate.tokens import tokenise
 
 _PLACE = r"(?:the (?:stop line|intersection|conflict point))"
 _START = r"(?:initially|at first)"
 _WOULD = r"(?:would|will)(?: otherwise| then)?"
 _GO_TO = r"(?:arrive at|reach|get to|come to)"
 _SUBJECT = r"(?:[Tt]he|[Oo]ur|[Aa]n?) [\w-]+(?: (?:vehicle|car))?|Ego|Hero"
+# "three and a half seconds (3.5 s)": said twice
+_SAID_TWICE = re.compile(
+    r"\b((?:an? )?[A-Za-z]+(?:[ -](?:and|a|an|half|point|[a-z]+)){0,5}) ?\((\d+(?:\.\d+)? ?(?:m|s|ft|yd|m/s|km/h"
+    r"|mph))\)"
+)
 # "approaches the stop line, from which it is initially 30 m away"
 _FROM_WHICH = re.compile(
     rf", from which (?:it|he|she) is (({_START}|still) )?({AMOUNT}) (?:away|off|distant)\b",
@@ -61,6 +67,14 @@ _IN_FRONT_FIRST = re.compile(
 )
 
 
+def _once(found: re.Match[str]) -> str:
+    """Return "three and a half seconds (3.5 s)" without what stands in brackets, where it is the same."""
+    said = [token.quantity for token in tokenise(found.group(1), "") if token.quantity is not None]
+    again = [token.quantity for token in tokenise(found.group(2), "") if token.quantity is not None]
+    same = len(said) == len(again) == 1 and said[0].term == again[0].term and said[0].dimension == again[0].dimension
+    return found.group(1) if same else found.group()
+
+
 def _behind_front(found: re.Match[str]) -> str:
     """Return "In front of it, 25 m from the line, a hero" as "A hero, 25 m from the line, is in front of it"."""
     ahead, ego, where, who = found.groups()
@@ -70,6 +84,7 @@ def _behind_front(found: re.Match[str]) -> str:
 
 # In this order: what one rule leaves, the next may read.
 APPROACH_PHRASES: Rules = (
+    (_SAID_TWICE, _once),
     (_FROM_WHICH, r", \1\3 from it"),
     (_WOULD_REACH, r", \1 from it"),
     (_AT_DISTANCE, r"\1\2 \3 from it"),

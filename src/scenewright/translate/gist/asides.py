@@ -189,6 +189,28 @@ _ITSELF_APART = re.compile(
     re.I,
 )
 
+_CLAIMING = re.compile(
+    r",? claiming (?:the|its) (?:driveway|road|gap|right of way|way|space) for (?:itself|himself|herself)(?=[,.;]| "
+    r"and\b)",
+    re.I,
+)
+_JUST_WHEN_EXPECTED = re.compile(
+    r"(?:(?<=[.!?;]\s)|^)Just (?:when|as) (?:one|you|we|everyone) (?:would |might |could )?expects? (?:the \w+|it"
+    r"|us) to "
+    r"(?:go|turn|pass|pull out|set off)(?: first| ahead)?, ",
+    re.IGNORECASE,
+)
+_NOT_LETTING = re.compile(
+    r"(?:(?<=[.!?;]\s)|^)(?:But )?(?:[Ii]t|[Hh]e|[Ss]he|[Tt]he hero) (?:doesn['\u2019]t|does not) let (?:the \w+|it"
+    r"|us) (?:go|pass|turn)"
+    r"(?: first)?,? (?:though|however|after all)[,:;] (?=(?:it|he|she|the \w+) (?:then )?(?:moves|sets|drives|goes"
+    r"|accelerates|pulls|starts|continues|takes)\b)"
+)
+_AS_THOUGH_TO_LET = re.compile(
+    r",? as (?:though|if) to let (?:the \w+|us|it) (?:go|pass|turn|out|in)(?: ahead| first)?(?=[,.;]| and\b)",
+    re.IGNORECASE,
+)
+
 
 def _starts_it(found: re.Match[str]) -> str:
     """Return "Starting condition" as the trigger where amounts stand before it and nothing else is one."""
@@ -262,4 +284,8 @@ ASIDES: Rules = (
     (_OUR_GUY, "the ego"),
     (_UNDER_NOSE, ""),
     (_ITSELF_APART, r"\1 "),
+    (_CLAIMING, ""),
+    (_JUST_WHEN_EXPECTED, "Then "),
+    (_NOT_LETTING, "Then "),
+    (_AS_THOUGH_TO_LET, ""),
 )

@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 
 from scenewright.translate.gist.rewriting import AMOUNT, WHO, Rules
-from scenewright.translate.tokens import tokenise
 
 _THEN_BEING = re.compile(r"\bat (?:that|this) (?:moment|time|instant|point) being (?=[\d.]+ )", re.IGNORECASE)
 _TRIGGER_FOR = re.compile(
@@ -150,11 +149,6 @@ _IS_OVER = re.compile(
 )
 _NOW_AWAY = re.compile(rf"(?<=, )now (?={AMOUNT} (?:from|before|short of))")
 
-# "three and a half seconds (3.5 s)": said twice
-_SAID_TWICE = re.compile(
-    r"\b((?:an? )?[A-Za-z]+(?:[ -](?:and|a|an|half|point|[a-z]+)){0,5}) ?\((\d+(?:\.\d+)? ?(?:m|s|ft|yd|m/s|km/h"
-    r"|mph))\)"
-)
 _TIME_FOR_AND = re.compile(
     r"\b([Aa]t|[Ww]ith) ((?:[\d.]+|[a-z]+(?: and a half)?)) (s|m|ft|yd|seconds|metres|meters|feet|yards) from (the "
     r"(?:conflict "
@@ -184,14 +178,6 @@ def _is_away(found: re.Match[str]) -> str:
     """Return "approaches the stop line from 8 s away" as "is 8 s from the stop line"."""
     verb = "is" if found.group(1).lower() == "es" else "being"
     return f"{verb} {found.group(4)} from {found.group(2)}{found.group(3)}"
-
-
-def _once(found: re.Match[str]) -> str:
-    """Return "three and a half seconds (3.5 s)" without what stands in brackets, where it is the same."""
-    said = [token.quantity for token in tokenise(found.group(1), "") if token.quantity is not None]
-    again = [token.quantity for token in tokenise(found.group(2), "") if token.quantity is not None]
-    same = len(said) == len(again) == 1 and said[0].term == again[0].term and said[0].dimension == again[0].dimension
-    return found.group(1) if same else found.group()
 
 
 # In this order: what one rule leaves, the next may read.
@@ -232,7 +218,6 @@ MOMENT_PHRASES: Rules = (
     (_ENDS_BRAKING, "Hero stops "),
     (_IS_OVER, r" until \1 is at rest"),
     (_NOW_AWAY, "at first "),
-    (_SAID_TWICE, _once),
     (_TIME_FOR_AND, r"When \5 is \2 \3 and \7 \6 \3 from \4"),
     (_HINGES, "Trigger:"),
 )

@@ -332,6 +332,25 @@ _GOES_BY = re.compile(r"\bgoes (?:by|past|beyond) (?=the conflict point\b)", re.
 _TURN_IN_MIND = re.compile(r"\bwith (a (?:left|right) turn[^,.;]{0,50}?) in mind\b", re.IGNORECASE)
 _WAITS_FOR_NOTHING = re.compile(r"\b((?:the )?\w+) waits for nothing(?: and nobody)?(?=[:;.,])", re.IGNORECASE)
 
+_DISREGARDING = re.compile(
+    r"\b(?:disregarding|ignoring|violating|not respecting|not heeding) (?:the (?:right of way|right-of-way|priority"
+    r"|precedence) of "
+    r"(the [\w-]+|us)|(the [\w-]+)['\u2019]s (?:right of way|right-of-way|priority|precedence))(?=[,.;]| and\b)",
+    re.IGNORECASE,
+)
+_THUS_NOT = re.compile(
+    r",? and (?:thus|therefore|so|hence) (?:does not|doesn['\u2019]t) (?:yield|give way)(?: to (?:the \w+|it"
+    r"|us))?(?=[.;])",
+    re.I,
+)
+_OUGHT_BUT = re.compile(
+    r"\b(It|He|She|The hero) (?:ought to|should|is supposed to|would have to|has to) (?:let (?:the \w+|us|it) (?:go"
+    r"|pass|turn)"
+    r"(?: first| ahead)?|wait|yield|give way)(?: (?:for|to) (?:the \w+|us|it))?, but (?:it |he |she )?(?:does not"
+    r"|doesn['\u2019]t|"
+    r"won['\u2019]t|will not)(?: do so)?\b",
+)
+
 
 def _when(found: re.Match[str]) -> str:
     """Return "We get to 18 m behind it, and that's when it" as "When we get to 18 m behind it, it"."""
@@ -514,4 +533,7 @@ PHRASES: Rules = (
     (_GOES_BY, "passes "),
     (_TURN_IN_MIND, r"wanting to make \1"),
     (_WAITS_FOR_NOTHING, r"\1 won't wait"),
+    (_DISREGARDING, "without yielding"),
+    (_THUS_NOT, ", without yielding"),
+    (_OUGHT_BUT, r"\1 won't yield"),
 )
