@@ -45,7 +45,7 @@ _LEFT_FIRST = re.compile(
     re.IGNORECASE,
 )
 _LEAVING = re.compile(
-    rf", leaving ({AMOUNT}) (?:of (?:space|room|road) )?(?:between (?:itself|it|himself|herself) and|to|before) "
+    rf", leaving ({AMOUNT}) +(?:of (?:space|room|road) )?(?:between (?:itself|it|himself|herself) and|to|before) "
     rf"(?={_PLACE})",
     re.IGNORECASE,
 )
