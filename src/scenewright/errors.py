@@ -20,6 +20,11 @@ class Span:
         """Return the characters of `text` that this span covers."""
         return text[self.start : self.end]
 
+    def trimmed(self, text: str) -> Span:
+        """Return the span without the spaces and commas that it begins and ends with."""
+        said = self.excerpt(text)
+        return Span(self.start + len(said) - len(said.lstrip(" ,\n")), self.end - len(said) + len(said.rstrip(" ,\n")))
+
     def line_column(self, text: str) -> tuple[int, int]:
         """Return the 1-based line and column at which the span starts in `text`."""
         before = text[: self.start]

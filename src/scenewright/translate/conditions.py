@@ -64,7 +64,7 @@ class ConditionAssembler:
         for event in events:
             span = span.union(event.span) if span else event.span
             self.ids.setdefault(id(event), []).append(identifier)
-        self.constraints.append(Constraint(identifier, formula, span))
+        self.constraints.append(Constraint(identifier, formula, span and span.trimmed(self.text)))
 
     def _landmark(self, name: str, actor: int, span: Span) -> Landmark:
         verb = {"turn_start": "begins", "turn_end": "completes"}.get(name)

@@ -32,6 +32,7 @@ from scenewright.translate.fronting import unfronted
 from scenewright.translate.geometry import is_remark
 from scenewright.translate.gist.amounts import WHOSE_SPEED
 from scenewright.translate.gist.reader import check_told, names_in, read_gist
+from scenewright.translate.gist.story import STOP_AND_SPEED
 from scenewright.translate.headlines import untold
 from scenewright.translate.interpret import Interpreter
 from scenewright.translate.itineraries import Itineraries, choose_routes, default_map
@@ -237,13 +238,17 @@ def _set_purposes_aside(
     return tuple(f"'{words}' tells what the test is for; nothing in it is orchestrated" for words in said)
 
 
+# What no reading by grammar alone may overrule: there it is the speed of whoever was named first, or of another moment.
+_NEVER_READ = (WHOSE_SPEED, STOP_AND_SPEED)
+
+
 def _check_second_reading(program: Program, text: str, road_map: RoadMap, name: str) -> None:
     """Refuse a text of which its facts alone say something else than its grammar: one of the readings is wrong."""
     try:
         other = _by_facts(text, road_map, name).program
     except TranslationError as error:
-        if error.message == WHOSE_SPEED:
-            raise  # by its grammar it is that of whoever was named first
+        if error.message in _NEVER_READ:
+            raise
         return
     if [(each.route, each.sketch) for each in program.actors] != [(each.route, each.sketch) for each in other.actors]:
         place, found = Place(name, text, Span(0, len(text))), "another route, or another order of what the hero does"

@@ -82,9 +82,17 @@ class AmountReader(MeasureReader):
         filler = self.words.has([at], "adverb", "comma") or self.words.tag(at, "preposition") in ("at", "with")
         return at >= 0 and (filler or "ing" in self.words.tokens[at].forms)
 
+    def _check_became(self, made: Measured) -> None:
+        """Refuse "at the time when it has become 2 s": what "it" is was told in another sentence."""
+        words = self.words
+        became = words.word(made.at - 1).split()[-1:] in (["become"], ["becomes"], ["became"])
+        if became and not words.has(made.clause.inside, "measure", "landmark", "relation"):
+            raise words.refuse("it is not clear what this measures", made.span)
+
     def _length_or_time(self, made: Measured) -> None:
         if self._is_same_as_before(made):
             return
+        self._check_became(made)
         timed = made.quantity is not None and made.quantity.dimension == "time" and made.at == made.clause.end - 1
         if timed and self.words.tag(made.at + 1, "link") in ("before", "after"):
             made.kind, made.actor = "margin", HERO_ID  # "passes the conflict point 1 s before the ego does"

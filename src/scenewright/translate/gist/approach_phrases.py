@@ -53,9 +53,9 @@ _BEFORE_REACHING = re.compile(rf"\b({AMOUNT}) before (?:reaching|getting to|arri
 _WHERE_IT_STARTS = re.compile(rf", where (?:it|he|she) (?:starts|begins) (?={AMOUNT})", re.IGNORECASE)
 # "Once the two are, respectively, 20 m from the conflict point (the ego) and 9 m from the stop line (the hero)"
 _RESPECTIVELY = re.compile(
-    rf"\b(?:the two|both|they|the two vehicles) are,? (?:respectively,? )?({AMOUNT}) from ({_PLACE}) \((the \w+)\) "
-    rf"and ({AMOUNT}) "
-    rf"from ({_PLACE}) \((the \w+)\)",
+    rf"\b(?:the two|both|they|the two vehicles) (?:are|have come to),? (?:respectively,? )?({AMOUNT} (?:from|behind"
+    rf"|before)) ({_PLACE}) "
+    rf"\((the \w+(?: vehicle)?)\) and ({AMOUNT} (?:from|behind|before)) ({_PLACE}) \((the \w+(?: vehicle)?)\)",
     re.IGNORECASE,
 )
 # "In front of it, 25 m from the same stop line, a hero vehicle has"
@@ -94,6 +94,6 @@ APPROACH_PHRASES: Rules = (
     (_LEAVING, r" \1 before "),
     (_BEFORE_REACHING, r"\1 before "),
     (_WHERE_IT_STARTS, ", starting "),
-    (_RESPECTIVELY, r"\3 is \1 from \2 and \6 \4 from \5"),
+    (_RESPECTIVELY, r"\3 is \1 \2 and \6 \4 \5"),
     (_IN_FRONT_FIRST, _behind_front),
 )

@@ -14,6 +14,7 @@ from functools import partial
 from scenewright.translate.aliases import without_aliases
 from scenewright.translate.gist.approach_phrases import APPROACH_PHRASES
 from scenewright.translate.gist.asides import ASIDES
+from scenewright.translate.gist.inverted_phrases import INVERTED_PHRASES
 from scenewright.translate.gist.moment_phrases import MOMENT_PHRASES
 from scenewright.translate.gist.phrases import PHRASES
 from scenewright.translate.gist.report_phrases import REPORT_PHRASES
@@ -302,6 +303,7 @@ _RULES: Rules = (
     (_UNDERSCORE, r"\1 \2"),
     *TEST_MARKS,
     *ASIDES,
+    *INVERTED_PHRASES,
     *APPROACH_PHRASES,
     *MOMENT_PHRASES,
     *SPOKEN_PHRASES,

@@ -233,7 +233,8 @@ _RIGHT_BEHIND = re.compile(
 _FAILS_RIGHT = re.compile(
     r"\b(?:fails? to (?:respect|observe|grant|honou?r|heed)|failing to (?:respect|observe|grant|honou?r|heed)"
     r"|disregards?"
-    r"|ignores?|violates?) the (?:right of way|right-of-way|priority|precedence) of (?=the |our |us\b|[A-Z])",
+    r"|ignores?|violates?) (?:the (?:right of way|right-of-way|priority|precedence) of (?=the |our |us\b|[A-Z])"
+    r"|(?=the [\w-]+['\u2019]s (?:right of way|right-of-way|priority|precedence)))",
     re.IGNORECASE,
 )
 _TAKES_PRECEDENCE = re.compile(

@@ -128,6 +128,7 @@ _WAY_OF = re.compile(
 
 _SEPARATE = re.compile(
     rf"\b({AMOUNT}) separates? ({WHO}) from ((?:the|its) (?:stop line|conflict point|intersection)) and ({AMOUNT}) "
+    rf"(?:separates? )?"
     rf"({WHO}) from ((?:the|its) (?:stop line|conflict point|intersection))",
     re.IGNORECASE,
 )

@@ -19,6 +19,7 @@ from scenewright.translate.gist.moments import MomentReader
 from scenewright.translate.gist.owners import is_nobodys
 from scenewright.translate.gist.words import Deed, Words
 
+STOP_AND_SPEED = "a stop and a speed are told"
 _SLOWS = ("brake", "stop")
 _GOES = ("accelerate", "pass", "complete", "keep", "go")
 _MOVES = (*_SLOWS, "accelerate")
@@ -60,6 +61,8 @@ class StoryTeller:
         for deed in self.deeds:
             first = self.words.where(deed.clause.inside, "adverb", "initially") is not None
             waits = deed.kind == "wait" and (first or deed.clause.sentence < self.trigger_sentence)
+            if deed.actor == EGO_ID and waits and self._stands_at_first(deed):
+                raise self.words.refuse("an ego that stands at the start is not supported", deed.span)
             if deed.actor == EGO_ID and deed.kind not in _EGO_MAY and not waits:
                 message = "the ego cannot be told what to do: the driving policy under test drives it"
                 raise self.words.refuse(message, deed.span)
@@ -83,6 +86,12 @@ class StoryTeller:
         self._order(goes)
         self._check_first()
         return self.facts
+
+    def _stands_at_first(self, deed: Deed) -> bool:
+        """Whether the ego is said to stand at a place, not only to be there or to be about to turn."""
+        told = self.words.span(deed.clause).excerpt(self.words.text)
+        placed = self.words.where(deed.clause.inside, "landmark", "stop_line") is not None
+        return placed and not self.words.has(deed.clause.inside, "quantity") and _STANDS.search(told) is not None
 
     def _check_first(self) -> None:
         """Refuse "The ego gets past the point first ..." where the hero is told to be."""
@@ -309,7 +318,7 @@ class StoryTeller:
             elif made.kind == "speed" and self._deed_of(made, (*_MOVES, "pass", "go")) in _SLOWS:
                 phase.to_speed = made.quantity
         if phase.to_speed is not None and phase.to_stop:
-            raise self.words.refuse("a stop and a speed are told", phase.to_speed.span)
+            raise self.words.refuse(STOP_AND_SPEED, phase.to_speed.span)
         self.facts.phases.append(phase)
 
     def _stop_place(self, phase: Phase, made: Measured) -> None:
@@ -382,6 +391,7 @@ class StoryTeller:
         if early and not moments:
             raise self.words.refuse("it is not clear what this orders", self.words.span(early[0].clause))
         lets = [deed for deed in self.deeds if deed.kind == "let_reach" and not self._is_purpose(deed)]
+        lets = [deed for deed in lets if deed.clause.sentence >= self.trigger_sentence] or lets  # not what sums it up
         moments = moments or self._first(goes)
         if lets and any(deed.kind == "before" for deed in moments):
             raise self.words.refuse("the hero lets the ego go and also comes first", lets[0].span)

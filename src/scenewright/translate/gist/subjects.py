@@ -313,7 +313,9 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     first_of_two = bool(brought and not earlier and clause.start in own and verbs & _STRONG) or (
         bool(earlier) and earlier[0].subject == HERO_ID and earlier[0].link == "main"
     )
-    hero_here = acting or first_of_two or any(each.named and each.subject == HERO_ID for each in earlier)
+    # "When it is 12 m from the line and the ego 30 m from the point, it begins to brake"
+    same_one = bool(earlier) and earlier[0].subject == HERO_ID and earlier[0].start in words.names.pronouns
+    hero_here = acting or first_of_two or same_one or any(each.named and each.subject == HERO_ID for each in earlier)
     participle = "ing" in words.tokens[clause.start].forms and clause.link in ("before", "after")
     if participle and hero_here and (verbs & _STRONG or words.has(clause.inside, "stop_noun")):
         return HERO_ID  # "After coming to a stop, it waits"

@@ -42,6 +42,13 @@ _RELATIVE = re.compile(
     r"test|tested),"
 )
 
+# "What is assessed is the saloon's driving function"
+_WHAT_IS_TESTED = re.compile(
+    rf"(?:(?<=[.!?]\s)|^)What (?:is|we) (?:{_TESTED}|test|evaluate|assess|examine)(?: here)? is (the [\w-]+)"
+    r"(?:['\u2019]s (?:driving |automated |planning )?(?:function|system|policy|planner|software|stack"
+    r"|behaviou?r))?(?=[,.])"
+)
+
 
 # In this order: what one rule leaves, the next may read.
 TEST_MARKS: Rules = (
@@ -50,4 +57,5 @@ TEST_MARKS: Rules = (
     (_BETWEEN, r"\1"),
     (_AFTER, r"test \1"),
     (_RELATIVE, ", the ego,"),
+    (_WHAT_IS_TESTED, r"\1 is under test"),
 )
