@@ -78,8 +78,8 @@ def test_free_texts_mean_the_same_or_are_refused(name: str, least: float) -> Non
     assert len(outcomes) >= 40
 
 
-# What one would have to know of the world to refuse it: a green arrow that goes out is a traffic light, nobody closes up
-# from 20 m to 35 m, and a gap that is "politely left open" is not closed. "Braking begins" is taken to be the hero's.
+# What one would have to know of the world to refuse it: a green arrow that goes out is a traffic light, nobody closes
+# up from 20 m to 35 m, and a gap "politely left open" is not closed. "Braking begins" is taken to be the hero's.
 ACCEPTED = {"rr-03", "vrf-48", "yex-08", "yex-26"}
 
 

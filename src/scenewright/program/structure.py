@@ -48,20 +48,23 @@ class Structure:
         Role of every constraint, by constraint id.
     instants
         Sets of knots that the program says are the same moment.
+    starts
+        The first knot of each actor, by actor id: all of them are the start.
     """
 
     triggers: dict[int, frozenset[KnotKey]]
     roles: dict[str, Role]
     instants: tuple[frozenset[KnotKey], ...]
+    starts: dict[int, str]
 
     def same_moment(self, actor_id: int, knot: KnotKey) -> str | None:
-        """Return the knot of `actor_id` that is the same moment as `knot`, or None where the program names none."""
+        """Return the knot of `actor_id` that is the same moment as `knot`, or None where there is none."""
         if knot[0] == actor_id:
             return knot[1]
         for instant in self.instants:
             if knot in instant:
                 return next((name for owner, name in sorted(instant) if owner == actor_id), None)
-        return None
+        return self.starts.get(actor_id) if self.starts.get(knot[0]) == knot[1] else None
 
     def trigger_knot(self, actor_id: int) -> str | None:
         """Return the actor's own knot at its trigger (the ego's: at the first trigger); None where it has none."""
@@ -82,7 +85,8 @@ def read_structure(program: Program) -> Structure:
         if instant is not None:
             triggers[hero.id] = instant
     roles = {constraint.id: _role(constraint, program, triggers) for constraint in program.constraints}
-    return Structure(triggers, roles, tuple(instants))
+    starts = {actor.id: actor.sketch.knots[0] for actor in program.actors}
+    return Structure(triggers, roles, tuple(instants), starts)
 
 
 def knots_of(formula: Formula) -> Iterator[KnotKey]:

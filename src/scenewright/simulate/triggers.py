@@ -145,8 +145,8 @@ class TriggerTimes:
         return time_s + _FAR_S if arrival is None else max(arrival, time_s + SHORTEST_LEAD_S)
 
     def _lagged_s(self, lag: Lag, time_s: float, prediction: Profile, ego_knots_s: Mapping[str, float]) -> float:
-        """Return when a trigger comes that is told by the time since the ego was somewhere."""
-        since_s = ego_knots_s.get(lag.knot)
+        """Return when a trigger comes that is told by the time since the start, or since the ego was somewhere."""
+        since_s = 0.0 if lag.knot is None else ego_knots_s.get(lag.knot)
         if since_s is None:
             there = next((c for c in self.ego_alone() if (EGO, lag.knot) in c.moments), None)
             since_s = time_s + _FAR_S if there is None else self._ego_arrival_s(there, time_s, prediction)

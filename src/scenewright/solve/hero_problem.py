@@ -80,9 +80,10 @@ class HeroProblem:
 
     # -- the ego ----------------------------------------------------------------------------------------------------
     def _ego_view(self) -> MotionView:
-        knots = dict(self.situation.ego_knots_s)
+        sketch = self.scene.program.ego.sketch
+        knots = {sketch.knots[0]: 0.0, **self.situation.ego_knots_s}
         later = self.situation.time_s + _OUT_OF_SIGHT_S
-        for knot in self.scene.program.ego.sketch.knots:
+        for knot in sketch.knots:
             knots.setdefault(knot, later)
         return KnownView(self.situation.ego, knots)
 

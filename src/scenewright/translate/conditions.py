@@ -16,6 +16,7 @@ from scenewright.program.expressions import (
     Compare,
     Derived,
     DerivedKind,
+    Elapsed,
     Formula,
     Knot,
     Landmark,
@@ -84,6 +85,8 @@ class ConditionAssembler:
             return Compare("==", State(actor, _SPEED, Knot(knot)), condition.speed.term)
         if condition.ttc is not None:
             return self._collision_time(condition, knot)
+        if condition.clock is not None:
+            return Compare("==", Elapsed(actor, knot), condition.clock.term)
         place = condition.place
         assert place is not None
         if isinstance(place.target, int):

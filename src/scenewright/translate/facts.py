@@ -25,13 +25,14 @@ class Said:
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """Something that holds of an actor at one moment: its place, its speed, or the time to collision."""
+    """What holds of an actor at one moment: its place, its speed, the time to collision, or that since the start."""
 
     actor: int
     event: Event
     place: Place | None = None
     speed: Quantity | None = None
     ttc: Quantity | None = None
+    clock: Quantity | None = None
 
 
 Bound = Literal["==", "<=", ">="]

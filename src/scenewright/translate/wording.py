@@ -178,6 +178,8 @@ class Wording:
             case Derived(actor=actor, target=Landmark() as landmark):
                 place = self._place(landmark, actor)
                 return self.name(actor), f"is {bound}{self._term(right, 'time')} from {place} (distance over speed)"
+            case Elapsed() if not isinstance(right, Elapsed):
+                return "the run", f"has lasted {bound}{self._term(right, 'time')}"
             case Arithmetic(operator="-", left=Elapsed() as end, right=Elapsed() as start):
                 moments = f"{self._time(start)} to {self._time(end)}"
                 return f"the time from {moments}", f"is {bound}{self._term(right, 'time')}"

@@ -82,6 +82,13 @@ class AmountReader(MeasureReader):
         filler = self.words.has([at], "adverb", "comma") or self.words.tag(at, "preposition") in ("at", "with")
         return at >= 0 and (filler or "ing" in self.words.tokens[at].forms)
 
+    def _is_clock(self, made: Measured) -> bool:
+        """Whether this is "when clock 5 s": the time since the start."""
+        shown = self.words.word(made.at - 1) == "clock"
+        if shown:
+            self.words.used |= {made.at - 1, made.at}
+        return shown and made.quantity is not None and made.quantity.dimension == "time"
+
     def _check_became(self, made: Measured) -> None:
         """Refuse "at the time when it has become 2 s": what "it" is was told in another sentence."""
         words = self.words
@@ -91,6 +98,9 @@ class AmountReader(MeasureReader):
 
     def _length_or_time(self, made: Measured) -> None:
         if self._is_same_as_before(made):
+            return
+        if self._is_clock(made):
+            made.kind, made.actor = "clock", HERO_ID
             return
         self._check_became(made)
         timed = made.quantity is not None and made.quantity.dimension == "time" and made.at == made.clause.end - 1

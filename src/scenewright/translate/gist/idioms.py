@@ -14,6 +14,7 @@ from functools import partial
 from scenewright.translate.aliases import without_aliases
 from scenewright.translate.gist.approach_phrases import APPROACH_PHRASES
 from scenewright.translate.gist.asides import ASIDES
+from scenewright.translate.gist.clock_phrases import CLOCK_PHRASES
 from scenewright.translate.gist.inverted_phrases import INVERTED_PHRASES
 from scenewright.translate.gist.moment_phrases import MOMENT_PHRASES
 from scenewright.translate.gist.phrases import PHRASES
@@ -302,6 +303,7 @@ _RULES: Rules = (
     (_AFTER_THIS, r"\1 \3"),
     (_UNDERSCORE, r"\1 \2"),
     *TEST_MARKS,
+    *CLOCK_PHRASES,
     *ASIDES,
     *INVERTED_PHRASES,
     *APPROACH_PHRASES,

@@ -26,8 +26,8 @@ class Measured:
     ----------
     kind
         ``place`` (a distance or a time to a landmark), ``gap`` (between the two, as a distance or a time), ``ttc``,
-        ``speed``, ``rate``, ``duration``, ``margin`` (by how much one is first), or ``open`` where nothing around it
-        says it.
+        ``speed``, ``rate``, ``duration``, ``margin`` (by how much one is first), ``clock`` (since the start), or
+        ``open`` where nothing around it says it.
     quantity
         None for a place without one.
     actor

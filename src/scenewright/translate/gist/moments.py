@@ -124,6 +124,8 @@ class MomentReader:
         slowed = slowed or self._slowed_there(made)
         if made.kind in ("rate", "duration", "margin") or (made.kind == "place" and slowed) or self._of_stop(made):
             return "deed"
+        if made.kind == "clock":
+            return "trigger"
         if self._at_start(made):
             if clause.link == "when" or "trigger" in clause.labels:
                 raise self.words.refuse("this is told of the start and of the trigger", made.span)

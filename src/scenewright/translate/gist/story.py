@@ -56,6 +56,7 @@ class StoryTeller:
         TranslationError
             Where they contradict each other, or make no whole story.
         """
+        self._check_clock()
         for made in (*self.moments.of("start"), *self.moments.of("trigger")):
             self._state(made)
         for deed in self.deeds:
@@ -86,6 +87,13 @@ class StoryTeller:
         self._order(goes)
         self._check_first()
         return self.facts
+
+    def _check_clock(self) -> None:
+        """Refuse what is told of another sentence beside "5 s after the start": it may be of another moment."""
+        clock = next((made for made in self.moments.of("trigger") if made.kind == "clock"), None)
+        for made in self.moments.of("trigger") if clock is not None else ():
+            if clock is not None and made.clause.sentence != clock.clause.sentence:
+                raise self.words.refuse("it is not clear at which moment this holds", made.span)
 
     def _stands_at_first(self, deed: Deed) -> bool:
         """Whether the ego is said to stand at a place, not only to be there or to be about to turn."""
@@ -140,6 +148,8 @@ class StoryTeller:
         event = Event("be", made.actor, made.span, made.clause.sentence)
         if made.kind == "speed":
             return Condition(made.actor, event, speed=made.quantity)
+        if made.kind == "clock":
+            return Condition(made.actor, event, clock=made.quantity)
         assert made.landmark is not None
         if made.landmark == "last":
             raise self.words.refuse("it is not clear which place this is", made.span)
