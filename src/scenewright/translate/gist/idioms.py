@@ -22,6 +22,7 @@ from scenewright.translate.gist.report_phrases import REPORT_PHRASES
 from scenewright.translate.gist.rewriting import Rules
 from scenewright.translate.gist.spoken_phrases import SPOKEN_PHRASES
 from scenewright.translate.gist.test_marks import TEST_MARKS
+from scenewright.translate.gist.yielding_phrases import YIELDING_PHRASES
 
 _WAYS = r"(?:paths|ways|lanes|routes|tracks|trajectories|courses)"
 _MEET = r"(?:cross|meet|merge|intersect|join|conflict|(?:come|run) together)"
@@ -310,6 +311,7 @@ _RULES: Rules = (
     *MOMENT_PHRASES,
     *SPOKEN_PHRASES,
     *REPORT_PHRASES,
+    *YIELDING_PHRASES,
     *PHRASES,
     (_WHERE_CROSS, ""),
     (_ITS_WAY_MEETS, "conflict point"),

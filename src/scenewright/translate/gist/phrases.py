@@ -15,25 +15,9 @@ _DIRECTION_OF = re.compile(
     r"\b((?:North|East|South|West)(?:ward|bound)?) is the (?:direction|heading|course) of (the [\w-]+|[A-Z][\w-]*)",
     re.I,
 )
-_NO_NOTICE = re.compile(
-    r"\b(?:takes? no (?:notice|account|heed) of|pays? no (?:attention|heed|regard) to|shows? no regard for) "
-    r"(?=the |it\b|us\b|me\b|[A-Z])",
-    re.IGNORECASE,
-)
 _FOR_THAT_STOP = re.compile(
     r"(?:(?<=ing)|(?<=brake)|(?<=slow down)) for (?:that|this|the|its) (?:stop|halt"
     r"|standstill)(?= )",
-    re.IGNORECASE,
-)
-_DENIES = re.compile(
-    r"\b(?:denies|refuses|denied|refused) (the [\w-]+(?: vehicle| car)?|us|it|[A-Z]{2,}) (?:the |its )?"
-    r"(?:right of way|right-of-way|priority|precedence)\b",
-    re.IGNORECASE,
-)
-_KEEP_RIGHT = re.compile(
-    r",? so (?:that )?(we|the ego|the (?:vehicle|car) under test|the AV|the SUT) (?:keeps?|has|have|get to keep"
-    r"|retains?) "
-    r"(?:the |its |our )?(?:right of way|priority|precedence)(?=[.,;]|$)",
     re.IGNORECASE,
 )
 _NOT_UNTIL_THEN = re.compile(
@@ -56,10 +40,6 @@ _BRINGS_TURN = re.compile(r"\bbring(s|ing)? (its|his|her|the) turn to (?:an end|
 _ANY_TURNING = re.compile(r"\bbefore (?:any|the) turning of (the [\w-]+|[A-Z]+) (begins|starts)\b", re.IGNORECASE)
 # "until, just before the stop line, it is at rest"
 _UNTIL_THERE = re.compile(r"\buntil, ([^,.;]{3,50}), ((?:it|he|she|the [\w-]+) [^,.;]+)(?=[.,;])", re.IGNORECASE)
-_TAKES_RIGHT = re.compile(
-    r"\btaking (?:the |its )?(?:right of way|priority|precedence) (?:away )?from (?=the |it\b|us\b|[A-Z])",
-    re.IGNORECASE,
-)
 _COMPLETE_STOP = re.compile(
     r"\b(?:arriv|com|get)(?:es|ing|s|e|ed)? at (?:the|a|its) (complete |full )?(stop|halt|standstill)\b(?! line)", re.I
 )
@@ -70,9 +50,6 @@ _ONCE_STANDING = re.compile(
 )
 _UPON = re.compile(
     r"\b[Uu]pon (?=(?:the|a|this|that|its?) ?(?:same |main |selfsame )?(?:road|driveway|lane|street)\b|it\b)"
-)
-_MEANS_NOT = re.compile(
-    r", (?:which means|meaning|i\.e\.|that is to say) that (?:it|he|she) does not (yield|give way)\b", re.I
 )
 _NOT_BEFORE_THEN = re.compile(r"\band not before (?:then|that)(?: does (it|he|she))?(?= [a-z]+)", re.IGNORECASE)
 _MANAGES = re.compile(
@@ -230,24 +207,6 @@ _RIGHT_BEHIND = re.compile(
     r"\b(follow(?:s|ing|ed)?) (?:right|close|closely|directly|just|straight) behind\b", re.IGNORECASE
 )
 
-_FAILS_RIGHT = re.compile(
-    r"\b(?:fails? to (?:respect|observe|grant|honou?r|heed)|failing to (?:respect|observe|grant|honou?r|heed)"
-    r"|disregards?"
-    r"|ignores?|violates?) (?:the (?:right of way|right-of-way|priority|precedence) of (?=the |our |us\b|[A-Z])"
-    r"|(?=the [\w-]+['\u2019]s (?:right of way|right-of-way|priority|precedence)))",
-    re.IGNORECASE,
-)
-_TAKES_PRECEDENCE = re.compile(
-    r"\btakes (?:the )?(?:precedence|priority|right of way)(?: (?:without (?:being entitled to it|having it)|that "
-    r"is not its own"
-    r"|it does not have|it has not got))?(?=[:,;.])",
-    re.IGNORECASE,
-)
-_YOU_EXPECT = re.compile(
-    r"(?:(?<=[.!?;]\s)|^)(?:You|One|We|Anyone)(?:['\u2019]d| would| might) (?:expect|think|want) (it|him|her|the "
-    r"[\w-]+) to "
-    r"(?:wait|yield|give way)[.,;:] (?:[Bb]ut )?(?:[Ii]t|[Hh]e|[Ss]he) (?:doesn['\u2019]t|does not|won['\u2019]t)\b",
-)
 _PREPARES_TURN = re.compile(r"\bprepares (?:for )?(?:its|his|her|the) turn: (?:it|he|she) ", re.IGNORECASE)
 _AS_ITS_GOAL = re.compile(
     r",? with (a (?:left|right) turn[^,.;]{0,50}?) as (?:its|his|her|the) (?:goal|aim|intention|plan|target),",
@@ -255,16 +214,6 @@ _AS_ITS_GOAL = re.compile(
 )
 _DROPS_ANCHOR = re.compile(
     r"\b(?:drops|throws out|throws) (?:the |its |his |her )?anchors?\b|\bstands on the anchors\b", re.IGNORECASE
-)
-_REPENTS = re.compile(
-    r"\b(it|he|she|the \w+) (?:repents|regrets (?:it|this|that)|has second thoughts|thinks again|reconsiders),? "
-    r"(?:and )?"
-    r"(?=accelerates|goes|drives|starts|sets|moves|speeds|pulls)",
-    re.IGNORECASE,
-)
-_IN_A_MOOD = re.compile(
-    r"\b((?:the )?\w+)(?:['\u2019]s| is) (?:not |in )*in (?:a|no|the) [\w-]+ mood(?: today)?: (?:it|he|she) ",
-    re.IGNORECASE,
 )
 _FROM_BOUND = re.compile(r"\b(?:coming )?from the (east|west)bound direction\b", re.IGNORECASE)
 _BOUND_DIRECTION = re.compile(r"\bin (?:the )?(east|west)bound direction\b", re.IGNORECASE)
@@ -277,18 +226,11 @@ _I_WOULD_LET = re.compile(r"(?:(?<=[.!?;]\s)|^)(?:I|We)(?:['\u2019]d| would) (?:
 _STAYS_STOPPED = re.compile(r"\bstays (stopped|standing)\b", re.IGNORECASE)
 
 _ARRIVES_THERE = re.compile(r"\bthere arrives (?=the |an? )", re.IGNORECASE)
-_WINS = re.compile(r"(?<=, and )(the [\w-]+|it|he|she) wins(?: the race| this)?(?=[:;.])", re.IGNORECASE)
-_CHANGE_MIND = re.compile(r"\b(they|we) change (?:their|our) minds?(?:,? and|,)(?= )", re.IGNORECASE)
 
 _WITHOUT_TURN = re.compile(
     r", (?:which|that) (?:it|he|she) (?:is going to|will|wants to|intends to|is to|crosses|passes)(?: (?:cross"
     r"|pass)(?: over)?)?"
     r"(?: straight)? without turning\b",
-    re.IGNORECASE,
-)
-_UNWILLING = re.compile(
-    r"(?:(?<=[.!?;]\s)|^)(?:Being )?(?:unwilling|not willing|unprepared|refusing|declining) to (?:yield|give way|wait)"
-    r"(?: to (?:the \w+|us))?, (it|he|she|the \w+) ",
     re.IGNORECASE,
 )
 _PURSUES_TURN = re.compile(r"\b(?:pursues|carries out|undertakes) (?=a (?:left|right) turn\b)", re.IGNORECASE)
@@ -331,26 +273,6 @@ _DONE_WITH_TURN = re.compile(r"\bis (?:done|finished|through) with (its|his|her|
 _TO_BE_DONE = re.compile(r"\bto be (?:done|finished|through) with (its|his|her|the) turn\b", re.IGNORECASE)
 _GOES_BY = re.compile(r"\bgoes (?:by|past|beyond) (?=the conflict point\b)", re.IGNORECASE)
 _TURN_IN_MIND = re.compile(r"\bwith (a (?:left|right) turn[^,.;]{0,50}?) in mind\b", re.IGNORECASE)
-_WAITS_FOR_NOTHING = re.compile(r"\b((?:the )?\w+) waits for nothing(?: and nobody)?(?=[:;.,])", re.IGNORECASE)
-
-_DISREGARDING = re.compile(
-    r"\b(?:disregarding|ignoring|violating|not respecting|not heeding) (?:the (?:right of way|right-of-way|priority"
-    r"|precedence) of "
-    r"(the [\w-]+|us)|(the [\w-]+)['\u2019]s (?:right of way|right-of-way|priority|precedence))(?=[,.;]| and\b)",
-    re.IGNORECASE,
-)
-_THUS_NOT = re.compile(
-    r",? and (?:thus|therefore|so|hence) (?:does not|doesn['\u2019]t) (?:yield|give way)(?: to (?:the \w+|it"
-    r"|us))?(?=[.;])",
-    re.I,
-)
-_OUGHT_BUT = re.compile(
-    r"\b(It|He|She|The hero) (?:ought to|should|is supposed to|would have to|has to) (?:let (?:the \w+|us|it) (?:go"
-    r"|pass|turn)"
-    r"(?: first| ahead)?|wait|yield|give way)(?: (?:for|to) (?:the \w+|us|it))?, but (?:it |he |she )?(?:does not"
-    r"|doesn['\u2019]t|"
-    r"won['\u2019]t|will not)(?: do so)?\b",
-)
 
 
 def _when(found: re.Match[str]) -> str:
@@ -438,20 +360,16 @@ def _yields(found: re.Match[str]) -> str:
 # In this order: what one rule leaves, the next may read.
 PHRASES: Rules = (
     (_DIRECTION_OF, r"\2 drives \1"),
-    (_NO_NOTICE, "won't yield to "),
-    (_KEEP_RIGHT, r", yielding to \1"),
     (_NOT_UNTIL_THEN, "only then "),
     (_BY_THE_TIME, r"\1, \2\3 "),
     (_FIRST_BY, r"is passed by \1 before \2"),
     (_BRINGS_TURN, _completes),
     (_ANY_TURNING, r"before \1 \2 to turn"),
     (_UNTIL_THERE, r"until \2 \1"),
-    (_TAKES_RIGHT, "not yielding to "),
     (_COMPLETE_STOP, r"comes to a \2"),
     (_ONCE_STANDING, "Then "),
     (_UPON, "on "),
     (_ROLLIN, r"\1ing"),
-    (_MEANS_NOT, ", not yielding"),
     (_NOT_BEFORE_THEN, "and only then"),
     (_MANAGES, _manages),
     (_NO_TURN_IN_MIND, "not turning"),
@@ -468,7 +386,6 @@ PHRASES: Rules = (
     (_NOT_BEFORE_IS, r"Once \1, \2 accelerates"),
     (_RIGHT_ON, "keeps "),
     (_FOR_THAT_STOP, ""),
-    (_DENIES, r"won't yield to \1"),
     (_ON_THE_CLOCK, r"at \1"),
     (_BY_WHICH, ", and "),
     (_CONCEDED, _yields),
@@ -502,24 +419,16 @@ PHRASES: Rules = (
     (_LETS_UP, "brakes until"),
     (_LET_IN, r"won't yield to \1"),
     (_END_UP_IN, "drive into "),
-    (_FAILS_RIGHT, "won't yield to "),
-    (_TAKES_PRECEDENCE, "won't yield"),
-    (_YOU_EXPECT, "It won't yield"),
     (_PREPARES_TURN, ""),
     (_AS_ITS_GOAL, r" making \1,"),
     (_DROPS_ANCHOR, "brakes"),
-    (_REPENTS, r"\1 "),
-    (_IN_A_MOOD, r"\1 "),
     (_FROM_BOUND, r"travelling \1bound"),
     (_BOUND_DIRECTION, r"\1bound"),
     (_AT_ITS_SPEED, ""),
     (_I_WOULD_LET, "Let "),
     (_STAYS_STOPPED, "stops"),
     (_ARRIVES_THERE, "there comes "),
-    (_WINS, r"\1 won't wait"),
-    (_CHANGE_MIND, r"\1"),
     (_WITHOUT_TURN, ", going straight"),
-    (_UNWILLING, r"\1 won't yield and "),
     (_PURSUES_TURN, "makes "),
     (_THAT_LEADS, r"\1 "),
     (_ONE_IN_FRONT, r"The hero is \1 of \2"),
@@ -533,8 +442,4 @@ PHRASES: Rules = (
     (_TO_BE_DONE, r"to complete \1 turn"),
     (_GOES_BY, "passes "),
     (_TURN_IN_MIND, r"wanting to make \1"),
-    (_WAITS_FOR_NOTHING, r"\1 won't wait"),
-    (_DISREGARDING, "without yielding"),
-    (_THUS_NOT, ", without yielding"),
-    (_OUGHT_BUT, r"\1 won't yield"),
 )

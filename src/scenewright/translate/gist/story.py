@@ -20,6 +20,7 @@ from scenewright.translate.gist.owners import is_nobodys
 from scenewright.translate.gist.words import Deed, Words
 
 STOP_AND_SPEED = "a stop and a speed are told"
+SPEED_BEFORE_STOP = "a speed and a stop are told"
 _SLOWS = ("brake", "stop")
 _GOES = ("accelerate", "pass", "complete", "keep", "go")
 _MOVES = (*_SLOWS, "accelerate")
@@ -316,7 +317,7 @@ class StoryTeller:
                     raise self.words.refuse("it is not clear up to where the hero goes", self.words.tokens[at].span)
 
     def _slow(self, slows: list[Deed], *, waits: bool) -> None:
-        phase = Phase("dec", [self._event(slows[0])])
+        phase, speed_at = Phase("dec", [self._event(slows[0])]), 0
         phase.to_stop = waits or any(deed.kind == "stop" for deed in slows)
         for made in self.moments.of("deed"):
             if made.kind == "place":
@@ -326,9 +327,10 @@ class StoryTeller:
             elif made.kind == "rate" and self._deed_of(made, (*_MOVES, "go")) in _SLOWS:
                 phase.rate, phase.rate_event = made.quantity, self._event_at(made)
             elif made.kind == "speed" and self._deed_of(made, (*_MOVES, "pass", "go")) in _SLOWS:
-                phase.to_speed = made.quantity
+                phase.to_speed, speed_at = made.quantity, made.at
         if phase.to_speed is not None and phase.to_stop:
-            raise self.words.refuse(STOP_AND_SPEED, phase.to_speed.span)
+            stopped = any(deed.kind == "stop" and deed.at < speed_at for deed in slows)
+            raise self.words.refuse(STOP_AND_SPEED if stopped else SPEED_BEFORE_STOP, phase.to_speed.span)
         self.facts.phases.append(phase)
 
     def _stop_place(self, phase: Phase, made: Measured) -> None:

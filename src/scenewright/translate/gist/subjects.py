@@ -15,26 +15,10 @@ _MAIN = ("main", "and", "then", "moment", "colon")
 _SUBORDINATE = ("before", "after", "until", "when", "that")
 _STRONG = frozenset(("brake", "stop", "accelerate"))  # nobody tells the ego to do these
 _DEEDS = _STRONG | {"pass", "complete", "wait", "keep"}
-RUNS = (
-    "clock",
-    "video",
-    "clip",
-    "film",
-    "footage",
-    "exposure",
-    "drive",
-    "journey",
-    "trip",
-    "trial",
-    "run",
-    "test",
-    "recording",
-    "simulation",
-    "scene",
-    "log",
-    "scenario",
-    "measurement",
-)
+RUNS = frozenset(
+    ["clock", "video", "clip", "film", "footage", "exposure", "drive", "journey", "trip",
+     "trial", "run", "test", "recording", "simulation", "scene", "log", "scenario", "measurement"]
+)  # fmt: skip
 _HIS = PERSONAL | {"his", "her"}
 
 
