@@ -83,10 +83,10 @@ class AmountReader(MeasureReader):
         return at >= 0 and (filler or "ing" in self.words.tokens[at].forms)
 
     def _is_clock(self, made: Measured) -> bool:
-        """Whether this is "when clock 5 s": the time since the start."""
-        shown = self.words.word(made.at - 1) == "clock"
+        """Whether this is "5 s clock": the time since the start."""
+        shown = self.words.word(made.at + 1) == "clock"
         if shown:
-            self.words.used |= {made.at - 1, made.at}
+            self.words.used |= {made.at, made.at + 1}
         return shown and made.quantity is not None and made.quantity.dimension == "time"
 
     def _check_became(self, made: Measured) -> None:

@@ -1,6 +1,6 @@
 """Turns of phrase for a time since the start, which is a trigger of its own: "five seconds after the start".
 
-What enters: nothing. What leaves: `CLOCK_PHRASES`, patterns with what to say instead, "when clock 5 s": never longer,
+What enters: nothing. What leaves: `CLOCK_PHRASES`, patterns with what to say instead, "5 s clock": never longer,
 so that every word keeps its place.
 """
 
@@ -15,7 +15,7 @@ _RUN = r"(?:run|test|scenario|simulation|recording|clip|experiment|trial|exercis
 _SINCE = (
     rf"(?:(?:(?:have |has )?(?:elapsed|passed|gone by) )?(?:after|since|from) (?:the |its )?(?:very )?(?:start"
     rf"|beginning)"
-    rf"(?: of (?:the |this )?{_RUN})?|(?:have |has )?(?:elapsed|passed|gone by)|into (?:the |this )?{_RUN})"
+    rf"(?: of (?:the |this )?{_RUN})?|into (?:the |this )?{_RUN})"
 )
 _BEGINS = r"(?:(?<=[.!?;]\s)|(?<=\n)|^)"
 # "Five seconds after the start the van hits the brakes", "3 s into the run, it"
@@ -37,8 +37,8 @@ _LAST = re.compile(
 
 # In this order: what one rule leaves, the next may read.
 CLOCK_PHRASES: Rules = (
-    (_FIRST, r"When clock \1, "),
-    (_KEYED, r"clock \1"),
-    (_WHEN, r"\1 clock \2"),
-    (_LAST, r"\1 when clock \2"),
+    (_FIRST, r"\1 clock, "),
+    (_KEYED, r"\1 clock"),
+    (_WHEN, r"\1 \2 clock"),
+    (_LAST, r"\1 \2 clock"),
 )

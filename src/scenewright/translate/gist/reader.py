@@ -235,7 +235,7 @@ def _assumptions(words: Words, title: tuple[Token, ...]) -> tuple[str, ...]:
         for span in disclaimers(words.text)
     ]
     aside = {at for clause in words.clauses if clause.aside for at in clause.inside}
-    told = {at for at in words.used if words.word(at) == "clock"}  # "when clock 5 s" was said for "5 s after the start"
+    told = {at for at in words.used if words.word(at) == "clock"}  # "5 s clock" was said for "5 s after the start"
     known = {*words.names.actors, *aside, *told}
     strange = [t.text for at, t in enumerate(words.tokens) if "unknown" in t.tags and at not in known]
     if strange := list(dict.fromkeys(each for each in strange if each.isalpha())):

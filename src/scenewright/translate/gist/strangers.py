@@ -61,7 +61,7 @@ def refuse_strange_conditions(words: Words, last: int) -> None:
         if any(words.has([near], "landmark") for near in (at + 1, at - 1)) or words.word(at) in _HARMLESS:
             continue
         if at in words.used and words.word(at) == "clock":
-            continue  # "when clock 5 s"
+            continue  # "when 5 s clock"
         clause = next((each for each in words.clauses if at in each.inside), None)
         if clause is not None and not clause.aside and not _is_part_of_name(words, at):
             raise words.refuse(f"'{words.word(at)}' was not understood: it may be a condition", words.tokens[at].span)
