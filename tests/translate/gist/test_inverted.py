@@ -86,3 +86,25 @@ def test_what_sums_up_does_not_say_up_to_where() -> None:
         f"The hero lets the ego go here. {WAY}{HERO}{DEED} It lets the ego complete its turn; only then it drives on."
     )
     assert "A0x(t2) == turn_end" in meaning(text)[1]
+
+
+GOES_FIRST = "the hero accelerates and passes the conflict point before the ego begins to turn."
+WHEN = "When the ego is 12 m from the stop line and the hero 45 m from the conflict point, "
+
+
+@pytest.mark.parametrize(
+    "contradicted",
+    [
+        WAY + HERO + WHEN + "the hero, claiming the road for itself, brakes and stops 8 m before the conflict point.",
+        WAY + HERO.replace("straight.", "straight, and wants it sooner.") + DEED,
+        WAY + HERO + "You would expect the ego to wait. It doesn't. " + WHEN + GOES_FIRST,
+        WAY + HERO + WHEN + "the hero is in no giving mood: it brakes and stops 8 m before that point.",
+        WAY + HERO + WHEN + "the hero brakes. When 2 s have passed since the start of its braking, it stops.",
+        "The ego is on the driveway, 40 m from the stop line, and so is the hero, which leads it. Both turn left. "
+        "When the ego is 12 m behind the hero, the hero brakes at 3 m/s^2 to a stop.",
+    ],
+)
+def test_no_turn_of_phrase_hides_what_is_said(contradicted: str) -> None:
+    """An attitude that the deed contradicts, whose it is, or what is shared: all of it is kept, and so refused."""
+    with pytest.raises(TranslationError):
+        translate_offline(contradicted)

@@ -177,7 +177,7 @@ _NICKNAME = re.compile(
     r"|sort)\.",
     re.IGNORECASE,
 )
-_OUR_GUY = re.compile(r"\bour (?:guy|man|boy|girl|side|lad|own)\b(?!['\u2019])(?= (?!of\b))", re.IGNORECASE)
+_OUR_GUY = re.compile(r"\bour (?:guy|man|boy|girl|lad)\b(?!['\u2019])(?= (?!of\b))", re.IGNORECASE)
 _UNDER_NOSE = re.compile(
     r",? (?:right |just )?(?:under|in front of) (?:my|our|its|the ego['\u2019]s|the AV['\u2019]s) (?:very "
     r")?nose(?=[.,;:])",
@@ -284,7 +284,7 @@ ASIDES: Rules = (
     (_OUR_GUY, "the ego"),
     (_UNDER_NOSE, ""),
     (_ITSELF_APART, r"\1 "),
-    (_CLAIMING, ""),
+    (_CLAIMING, " without yielding"),
     (_JUST_WHEN_EXPECTED, "Then "),
     (_NOT_LETTING, "Then "),
     (_AS_THOUGH_TO_LET, ""),

@@ -15,7 +15,7 @@ _RUN = r"(?:run|test|scenario|simulation|recording|clip|experiment|trial|exercis
 _SINCE = (
     rf"(?:(?:(?:have |has )?(?:elapsed|passed|gone by) )?(?:after|since|from) (?:the |its )?(?:very )?(?:start"
     rf"|beginning)"
-    rf"(?: of (?:the |this )?{_RUN})?|into (?:the |this )?{_RUN})"
+    rf"(?: of (?:the |this )?{_RUN})?|into (?:the |this )?{_RUN})(?! of\b)"
 )
 _BEGINS = r"(?:(?<=[.!?;]\s)|(?<=\n)|^)"
 # "Five seconds after the start the van hits the brakes", "3 s into the run, it"

@@ -81,13 +81,13 @@ _LIES_AHEAD = re.compile(
 )
 _ON_THE_MOVE = re.compile(r"\b(?:it is on the move again|it gets going again), accelerating (?=to\b)", re.IGNORECASE)
 _SUBJECT_OF_TEST = re.compile(
-    r"{_BEGINS}(?:The )?[Ss]ubject of (?:the|this|our) (?:evaluation|test|study|assessment) is (?:the|an?) "
-    r"(?:vehicle|car) (?:that|which) ".replace("{_BEGINS}", _BEGINS)
+    rf"{_BEGINS}(?:The )?[Ss]ubject of (?:the|this|our) (?:evaluation|test|study|assessment) is (?:the|an?) "
+    r"(?:vehicle|car) (?:that|which) "
 )
 _OF_THAT_TRAFFIC = re.compile(r"\b(The ego) (?:belongs to|is part of) (?:that|this|the same) traffic: it\b")
 _ENTERS_SCENE = re.compile(
-    rf"\benters the (?:scene|scenario|test|picture) (?:at|with) (?={AMOUNT}|\w+_mps|\w+_km"
-    rf"|[\d.]+ )",
+    r"\benters the (?:scene|scenario|test|picture) (?:at|with) (?=[\d.]+ ?(?:m/s|km/h|kph|mph)\b|\w+_(?:mps|kmph"
+    r"|kmh|mph)\b)",
     re.IGNORECASE,
 )
 _WANTS_SOONER = re.compile(r",? and wants (?:it|this|to do so) (?:sooner|first|earlier)(?=[.;])", re.IGNORECASE)
@@ -117,5 +117,5 @@ INVERTED_PHRASES: Rules = (
     (_SUBJECT_OF_TEST, "The subject vehicle "),
     (_OF_THAT_TRAFFIC, r"\1"),
     (_ENTERS_SCENE, "starts at "),
-    (_WANTS_SOONER, ""),
+    (_WANTS_SOONER, ", without yielding"),
 )

@@ -217,10 +217,14 @@ _DROPS_ANCHOR = re.compile(
 )
 _FROM_BOUND = re.compile(r"\b(?:coming )?from the (east|west)bound direction\b", re.IGNORECASE)
 _BOUND_DIRECTION = re.compile(r"\bin (?:the )?(east|west)bound direction\b", re.IGNORECASE)
+# "another 4 s to reach the conflict point at its present speed"; "passes it at its present speed" is no remark
 _AT_ITS_SPEED = re.compile(
-    r" at (?:its|his|her|the) (?:own )?(?:present|current|momentary)(?: speed)?(?=[ ,.;])(?! of)"
-    r"| at its own(?= speed[,.;]|[,.;])(?: speed)?",
+    r"\b(reach the (?:conflict point|stop line|intersection)) at (?:its|his|her) (?:own|present|current|momentary)"
+    r"(?: speed)?(?=[ ,.;])",
     re.IGNORECASE,
+)
+_PASSES_AT_ITS_SPEED = re.compile(
+    r"\b(passes|crosses) (the conflict point) at (its|his|her) (?:own |present |current |same )speed\b", re.IGNORECASE
 )
 _I_WOULD_LET = re.compile(r"(?:(?<=[.!?;]\s)|^)(?:I|We)(?:['\u2019]d| would) (?:then )?let (?=the )", re.IGNORECASE)
 _STAYS_STOPPED = re.compile(r"\bstays (stopped|standing)\b", re.IGNORECASE)
@@ -424,9 +428,10 @@ PHRASES: Rules = (
     (_DROPS_ANCHOR, "brakes"),
     (_FROM_BOUND, r"travelling \1bound"),
     (_BOUND_DIRECTION, r"\1bound"),
-    (_AT_ITS_SPEED, ""),
+    (_AT_ITS_SPEED, r"\1"),
+    (_PASSES_AT_ITS_SPEED, r"keeps \3 speed and \1 \2"),
     (_I_WOULD_LET, "Let "),
-    (_STAYS_STOPPED, "stops"),
+    (_STAYS_STOPPED, "stands"),
     (_ARRIVES_THERE, "there comes "),
     (_WITHOUT_TURN, ", going straight"),
     (_PURSUES_TURN, "makes "),

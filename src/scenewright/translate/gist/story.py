@@ -20,7 +20,6 @@ from scenewright.translate.gist.owners import is_nobodys
 from scenewright.translate.gist.words import Deed, Words
 
 STOP_AND_SPEED = "a stop and a speed are told"
-SPEED_BEFORE_STOP = "a speed and a stop are told"
 _SLOWS = ("brake", "stop")
 _GOES = ("accelerate", "pass", "complete", "keep", "go")
 _MOVES = (*_SLOWS, "accelerate")
@@ -91,10 +90,11 @@ class StoryTeller:
 
     def _check_clock(self) -> None:
         """Refuse what is told of another sentence beside "5 s after the start": it may be of another moment."""
-        clock = next((made for made in self.moments.of("trigger") if made.kind == "clock"), None)
-        for made in self.moments.of("trigger") if clock is not None else ():
-            if clock is not None and made.clause.sentence != clock.clause.sentence:
-                raise self.words.refuse("it is not clear at which moment this holds", made.span)
+        told = self.moments.of("trigger")
+        clocks = {made.clause.sentence for made in told if made.kind == "clock"}
+        beside = next((made for made in told if clocks and made.clause.sentence not in clocks), None)
+        if beside is not None:
+            raise self.words.refuse("it is not clear at which moment this holds", beside.span)
 
     def _stands_at_first(self, deed: Deed) -> bool:
         """Whether the ego is said to stand at a place, not only to be there or to be about to turn."""
@@ -330,7 +330,7 @@ class StoryTeller:
                 phase.to_speed, speed_at = made.quantity, made.at
         if phase.to_speed is not None and phase.to_stop:
             stopped = any(deed.kind == "stop" and deed.at < speed_at for deed in slows)
-            raise self.words.refuse(STOP_AND_SPEED if stopped else SPEED_BEFORE_STOP, phase.to_speed.span)
+            raise self.words.refuse(STOP_AND_SPEED if stopped else "a speed and a stop are told", phase.to_speed.span)
         self.facts.phases.append(phase)
 
     def _stop_place(self, phase: Phase, made: Measured) -> None:

@@ -12,10 +12,10 @@ from scenewright.translate.gist.rewriting import EGO, Rules
 
 _TESTED = r"(?:tested|evaluated|assessed|examined|validated|investigated)"
 _VEHICLE = r"(?:vehicle|car|one|system|shuttle|robotaxi|truck)"
+_BY_US = r"(?:that |which )?we(?:['\u2019]re| are)? (?:test|evaluat|assess|examin)(?:ing|e)?"
 _MARK = (
-    rf"(?:(?:this |that |it |ego )?is )?(?:the |our )?(?:{_TESTED} {_VEHICLE}|test {_VEHICLE}|(?:{_VEHICLE} "
-    rf")?(?:under test|"
-    rf"{_TESTED}|being {_TESTED}|(?:that |which )?we(?:['\u2019]re| are)? (?:test|evaluat|assess|examin)(?:ing|e)?))"
+    rf"(?:(?:this |that |it |ego )?is )?(?:the |our )?"
+    rf"(?:{_TESTED} {_VEHICLE}|test {_VEHICLE}|(?:{_VEHICLE} )?(?:under test|{_TESTED}|being {_TESTED}|{_BY_US}))"
 )
 # "Ego (the one we're testing)", "The ego (under test)"
 _IN_BRACKETS = re.compile(rf"\b({EGO}|vehicle under test) \({_MARK}\)", re.IGNORECASE)

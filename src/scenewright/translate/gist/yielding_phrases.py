@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from scenewright.translate.gist.rewriting import Rules
+from scenewright.translate.gist.rewriting import EGO, Rules
 
 _NO_NOTICE = re.compile(
     r"\b(?:takes? no (?:notice|account|heed) of|pays? no (?:attention|heed|regard) to|shows? no regard for) "
@@ -47,9 +47,9 @@ _TAKES_PRECEDENCE = re.compile(
     re.IGNORECASE,
 )
 _YOU_EXPECT = re.compile(
-    r"(?:(?<=[.!?;]\s)|^)(?:You|One|We|Anyone)(?:['\u2019]d| would| might) (?:expect|think|want) (it|him|her|the "
-    r"[\w-]+) to "
-    r"(?:wait|yield|give way)[.,;:] (?:[Bb]ut )?(?:[Ii]t|[Hh]e|[Ss]he) (?:doesn['\u2019]t|does not|won['\u2019]t)\b",
+    r"(?:(?<=[.!?;]\s)|^)(?:You|One|We|Anyone)(?:['\u2019]d| would| might) (?:expect|think|want) "
+    rf"(?:it|him|her|the (?!{EGO}\b)[\w-]+) to (?:wait|yield|give way)[.,;:] "
+    r"(?:[Bb]ut )?(?:[Ii]t|[Hh]e|[Ss]he) (?:doesn['\u2019]t|does not|won['\u2019]t)\b",
 )
 _UNWILLING = re.compile(
     r"(?:(?<=[.!?;]\s)|^)(?:Being )?(?:unwilling|not willing|unprepared|refusing|declining) to (?:yield|give way|wait)"
@@ -76,9 +76,8 @@ _OUGHT_BUT = re.compile(
     r"|doesn['\u2019]t|"
     r"won['\u2019]t|will not)(?: do so)?\b",
 )
-_IN_A_MOOD = re.compile(
-    r"\b((?:the )?\w+)(?:['\u2019]s| is) (?:not |in )*in (?:a|no|the) [\w-]+ mood(?: today)?: (?:it|he|she) ",
-    re.IGNORECASE,
+_IN_NO_MOOD = re.compile(
+    r"\b((?:the )?\w+)(?:['\u2019]s| is) (?:not in an?|in no) [\w-]+ mood(?: today)?: (?=it |he |she )", re.IGNORECASE
 )
 _REPENTS = re.compile(
     r"\b(it|he|she|the \w+) (?:repents|regrets (?:it|this|that)|has second thoughts|thinks again|reconsiders),? "
@@ -105,7 +104,7 @@ YIELDING_PHRASES: Rules = (
     (_DISREGARDING, "without yielding"),
     (_THUS_NOT, ", without yielding"),
     (_OUGHT_BUT, r"\1 won't yield"),
-    (_IN_A_MOOD, r"\1 "),
+    (_IN_NO_MOOD, r"\1 won't yield: "),
     (_REPENTS, r"\1 "),
     (_CHANGE_MIND, r"\1"),
 )
