@@ -237,6 +237,8 @@ class ActionReader(DescriptionReader):
             self._set_order_goal(phase, goal)
         if phase.goal is not None and phase.goal != goal:
             raise self._refuse("two different places to pass are given", event.span)
+        if phase.kind == "turn" and goal != "turn_end" and phase.events[0].verb == "pull_out":
+            phase.kind = "acc"  # "accelerates out of the driveway and passes the conflict point"
         phase.goal, phase.goal_event = goal, event
         return phase
 

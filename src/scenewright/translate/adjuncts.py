@@ -100,6 +100,9 @@ class AdjunctReader(DirectionReader):
         if slot is None or getattr(host, slot) is not None:
             return False
         setattr(host, slot, quantity)
+        words = [each.text.lower() for each in self.phrases.tokens[max(0, self.at - 1) : end]]
+        if slot == "speed" and any(each.startswith(("initial", "starting", "beginning")) for each in words):
+            host.initial = True  # "straight on, starting at 50 km/h, when the ego has ..."
         self.at = end
         self._grow()
         return True

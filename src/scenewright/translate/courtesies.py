@@ -114,6 +114,14 @@ class CourtesyReader(VerbGroupReader):
         self.at = phrase.end + 1
         return True
 
+    def _stops_all_the_same(self, at: int) -> bool:
+        """Whether what is done beside "instead of yielding" is to stop: "instead of yielding, the hero brakes"."""
+        if self.current is not None and not self.links:
+            return self.current.verb in SLOWS
+        while "end" not in self.phrases.tokens[at].tags and self.phrases.verb(at) in (None, "begin"):
+            at += 1
+        return self.phrases.verb(at, *SLOWS) is not None
+
     def _instead(self) -> bool:
         """Step over "instead of waiting for the ego": what is done follows."""
         if self.phrases.tokens[self.at].text.lower() not in ("instead of", "rather than"):
@@ -132,6 +140,8 @@ class CourtesyReader(VerbGroupReader):
             and not self.phrases.tokens[end].tags.keys() & {"comma", "end"}
             and (self.phrases.tag(end, "link") not in ("and", "then"))
         ):
+            return False
+        if refused in ("wait", "yield") and self._stops_all_the_same(end):
             return False
         span = self.phrases.span(self.at, end)
         self.phrases.assume(

@@ -45,6 +45,7 @@ from scenewright.translate.purposes import check_purpose, take_purposes
 from scenewright.translate.references import Referents
 from scenewright.translate.relatives import related
 from scenewright.translate.rewording import reworded
+from scenewright.translate.run_ons import parted
 from scenewright.translate.speech import spoken
 from scenewright.translate.steps import in_sentences
 from scenewright.translate.tokens import Token, refuse_unknown, tokenise
@@ -183,7 +184,7 @@ def _joined(first: TranslationError, second: TranslationError) -> TranslationErr
 def _by_grammar(text: str, road_map: RoadMap, name: str) -> Translation:
     """Translate clause by clause; every word has to be understood."""
     rest, purposes = take_purposes(text, name)
-    rest = without_short_names(in_sentences(rest))
+    rest = without_short_names(in_sentences(parted(rest)))
     tokens = unfronted(reworded(related(spoken(noted(tokenise(rest, name))))))
     tokens, comments = without_commentary(tokens)
     tokens, titles = lay_out(tokens)
@@ -206,7 +207,7 @@ def _by_grammar(text: str, road_map: RoadMap, name: str) -> Translation:
 def _by_facts(text: str, road_map: RoadMap, name: str) -> Translation:
     """Translate by the facts alone that a free text tells."""
     rest, purposes = take_purposes(text, name)
-    rest, limits = take_limits(in_sentences(rest), name)
+    rest, limits = take_limits(in_sentences(parted(rest)), name)
     gist = read_gist(rest, name, road_map)
     named = names_in(text, name) if limits else {}
     for limit in limits:

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import re
 
+from scenewright.translate.tokens import END_OF_STEP
+
 _STEP = re.compile(r"^([ \t]*(?:[-*] )?)(Given|GIVEN|When|WHEN|Then|THEN|And|AND|But|BUT)\b:?[ \t]*", re.MULTILINE)
 _WHOLE = re.compile(r",[^\n]*[.!?;]\s*\Z")
 _STOP = re.compile(r"[.,;]\s*\Z")
@@ -17,7 +19,7 @@ def in_sentences(text: str) -> str:
     r"""Return the text with its steps as sentences; any other text as it is.
 
     >>> in_sentences("Given A\nAnd B\nWhen C\nAnd D\nThen E\nAnd F")
-    '      A\n    B\nWhen C and D,     E\n    F'
+    '      A\x0b    B\x0bWhen C and D,     E\x0b    F'
     """
     steps = list(_STEP.finditer(text))
     words = [step.group(2).capitalize() for step in steps]
@@ -25,7 +27,7 @@ def in_sentences(text: str) -> str:
         return text
     parts, done, kind, asked = [], 0, "", 0
     for step, word in zip(steps, words, strict=True):
-        line = max(done, text.rfind("\n", 0, step.start() + 1))
+        line = step.start() - 1
         if kind == "When" and word != "When":
             if _WHOLE.search(text[asked:line]):
                 kind = ""  # "When it is 8 m away, the van brakes." is no step
@@ -34,10 +36,16 @@ def in_sentences(text: str) -> str:
             rest = _STOP.sub(lambda end: " " * len(end.group()), text[done:line])
             parts += [rest, said.ljust(step.end() - line)]
         elif word in ("When", "Then") or (not kind and word != "Given"):
-            parts += [text[done : step.end()]]
+            parts += [_ended(text[done : step.start()]), step.group()]
         else:
-            parts += [text[done : step.start()], " " * (step.end() - step.start())]
+            parts += [_ended(text[done : step.start()]), " " * len(step.group())]
         kind = kind if word in ("And", "But") else word
         asked = step.end() if word == "When" else asked
         done = step.end()
     return "".join([*parts, text[done:]])
+
+
+def _ended(lines: str) -> str:
+    """Return lines with the end of a step in place of the end of the last one, where it has no stop of its own."""
+    told = lines.rstrip()
+    return lines[:-1] + END_OF_STEP if told and told[-1] not in ".,;:!?" else lines

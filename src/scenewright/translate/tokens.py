@@ -21,6 +21,7 @@ from scenewright.translate.spelling import correction, suggestions
 from scenewright.units import UNITS, Dimension, Unit, unit_of_name
 
 _PARAMETER = r"[A-Za-z][A-Za-z0-9]*(?:\\?_[A-Za-z0-9]+)+"
+END_OF_STEP = "\v"  # ends a sentence where a text has no full stop
 _RAW = re.compile(
     rf"""(?P<ie>\b(?:i\.e\.|e\.g\.),?)
     |(?P<wrt>\b[wW]\.?r\.?t\b\.?)
@@ -33,7 +34,8 @@ _RAW = re.compile(
     |(?P<genitive>['’]s\b|(?<=s)['’](?=\s))
     |(?P<title>(?:(?<=\n)|^)[ \t]*\#+[^\n]*(?:\n|$))
     |(?P<mark>\*\*+|`+|__+)
-    |(?P<stop>(?:[.;!?]+|…)(?=\s|$|["')\]])|\n[ \t]*(?:[-*•–—](?!\*)|\d+[.)]|\(?\w[.)])[ \t]+|\n[ \t]*\n\s*)
+    |(?P<stop>(?:[.;!?]+|…)(?=\s|$|["')\]])|\n[ \t]*(?:[-*•–—](?!\*)|\d+[.)]|\(?\w[.)])[ \t]+|\n[ \t]*\n\s*
+      |[ \t]*\v\s*)
     |(?P<label>:|-{{1,2}}>|=>|→|⇒)
     |(?P<comma>[,()\[\]"“”/]|(?<=\s)[-–—](?=\s)|[–—])
     |(?P<compare>[<>≤≥]=?|±|={{1,2}}|~|≈)
@@ -48,6 +50,7 @@ _LABELLED_LINE = re.compile(r"\n(?=[ \t]*[A-Za-z][A-Za-z ]{0,30}:)")
 _GOES_ON = re.compile(
     r"(?:[,:(]|\b(?:the|a|an|of|to|and|or|is|its|from|with|when|before|behind|at|on))$", re.IGNORECASE
 )
+_LOOKED_AHEAD = 3
 _UNIT_END = r"(?![A-Za-z0-9²^/*])"
 
 
@@ -96,7 +99,7 @@ class _Tagger:
 
 
 def tokenise(text: str, name: str) -> list[Token]:
-    """Cut `text` into tagged tokens.
+    """Cut `text` into tagged tokens, and close it with as many ends of the text as readers look ahead.
 
     Raises
     ------
@@ -116,8 +119,8 @@ def tokenise(text: str, name: str) -> list[Token]:
     index = 0
     while index < len(tagger.raw):
         index = _next(tagger, index, tokens)
-    end = Span(len(text), len(text))
-    return [*tokens, Token("", end, {"end": "text"})]
+    end = Token("", Span(len(text), len(text)), {"end": "text"})
+    return [*tokens, *[end] * _LOOKED_AHEAD]
 
 
 def _cut(text: str) -> list[_Raw]:

@@ -366,6 +366,14 @@ _PHRASES = tuple(
             r" (?:did|was|had|would|usually|normally)|(?:in|during) the (?:previous|last|first|other)|usual|before)\b",
             "a comparison with what is not told",
         ),
+        (
+            r"\d ?(?:m/s|km/h|kph|mph)\b(?![\^\u00b2])[^.;\n]{0,30}?\b(?:throughout\b(?! (?:its|the) (?:turn|approach))"
+            r"|at all times|all the time|all along|the (?:whole|entire) (?:time|way|test|run|scenario)"
+            r"|until the (?:very )?end (?:of the (?:test|run|scenario))?|from (?:start|beginning) to (?:finish|end))"
+            r"|\b(?:throughout|at all times|all the time|all along),? (?:(?:the|this) (?:whole |entire )?(?:test|run"
+            r"|scenario),? )?[^.;\d\n]{0,40}\d+ ?(?:m/s|km/h|kph|mph)\b(?![\^\u00b2])",
+            "a speed for the whole test, in which the hero reacts",
+        ),
         (r"\broll(?:s|ing|ed)? back\b|\bin reverse\b|\bbacks up\b", "driving backwards"),
     )
 )

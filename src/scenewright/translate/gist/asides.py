@@ -67,7 +67,8 @@ _SHOULD_HAVE_SAID = re.compile(
 )
 _NOT_SURE = re.compile(r"(?:(?<=[.!?]\s)|^)Not sure (?:if|whether) [^.!?:\d]*?,? but[:,]? ", re.IGNORECASE)
 _CLOSES_IN = re.compile(
-    r"\b(?:Then )?(?:the ego|the AV|the SUT|our car|it|we) (?:then )?(?:closes? (?:in|up)|catch(?:es)? up|draws? "
+    r"\b(?:Then )?(?:the ego|the AV|the SUT|our car|it|we) (?:then )?(?:closes? (?:in|up)|gets? (?:closer|nearer)"
+    r"|catch(?:es)? up|draws? "
     r"(?:closer"
     r"|nearer)),? and (?=when |the moment |as soon as |once )",
     re.IGNORECASE,
@@ -211,6 +212,75 @@ _AS_THOUGH_TO_LET = re.compile(
     re.IGNORECASE,
 )
 
+_THATS_IT = re.compile(r",? and (?:that['\u2019]s|that is) (?:it|all|that|about it)(?=[.!]|\s*\Z)", re.IGNORECASE)
+_LIKE_A_PERSON = re.compile(
+    r" like an? (?:true |real |proper |good |perfect |polite )?(?:gentleman|lady|saint|maniac|madman|lunatic|pro"
+    r"|professional|shot|rocket|bullet|snail)(?=[,.;:]| and\b)",
+    re.IGNORECASE,
+)
+# "does what we'd expect of a decent driver and brakes", "as it is obliged to"
+_AS_EXPECTED = re.compile(
+    r"\bdoes what (?:we|you|one|anybody|anyone|everyone)(?:['\u2019]d| would| should| might)? (?:expect|hope for|want)"
+    r"(?: (?:of|from) [^,.;:\d]{1,40}?)? and (?=\w+s\b)",
+    re.IGNORECASE,
+)
+_AS_OBLIGED = re.compile(
+    r",? as (?:it|he|she) (?:is|was) (?:legally )?(?:obliged|required|supposed|meant|bound|expected|due)(?: by law)?"
+    r"(?: to)?(?: do)?(?=[,.;])",
+    re.IGNORECASE,
+)
+# "Here somebody is polite to us."
+_IS_POLITE = re.compile(
+    r"(?:(?<=[.!?]\s)|^)(?:Here|This time|Now|Then)?,? ?(?:somebody|someone|a driver|another driver) is (?:being )?"
+    r"(?:nice|polite|kind|friendly|courteous)(?: (?:to|towards) (?:us|the ego))?[.:](?=\s)",
+    re.IGNORECASE,
+)
+_EVER_SEEN = re.compile(
+    r"(?:(?<=[.!?]\s)|^)(?:You know|Know|Ever|Have you ever|Remember) [^.!?\d]*\?(?:\s+(?:Same|That['\u2019]s it) "
+    r"here\.)?",
+    re.IGNORECASE,
+)
+# "Is the learner awake?" at the end asks what the test is for
+_ASKS_OF_EGO = re.compile(
+    r"(?<=[.!]\s)(?:Is|Are|Does|Do|Will|Can|How (?:does|do|will)|What (?:does|do|will)|Would) (?:the ego|the AV|the SUT"
+    r"|our car|we|the learner|the planner|the stack|the policy) (?:(?!\b(?:or|hero|if|when|unless)\b)[^.!?\d])*\?\s*\Z"
+)
+_IN_OUR_CAR = re.compile(
+    r"\b(we(?:['\u2019]re| are) (?:going|driving|coming|heading|travelling)[^,.;\d]{0,40}?) in (?:our|the) (?:test"
+    r"|own) "
+    r"(?:car|vehicle)\b",
+    re.IGNORECASE,
+)
+_TO_BE_SHOWN = re.compile(
+    r"(?:(?<=[.!?]\s)|^)It (?:shall|is to|should|must|has to) be (?:demonstrated|shown|verified|proven|checked|tested"
+    r"|established|confirmed) (?:that|whether|how) (?:the ego|the AV|the SUT|the VUT)\b(?:(?!\b(?:when|east|west"
+    r"|left|right|straight))[^.\d])*\.",
+    re.IGNORECASE,
+)
+_CONSIDER_TWO = re.compile(
+    r"(?:(?<=[.!?]\s)|^)(?:We |Let us |Let['\u2019]s )?consider two (?:\w+ )?(?:vehicles|cars) whose (?:routes"
+    r"|paths|ways)"
+    r" (?:merge|cross|meet|conflict|intersect|converge)\b[^.\d]*\.",
+    re.IGNORECASE,
+)
+_SMILES = re.compile(r"(?<=\s)[:;]-?[)(D](?=\s|$)")
+_NEXT_ONE = re.compile(
+    r"(?:(?<=[.!?]\s)|^)(?:ok(?:ay)?,? )?(?:and )?(?:the )?(?:next|last|final|another) (?:one|test|case|scenario) "
+    r"?[.:]",
+    re.IGNORECASE,
+)
+_LIKE_THE_EGO = re.compile(r"(?:(?<=[.!?]\s)|^)Like (?:the ego|us), (?=(?:it|he|she|the) )")
+# "instead of letting the ego go first, the hero accelerates"
+_INSTEAD_OF_LETTING = re.compile(
+    r"\binstead of (?:letting (?:the ego|us|it) (?:go|pass|turn|through|out|in)(?: first| ahead)?|waiting(?: for "
+    r"(?:the ego|us|it))?|yielding(?: to (?:the ego|us|it))?), "
+    r"(?=(?:the hero(?: vehicle)?|it|he|she) (?:(?:then|now) )?(?:begins to accelerate|accelerates|goes|sets off"
+    r"|pulls)\b)",
+    re.IGNORECASE,
+)
+_I_MEAN_EGO = re.compile(r"(?:(?<=[.!?]\s)|^)By (?:us|we) I mean the ego: we (?=are )")
+_NO_YIELD = re.compile(r"(?<=accelerates), no (?:yield|yielding)(?=, (?:passes|goes|crosses)\b)")
+
 
 def _starts_it(found: re.Match[str]) -> str:
     """Return "Starting condition" as the trigger where amounts stand before it and nothing else is one."""
@@ -288,4 +358,20 @@ ASIDES: Rules = (
     (_JUST_WHEN_EXPECTED, "Then "),
     (_NOT_LETTING, "Then "),
     (_AS_THOUGH_TO_LET, ""),
+    (_SMILES, "."),
+    (_NEXT_ONE, ""),
+    (_THATS_IT, ""),
+    (_LIKE_A_PERSON, ""),
+    (_AS_EXPECTED, ""),
+    (_AS_OBLIGED, ""),
+    (_IS_POLITE, ""),
+    (_EVER_SEEN, ""),
+    (_ASKS_OF_EGO, ""),
+    (_IN_OUR_CAR, r"\1"),
+    (_TO_BE_SHOWN, ""),
+    (_CONSIDER_TWO, ""),
+    (_LIKE_THE_EGO, ""),
+    (_INSTEAD_OF_LETTING, ""),
+    (_I_MEAN_EGO, "We, the ego, "),
+    (_NO_YIELD, ""),
 )

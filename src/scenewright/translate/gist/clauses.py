@@ -112,7 +112,7 @@ class _Cutter:
     def _begins_clause(self, at: int) -> bool:
         """Whether "and" is followed by a name or a verb, and not by "40 m" or "straight"."""
         names = self.words.names
-        while at < len(self.words.tokens) and self.words.tags(at).keys() & _BEFORE_NAMES:
+        while at not in names.actors and self.words.tags(at).keys() & _BEFORE_NAMES:
             at += 1
         named = at in names.actors or at in names.pronouns or at in names.both
         return named or self.words.has([at], "verb", "auxiliary", "be", "negation")

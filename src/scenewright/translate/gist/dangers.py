@@ -40,7 +40,8 @@ _ALL_BUT = re.compile(
 )
 _DEPENDS = re.compile(
     r"\b(?:provided|providing|assuming|on (?:the )?condition)(?: that)?\b(?![^,.;]*(?:\d|_(?:m|ft|s)\b))"
-    r"|\bunless\b(?! (?:otherwise )?(?:stated|noted|specified|told))|\b(?:as|so) long as\b|\bin case\b"
+    r"|\bunless\b(?! (?:otherwise )?(?:stated|noted|specified|told))|\b(?:as|so) long as\b(?! (?:it|we|the \w+) "
+    r"(?:needs?|takes?|requires?) to complete\b)|\bin case\b"
     r"|\b(?:only|even) if\b|\bexcept (?:when|if|that)\b",
     re.IGNORECASE,
 )

@@ -24,8 +24,8 @@ RELATIVE = {
 _TESTS = "test|trial|evaluation|assessment|examination|scrutiny|investigation|observation"
 _TESTING = "test|evaluat|assess|validat|examin|judg|scrutinis|scrutiniz|investigat|check"
 _TESTED = re.compile(
-    rf"(, |is )?(the one |(which|that|who)( is| 's|'s) )?"
-    rf"((under|on|in) (the |our )?({_TESTS})\b|being ({_TESTING})(e?d)\b"
+    rf"(, |is |\( )?(the (one|vehicle|car) |(which|that|who)( is| 's|'s) )?"
+    rf"((under|on|in) (the |our )?({_TESTS})\b|(being|to be) ({_TESTING})(e?d)\b"
     rf"|((that|which|whom|whose (software|stack|planner|driver|policy)) )?(we|i)(( are| 're|'re| am| 'm|'m)"
     rf" ({_TESTING})ing| ({_TESTING})e?| (want|would like) to know about)\b)"
 )

@@ -160,6 +160,41 @@ _HINGES = re.compile(
     r"|point)(?: in time)?:"
 )
 
+# "a mere 110 cm", "has reduced itself to 1.8 s"
+_A_MERE = re.compile(r"\ba (?:mere|measly|paltry|scant|meagre|whole|full) (?=[\d.]+ ?[a-z]|\w+_(?:m|s|ft)\b)", re.I)
+_REDUCED_TO = re.compile(
+    r"\b(?:has|have|is|are) (?:reduced|decreased|shortened|shrunk|diminished)(?: itself)? to (?=[\d.]+ |\w+_(?:m|s"
+    r"|ft)\b)",
+    re.IGNORECASE,
+)
+_GETS_GOING = re.compile(
+    r"\bwhen (?:things|everything|it all|the action) (?:get|kick)s? (?:going|off|started|under ?way)\b", re.IGNORECASE
+)
+# "We close up till we're 20 m behind it, and that's when it brakes"
+_UNTIL_AND_THEN = re.compile(
+    r"(?:(?<=[.!?]\s)|^)(?:We|It|The ego|Our car)\b(?:(?! and )[^.;,\d])*? (?:until|till) ((?:we|it|the ego|our car)\b"
+    r"(?:[^.;]|\.\d)*?)[,;] ((?:[^.;]|\.\d)*?,? )?and (?:that|this)(?:['\u2019]s| is) (?:exactly |just |precisely "
+    r")?when ",
+)
+_AS_LONG_AS_NEEDED = re.compile(
+    r"\b(?:for )?as long as (the ego|it|we|the AV|the SUT) (?:needs?|takes?|requires?) to complete (its|our|the) "
+    r"turn\b",
+    re.IGNORECASE,
+)
+_WHEN_DONE = re.compile(
+    r"(?<=turn)(,? and|\.) (?:when|once|after) (?:we['\u2019]re|we are|it is|it['\u2019]s|that['\u2019]s|that is"
+    r"|this is"
+    r"|the ego is) (?:done|finished|through|completed|over), ",
+    re.IGNORECASE,
+)
+_MAINTAINED = re.compile(r", which (?:it|he|she) (?:maintains|keeps(?: up)?|holds|sustains) (?=until\b)", re.IGNORECASE)
+# "At 4 s (ego to conflict point) and 2 s (hero to stop line):"
+_IN_BRACKETS = re.compile(
+    rf"({AMOUNT}) \((ego|hero|SUT|POV|AV|NPC) (?:to|from) (?:the )?(conflict point|stop line)\)", re.IGNORECASE
+)
+_POSITION = re.compile(r"\binit(?:ial)? pos(?:ition)?:? (?=[\d.]+ |\w+_(?:m|s|ft)\b)", re.IGNORECASE)
+_THEN_WITH = re.compile(r"(?:(?<=[.!?]\s)|^)(?:And )?[Tt]hen,? with (?=(?:our|the|us|it|him) )")
+
 
 def _unfronted(found: re.Match[str]) -> str:
     """Return "Being 8 s from it, the ego comes" as "The ego, 8 s from it, comes"."""
@@ -178,6 +213,12 @@ def _is_away(found: re.Match[str]) -> str:
     """Return "approaches the stop line from 8 s away" as "is 8 s from the stop line"."""
     verb = "is" if found.group(1).lower() == "es" else "being"
     return f"{verb} {found.group(4)} from {found.group(2)}{found.group(3)}"
+
+
+def _until_then(found: re.Match[str]) -> str:
+    """Return "We close up until we're 20 m behind it, and that's when" as "When we're 20 m behind it,"."""
+    more = f" and {found.group(2).rstrip(', ')}" if found.group(2) else ""
+    return f"When {found.group(1)}{more}, "
 
 
 # In this order: what one rule leaves, the next may read.
@@ -220,4 +261,14 @@ MOMENT_PHRASES: Rules = (
     (_NOW_AWAY, "at first "),
     (_TIME_FOR_AND, r"When \5 is \2 \3 and \7 \6 \3 from \4"),
     (_HINGES, "Trigger:"),
+    (_A_MERE, ""),
+    (_REDUCED_TO, "falls to "),
+    (_GETS_GOING, "at the start"),
+    (_UNTIL_AND_THEN, _until_then),
+    (_AS_LONG_AS_NEEDED, r"until \1 completes \2 turn"),
+    (_WHEN_DONE, r"\1 then "),
+    (_MAINTAINED, " "),
+    (_IN_BRACKETS, r"\2 \1 from \3"),
+    (_POSITION, "initially "),
+    (_THEN_WITH, "With "),
 )

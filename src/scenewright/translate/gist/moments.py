@@ -330,7 +330,8 @@ class MomentReader:
         told = [i for each in self.words.clauses[max(0, at - 1) : at + 1] for i in each.inside]
         measured = self.words.where(told, "measure", "speed") is not None
         acted = any(d.actor == HERO_ID and d.clause.sentence == clause.sentence and d.at < made.at for d in self.deeds)
-        return measured and self._is_asked(clause) and not acted and self._after_trigger(clause) and not made.target
+        asked = "trigger" in clause.labels or self._is_asked(clause)
+        return measured and asked and not acted and self._after_trigger(clause) and not made.target
 
     def _is_within(self, made: Measured) -> bool:
         """Whether a speed is told within a condition: "when the van, then doing 30 km/h, is 3 s from it"."""
@@ -341,10 +342,11 @@ class MomentReader:
         acts = (d.at for d in self.deeds if d.actor == HERO_ID and d.clause.sentence == made.clause.sentence)
         act = min((at for at in acts if at > asked.start), default=sentence[-1].end)
         own = [each for each in self.measured if each.kind == "place" and each.actor == made.actor]
+        last = [each for each in own if each.at < made.at][-1:]
         before = [self.words.word(at) for at in range(made.clause.start - 1, made.at)]
         then = {"then", "by then", "at that"} & set(before)
         if made.clause.link == "and" and any(word in ("doing", "moving", "going") for word in before):
-            return made.at < act and any(asked.start < each.at < made.clause.start for each in own[-1:])
+            return made.at < act and any(asked.start < each.at < made.clause.start for each in last)
         return bool(then) and any(made.at < each.at < act for each in own)
 
     def _is_asked(self, clause: Clause) -> bool:

@@ -41,7 +41,7 @@ def find_names(tokens: list[Token]) -> Names:
     owning, ours = owners(tokens), our_own_words(tokens)
     drivers = drivers_of_ego(tokens)
     ours |= drivers
-    names.driven = bool(drivers)
+    names.driven = bool(drivers) or any("ego" in each.tags and _is_person(each) for each in tokens)
     short = short_names(tokens)
     spoken = speaker == EGO_ID and any(each.text.lower() in ("we", "us") for each in tokens)
     brands = _brands(tokens)
@@ -91,6 +91,11 @@ def _has_it(word: str) -> bool:
     """Whether this is "we have", "I've got"."""
     words = word.split()
     return len(words) > 1 and words[0] in ("we", "i") and words[-1] in ("have", "'ve", "\u2019ve", "got")
+
+
+def _is_person(token: Token) -> bool:
+    """Whether this is "our insured", "our driver": "he" may be the ego then."""
+    return token.text.lower().split()[-1] in (*PERSONS, "driver", "insured")
 
 
 def _is_director(tokens: list[Token], at: int) -> bool:
@@ -296,9 +301,13 @@ def _one_of_them(tokens: list[Token], at: int) -> bool:
 
 
 def _drives_it(tokens: list[Token]) -> bool:
-    """Whether who is spoken to drives the ego: "You are following a car", "You are in the car under test"."""
+    """Whether who is spoken to drives the ego: "You are following a car", "You (the ego) are", "You are in the ego"."""
     ways = ("follow", "drive", "come", "approach", "turn", "leave", "pull_out", "go", "sit")
     for at, token in enumerate(tokens[:-2]):
+        if token.text.lower() == "you" and "comma" in tokens[at + 1].tags:
+            named = at + 2 + ("determiner" in tokens[at + 2].tags)
+            if "ego" in tokens[named].tags:
+                return True
         if token.text.lower() != "you" or "be" not in tokens[at + 1].tags:
             continue
         acts = tokens[at + 2].tags.get("verb") in ways and "ing" in tokens[at + 2].forms

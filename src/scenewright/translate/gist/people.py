@@ -15,7 +15,7 @@ PERSONS = frozenset(
      "human", "cabbie", "biker", "lad", "lass", "girl", "boy", "mate", "pal", "dude", "fella",
      "colleague", "friend", "student", "volunteer", "resident", "visitor", "uncle", "aunt", "grandmother", "grandma",
      "granny", "grandfather", "grandpa", "parent", "learner", "pupil", "tourist", "pensioner", "farmer", "postman",
-     "plumber", "gardener", "nurse", "teacher"]
+     "plumber", "gardener", "nurse", "teacher", "policyholder", "claimant", "client", "defendant"]
 )  # fmt: skip
 _BRINGS_IN = frozenset(("a", "an", "one", "my", "our", "the"))
 
@@ -27,6 +27,9 @@ def drivers_of_ego(tokens: list[Token]) -> set[str]:
         if not _may_be_person(tokens, at):
             continue
         ahead = at + 1
+        if is_tested(tokens, at):
+            found.add(token.text.lower())
+            continue
         if ahead < len(tokens) and "genitive" in tokens[ahead].tags:
             owned = ahead + 1 < len(tokens) and "noun" in tokens[ahead + 1].tags
             if owned and (is_called(tokens, ahead + 1) or is_tested(tokens, ahead + 1)):

@@ -137,13 +137,13 @@ _LET_IN = re.compile(
     r" (?:in|out|into the lane|go first|go|through)\b",
     re.IGNORECASE,
 )
-_END_UP_IN = re.compile(r"\bend up in (?=the driveway)", re.IGNORECASE)
+_END_UP_IN = re.compile(r"\b(?:end|finish) up in (?=the driveway)", re.IGNORECASE)
 # "We get to 18 m behind it, and that's when it brakes"
 _THAT_IS_WHEN = re.compile(
     r"(?:(?<=[.!?;]\s)|^)((?:The|Our|We|I|It|A)\b(?:[^.;!?]|\.\d)*?),? and (?:that|this|it)(?:['\u2019]s| is) "
     r"(?:exactly |precisely |just )?(?:when|the (?:moment|instant|point)(?: when| that| at which)?) ",
 )
-_GOES_ON_BRAKES = re.compile(r"\bgo(?P<s>es)? (?:hard )?on the brakes?\b", re.IGNORECASE)
+_GOES_ON_BRAKES = re.compile(r"\bgo(?P<s>es)? (?:(?:hard )?on|for) the brakes?\b", re.IGNORECASE)
 _PRIORITY_OF = re.compile(
     r"\b(?:disregard|ignore|violate|neglect|take|infringe)s? (?:the )?(?:priority|right of way|right-of-way"
     r"|precedence) (?:of|from)"

@@ -197,6 +197,23 @@ _LISTED_STANDING = re.compile(
     re.IGNORECASE,
 )
 
+_EACH_OF_THEM = re.compile(r"\beach of (?:them|the two|these two)\b(?= (?:intends|wants|plans|means|is|will)\b)", re.I)
+_THRU = re.compile(r"\b(?:gets|goes|drives|passes) thru\b", re.IGNORECASE)
+_WE_THE_EGO = re.compile(
+    r"\b(we|I), (?:the|being the|who are the) ego,(?= (?:are|am|were|want|drive|come"
+    r"|turn)\b)",
+    re.I,
+)
+# "gives way: on the brakes, and stationary 11 m before the conflict point"
+_ON_THE_BRAKES = re.compile(
+    r"(?<=[:,]) on the brakes,? and (?:stationary|stopped|at rest|standing) (?=[\d.]+ |[a-z]+ (?:m|met|ft|feet|y)"
+    r"|\w+_m\b)",
+    re.IGNORECASE,
+)
+
+# "Hero 1) brakes to a stop 2) then accelerates"
+_NUMBERED = re.compile(r" \(?1\) ([^\n.;]{3,90}?),? \(?2\) (then |and then )?(?=[a-z])")
+
 
 def _right(found: re.Match[str]) -> str:
     """Return "brakes right when" as "brakes when", but leave "swings right when"."""
@@ -294,4 +311,9 @@ SPOKEN_PHRASES: Rules = (
     (_AMOUNT_OF, r"\2 \1 from \3"),
     (_BEGINS_TEST, r"\1 "),
     (_LISTED_STANDING, "stands "),
+    (_EACH_OF_THEM, "both"),
+    (_THRU, "passes"),
+    (_WE_THE_EGO, r"\1"),
+    (_ON_THE_BRAKES, " stops "),
+    (_NUMBERED, r" \1, \2"),
 )

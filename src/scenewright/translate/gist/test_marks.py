@@ -12,10 +12,13 @@ from scenewright.translate.gist.rewriting import EGO, Rules
 
 _TESTED = r"(?:tested|evaluated|assessed|examined|validated|investigated)"
 _VEHICLE = r"(?:vehicle|car|one|system|shuttle|robotaxi|truck)"
-_BY_US = r"(?:that |which )?we(?:['\u2019]re| are)? (?:test|evaluat|assess|examin)(?:ing|e)?"
+_BY_US = (
+    r"(?:that |which )?we(?:['\u2019]re| are)? (?:test|evaluat|assess|examin|benchmark|validat|investigat)(?:ing|e)?"
+)
 _MARK = (
     rf"(?:(?:this |that |it |ego )?is )?(?:the |our )?"
-    rf"(?:{_TESTED} {_VEHICLE}|test {_VEHICLE}|(?:{_VEHICLE} )?(?:under test|{_TESTED}|being {_TESTED}|{_BY_US}))"
+    rf"(?:{_TESTED} {_VEHICLE}|test {_VEHICLE}|(?:{_VEHICLE} )?(?:under test|{_TESTED}|being {_TESTED}|to be "
+    rf"{_TESTED}(?: in [^()]{{1,30}})?|{_BY_US}))"
 )
 # "Ego (the one we're testing)", "The ego (under test)"
 _IN_BRACKETS = re.compile(rf"\b({EGO}|vehicle under test) \({_MARK}\)", re.IGNORECASE)

@@ -272,12 +272,14 @@ class WayReader:
         """Return who does as the other one, in "and so is the hero", "as does the van"."""
         if not self.words.has([at + 1], "be", "auxiliary") and self.words.tag(at + 1, "verb") != "do_so":
             return None
+        named = self.words.skip(at + 2, frozenset(("determiner", "actor_adjective")))
+        ends = self.words.has([named + 1], "end", "comma", "relation") or self.words.has([named + 1], "link")
+        if not ends or named not in self.words.names.actors:
+            return None
         before = [each for each in self.words.clauses if each.end <= at][-1:]
         if any(self.words.has(each.inside, "quantity") for each in before):
             raise self.words.refuse("it is not clear what is alike", self.words.tokens[at].span)  # the place too?
-        named = self.words.skip(at + 2, frozenset(("determiner", "actor_adjective")))
-        ends = self.words.has([named + 1], "end", "comma", "relation") or self.words.has([named + 1], "link")
-        return self.words.names.actors.get(named) if ends else None
+        return self.words.names.actors[named]
 
     # -- areas --------------------------------------------------------------------------------------------------------
 
