@@ -358,6 +358,8 @@ class ClauseReader(OnsetReader):
             return True
         if self.current is not None and not self.links and not self._clause_follows(phrase):
             return self._object(phrase)
+        if phrase.kind == "pronoun" and self._may_be_either(phrase):
+            raise self.phrases.refuse("it is not clear which vehicle is meant", phrase.span, fix="name the vehicle")
         if phrase.kind == "pronoun" and self._means_the_hero(phrase):
             self.phrases.assume(
                 f"'{phrase.span.excerpt(self.phrases.text)}' is the hero: the ego is driven by its own policy"

@@ -5,6 +5,7 @@ What enters: events of main clauses without action. What leaves: wishes, lane re
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 
 from scenewright.errors import Place as ErrorPlace
@@ -14,6 +15,9 @@ from scenewright.translate.facts import Condition, Facts, LaneRelation, Said, Wi
 
 OPPOSITE = {"N": "S", "S": "N", "E": "W", "W": "E"}
 ACTING = ("brake", "stop", "yield", "accelerate", "keep", "pass", "complete")
+
+
+_STRAIGHT_ACROSS = re.compile(r"\bstraight (?:ahead|on)\b", re.IGNORECASE)
 
 
 @dataclass(slots=True)
@@ -227,6 +231,8 @@ class DescriptionReader:
         role = area.role
         if role == "across" and area.lane_of == actor:
             raise self._refuse("a vehicle does not cross its own way", area.span, "the other vehicle's path")
+        if role == "across" and _STRAIGHT_ACROSS.search(event.span.excerpt(self.text)):
+            raise self._refuse("it is not clear where the hero leaves the road", area.span, "left or right")
         if role == "across":
             self.facts.relations.append(LaneRelation("across", actor, event))
             return

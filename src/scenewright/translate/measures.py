@@ -329,6 +329,8 @@ class MeasureReader(VerbReader):
                 return False
             measured.target, measured.end = 1 - measured.actor, phrase.end  # "the ego's headway to it"
         elif phrase is not None:
+            if measured.kind == "headway" and self.phrases.tokens[at].text.lower() == "to":
+                measured.relation = "behind"  # whoever has a headway to another one is behind it
             measured.target, measured.end = self.phrases.resolve(phrase), phrase.end
         else:
             return False

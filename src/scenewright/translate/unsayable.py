@@ -374,6 +374,23 @@ _PHRASES = tuple(
             r"|scenario),? )?[^.;\d\n]{0,40}\d+ ?(?:m/s|km/h|kph|mph)\b(?![\^\u00b2])",
             "a speed for the whole test, in which the hero reacts",
         ),
+        (
+            r"(?:^|[.!?;]\s+)(?:shortly|just|right|some time|a little|a bit|a moment|moments|well|long|soon) "
+            r"(?:before|after) "
+            r"(?:the|our|it|he|she|we)\b[^.;]{0,30}?\b(?:is|are|has) [^,.;]{0,12}?(?:\d|\w+_(?:m|s|ft)\b)",
+            "a moment of which it is not told how long before or after another one it is",
+        ),
+        (
+            r"\b(?:is|are|comes|gets|being) (?:nearly|almost|practically|virtually|not quite|close to|about) "
+            r"(?:at|on|by) (?:the|its) (?:stop line|conflict point|intersection|junction)\b",
+            "a place of which it is not told how near it is",
+        ),
+        (
+            r"\b(?:we|they|you|i)(?: will|['\u2019]ll| shall| have yet to| still have to) (?:settle|decide|agree"
+            r"|determine)\b"
+            r"|\b(?:yet|still|remains) to be (?:settled|decided|agreed|determined|seen)\b",
+            "something that is still to be decided",
+        ),
         (r"\broll(?:s|ing|ed)? back\b|\bin reverse\b|\bbacks up\b", "driving backwards"),
     )
 )

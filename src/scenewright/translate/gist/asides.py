@@ -281,6 +281,15 @@ _INSTEAD_OF_LETTING = re.compile(
 _I_MEAN_EGO = re.compile(r"(?:(?<=[.!?]\s)|^)By (?:us|we) I mean the ego: we (?=are )")
 _NO_YIELD = re.compile(r"(?<=accelerates), no (?:yield|yielding)(?=, (?:passes|goes|crosses)\b)")
 
+_TAG_QUESTION = re.compile(r", (?:right|ok|okay|yes|see)\?(?=\s+[A-Z])")
+# "TODO: ask about the antenna.", "Fri."
+_NOTE_TO_SELF = re.compile(
+    r"(?:(?<=[.!?]\s)|(?<=\n)|^)(?:TODO|NB|PS|P\.S\.|FYI):(?:(?!\b(?:ego|hero|SUT|AV|POV|NPC|it|brak|stop|only|when))"
+    r"[^.\n\d])*(?:\.|$)",
+    re.IGNORECASE,
+)
+_WEEKDAY = re.compile(r"(?:(?<=[.!?]\s)|(?<=\n)|^)(?:Mon|Tue|Wed|Thu|Fri|Sat|Sun)\. (?=[A-Z])")
+
 
 def _starts_it(found: re.Match[str]) -> str:
     """Return "Starting condition" as the trigger where amounts stand before it and nothing else is one."""
@@ -374,4 +383,7 @@ ASIDES: Rules = (
     (_INSTEAD_OF_LETTING, ""),
     (_I_MEAN_EGO, "We, the ego, "),
     (_NO_YIELD, ""),
+    (_TAG_QUESTION, "."),
+    (_NOTE_TO_SELF, ""),
+    (_WEEKDAY, ""),
 )

@@ -15,6 +15,7 @@ from scenewright.translate.aliases import without_aliases
 from scenewright.translate.gist.approach_phrases import APPROACH_PHRASES
 from scenewright.translate.gist.asides import ASIDES
 from scenewright.translate.gist.clock_phrases import CLOCK_PHRASES
+from scenewright.translate.gist.formal_phrases import FORMAL_PHRASES
 from scenewright.translate.gist.inverted_phrases import INVERTED_PHRASES
 from scenewright.translate.gist.moment_phrases import MOMENT_PHRASES
 from scenewright.translate.gist.phrases import PHRASES
@@ -306,6 +307,7 @@ _RULES: Rules = (
     *TEST_MARKS,
     *CLOCK_PHRASES,
     *ASIDES,
+    *FORMAL_PHRASES,
     *INVERTED_PHRASES,
     *APPROACH_PHRASES,
     *MOMENT_PHRASES,

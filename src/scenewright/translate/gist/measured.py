@@ -248,6 +248,13 @@ class MeasureReader:
         return None
 
     def _who_follows(self, made: Measured) -> None:
-        """Find who is behind: "the ego follows the van with a time gap of 2 s"."""
+        """Find who is behind: "the ego follows the van with a time gap of 2 s", "its headway to the van is 2 s"."""
+        for at in made.clause.inside:
+            to = at + 1 if self.words.word(at + 1) != "of" else self.words.skip(at + 2, _BESIDE) + 1
+            timed = made.quantity is not None and made.quantity.dimension == "time"
+            if not timed or "measure" not in self.words.tags(at) or self.words.word(to) != "to":
+                continue
+            if (ahead := self.words.names.actors.get(self.words.skip(to + 1, _BESIDE))) is not None:
+                made.actor = 1 - ahead
         if self.words.where(made.clause.inside, "verb", "follow") is not None:
             made.actor = made.clause.subject

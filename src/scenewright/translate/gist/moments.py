@@ -120,6 +120,8 @@ class MomentReader:
             return "deed"
         if made.kind == "clock":
             return "trigger"
+        if made.kind == "speed" and self._stands(made):
+            raise self.words.refuse("a vehicle that stands has no speed", made.span)
         if self.starts.holds(made):
             if clause.link == "when" or "trigger" in clause.labels:
                 raise self.words.refuse("this is told of the start and of the trigger", made.span)
@@ -174,6 +176,13 @@ class MomentReader:
         if made.kind == "place" and self._is_told_then(clause):
             return "trigger"
         return "trigger" if self._deed_beside(clause) else "open"
+
+    def _stands(self, made: Measured) -> bool:
+        """Whether a speed is one of who stands: "standing there at 2 m/s", "the ego, stationary there, does 4 m/s"."""
+        own = [each for each in self.words.sentence(made.clause) if each.subject == made.actor and each.start < made.at]
+        stands = any(self.words.where(each.inside, "actor_adjective", "standing") is not None for each in own)
+        waits = self.words.verbs(range(made.clause.start, made.at)) == {"wait"} and not made.target
+        return waits or (stands and made.clause in own and not self._is_asked(made.clause))
 
     def _is_keyed(self, clause: Clause) -> bool:
         """Whether a speed that stands alone goes on with what was told, or has a key: "Its speed: 9 m/s"."""

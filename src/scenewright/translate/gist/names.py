@@ -68,7 +68,14 @@ def find_names(tokens: list[Token]) -> Names:
         elif "noun" in token.tags and not token.slips and not _is_last_one(tokens, at):
             if _is_one_more(tokens, at) and HERO_ID in names.actors.values():
                 names.kinds |= {"hero", "another"}
-            _name_vehicle(tokens, at, names, kinds, marks)
+            _name_vehicle(
+                tokens,
+                at,
+                names,
+                kinds,
+                marks,
+                ours=(speaker == EGO_ID and is_ours(tokens, at)) or _owned_by(tokens, at, drivers),
+            )
         elif short.get(word, at) < at and short[word] in names.actors and _is_definite(tokens, at):
             names.actors[at] = names.actors[short[word]]
         elif (word in owning and not owns(tokens, at)) or sits_in_one(tokens, at) or token.text in brands:
@@ -91,6 +98,11 @@ def _has_it(word: str) -> bool:
     """Whether this is "we have", "I've got"."""
     words = word.split()
     return len(words) > 1 and words[0] in ("we", "i") and words[-1] in ("have", "'ve", "\u2019ve", "got")
+
+
+def _owned_by(tokens: list[Token], at: int, drivers: set[str]) -> bool:
+    """Whether this is "the applicant's vehicle", of whom drives the ego."""
+    return at > 1 and "genitive" in tokens[at - 1].tags and tokens[at - 2].text.lower() in drivers
 
 
 def _is_person(token: Token) -> bool:
@@ -218,18 +230,13 @@ def _unknown_vehicle(tokens: list[Token]) -> str | None:
     return found[0] if len(found) == 1 else None
 
 
-def _name_vehicle(tokens: list[Token], at: int, names: Names, ego_kinds: set[str], ego_marks: set[str]) -> None:
+def _name_vehicle(
+    tokens: list[Token], at: int, names: Names, ego_kinds: set[str], ego_marks: set[str], *, ours: bool
+) -> None:
     kind = tokens[at].tags["noun"]
     marked = at > 0 and (tokens[at - 1].text.lower() in ego_marks or "ego" in tokens[at - 1].tags)  # "the ADS car"
     called = is_called(tokens, at)
-    ego = (
-        marked
-        or called
-        or is_predicate(tokens, at)
-        or kind in ego_kinds
-        or is_tested(tokens, at)
-        or is_ours(tokens, at)
-    )
+    ego = marked or called or is_predicate(tokens, at) or kind in ego_kinds or is_tested(tokens, at) or ours
     names.actors[at] = EGO_ID if ego else HERO_ID
     if kind in RELATIVE:
         names.relative[at] = RELATIVE[kind]

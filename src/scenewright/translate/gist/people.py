@@ -27,7 +27,7 @@ def drivers_of_ego(tokens: list[Token]) -> set[str]:
         if not _may_be_person(tokens, at):
             continue
         ahead = at + 1
-        if is_tested(tokens, at):
+        if is_tested(tokens, at) or is_called(tokens, at):
             found.add(token.text.lower())
             continue
         if ahead < len(tokens) and "genitive" in tokens[ahead].tags:

@@ -236,6 +236,9 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
         return words.named(range(clause.start - 1, -1, -1)) if words.names.driven else HERO_ID
     if "deed" in clause.labels and not pronouns and verbs & {"brake", "stop", "accelerate"}:
         return HERO_ID  # "Hero action: brakes to standstill"
+    begun = words.tag(clause.start + 1, "event_noun") in ("brake", "accelerate")
+    if words.word(clause.start) in ("its", "his", "her") and begun and "begin" in verbs:
+        return HERO_ID  # "Its deceleration begins when": the ego's would be its own affair
     own = [at for at in pronouns if not words.has([at - 1], "preposition")]
     if words.names.spoken and words.has(own, "pronoun", "possessive"):
         return HERO_ID  # "we" are the ego, so "it" is the other one

@@ -353,10 +353,14 @@ class WayReader:
         road = "pronoun" in self.words.tags(at + 1) and self.roles.road_before(at)
         if verb == "follow" and road:  # "is on the road and follows it"
             self._say("turn", "straight", at, clause.subject, clause)
-        elif clause.subject is not None and any(
-            i in self.words.names.actors or i in self.words.names.pronouns for i in near
+        elif clause.subject is not None and (
+            any(i in self.words.names.actors or i in self.words.names.pronouns for i in near)
+            or (self.words.has([at + 1], "end", "comma") and at - 1 in self.words.names.actors)  # "The ego leads."
         ):
-            ahead = clause.subject if verb == "lead" else 1 - clause.subject
+            first = clause.subject
+            if "ed" in self.words.tokens[at].forms and self.words.word(at + 1) == "by":  # "is preceded by a van"
+                first = self.words.names.actors.get(self.words.skip(at + 2, _BESIDE), 1 - first)
+            ahead = first if verb == "lead" else 1 - first
             self._relate("lead" if ahead == HERO_ID else "ego_leads", ahead, at)
 
     def _in_line(self, at: int, clause: Clause) -> None:

@@ -1,0 +1,211 @@
+"""Turns of phrase of those who write formally: nouns for deeds, passives, who is told beside an amount.
+
+What enters: nothing. What leaves: `FORMAL_PHRASES`, patterns with what to say instead, in their order: "the stop is
+complete 7 m short of it" is "it stops 7 m short of it". Nothing that is said instead is longer.
+"""
+
+from __future__ import annotations
+
+import re
+
+from scenewright.translate.gist.rewriting import AMOUNT, Rules
+
+_BEGINS = r"(?:(?<=[.!?;]\s)|^)"
+_ONE = r"(?:the )?(?:ego|hero|AV|SUT|VUT|POV|NPC)(?: vehicle)?"
+_EGO = r"(?:the )?(?:ego|AV|SUT|VUT)(?: vehicle)?"
+_HERO = r"(?:the (?:hero|POV|NPC)(?: vehicle)?|it|he|she)"
+_PRIORITY = r"(?:priority|precedence|right of way|right-of-way)"
+_PLACE = r"the (?:conflict point|stop line|intersection)"
+# "The moment that counts is when", "The decisive instant is when", "What makes the hero yield is that"
+_DECISIVE = re.compile(
+    rf"{_BEGINS}The (?:moment|instant|point in time) (?:that (?:counts|matters)|to look for|in question) is "
+    rf"(?:when|the one at which|that at which) |{_BEGINS}The (?:decisive|crucial|relevant|critical) (?:moment|instant) "
+    rf"is when |{_BEGINS}What makes {_HERO} (?:yield|brake|stop|react) is that ",
+    re.IGNORECASE,
+)
+# "16 m are left between the ego and the stop line"
+_LEFT_BETWEEN = re.compile(rf"\b({AMOUNT}) (?:are|is) left (?=between)", re.IGNORECASE)
+_TWO_MEET = re.compile(
+    rf"{_BEGINS}Two (?:left|right)[- ]turn(?:er|ing)s?(?: cars| vehicles| drivers)? meet\.", re.IGNORECASE
+)
+# "The gap to the hero decreases, and when it is 25 m"
+_GAP_SHRINKS = re.compile(
+    rf"{_BEGINS}The (gap|distance|headway|time gap)(?: to the hero| between (?:them|the two))? (?:decreases|shrinks"
+    rf"|closes"
+    r"|falls|diminishes|gets smaller),? and (when|once|as soon as) it (?=is |has )",
+    re.IGNORECASE,
+)
+# "and before the ego begins to turn the hero has passed the conflict point"
+_BEFORE_FRONTED = re.compile(
+    rf"\band (before {_EGO} [^,.;\d]*?),? (?:the hero|it|he|she) has (passed|crossed) (the conflict point|it)\b",
+    re.IGNORECASE,
+)
+_PLACE_FRONTED = re.compile(rf"{_BEGINS}From ({_PLACE}) ({_ONE}) is (?:still )?({AMOUNT}) away\b", re.IGNORECASE)
+# "The ego does not begin to turn until after that.", "Ego begins its turn after the hero has done so."
+_ONLY_AFTER = re.compile(
+    rf"\. {_EGO} (?:(?:does not|doesn['\u2019]t|will not|cannot) (?:begin|start) (?:to turn|its turn) (?:until "
+    rf")?(?:after"
+    rf"|before) (?:that|this)|(?:begins|starts) (?:its turn|to turn) (?:only )?after (?:that|this|{_HERO} has done "
+    rf"so))\.",
+    re.IGNORECASE,
+)
+_KEEPS_LANE = re.compile(
+    r"\b(?:is not going to|will not|does not(?: intend to| want to)?|is not to) leave (?:its|his|her|the) lane\b",
+    re.IGNORECASE,
+)
+_NOT_INSIST = re.compile(
+    rf"\bdoes not insist on (?:going first|(?:its|his|her|the) {_PRIORITY}|it)(?=[.;])", re.IGNORECASE
+)
+_FOR_WHICH_IT_CROSSES = re.compile(
+    r",? (?:for|in|with) which (?:it|he|she) (?:must|has to|will|needs to|is to) cross (?:the (?:ego"
+    r"|hero)['\u2019]s|our"
+    r"|its) (?:lane|path|way)(?=[.,;])",
+    re.IGNORECASE,
+)
+_HAS_TO_CROSS = re.compile(
+    rf"(\b(?:that|which) is [^.;:]{{0,80}}?turn left into the driveway) has to cross the (?:lane|path|way) of ({_EGO}),"
+    r" which",
+    re.IGNORECASE,
+)
+_NOT_RESPECTED = re.compile(
+    rf"{_BEGINS}The {_PRIORITY} of {_EGO} is (?:not respected|disregarded|ignored|neglected)\.", re.IGNORECASE
+)
+_DENIES = re.compile(
+    rf"\b(?:denies|refuses) (?:it|us|him|{_EGO}) (?:the |its |his )?{_PRIORITY}(?: to which (?:it|he|she|we) (?:is"
+    rf"|are) "
+    r"entitled| that (?:it|he|she) has)?(?=[.;,])",
+    re.IGNORECASE,
+)
+_REFUSES_TO = re.compile(rf"\b(?:refuses|denies) {_PRIORITY} to (?={_EGO}|us\b)", re.IGNORECASE)
+_LEFT_TO_EGO = re.compile(
+    rf"{_BEGINS}{_PRIORITY} is (?:left|given|granted|conceded|ceded) to ({_EGO}|us)(?=[.,;])", re.IGNORECASE
+)
+_STOP_COMPLETE = re.compile(
+    rf"\b(?:its|the|this|his) (?:full |complete )?stop (?:is complete|takes place|is reached) (?={AMOUNT}|just before)",
+    re.IGNORECASE,
+)
+_SO_THAT_IT_MAY = re.compile(
+    rf",? (?:so|in order) that ({_EGO}) (?:may|can|could|might) (turn (?:left|right) (?:from|out of) the driveway)",
+    re.IGNORECASE,
+)
+_SO_THAT_IT_MAY_ENTER = re.compile(
+    rf",? (?:so|in order) that {_EGO} (?:may|can|could|might) (?:enter|join|pull out onto|go first|pass)"
+    r"(?: the road)?(?: from the driveway)?(?=[.,;])",
+    re.IGNORECASE,
+)
+_COURSE = re.compile(rf"\b({_ONE}['\u2019]s) course is (?=straight|a (?:left|right) turn)", re.IGNORECASE)
+# "the distance to the conflict point is 25 m for the ego and 21 m for the hero"
+_FOR_EACH = re.compile(
+    rf"\b(?:the|its|their) (?:distances?|times?(?: to arrival)?)(?: that remains?)? (?:from|to) ({_PLACE}) "
+    rf"(?:equals?|is"
+    rf"|are|amounts? to|measures?) ({AMOUNT}) (?:in the case of|for) ({_ONE}) and (?:to )?({AMOUNT}) (?:in the case of"
+    rf"|for) ({_ONE})",
+    re.IGNORECASE,
+)
+_FOR_EACH_APART = re.compile(
+    rf"\bthe (?:distance|time) that remains to ({_PLACE}) is ({AMOUNT}) for ({_ONE}) and the (?:distance|time) that "
+    rf"remains to ({_PLACE}) is ({AMOUNT}) for ({_ONE})",
+    re.IGNORECASE,
+)
+_OWN_AMOUNTS_TO = re.compile(
+    rf"\b(the ego['\u2019]s (?:distance|time)) to ({_PLACE}) amounts to ({AMOUNT}) and its own (?:distance|time) to "
+    rf"({_PLACE}) to ({AMOUNT})",
+    re.IGNORECASE,
+)
+_IS_MAINTAINED = re.compile(r"\band is (?:maintained|kept up|held) for (?=[\d.]+ |\w+_s\b)", re.IGNORECASE)
+_IN_MOTION_AGAIN = re.compile(r"\bis set in motion again\b", re.IGNORECASE)
+_PATHS_INTERSECT = re.compile(
+    rf"{_BEGINS}The (?:paths|ways|routes) of (?:the )?two vehicles (?:intersect|cross|meet|merge|conflict):", re.I
+)
+_MANNERS = re.compile(r"\b(the hero|it|he|she) minds (?:its|his|her) manners:", re.IGNORECASE)
+_TRAILING_BY = re.compile(r"\b(?:is )?trail(?:s|ing) (the [\w-]+|it) by (\w+_(?:m|s|ft))\b", re.IGNORECASE)
+_OPPOSITE_AIM = re.compile(r"\bhas the (?:opposite|same|contrary) (?:intention|aim|plan), namely to\b", re.IGNORECASE)
+_FOR_IT_DOES = re.compile(r", for ((?:it|he|she|the hero) (?:accelerates|brakes|decelerates))\b", re.IGNORECASE)
+_FROM_THE_INSTANT = re.compile(
+    r"\b(accelerates|brakes|decelerates) from the (?:instant|moment) (?:at which|when|that)\b", re.IGNORECASE
+)
+
+# "Whilst the road is followed westbound by a hero, a right turn is intended by the ego"
+_IS_FOLLOWED = re.compile(
+    r"(?:(?<=[.!?;]\s)|^)(?:(?:Whilst|While) )?the (road|lane) is followed ((?:straight on )?(?:east|west)bound"
+    r"|straight "
+    r"on) by (an? hero|the hero|an? [\w-]+|the ego)(,|\.)",
+    re.IGNORECASE,
+)
+_MOVES_NO_MORE = re.compile(
+    r"\b(?:does not move|is not moving|moves not|['\u2019]s not moving) any ?more\b",
+    re.IGNORECASE,
+)
+_TURNING_IS_TASK = re.compile(
+    rf"{_BEGINS}Turning (left|right) ([^.;:]{{0,60}}?) is the (?:task|goal|plan|aim|intention|job) of ({_ONE})\.", re.I
+)
+
+_RENOUNCES = re.compile(r"\b(?:renounces|relents|gives in|backs off)(?=[:,] (?:it|he|she|and)\b)", re.IGNORECASE)
+_FORGOES = re.compile(
+    rf"\b(?:waives|forgoes|renounces|gives up|cedes) (?:its|his|her|the) {_PRIORITY}(?: in favour of ({_EGO}"
+    rf"|us))?(?=,)",
+    re.IGNORECASE,
+)
+_CONTRARY_TO_DUTY = re.compile(
+    r",? contrary to (?:its|his|her) (?:obligation|duty) to (?:give way|yield|wait),?", re.IGNORECASE
+)
+_EQUAL_TO = re.compile(rf"\bequal to (?={AMOUNT})", re.IGNORECASE)
+_DESTINED = re.compile(r"\b(?:is|be|are) destined to (?=turn|go|drive|continue)", re.IGNORECASE)
+# "Initial position of the ego: 60 m before the intersection; of the hero: 20 m before the stop line"
+_AND_OF = re.compile(rf"; of (the [\w ]{{3,25}}?): (?={AMOUNT})", re.IGNORECASE)
+_OTHER_SENSE = re.compile(r"\bin the opposite sense\b", re.IGNORECASE)
+_JUDGES_GAP = re.compile(
+    r"\bjudges the gap (?:to be |as )?too (?:short|small|tight)(?: and|[:,] (?:it|he|she)) (?=\w+s\b)", re.IGNORECASE
+)
+
+
+def _before(found: re.Match[str]) -> str:
+    """Return "and before the ego turns the hero has passed it" as "and passes it before the ego turns"."""
+    verb = "passes" if found.group(2).lower() == "passed" else "crosses"
+    return f"and {verb} {found.group(3)} {found.group(1)}"
+
+
+# In this order: what one rule leaves, the next may read.
+FORMAL_PHRASES: Rules = (
+    (_DECISIVE, "The trigger is that "),
+    (_LEFT_BETWEEN, r"\1 remain "),
+    (_TWO_MEET, ""),
+    (_GAP_SHRINKS, r"\2 the \1 "),
+    (_BEFORE_FRONTED, _before),
+    (_PLACE_FRONTED, r"\2 is \3 from \1"),
+    (_ONLY_AFTER, " before the ego begins to turn."),
+    (_KEEPS_LANE, "stays in its lane"),
+    (_NOT_INSIST, "yields"),
+    (_FOR_WHICH_IT_CROSSES, ""),
+    (_HAS_TO_CROSS, r"\1 meets \2, which"),
+    (_NOT_RESPECTED, "The hero won't yield."),
+    (_DENIES, "won't yield"),
+    (_REFUSES_TO, "won't yield to "),
+    (_LEFT_TO_EGO, r"Yielding to \1"),
+    (_STOP_COMPLETE, "it stops "),
+    (_SO_THAT_IT_MAY, r". \1 will \2"),
+    (_SO_THAT_IT_MAY_ENTER, ""),
+    (_COURSE, r"\1 route is "),
+    (_FOR_EACH, r"\3 is \2 and \5 \4 from \1"),
+    (_FOR_EACH_APART, r"\3 is \2 from \1 and \6 \5 from \4"),
+    (_OWN_AMOUNTS_TO, r"the ego is \3 from \2 and it is \5 from \4"),
+    (_IS_MAINTAINED, "for "),
+    (_IN_MOTION_AGAIN, "drives on"),
+    (_PATHS_INTERSECT, ""),
+    (_MANNERS, r"\1 yields:"),
+    (_TRAILING_BY, r"is \2 behind \1"),
+    (_OPPOSITE_AIM, "wants to"),
+    (_FOR_IT_DOES, r"; \1"),
+    (_FROM_THE_INSTANT, r"\1 when"),
+    (_IS_FOLLOWED, r"\3 follows the \1 \2."),
+    (_MOVES_NO_MORE, "stops"),
+    (_TURNING_IS_TASK, r"\3 is turning \1 \2."),
+    (_RENOUNCES, "yields"),
+    (_FORGOES, "yields"),
+    (_CONTRARY_TO_DUTY, " without yielding,"),
+    (_EQUAL_TO, ""),
+    (_DESTINED, "will "),
+    (_AND_OF, r"; \1 : "),
+    (_OTHER_SENSE, "the other way"),
+    (_JUDGES_GAP, ""),
+)
