@@ -25,8 +25,8 @@ GOES = "the hero accelerates and passes the conflict point before the ego begins
         "Priority is left to the ego. " + MOMENT + STOPS,
         MOMENT + "the hero begins to decelerate. Its stop is complete 2 m before the stop line.",
         MOMENT + "the hero relents: it brakes and stops 2 m before the stop line.",
-        "When the ego is 28 m from the conflict point and the hero is 9 m from the stop line, the hero is braked until it "
-        "does not move any more, 2 m before the stop line.",
+        "When the ego is 28 m from the conflict point and the hero is 9 m from the stop line, the hero is braked until "
+        "it does not move any more, 2 m before the stop line.",
     ],
 )
 def test_yielding(formal: str) -> None:
@@ -92,13 +92,13 @@ def test_who_is_in_front_has_no_headway_to_the_other(order: str, measure: str) -
 def test_mine_is_the_hero_where_i_am(whose: str) -> None:
     """What is mine is the ego, but not where I drive the other one."""
     text = (
-        f"We both come down the driveway and turn right to go west: I am the hero, in front, in {whose}, and the ego is "
-        "behind me. When the ego is 9 m behind me, I brake at 3 m/s^2 to a stop."
+        f"We both come down the driveway and turn right to go west: I am the hero, in front, in {whose}, and the ego "
+        "is behind me. When the ego is 9 m behind me, I brake at 3 m/s^2 to a stop."
     )
     assert "gap(A0, A1, t1) == 9" in meaning(text)[1]
 
 
 def test_it_after_a_gap_may_be_either() -> None:
-    text = f"{BOTH}The ego follows the hero. When the ego is 15 m behind the hero and it is 25 m from the intersection, the"
+    text = f"{BOTH}The ego follows the hero. When the ego is 15 m behind the hero and it is 25 m from the stop line, the"
     with pytest.raises(TranslationError):
         meaning(f"{text} hero brakes at 3 m/s^2 to a stop.")
