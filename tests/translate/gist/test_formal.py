@@ -99,6 +99,6 @@ def test_mine_is_the_hero_where_i_am(whose: str) -> None:
 
 
 def test_it_after_a_gap_may_be_either() -> None:
-    text = f"{BOTH}The ego follows the hero. When the ego is 15 m behind the hero and it is 25 m from the stop line, the"
+    text = f"{BOTH}The ego follows the hero. When the ego is 15 m behind the hero and it is 25 m from the stop line,"
     with pytest.raises(TranslationError):
-        meaning(f"{text} hero brakes at 3 m/s^2 to a stop.")
+        meaning(f"{text} the hero brakes at 3 m/s^2 to a stop.")
