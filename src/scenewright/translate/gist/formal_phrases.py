@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import re
 
-from scenewright.translate.gist.rewriting import AMOUNT, Rules
+from scenewright.translate.gist.rewriting import AMOUNT, BEGINS, Rules
 
-_BEGINS = r"(?:(?<=[.!?;]\s)|^)"
 _ONE = r"(?:the )?(?:ego|hero|AV|SUT|VUT|POV|NPC)(?: vehicle)?"
 _EGO = r"(?:the )?(?:ego|AV|SUT|VUT)(?: vehicle)?"
 _HERO = r"(?:the (?:hero|POV|NPC)(?: vehicle)?|it|he|she)"
@@ -18,19 +17,19 @@ _PRIORITY = r"(?:priority|precedence|right of way|right-of-way)"
 _PLACE = r"the (?:conflict point|stop line|intersection)"
 # "The moment that counts is when", "The decisive instant is when", "What makes the hero yield is that"
 _DECISIVE = re.compile(
-    rf"{_BEGINS}The (?:moment|instant|point in time) (?:that (?:counts|matters)|to look for|in question) is "
-    rf"(?:when|the one at which|that at which) |{_BEGINS}The (?:decisive|crucial|relevant|critical) (?:moment|instant) "
-    rf"is when |{_BEGINS}What makes {_HERO} (?:yield|brake|stop|react) is that ",
+    rf"{BEGINS}The (?:moment|instant|point in time) (?:that (?:counts|matters)|to look for|in question) is "
+    rf"(?:when|the one at which|that at which) |{BEGINS}The (?:decisive|crucial|relevant|critical) (?:moment|instant) "
+    rf"is when |{BEGINS}What makes {_HERO} (?:yield|brake|stop|react) is that ",
     re.IGNORECASE,
 )
 # "16 m are left between the ego and the stop line"
 _LEFT_BETWEEN = re.compile(rf"\b({AMOUNT}) (?:are|is) left (?=between)", re.IGNORECASE)
 _TWO_MEET = re.compile(
-    rf"{_BEGINS}Two (?:left|right)[- ]turn(?:er|ing)s?(?: cars| vehicles| drivers)? meet\.", re.IGNORECASE
+    rf"{BEGINS}Two (?:left|right)[- ]turn(?:er|ing)s?(?: cars| vehicles| drivers)? meet\.", re.IGNORECASE
 )
 # "The gap to the hero decreases, and when it is 25 m"
 _GAP_SHRINKS = re.compile(
-    rf"{_BEGINS}The (gap|distance|headway|time gap)(?: to the hero| between (?:them|the two))? (?:decreases|shrinks"
+    rf"{BEGINS}The (gap|distance|headway|time gap)(?: to the hero| between (?:them|the two))? (?:decreases|shrinks"
     rf"|closes"
     r"|falls|diminishes|gets smaller),? and (when|once|as soon as) it (?=is |has )",
     re.IGNORECASE,
@@ -40,7 +39,7 @@ _BEFORE_FRONTED = re.compile(
     rf"\band (before {_EGO} [^,.;\d]*?),? (?:the hero|it|he|she) has (passed|crossed) (the conflict point|it)\b",
     re.IGNORECASE,
 )
-_PLACE_FRONTED = re.compile(rf"{_BEGINS}From ({_PLACE}) ({_ONE}) is (?:still )?({AMOUNT}) away\b", re.IGNORECASE)
+_PLACE_FRONTED = re.compile(rf"{BEGINS}From ({_PLACE}) ({_ONE}) is (?:still )?({AMOUNT}) away\b", re.IGNORECASE)
 # "The ego does not begin to turn until after that.", "Ego begins its turn after the hero has done so."
 _ONLY_AFTER = re.compile(
     rf"\. {_EGO} (?:(?:does not|doesn['\u2019]t|will not|cannot) (?:begin|start) (?:to turn|its turn) (?:until "
@@ -68,7 +67,7 @@ _HAS_TO_CROSS = re.compile(
     re.IGNORECASE,
 )
 _NOT_RESPECTED = re.compile(
-    rf"{_BEGINS}The {_PRIORITY} of {_EGO} is (?:not respected|disregarded|ignored|neglected)\.", re.IGNORECASE
+    rf"{BEGINS}The {_PRIORITY} of {_EGO} is (?:not respected|disregarded|ignored|neglected)\.", re.IGNORECASE
 )
 _DENIES = re.compile(
     rf"\b(?:denies|refuses) (?:it|us|him|{_EGO}) (?:the |its |his )?{_PRIORITY}(?: to which (?:it|he|she|we) (?:is"
@@ -78,7 +77,7 @@ _DENIES = re.compile(
 )
 _REFUSES_TO = re.compile(rf"\b(?:refuses|denies) {_PRIORITY} to (?={_EGO}|us\b)", re.IGNORECASE)
 _LEFT_TO_EGO = re.compile(
-    rf"{_BEGINS}{_PRIORITY} is (?:left|given|granted|conceded|ceded) to ({_EGO}|us)(?=[.,;])", re.IGNORECASE
+    rf"{BEGINS}{_PRIORITY} is (?:left|given|granted|conceded|ceded) to ({_EGO}|us)(?=[.,;])", re.IGNORECASE
 )
 _STOP_COMPLETE = re.compile(
     rf"\b(?:its|the|this|his) (?:full |complete )?stop (?:is complete|takes place|is reached) (?={AMOUNT}|just before)",
@@ -115,7 +114,7 @@ _OWN_AMOUNTS_TO = re.compile(
 _IS_MAINTAINED = re.compile(r"\band is (?:maintained|kept up|held) for (?=[\d.]+ |\w+_s\b)", re.IGNORECASE)
 _IN_MOTION_AGAIN = re.compile(r"\bis set in motion again\b", re.IGNORECASE)
 _PATHS_INTERSECT = re.compile(
-    rf"{_BEGINS}The (?:paths|ways|routes) of (?:the )?two vehicles (?:intersect|cross|meet|merge|conflict):", re.I
+    rf"{BEGINS}The (?:paths|ways|routes) of (?:the )?two vehicles (?:intersect|cross|meet|merge|conflict):", re.I
 )
 _MANNERS = re.compile(r"\b(the hero|it|he|she) minds (?:its|his|her) manners:", re.IGNORECASE)
 _TRAILING_BY = re.compile(r"\b(?:is )?trail(?:s|ing) (the [\w-]+|it) by (\w+_(?:m|s|ft))\b", re.IGNORECASE)
@@ -137,7 +136,7 @@ _MOVES_NO_MORE = re.compile(
     re.IGNORECASE,
 )
 _TURNING_IS_TASK = re.compile(
-    rf"{_BEGINS}Turning (left|right) ([^.;:]{{0,60}}?) is the (?:task|goal|plan|aim|intention|job) of ({_ONE})\.", re.I
+    rf"{BEGINS}Turning (left|right) ([^.;:]{{0,60}}?) is the (?:task|goal|plan|aim|intention|job) of ({_ONE})\.", re.I
 )
 
 _RENOUNCES = re.compile(r"\b(?:renounces|relents|gives in|backs off)(?=[:,] (?:it|he|she|and)\b)", re.IGNORECASE)

@@ -8,20 +8,19 @@ from __future__ import annotations
 
 import re
 
-from scenewright.translate.gist.rewriting import AMOUNT, Rules
+from scenewright.translate.gist.rewriting import AMOUNT, BEGINS, Rules
 
 _WHO = r"(?:it|the ego(?: vehicle)?|the hero(?: vehicle)?|the other (?:vehicle|car))"
 _TURN = r"(?:left|right) turn"
 _AIM = r"(?:goal|aim|intention|plan|wish|objective)"
-_BEGINS = r"(?:(?<=[.!?;]\s)|^)"
 # "A right turn onto the road, to travel westbound, is planned for it", "A left turn is wanted by the hero"
 _TURN_PLANNED = re.compile(
-    rf"{_BEGINS}[Aa] ({_TURN}[^.;:]{{0,80}}?),? is (?:planned|intended|foreseen|wanted|desired|made) (?:for|by) "
+    rf"{BEGINS}[Aa] ({_TURN}[^.;:]{{0,80}}?),? is (?:planned|intended|foreseen|wanted|desired|made) (?:for|by) "
     rf"({_WHO})\b"
 )
-_TURN_IS_GOAL = re.compile(rf"{_BEGINS}[Aa] ({_TURN}[^,.;:]{{0,60}}) is the {_AIM} of ({_WHO})\b")
-_GOAL_IS_TURN = re.compile(rf"{_BEGINS}[Tt]he {_AIM} of ({_WHO})((?:, [^,.;:]{{3,60}},)?) is (?=an? {_TURN}\b)")
-_TURN_IS_ONE = re.compile(rf"{_BEGINS}[Tt]he turn of ({_WHO}) is a (left|right) one,?")
+_TURN_IS_GOAL = re.compile(rf"{BEGINS}[Aa] ({_TURN}[^,.;:]{{0,60}}) is the {_AIM} of ({_WHO})\b")
+_GOAL_IS_TURN = re.compile(rf"{BEGINS}[Tt]he {_AIM} of ({_WHO})((?:, [^,.;:]{{3,60}},)?) is (?=an? {_TURN}\b)")
+_TURN_IS_ONE = re.compile(rf"{BEGINS}[Tt]he turn of ({_WHO}) is a (left|right) one,?")
 _HAS_BEFORE_IT = re.compile(
     rf"\bhas (an? {_TURN}) (?:before|ahead of|in front of) (?:it|him|her)(?:,? after which (?:it|he|she) will "
     rf"be)?",
@@ -51,7 +50,7 @@ _STOP_TO_BE = re.compile(
     rf"(?:behind|before|short|from|ahead))",
     re.IGNORECASE,
 )
-_PLACE_OF_STOP = re.compile(rf"{_BEGINS}The place (?:of|for) (?:the|its|this) (?:stop|standstill|halt) is (?={AMOUNT})")
+_PLACE_OF_STOP = re.compile(rf"{BEGINS}The place (?:of|for) (?:the|its|this) (?:stop|standstill|halt) is (?={AMOUNT})")
 _TURN_IS_COMPLETED = re.compile(
     r"(?:; |, |\bsuch that |\bso that )(its|his|her) turn is (?:completed|complete|finished|over|done) "
     r"(?=before\b)",
@@ -66,12 +65,12 @@ _DECIDED_BY = re.compile(
     re.IGNORECASE,
 )
 _YIELDING_BY = re.compile(
-    rf"{_BEGINS}[Yy]ielding is (?:done|left to|practised)(?: here)?(?: by)? (a hero(?: vehicle)?|a second "
+    rf"{BEGINS}[Yy]ielding is (?:done|left to|practised)(?: here)?(?: by)? (a hero(?: vehicle)?|a second "
     rf"(?:vehicle|car)) (?:that|which) "
 )
-_SHOULD_IT_BE = re.compile(rf"{_BEGINS}Should ({_WHO}) be (?={AMOUNT})")
+_SHOULD_IT_BE = re.compile(rf"{BEGINS}Should ({_WHO}) be (?={AMOUNT})")
 _WHEN_IT_STARTS = re.compile(
-    rf"{_BEGINS}When (it|the ego) (?:starts|begins), ({AMOUNT} (?:from|before) (?:the|its) (?:intersection|stop "
+    rf"{BEGINS}When (it|the ego) (?:starts|begins), ({AMOUNT} (?:from|before) (?:the|its) (?:intersection|stop "
     rf"line|conflict point)), "
     r"(?:it|the ego) (?:already )?(?=intends|wants|plans|is)"
 )
@@ -81,7 +80,7 @@ _LIES_AHEAD = re.compile(
 )
 _ON_THE_MOVE = re.compile(r"\b(?:it is on the move again|it gets going again), accelerating (?=to\b)", re.IGNORECASE)
 _SUBJECT_OF_TEST = re.compile(
-    rf"{_BEGINS}(?:The )?[Ss]ubject of (?:the|this|our) (?:evaluation|test|study|assessment) is (?:the|an?) "
+    rf"{BEGINS}(?:The )?[Ss]ubject of (?:the|this|our) (?:evaluation|test|study|assessment) is (?:the|an?) "
     r"(?:vehicle|car) (?:that|which) "
 )
 _OF_THAT_TRAFFIC = re.compile(r"\b(The ego) (?:belongs to|is part of) (?:that|this|the same) traffic: it\b")
