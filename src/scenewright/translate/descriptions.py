@@ -204,6 +204,7 @@ class DescriptionReader:
             if (
                 event.verb in ("drive", "go")
                 and turned
+                and not any(area.role == "into" and area.kind == "driveway" for area in turned[0].areas)
                 and turned[0].span.start < event.span.start
                 and event is not turned[0]
             ):

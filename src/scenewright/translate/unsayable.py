@@ -391,6 +391,11 @@ _PHRASES = tuple(
             r"|\b(?:yet|still|remains) to be (?:settled|decided|agreed|determined|seen)\b",
             "something that is still to be decided",
         ),
+        (
+            r"\b(?:taking|takes|knock(?:ing|s)|tear(?:ing|s)|rip(?:ping|s)) off (?:the|its|our|his|her)\b(?! (?:gas|throttle"
+            r"|accelerator|brakes?))",
+            "a contact of the two vehicles",
+        ),
         (r"\broll(?:s|ing|ed)? back\b|\bin reverse\b|\bbacks up\b", "driving backwards"),
     )
 )

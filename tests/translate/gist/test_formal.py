@@ -102,3 +102,37 @@ def test_it_after_a_gap_may_be_either() -> None:
     text = f"{BOTH}The ego follows the hero. When the ego is 15 m behind the hero and it is 25 m from the stop line,"
     with pytest.raises(TranslationError):
         meaning(f"{text} the hero brakes at 3 m/s^2 to a stop.")
+
+
+@pytest.mark.parametrize(
+    "formal",
+    [
+        "When both vehicles are near the conflict point, namely the ego 28 m and the hero 12 m behind it, " + STOPS,
+        "The ego reaching 28 m from the conflict point, with the hero 12 m from "
+        "the conflict point, causes the hero to begin braking. It stops 2 m before the stop line.",
+        "In the first phase, which begins when the ego is 28 m from the conflict point and the hero is 12 m from the "
+        f"conflict point, {STOPS}",
+        "When the ego is 28 m from the conflict point and the hero is 12 m from the conflict point, the hero begins to "
+        "brake. At 2 m before the stop line it comes to a complete stop.",
+        "Being 12 m from the conflict point when the ego is 28 m from the conflict point, the hero yields from that "
+        "moment on. It stops 2 m before the stop line.",
+    ],
+)
+def test_moments(formal: str) -> None:
+    plain = "When the ego is 28 m from the conflict point and the hero is 12 m from the conflict point, "
+    assert meaning(EGO + HERO + formal) == meaning(EGO + HERO + plain + STOPS)
+
+
+@pytest.mark.parametrize(
+    "way",
+    [
+        "Wanting to turn left into the driveway, the ego drives eastbound on the road and is at first 80 m before the "
+        "intersection. ",
+        "The ego, wanting to turn left into the driveway, drives eastbound on the road and is at first 80 m before the "
+        "intersection. ",
+        "The ego goes eastbound along the road until it turns left into the driveway, and at the start it is 80 m before the "
+        "intersection. ",
+    ],
+)
+def test_the_road_is_where_it_comes_from_where_it_turns_into_the_driveway(way: str) -> None:
+    assert meaning(way + HERO + MOMENT + STOPS) == meaning(EGO + HERO + MOMENT + STOPS)

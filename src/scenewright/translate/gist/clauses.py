@@ -191,6 +191,8 @@ def _link(words: Words, at: int) -> str | None:
         return "when"
     if word == "whose":
         return "that"
+    if word in ("although", "though") and _names_someone(words, at + 1):
+        return "and"  # "turns left although the ego is coming, westbound"
     if word == "from there" and "quantity" in words.tags(at - 1):
         return None  # "when it is 2 s from there"
     if word == "as" and words.tag(at, "frame") == "as" and _names_someone(words, at + 1) and _goes_along(words, at):

@@ -157,6 +157,93 @@ _JUDGES_GAP = re.compile(
     r"\bjudges the gap (?:to be |as )?too (?:short|small|tight)(?: and|[:,] (?:it|he|she)) (?=\w+s\b)", re.IGNORECASE
 )
 
+_WITHOUT_LEAVING = re.compile(r"\bwithout leaving (?:its|his|her|the) lane\b", re.IGNORECASE)
+_WHAT_IT_DOES = re.compile(
+    rf"{BEGINS}What ({_HERO}) does (?:then|next) is (?:to )?(accelerate|brake|decelerate)\b", re.IGNORECASE
+)
+# "When both vehicles are near the conflict point, namely the ego 12 m and the hero 20 m behind it"
+_NAMELY = re.compile(
+    rf"\b(when|once|as soon as) (?:both(?: vehicles| cars)?|they|the two) are (?:near|close to) ({_PLACE}), namely "
+    rf"({_ONE}) "
+    rf"({AMOUNT}) and ({_ONE}) ({AMOUNT}) (behind|before|from) (?:it|that point)",
+    re.IGNORECASE,
+)
+_STARTING_PLACE = re.compile(r"\bhas the driveway(?: exit)? as its (?:starting place|origin|start)\b", re.IGNORECASE)
+_TARGET_ROAD = re.compile(
+    r",? and the (?:east|west)bound road as its (?:target|destination|goal), for which it (?:must|has to) "
+    r"(turn (?:left|right))",
+    re.IGNORECASE,
+)
+_STOPS_THERE = re.compile(
+    rf"{BEGINS}At ({AMOUNT} (?:behind|before|short of|from) {_PLACE}) ({_HERO}) (?:makes|comes to|reaches) a "
+    r"(?:complete |full )?(?:stop|halt|standstill)\b",
+    re.IGNORECASE,
+)
+_HEADS_FOR_LINE = re.compile(
+    rf"\bis (?:heading|making|driving) for the stop line of the driveway and is ({AMOUNT}) from it\b", re.IGNORECASE
+)
+# "Being 3 s from it when the ego is 4 s from it, the hero yields from that moment on"
+_BEING_WHEN = re.compile(
+    rf"{BEGINS}Being ({AMOUNT} from {_PLACE}) when ({_EGO} is {AMOUNT} from {_PLACE}), (the hero(?: vehicle)?) "
+    rf"(yields|brakes"
+    r"|decelerates|accelerates)(?: from (?:that moment|then|there) on)?\b",
+    re.IGNORECASE,
+)
+_ACHIEVED = re.compile(r"\. (?:This|That) is (?:achieved|done|accomplished|completed) (?=before\b)", re.IGNORECASE)
+_FIRST_PHASE = re.compile(rf"{BEGINS}In the first phase, which (?:starts|begins) (?=when\b)", re.IGNORECASE)
+_NEXT_PHASE = re.compile(
+    rf"{BEGINS}In the (?:second|next|last|final) phase,? (?=it |he |she |the hero )",
+    re.IGNORECASE,
+)
+_UNTIL_IT_TURNS = re.compile(r"\buntil (?:it|he|she) (?=turns (?:left|right) (?:into|onto)\b)", re.IGNORECASE)
+_CAUSES = re.compile(
+    rf"{BEGINS}({_EGO}) reaching ([^.;]*?),? (?:causes|makes|leads) ({_HERO}) to (?:begin|start) (decelerating"
+    r"|accelerating|braking)\b",
+    re.IGNORECASE,
+)
+_BEFORE_GOING = re.compile(
+    r"\b(stops (?:completely )?[^.;]*?) before (it|he|she) begins to accelerate again\b", re.IGNORECASE
+)
+_PLANNED_FROM_DRIVEWAY = re.compile(
+    rf"{BEGINS}From the driveway, a ((?:left|right) turn[^.;:]{{0,60}}?) is (?:planned|intended|wanted) (?:for|by) "
+    rf"({_ONE})\b",
+    re.IGNORECASE,
+)
+_IF_IT_HOLDS = re.compile(r"\b(if|when|once) it (?:holds|is true|is the case) that ", re.IGNORECASE)
+_TIME_TO_REACT = re.compile(rf"{BEGINS}The (?:time|moment) at which {_HERO} reacts is when ", re.IGNORECASE)
+_PASSING_PRECEDES = re.compile(
+    rf"\. Its (?:passing|passage) of {_PLACE} precedes the beginning of the (?:ego|AV|SUT)['\u2019]s turn\.",
+    re.IGNORECASE,
+)
+_AN_EASTBOUND = re.compile(
+    rf"\b({_EGO}), an? ((?:east|west)bound) (?:vehicle|car)((?: on the road)?), (?=intends|wants|plans|is|keeps)", re.I
+)
+
+# "it brakes; what sets this off is the ego getting within 8 m of it"
+_SET_OFF_BY = re.compile(
+    rf"[;,] (?:and )?what (?:sets (?:this|it|that) off|triggers (?:this|it|that)|causes (?:this|it|that)) is "
+    rf"({_EGO}|{_HERO}) "
+    r"(?:getting|coming) (?=within|to )",
+    re.IGNORECASE,
+)
+_LIES_AHEAD_OF_EACH = re.compile(
+    rf"\b({_PLACE}) (?:lies|is) ({AMOUNT}) (?:ahead|in front) of ({_ONE}) and ({AMOUNT}) (?:ahead|in front) of "
+    rf"({_ONE})\b",
+    re.IGNORECASE,
+)
+_ARRIVES_ON = re.compile(r"\barrives on the road (?=heading|going|travelling|traveling)", re.IGNORECASE)
+_REACTION_TESTED = re.compile(
+    rf"{BEGINS}The (?:ego|AV|SUT|VUT)['\u2019]s (?:reaction|response|behaviou?r) to [^.;:\d]{{3,80}} is (?:under "
+    rf"test|tested"
+    r"|assessed|of interest|at issue|examined)\.",
+    re.IGNORECASE,
+)
+_BEGINS_WITH = re.compile(
+    rf"{BEGINS}The (?:test|run|scenario|simulation) (?:begins|starts) with ({_ONE}) ({AMOUNT}) (?=from|before|short "
+    rf"of)",
+    re.IGNORECASE,
+)
+
 
 def _before(found: re.Match[str]) -> str:
     """Return "and before the ego turns the hero has passed it" as "and passes it before the ego turns"."""
@@ -207,4 +294,28 @@ FORMAL_PHRASES: Rules = (
     (_AND_OF, r"; \1 : "),
     (_OTHER_SENSE, "the other way"),
     (_JUDGES_GAP, ""),
+    (_WITHOUT_LEAVING, "in its lane"),
+    (_WHAT_IT_DOES, r"\1 \2s"),
+    (_NAMELY, r"\1 \3 is \4 and \5 is \6 \7 \2"),
+    (_STARTING_PLACE, "comes from the driveway"),
+    (_TARGET_ROAD, r" and will \1"),
+    (_STOPS_THERE, r"\2 stops \1"),
+    (_HEADS_FOR_LINE, r"is in the driveway, \1 from the stop line"),
+    (_BEING_WHEN, r"When \2 and \3 is \1, it \4"),
+    (_ACHIEVED, " "),
+    (_FIRST_PHASE, ""),
+    (_NEXT_PHASE, "Then "),
+    (_UNTIL_IT_TURNS, "and "),
+    (_CAUSES, r"When \1 reaches \2, \3 begins \4"),
+    (_BEFORE_GOING, r"\1; then \2 accelerates"),
+    (_PLANNED_FROM_DRIVEWAY, r"\2, in the driveway, wants a \1"),
+    (_IF_IT_HOLDS, r"\1 "),
+    (_TIME_TO_REACT, "The trigger is that "),
+    (_PASSING_PRECEDES, ". It passes the conflict point before the ego begins to turn."),
+    (_AN_EASTBOUND, r"\1, \2\3, "),
+    (_SET_OFF_BY, r" when \1 gets "),
+    (_LIES_AHEAD_OF_EACH, r"\3 is \2 and \5 \4 from \1"),
+    (_ARRIVES_ON, "is on the road "),
+    (_REACTION_TESTED, ""),
+    (_BEGINS_WITH, r"Initially \1 is \2 "),
 )

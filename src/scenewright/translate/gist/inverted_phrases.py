@@ -18,6 +18,10 @@ _TURN_PLANNED = re.compile(
     rf"{BEGINS}[Aa] ({_TURN}[^.;:]{{0,80}}?),? is (?:planned|intended|foreseen|wanted|desired|made) (?:for|by) "
     rf"({_WHO})\b"
 )
+_TURN_PLANNED_WHICH = re.compile(
+    rf"{BEGINS}[Aa] ({_TURN}[^.;:]{{0,80}}?),? is (?:planned|intended|foreseen|wanted|desired) (?:for|by) ({_WHO}), "
+    r"(which|who) ([^,.;\d]{3,60})(?=\.)"
+)
 _TURN_IS_GOAL = re.compile(rf"{BEGINS}[Aa] ({_TURN}[^,.;:]{{0,60}}) is the {_AIM} of ({_WHO})\b")
 _GOAL_IS_TURN = re.compile(rf"{BEGINS}[Tt]he {_AIM} of ({_WHO})((?:, [^,.;:]{{3,60}},)?) is (?=an? {_TURN}\b)")
 _TURN_IS_ONE = re.compile(rf"{BEGINS}[Tt]he turn of ({_WHO}) is a (left|right) one,?")
@@ -94,6 +98,7 @@ _WANTS_SOONER = re.compile(r",? and wants (?:it|this|to do so) (?:sooner|first|e
 
 # In this order: what one rule leaves, the next may read.
 INVERTED_PHRASES: Rules = (
+    (_TURN_PLANNED_WHICH, r"\2, \3 \4, wants a \1"),
     (_TURN_PLANNED, r"\2 wants to make a \1"),
     (_TURN_IS_GOAL, r"\2 wants to make a \1"),
     (_GOAL_IS_TURN, r"\1\2 wants to make "),

@@ -68,7 +68,8 @@ _FRONTED = re.compile(
 _FRONTED_VERB = re.compile(
     r"(?:(?<=[.!?]\s)|^)((?:Wanting|Intending|Wishing|Planning|Meaning|Leading|Following|Tailing|Trailing"
     r"|Preceding) [^,.;]*), "
-    r"((?:the|our) (?:[\w-]+ )?(?:vehicle under test|ego|hero|vehicle|car|van|truck|AV|SUT|VUT)(?: vehicle)?|Ego"
+    r"((?:the|our|an?|another) (?:[\w-]+ )?(?:vehicle under test|ego|hero|vehicle|car|van|truck|AV|SUT|VUT)(?: "
+    r"vehicle)?|Ego"
     r"|Hero)(?= )"
 )
 _GAP_WITH_WHICH = re.compile(

@@ -169,6 +169,11 @@ class Roles:
             if each.start <= clause.start and each.subject == clause.subject
             for i in range(each.start, min(each.end, at))
         ]
+        into = [
+            i for i in stretch if self.words.tag(i, "area") == "driveway" and self.words.has([i - 2], "preposition")
+        ]
+        if any(self.words.tag(i - 2, "preposition") == "into" for i in into):
+            return False  # "wanting to turn left into the driveway, drives east on the road": that comes before
         sided = any(self.words.word(i) in ("left to", "right to") for i in stretch)
         own = [  # not "from the ego's left", "from our left"
             i

@@ -296,7 +296,8 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     if (other := _other_one(words, clause, earlier)) is not None:
         return other
     last_one = [each for each in words.clauses[:index] if each.sentence == clause.sentence - 1][:1]
-    brought = [each for each in last_one if each.link == "main" and each.named and each.subject == HERO_ID]
+    brought = [each for each in last_one if each.link == "main" and each.subject == HERO_ID]
+    brought = [each for each in brought if each.named or each.start in words.names.pronouns]
     first_of_two = bool(brought and not earlier and clause.start in own and verbs & _STRONG) or (
         bool(earlier) and earlier[0].subject == HERO_ID and earlier[0].link == "main"
     )

@@ -107,7 +107,7 @@ class WayReader:
             self._same_heading(at, named)
         elif "same" in tags or self.words.word(at) == "likewise":
             self._same(at, clause)
-        elif self.words.word(at) in ("so", "as", "and so") and (alike := self._so_does(at)) is not None:
+        elif self.words.word(at) in ("so", "as", "and so", "just as") and (alike := self._so_does(at)) is not None:
             self.alike.append((alike, at))
 
     def _comes_from_there(self, clause: Clause) -> None:
