@@ -392,7 +392,8 @@ _PHRASES = tuple(
             "something that is still to be decided",
         ),
         (
-            r"\b(?:taking|takes|knock(?:ing|s)|tear(?:ing|s)|rip(?:ping|s)) off (?:the|its|our|his|her)\b(?! (?:gas|throttle"
+            r"\b(?:taking|takes|knock(?:ing|s)|tear(?:ing|s)|rip(?:ping|s)) off (?:the|its|our|his|her)\b(?! (?:gas"
+            r"|throttle"
             r"|accelerator|brakes?))",
             "a contact of the two vehicles",
         ),
