@@ -130,8 +130,8 @@ def test_moments(formal: str) -> None:
         "intersection. ",
         "The ego, wanting to turn left into the driveway, drives eastbound on the road and is at first 80 m before the "
         "intersection. ",
-        "The ego goes eastbound along the road until it turns left into the driveway, and at the start it is 80 m before "
-        "the intersection. ",
+        "The ego goes eastbound along the road until it turns left into the driveway, and at the start it is 80 m "
+        "before the intersection. ",
     ],
 )
 def test_the_road_is_where_it_comes_from_where_it_turns_into_the_driveway(way: str) -> None:
