@@ -11,6 +11,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import lru_cache
 
 from scenewright.errors import Place, Span, TranslationError
 from scenewright.program.expressions import Number, ParameterRef
@@ -106,6 +107,11 @@ def tokenise(text: str, name: str) -> list[Token]:
     TranslationError
         Where the text is empty or holds a quantity whose unit is missing or contradictory.
     """
+    return list(_tokens(text, name))
+
+
+@lru_cache(maxsize=16)  # several readers ask for the same stretches
+def _tokens(text: str, name: str) -> tuple[Token, ...]:
     if not text.strip():
         raise TranslationError(
             "the description is empty",
@@ -120,7 +126,7 @@ def tokenise(text: str, name: str) -> list[Token]:
     while index < len(tagger.raw):
         index = _next(tagger, index, tokens)
     end = Token("", Span(len(text), len(text)), {"end": "text"})
-    return [*tokens, *[end] * _LOOKED_AHEAD]
+    return (*tokens, *[end] * _LOOKED_AHEAD)
 
 
 def _cut(text: str) -> list[_Raw]:
