@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import tomllib
+from pathlib import Path
+
 import pytest
 
 from scenewright.errors import TranslationError
 from scenewright.program.printer import print_expression
+from scenewright.translate.gist.idioms import without_idioms
 from scenewright.translate.offline import translate_offline
 
 WAYS = (
@@ -160,3 +164,11 @@ def test_a_dictated_text_has_its_full_stops_in_words() -> None:
         "conflict point."
     )
     assert formulas(plain.replace(".", " full stop")) == formulas(plain)
+
+
+def test_what_stands_instead_of_a_turn_of_phrase_is_as_long() -> None:
+    """Else excerpts in messages, and what is said of each clause, would stand a few letters off."""
+    folder = Path(__file__).parent.parent / "texts"
+    for name in ("paper_kind", "prose"):
+        texts = [row["text"] for row in tomllib.loads((folder / f"{name}.toml").read_text("utf-8"))["text"]]
+        assert [text for text in texts[::40] if len(without_idioms(text)) != len(text)] == []

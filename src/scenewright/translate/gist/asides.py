@@ -303,6 +303,11 @@ def _stop_said(found: re.Match[str]) -> str:
     return "." if said and not re.search(r"[.;!?]\s", found.string) else found.group()
 
 
+def _there_is(found: re.Match[str]) -> str:
+    """Return "We have", "I also have" as "There's", "There is", and as what is shorter still where it has to be."""
+    return next((said for said in ("There is ", "There's ") if len(said) <= len(found.group())), "Here's ")
+
+
 def _trigger(found: re.Match[str]) -> str:
     """Return "The trigger is temporal:" and "The trigger is by time." as "Trigger:"."""
     return "Trigger:" if found.group().endswith(".") else "Trigger"
@@ -314,7 +319,7 @@ ASIDES: Rules = (
     (_BEHAVES, r"\1 "),
     (_THAT_BEHAVES, ""),
     (_TRIGGER_KIND, _trigger),
-    (_YOU_HAVE, "There is "),
+    (_YOU_HAVE, _there_is),
     (_NOT_SO, "But "),
     (_FOR_THIS, ""),
     (_ALTHOUGH_COULD, ""),

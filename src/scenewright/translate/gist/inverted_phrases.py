@@ -96,6 +96,11 @@ _ENTERS_SCENE = re.compile(
 _WANTS_SOONER = re.compile(r",? and wants (?:it|this|to do so) (?:sooner|first|earlier)(?=[.;])", re.IGNORECASE)
 
 
+def _comes_to(found: re.Match[str]) -> str:
+    """Return "and takes it to" as "and comes to", "takes it to" as "comes to"."""
+    return "and comes to " if found.group().lower().startswith("and ") else "comes to "
+
+
 # In this order: what one rule leaves, the next may read.
 INVERTED_PHRASES: Rules = (
     (_TURN_PLANNED_WHICH, r"\2, \3 \4, wants a \1"),
@@ -106,11 +111,11 @@ INVERTED_PHRASES: Rules = (
     (_HAS_BEFORE_IT, r"makes \1"),
     (_BEGUN_BY, r"\2 begins \1"),
     (_MADE_BY, r"\2 comes to \1"),
-    (_TAKES_TO_STOP, "and comes to "),
+    (_TAKES_TO_STOP, _comes_to),
     (_CONTINUES_TO_STOP, ""),
     (_STOP_TO_BE, r"\1 "),
     (_PLACE_OF_STOP, "It stops "),
-    (_TURN_IS_COMPLETED, r" and it completes \1 turn "),
+    (_TURN_IS_COMPLETED, r", completing \1 turn "),
     (_IS_BEHIND_IT, "so that it passes the conflict point "),
     (_DECIDED_BY, r"\1"),
     (_YIELDING_BY, r"There is \1 that yields. It "),

@@ -276,7 +276,12 @@ _FINISHES_STANDING = re.compile(
 _DONE_WITH_TURN = re.compile(r"\bis (?:done|finished|through) with (its|his|her|the) turn\b", re.IGNORECASE)
 _TO_BE_DONE = re.compile(r"\bto be (?:done|finished|through) with (its|his|her|the) turn\b", re.IGNORECASE)
 _GOES_BY = re.compile(r"\bgoes (?:by|past|beyond) (?=the conflict point\b)", re.IGNORECASE)
-_TURN_IN_MIND = re.compile(r"\bwith (a (?:left|right) turn[^,.;]{0,50}?) in mind\b", re.IGNORECASE)
+
+
+def _wont_yield(found: re.Match[str]) -> str:
+    """Return "doesn't let us in" as "won't yield to us", "won't let us in" as "won't yield"."""
+    said = f"won't yield to {found.group(1)}"
+    return said if len(said) <= len(found.group()) else "won't yield"
 
 
 def _when(found: re.Match[str]) -> str:
@@ -421,8 +426,8 @@ PHRASES: Rules = (
     (_THAT_IS_WHEN, _when),
     (_GOES_ON_BRAKES, _brakes),
     (_LETS_UP, "brakes until"),
-    (_LET_IN, r"won't yield to \1"),
-    (_END_UP_IN, "drive into "),
+    (_LET_IN, _wont_yield),
+    (_END_UP_IN, "go into "),
     (_PREPARES_TURN, ""),
     (_AS_ITS_GOAL, r" making \1,"),
     (_DROPS_ANCHOR, "brakes"),
@@ -438,7 +443,7 @@ PHRASES: Rules = (
     (_THAT_LEADS, r"\1 "),
     (_ONE_IN_FRONT, r"The hero is \1 of \2"),
     (_IS_SUSTAINED, " "),
-    (_REACHES_STOP, "comes to "),
+    (_REACHES_STOP, "makes "),
     (_ROUTE_LEADS, "it turns "),
     (_TRAFFIC_OF_ONE, r"the hero is \1bound on the road,"),
     (_ROAD_WITH, "On the road, "),
@@ -446,5 +451,4 @@ PHRASES: Rules = (
     (_DONE_WITH_TURN, r"completes \1 turn"),
     (_TO_BE_DONE, r"to complete \1 turn"),
     (_GOES_BY, "passes "),
-    (_TURN_IN_MIND, r"wanting to make \1"),
 )
