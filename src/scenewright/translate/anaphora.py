@@ -60,9 +60,12 @@ class AnaphoraReader(ObjectReader):
     def _may_be_either(self, phrase: NounPhrase) -> bool:
         """Whether "it" has a place right after a gap: "when the ego is 15 m behind the hero and it is 25 m ..."."""
         before = self.events[-1] if self.events else None
-        apart = before is not None and any(isinstance(place.target, int) and place.amount for place in before.places)
-        placed = self.phrases.tag(phrase.end, "be") is not None and self.phrases.place(phrase.end + 1) is not None
-        return apart and placed and before is not None and before.sentence == self.sentence and before.explicit
+        if before is None or before.sentence != self.sentence or not before.explicit:
+            return False
+        apart = any(isinstance(place.target, int) and place.amount for place in before.places)
+        return (
+            apart and self.phrases.tag(phrase.end, "be") is not None and self.phrases.place(phrase.end + 1) is not None
+        )
 
     def _placed_beside_the_ego(self, phrase: NounPhrase, here: list[Event]) -> bool:
         """Whether "it" is who acts, in "it brakes once the ego is 20 m and it is 12 m from ...": each has one place."""

@@ -25,7 +25,7 @@ _SAYS = frozenset(
 _LEAD = frozenset(["lead", "leading", "vehicle", "car"])
 _SLOWS = frozenset(["deceleration", "decelerating", "braking", "slowing", "stopping"])
 _DEEDS = {"brake": "dec", "stop": "stop", "yield": "dec", "accelerate": "go", "go": "go", "pass": "go", "turn": "go"}
-_DEEDS |= {"pull_out": "go", "complete": "go", "keep": "go", "wait": "stop", "not_yield": "go", "beat": "go"}
+_DEEDS |= {"pull_out": "go", "complete": "go", "keep": "go", "wait": "dec", "not_yield": "go", "beat": "go"}
 
 
 def headline_end(tokens: list[Token], at: int) -> int | None:
@@ -75,13 +75,20 @@ def summary_end(tokens: list[Token], at: int) -> int | None:
 
 
 def untold(stretch: list[Token], deeds: set[str]) -> Token | None:
-    """Return the word of a skipped line for a deed that is not among `deeds`: "dec", "stop" or "go"."""
+    """Return the word of a skipped line for a deed that is not among `deeds`, or that is though it says it is not done.
+
+    Deeds are "dec", "stop" and "go".
+    """
+    negated = sided = False
     for token in stretch:
         if "nobody_yields" in token.tags and "dec" in deeds:
             return token
         deed = _DEEDS.get(token.tags.get("verb", ""))
-        if deed is not None and token.forms & {"s", "ed"} and deed not in deeds:
+        finite = bool(token.forms & {"s", "ed"}) and not (sided and "event_noun" in token.tags)  # "two left turns"
+        if deed is not None and ((negated and deed in deeds) or (finite and not negated and deed not in deeds)):
             return token
+        negated = "negation" in token.tags or (negated and "verb" not in token.tags)
+        sided = "direction" in token.tags
     return None
 
 

@@ -219,6 +219,9 @@ def _by_facts(text: str, road_map: RoadMap, name: str) -> Translation:
     _complete(gist.facts, text, name)
     routes = choose_routes(gist.facts, road_map, text, name)
     check_told(gist, routes, text, name)
+    if gist.title:
+        span = gist.title[0].span.union(gist.title[-1].span)
+        _check_skipped(gist.title, span, gist.facts, routes, Place(name, text, span))
     assumed = (*gist.assumptions, *_set_purposes_aside(purposes, gist.facts, routes, text, name))
     read = _assembled(gist.facts, routes, gist.events, gist.tokens, assumed, road_map.name, text, name)
     basis = Basis.FACTS.value

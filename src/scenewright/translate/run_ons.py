@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from scenewright.translate.tokens import END_OF_STEP
+from scenewright.translate.tokens import END_OF_SENTENCE
 
 _SHORTEST = 160
 _ENDS = re.compile(r"[.!?;:\n](?=\s*\S)|,|\b(?:full stop|period|comma)\b", re.IGNORECASE)
@@ -26,7 +26,7 @@ def parted(text: str) -> str:
     """Return a text of one long sentence in several; any other text as it is.
 
     >>> told = "the ego drives west straight on " + "and on " * 20
-    >>> parted(f"{told}then there's a van when the ego is 9 m from it").count(END_OF_STEP)
+    >>> parted(f"{told}then there's a van when the ego is 9 m from it").count(END_OF_SENTENCE)
     2
     """
     if len(text) < _SHORTEST or _ENDS.search(re.sub(r"\d[.,:]\d", "000", text)):
@@ -36,5 +36,5 @@ def parted(text: str) -> str:
         return text
     brought = _BROUGHT_IN.search(text, _SHORTEST // 8, moment.start())
     for found in filter(None, (moment, brought)):
-        text = text[: found.start()] + END_OF_STEP + text[found.end() :]
+        text = text[: found.start()] + END_OF_SENTENCE + text[found.end() :]
     return text

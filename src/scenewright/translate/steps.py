@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from scenewright.translate.tokens import END_OF_STEP
+from scenewright.translate.tokens import END_OF_SENTENCE
 
 _STEP = re.compile(r"^([ \t]*(?:[-*] )?)(Given|GIVEN|When|WHEN|Then|THEN|And|AND|But|BUT)\b:?[ \t]*", re.MULTILINE)
 _WHOLE = re.compile(r",[^\n]*[.!?;]\s*\Z")
@@ -46,6 +46,6 @@ def in_sentences(text: str) -> str:
 
 
 def _ended(lines: str) -> str:
-    """Return lines with the end of a step in place of the end of the last one, where it has no stop of its own."""
+    """Return lines with the end of a sentence in place of the end of the last one, where it has no stop of its own."""
     told = lines.rstrip()
-    return lines[:-1] + END_OF_STEP if told and told[-1] not in ".,;:!?" else lines
+    return lines[:-1] + END_OF_SENTENCE if told and told[-1] not in ".,;:!?" else lines

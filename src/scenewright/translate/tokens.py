@@ -22,7 +22,7 @@ from scenewright.translate.spelling import correction, suggestions
 from scenewright.units import UNITS, Dimension, Unit, unit_of_name
 
 _PARAMETER = r"[A-Za-z][A-Za-z0-9]*(?:\\?_[A-Za-z0-9]+)+"
-END_OF_STEP = "\v"  # ends a sentence where a text has no full stop
+END_OF_SENTENCE = "\v"  # ends a sentence where a text has no full stop
 _RAW = re.compile(
     rf"""(?P<ie>\b(?:i\.e\.|e\.g\.),?)
     |(?P<wrt>\b[wW]\.?r\.?t\b\.?)

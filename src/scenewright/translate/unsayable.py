@@ -11,6 +11,7 @@ import re
 from scenewright.errors import Place, Span, TranslationError
 
 _VEHICLES = r"(?:hero|npc|pov|target|opponent|adversary|challenger|ego|av|sut|vut|car|van|bus|truck|lorry|vehicle)"
+_SPEED = r"(?:\d+ ?(?:m/s|km/h|kph|mph)\b(?![\^\u00b2])|\w+_(?:mps|kmph|kmh|mph)\b)"
 _TAKEN_BACK = (
     r"(?:withdrawn|deleted|cancell?ed|retracted|superseded|void|obsolete|dropped|scrapped|crossed out|removed)"
 )
@@ -281,12 +282,6 @@ _PHRASES = tuple(
             "motion off its path",
         ),
         (
-            r"\bat (?:[\d.]+ ?(?:m/s|km/h|mph)|\w+_(?:mps|kmph|mph)),? (?:all the way|throughout|all along|the "
-            r"whole (?:time|way))\b"
-            r"[^.]*\.[^.]*\b(?:accelerat|brak|decelerat|stop)",
-            "a vehicle that keeps its speed all the way changes it",
-        ),
-        (
             r"\b(?:has|have|had) (?:honked|hooted|beeped|flashed|waved|signalled|signaled|indicated)\b"
             r"|\bstill rolling at\b",
             "a gesture, or a stop that is none",
@@ -367,11 +362,12 @@ _PHRASES = tuple(
             "a comparison with what is not told",
         ),
         (
-            r"\d ?(?:m/s|km/h|kph|mph)\b(?![\^\u00b2])[^.;\n]{0,30}?\b(?:throughout\b(?! (?:its|the) (?:turn|approach))"
+            rf"{_SPEED}[^.;\n]{{0,30}}?\b(?:throughout\b(?! (?:its|the) (?:turn|approach))"
             r"|at all times|all the time|all along|the (?:whole|entire) (?:time|way|test|run|scenario)"
+            r"|all the way\b(?=[^.]*\.[^.]*\b(?:accelerat|brak|decelerat|stop))"
             r"|until the (?:very )?end (?:of the (?:test|run|scenario))?|from (?:start|beginning) to (?:finish|end))"
             r"|\b(?:throughout|at all times|all the time|all along),? (?:(?:the|this) (?:whole |entire )?(?:test|run"
-            r"|scenario),? )?[^.;\d\n]{0,40}\d+ ?(?:m/s|km/h|kph|mph)\b(?![\^\u00b2])",
+            rf"|scenario),? )?[^.;\d\n]{{0,40}}?{_SPEED}",
             "a speed for the whole test, in which the hero reacts",
         ),
         (
@@ -396,6 +392,11 @@ _PHRASES = tuple(
             r"|throttle"
             r"|accelerator|brakes?))",
             "a contact of the two vehicles",
+        ),
+        (
+            rf"(?:^|[.!?;]\s+)Like (?:it|us|(?:the |our )?(?:\w+ )?{_VEHICLES}), [^.;]*?(?:\d|\w+_(?:m|s|ft|mps|mph"
+            rf"|kmph)\b)",
+            "an amount of which it is not told whether both have it",
         ),
         (r"\broll(?:s|ing|ed)? back\b|\bin reverse\b|\bbacks up\b", "driving backwards"),
     )

@@ -52,7 +52,10 @@ def test_steps(indent: str, title: str) -> None:
     [
         ("The ego drives", "You know when somebody in front takes ages? The ego drives"),
         ("The ego drives", "It shall be demonstrated that the ego does not panic. The ego drives"),
+        ("The ego drives", "It is to be shown that the ego copes with a car that gives way. The ego drives"),
+        ("The ego drives", "The ego's reaction to a car that stops is under test. The ego drives"),
         ("The ego drives", "We consider two vehicles whose ways merge. The ego drives"),
+        ("before the conflict point.", "before the conflict point. TODO: ask about the antenna."),
         ("the hero brakes and comes", "the hero does what one would expect of a careful driver and brakes, and comes"),
         ("before the conflict point.", "before the conflict point, as it is obliged to."),
         ("before the conflict point.", "before the conflict point and that's it."),
@@ -73,6 +76,14 @@ def test_asides(plain: str, said: str) -> None:
         ("before the conflict point.", "before the conflict point. Does the hero stop there, or drive on?"),
         ("before the conflict point.", "before the conflict point as long as the ego needs."),
         ("the hero brakes", "instead of yielding, the hero brakes"),
+        ("drives east,", "drives east at a constant hero_speed_mps throughout,"),
+        ("The hero comes", "Like the ego, the hero starts 80 m before the intersection. It comes"),
+        ("The ego drives", "It shall be shown that the ego copes with a hero that does not yield. The ego drives"),
+        ("The ego drives", "The ego's reaction to a hero that accelerates is under test. The ego drives"),
+        ("The ego drives", "It shall be shown that the ego copes with a car waiting in the driveway. The ego drives"),
+        ("The ego drives", "Remember the hero that never brakes? The ego drives"),
+        ("The ego drives", "We consider two vehicles whose ways meet 8 m before the intersection. The ego drives"),
+        ("before the conflict point.", "before the conflict point. NB: the hero never brakes."),
     ],
 )
 def test_what_matters_is_not_set_aside(plain: str, said: str) -> None:

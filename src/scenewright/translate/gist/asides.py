@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from scenewright.translate.gist.rewriting import Rules
+from scenewright.translate.gist.rewriting import BEGINS, Rules
 
 # "Ego = SUT, hero = POV."
 _EQUATED = re.compile(
@@ -100,8 +100,9 @@ _NOT_CARING = re.compile(
     r"(?=\.|;|,(?! (?:who|which|that|whose)\b))",
 )
 _SO_THAT_IT_TURNS = re.compile(
-    r",? (?:where it (?:remains|stays|waits) )?so that (?:the \w+|it|we) (?:may|can|could|might|is able to) (?:turn"
-    r"|go|drive on|pull out)"
+    r",? (?:where it (?:remains|stays|waits) )?(?:so|in order) that (?:(?:the )?\w+|it|we) (?:may|can|could|might"
+    r"|is able to) "
+    r"(?:turn|go|drive on|pass|pull out|(?:enter|join|pull out onto) the road(?: from the driveway)?)"
     r"(?: first| ahead)?(?=[.,;]|$)",
     re.IGNORECASE,
 )
@@ -236,7 +237,8 @@ _IS_POLITE = re.compile(
     re.IGNORECASE,
 )
 _EVER_SEEN = re.compile(
-    r"(?:(?<=[.!?]\s)|^)(?:You know|Know|Ever|Have you ever|Remember) [^.!?\d]*\?(?:\s+(?:Same|That['\u2019]s it) "
+    r"(?:(?<=[.!?]\s)|^)(?:You know|Know|Ever|Have you ever|Remember) (?:(?!\b(?:ego|hero|the"
+    r"|our)\b)[^.!?\d])*\?(?:\s+(?:Same|That['\u2019]s it) "
     r"here\.)?",
     re.IGNORECASE,
 )
@@ -251,16 +253,11 @@ _IN_OUR_CAR = re.compile(
     r"(?:car|vehicle)\b",
     re.IGNORECASE,
 )
-_TO_BE_SHOWN = re.compile(
-    r"(?:(?<=[.!?]\s)|^)It (?:shall|is to|should|must|has to) be (?:demonstrated|shown|verified|proven|checked|tested"
-    r"|established|confirmed) (?:that|whether|how) (?:the ego|the AV|the SUT|the VUT)\b(?:(?!\b(?:when|east|west"
-    r"|left|right|straight))[^.\d])*\.",
-    re.IGNORECASE,
-)
 _CONSIDER_TWO = re.compile(
     r"(?:(?<=[.!?]\s)|^)(?:We |Let us |Let['\u2019]s )?consider two (?:\w+ )?(?:vehicles|cars) whose (?:routes"
     r"|paths|ways)"
-    r" (?:merge|cross|meet|conflict|intersect|converge)\b[^.\d]*\.",
+    r" (?:merge|cross|meet|conflict|intersect|converge)"
+    r"(?: (?:in|on|at) the (?:driveway|road|junction|intersection|conflict point))?\.",
     re.IGNORECASE,
 )
 _SMILES = re.compile(r"(?<=\s)[:;]-?[)(D](?=\s|$)")
@@ -269,7 +266,9 @@ _NEXT_ONE = re.compile(
     r"?[.:]",
     re.IGNORECASE,
 )
-_LIKE_THE_EGO = re.compile(r"(?:(?<=[.!?]\s)|^)Like (?:the ego|us), (?=(?:it|he|she|the) )")
+_LIKE_THE_EGO = re.compile(
+    rf"{BEGINS}Like (?:the ego|us), (?=(?:it|he|she|the [\w-]+(?: vehicle)?) (?:wants|intends|plans|is going) to )"
+)
 # "instead of letting the ego go first, the hero accelerates"
 _INSTEAD_OF_LETTING = re.compile(
     r"\binstead of (?:letting (?:the ego|us|it) (?:go|pass|turn|through|out|in)(?: first| ahead)?|waiting(?: for "
@@ -282,12 +281,6 @@ _I_MEAN_EGO = re.compile(r"(?:(?<=[.!?]\s)|^)By (?:us|we) I mean the ego: we (?=
 _NO_YIELD = re.compile(r"(?<=accelerates), no (?:yield|yielding)(?=, (?:passes|goes|crosses)\b)")
 
 _TAG_QUESTION = re.compile(r", (?:right|ok|okay|yes|see)\?(?=\s+[A-Z])")
-# "TODO: ask about the antenna.", "Fri."
-_NOTE_TO_SELF = re.compile(
-    r"(?:(?<=[.!?]\s)|(?<=\n)|^)(?:TODO|NB|PS|P\.S\.|FYI):(?:(?!\b(?:ego|hero|SUT|AV|POV|NPC|it|brak|stop|only|when))"
-    r"[^.\n\d])*(?:\.|$)",
-    re.IGNORECASE,
-)
 _WEEKDAY = re.compile(r"(?:(?<=[.!?]\s)|(?<=\n)|^)(?:Mon|Tue|Wed|Thu|Fri|Sat|Sun)\. (?=[A-Z])")
 
 
@@ -340,7 +333,7 @@ ASIDES: Rules = (
     (_NOTHING_BUT, "wants to"),
     (_CATCHING_UP, ""),
     (_NOT_CARING, ""),
-    (_SO_THAT_IT_TURNS, ""),
+    (_SO_THAT_IT_TURNS, ", yielding"),
     (_RESUMING, ""),
     (_REVOKES, ""),
     (_WITHOUT_EITHER, "At constant speed,"),
@@ -382,13 +375,11 @@ ASIDES: Rules = (
     (_EVER_SEEN, ""),
     (_ASKS_OF_EGO, ""),
     (_IN_OUR_CAR, r"\1"),
-    (_TO_BE_SHOWN, ""),
     (_CONSIDER_TWO, ""),
     (_LIKE_THE_EGO, ""),
     (_INSTEAD_OF_LETTING, ""),
     (_I_MEAN_EGO, "We, the ego, "),
     (_NO_YIELD, ""),
     (_TAG_QUESTION, "."),
-    (_NOTE_TO_SELF, ""),
     (_WEEKDAY, ""),
 )

@@ -45,6 +45,8 @@ _POLITE = re.compile(
     r"|many thanks|please (?:note|find|forgive)))\b",
     re.IGNORECASE,
 )
+# "TODO: ask about the antenna.": what the author has to do, not what happens
+_NOTE_TO_SELF = re.compile(r"^\s*(?:TODO|NB|PS|FYI):", re.IGNORECASE)
 _NAMES = re.compile(
     r"\d|\b(?:ego|av|sut|vut|sv|hero|npc|pov|vehicles?|cars?|van|bus|truck|lorry|brak|accelerat|slow|stop|turn"
     r"|when|until"
@@ -73,6 +75,7 @@ def disclaimers(text: str) -> list[Span]:
         if _VERDICT.search(found.group())
         or (_UNSPECIFIED.search(found.group()) and not _NAMES.search(found.group()))
         or (_PURPOSE.search(found.group()) and not _ABOUT.search(found.group()))
+        or ((note := _NOTE_TO_SELF.search(found.group())) and not _NAMES.search(found.group(), note.end()))
         or ((polite := _POLITE.search(found.group())) and not _NAMES.search(found.group(), polite.end()))
         or (_CHANGES_NOTHING.search(found.group()) and not _TELLS.search(found.group()))
     ]

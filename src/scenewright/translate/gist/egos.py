@@ -42,6 +42,7 @@ def is_predicate(tokens: list[Token], at: int) -> bool:
     if tokens[back].text.lower() == "as":
         return True  # "with the VUT as the rear one"
     closes = at + 1 >= len(tokens) or bool(tokens[at + 1].tags.keys() & {"comma", "end", "link"})
+    closes = closes or (_opens(tokens, back - 1) and _is_on_an_area(tokens, at + 1))
     going = at + 1 < len(tokens) and "ing" in tokens[at + 1].forms
     closes = closes or (going and (_is_yielded_to(tokens, back - 1) or _ends_without_verb(tokens, at + 2)))
     if "colon" in tokens[back].tags:
@@ -50,6 +51,18 @@ def is_predicate(tokens: list[Token], at: int) -> bool:
     if placed or any(each.tags.get("determiner") == "another" for each in tokens[back:at]):
         return False
     return "be" in tokens[back].tags or ("comma" in tokens[back].tags and back < at - 1 and closes)
+
+
+def _opens(tokens: list[Token], at: int) -> bool:
+    """Whether a name stands at the beginning of a sentence."""
+    first = at - (at > 0 and "determiner" in tokens[at - 1].tags)
+    return first == 0 or "end" in tokens[first - 1].tags
+
+
+def _is_on_an_area(tokens: list[Token], at: int) -> bool:
+    """Whether "on the road," follows: "the ego, an eastbound vehicle on the road, intends"."""
+    area = at + 1 + ("determiner" in tokens[at + 1].tags)
+    return "preposition" in tokens[at].tags and "area" in tokens[area].tags and "comma" in tokens[area + 1].tags
 
 
 def _ends_without_verb(tokens: list[Token], at: int) -> bool:

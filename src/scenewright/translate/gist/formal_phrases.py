@@ -13,19 +13,19 @@ from scenewright.translate.gist.rewriting import AMOUNT, BEGINS, Rules
 _ONE = r"(?:the )?(?:ego|hero|AV|SUT|VUT|POV|NPC)(?: vehicle)?"
 _EGO = r"(?:the )?(?:ego|AV|SUT|VUT)(?: vehicle)?"
 _HERO = r"(?:the (?:hero|POV|NPC)(?: vehicle)?|it|he|she)"
-_PRIORITY = r"(?:priority|precedence|right of way|right-of-way)"
 _PLACE = r"the (?:conflict point|stop line|intersection)"
-# "The moment that counts is when", "The decisive instant is when", "What makes the hero yield is that"
+# "The moment that counts is when", "The decisive instant is when"
 _DECISIVE = re.compile(
     rf"{BEGINS}The (?:moment|instant|point in time) (?:that (?:counts|matters)|to look for|in question) is "
     rf"(?:when|the one at which|that at which) |{BEGINS}The (?:decisive|crucial|relevant|critical) (?:moment|instant) "
-    rf"is when |{BEGINS}What makes {_HERO} (?:yield|brake|stop|react) is that ",
+    rf"is when ",
     re.IGNORECASE,
 )
+_MAKES_IT = re.compile(rf"{BEGINS}What makes ({_HERO}) (yield|brake|stop|react) is that ", re.IGNORECASE)
 # "16 m are left between the ego and the stop line"
 _LEFT_BETWEEN = re.compile(rf"\b({AMOUNT}) (?:are|is) left (?=between)", re.IGNORECASE)
 _TWO_MEET = re.compile(
-    rf"{BEGINS}Two (?:left|right)[- ]turn(?:er|ing)s?(?: cars| vehicles| drivers)? meet\.", re.IGNORECASE
+    rf"{BEGINS}Two (left|right)[- ]turn(?:er|ing)s?(?: cars| vehicles| drivers)? meet\.", re.IGNORECASE
 )
 # "The gap to the hero decreases, and when it is 25 m"
 _GAP_SHRINKS = re.compile(
@@ -52,9 +52,6 @@ _KEEPS_LANE = re.compile(
     r"\b(?:is not going to|will not|does not(?: intend to| want to)?|is not to) leave (?:its|his|her|the) lane\b",
     re.IGNORECASE,
 )
-_NOT_INSIST = re.compile(
-    rf"\bdoes not insist on (?:going first|(?:its|his|her|the) {_PRIORITY}|it)(?=[.;])", re.IGNORECASE
-)
 _FOR_WHICH_IT_CROSSES = re.compile(
     r",? (?:for|in|with) which (?:it|he|she) (?:must|has to|will|needs to|is to) cross (?:the (?:ego"
     r"|hero)['\u2019]s|our"
@@ -66,30 +63,12 @@ _HAS_TO_CROSS = re.compile(
     r" which",
     re.IGNORECASE,
 )
-_NOT_RESPECTED = re.compile(
-    rf"{BEGINS}The {_PRIORITY} of {_EGO} is (?:not respected|disregarded|ignored|neglected)\.", re.IGNORECASE
-)
-_DENIES = re.compile(
-    rf"\b(?:denies|refuses) (?:it|us|him|{_EGO}) (?:the |its |his )?{_PRIORITY}(?: to which (?:it|he|she|we) (?:is"
-    rf"|are) "
-    r"entitled| that (?:it|he|she) has)?(?=[.;,])",
-    re.IGNORECASE,
-)
-_REFUSES_TO = re.compile(rf"\b(?:refuses|denies) {_PRIORITY} to (?={_EGO}|us\b)", re.IGNORECASE)
-_LEFT_TO_EGO = re.compile(
-    rf"{BEGINS}{_PRIORITY} is (?:left|given|granted|conceded|ceded) to ({_EGO}|us)(?=[.,;])", re.IGNORECASE
-)
 _STOP_COMPLETE = re.compile(
     rf"\b(?:its|the|this|his) (?:full |complete )?stop (?:is complete|takes place|is reached) (?={AMOUNT}|just before)",
     re.IGNORECASE,
 )
 _SO_THAT_IT_MAY = re.compile(
     rf",? (?:so|in order) that ({_EGO}) (?:may|can|could|might) (turn (?:left|right) (?:from|out of) the driveway)",
-    re.IGNORECASE,
-)
-_SO_THAT_IT_MAY_ENTER = re.compile(
-    rf",? (?:so|in order) that {_EGO} (?:may|can|could|might) (?:enter|join|pull out onto|go first|pass)"
-    r"(?: the road)?(?: from the driveway)?(?=[.,;])",
     re.IGNORECASE,
 )
 _COURSE = re.compile(rf"\b({_ONE}['\u2019]s) course is (?=straight|a (?:left|right) turn)", re.IGNORECASE)
@@ -116,8 +95,6 @@ _IN_MOTION_AGAIN = re.compile(r"\bis set in motion again\b", re.IGNORECASE)
 _PATHS_INTERSECT = re.compile(
     rf"{BEGINS}The (?:paths|ways|routes) of (?:the )?two vehicles (?:intersect|cross|meet|merge|conflict):", re.I
 )
-_MANNERS = re.compile(r"\b(the hero|it|he|she) minds (?:its|his|her) manners:", re.IGNORECASE)
-_TRAILING_BY = re.compile(r"\b(?:is )?trail(?:s|ing) (the [\w-]+|it) by (\w+_(?:m|s|ft))\b", re.IGNORECASE)
 _OPPOSITE_AIM = re.compile(r"\bhas the (?:opposite|same|contrary) (?:intention|aim|plan), namely to\b", re.IGNORECASE)
 _FOR_IT_DOES = re.compile(r", for ((?:it|he|she|the hero) (?:accelerates|brakes|decelerates))\b", re.IGNORECASE)
 _FROM_THE_INSTANT = re.compile(
@@ -139,15 +116,6 @@ _TURNING_IS_TASK = re.compile(
     rf"{BEGINS}Turning (left|right) ([^.;:]{{0,60}}?) is the (?:task|goal|plan|aim|intention|job) of ({_ONE})\.", re.I
 )
 
-_RENOUNCES = re.compile(r"\b(?:renounces|relents|gives in|backs off)(?=[:,] (?:it|he|she|and)\b)", re.IGNORECASE)
-_FORGOES = re.compile(
-    rf"\b(?:waives|forgoes|renounces|gives up|cedes) (?:its|his|her|the) {_PRIORITY}(?: in favour of ({_EGO}"
-    rf"|us))?(?=,)",
-    re.IGNORECASE,
-)
-_CONTRARY_TO_DUTY = re.compile(
-    r",? contrary to (?:its|his|her) (?:obligation|duty) to (?:give way|yield|wait),?", re.IGNORECASE
-)
 _EQUAL_TO = re.compile(rf"\bequal to (?={AMOUNT})", re.IGNORECASE)
 _DESTINED = re.compile(r"\b(?:is|be|are) destined to (?=turn|go|drive|continue)", re.IGNORECASE)
 # "Initial position of the ego: 60 m before the intersection; of the hero: 20 m before the stop line"
@@ -215,9 +183,6 @@ _PASSING_PRECEDES = re.compile(
     rf"\. Its (?:passing|passage) of {_PLACE} precedes the beginning of the (?:ego|AV|SUT)['\u2019]s turn\.",
     re.IGNORECASE,
 )
-_AN_EASTBOUND = re.compile(
-    rf"\b({_EGO}), an? ((?:east|west)bound) (?:vehicle|car)((?: on the road)?), (?=intends|wants|plans|is|keeps)", re.I
-)
 
 # "it brakes; what sets this off is the ego getting within 8 m of it"
 _SET_OFF_BY = re.compile(
@@ -232,12 +197,6 @@ _LIES_AHEAD_OF_EACH = re.compile(
     re.IGNORECASE,
 )
 _ARRIVES_ON = re.compile(r"\barrives on the road (?=heading|going|travelling|traveling)", re.IGNORECASE)
-_REACTION_TESTED = re.compile(
-    rf"{BEGINS}The (?:ego|AV|SUT|VUT)['\u2019]s (?:reaction|response|behaviou?r) to [^.;:\d]{{3,80}} is (?:under "
-    rf"test|tested"
-    r"|assessed|of interest|at issue|examined)\.",
-    re.IGNORECASE,
-)
 _BEGINS_WITH = re.compile(
     rf"{BEGINS}The (?:test|run|scenario|simulation) (?:begins|starts) with ({_ONE}) ({AMOUNT}) (?=from|before|short "
     rf"of)",
@@ -254,23 +213,18 @@ def _before(found: re.Match[str]) -> str:
 # In this order: what one rule leaves, the next may read.
 FORMAL_PHRASES: Rules = (
     (_DECISIVE, "The trigger is that "),
+    (_MAKES_IT, r"\1 \2s when "),
     (_LEFT_BETWEEN, r"\1 remain "),
-    (_TWO_MEET, ""),
+    (_TWO_MEET, r"Both turn \1."),
     (_GAP_SHRINKS, r"\2 the \1 "),
     (_BEFORE_FRONTED, _before),
     (_PLACE_FRONTED, r"\2 is \3 from \1"),
     (_ONLY_AFTER, " before the ego begins to turn."),
     (_KEEPS_LANE, "stays in its lane"),
-    (_NOT_INSIST, "yields"),
     (_FOR_WHICH_IT_CROSSES, ""),
     (_HAS_TO_CROSS, r"\1 meets \2, which"),
-    (_NOT_RESPECTED, "The hero won't yield."),
-    (_DENIES, "won't yield"),
-    (_REFUSES_TO, "won't yield to "),
-    (_LEFT_TO_EGO, r"Yielding to \1"),
     (_STOP_COMPLETE, "it stops "),
     (_SO_THAT_IT_MAY, r". \1 will \2"),
-    (_SO_THAT_IT_MAY_ENTER, ""),
     (_COURSE, r"\1 route is "),
     (_FOR_EACH, r"\3 is \2 and \5 \4 from \1"),
     (_FOR_EACH_APART, r"\3 is \2 from \1 and \6 \5 from \4"),
@@ -278,17 +232,12 @@ FORMAL_PHRASES: Rules = (
     (_IS_MAINTAINED, "for "),
     (_IN_MOTION_AGAIN, "drives on"),
     (_PATHS_INTERSECT, ""),
-    (_MANNERS, r"\1 yields:"),
-    (_TRAILING_BY, r"is \2 behind \1"),
     (_OPPOSITE_AIM, "wants to"),
     (_FOR_IT_DOES, r"; \1"),
     (_FROM_THE_INSTANT, r"\1 when"),
     (_IS_FOLLOWED, r"\3 follows the \1 \2."),
     (_MOVES_NO_MORE, "stops"),
     (_TURNING_IS_TASK, r"\3 is turning \1 \2."),
-    (_RENOUNCES, "yields"),
-    (_FORGOES, "yields"),
-    (_CONTRARY_TO_DUTY, " without yielding,"),
     (_EQUAL_TO, ""),
     (_DESTINED, "will "),
     (_AND_OF, r"; \1 : "),
@@ -312,10 +261,8 @@ FORMAL_PHRASES: Rules = (
     (_IF_IT_HOLDS, r"\1 "),
     (_TIME_TO_REACT, "The trigger is that "),
     (_PASSING_PRECEDES, ". It passes the conflict point before the ego begins to turn."),
-    (_AN_EASTBOUND, r"\1, \2\3, "),
     (_SET_OFF_BY, r" when \1 gets "),
     (_LIES_AHEAD_OF_EACH, r"\3 is \2 and \5 \4 from \1"),
     (_ARRIVES_ON, "is on the road "),
-    (_REACTION_TESTED, ""),
     (_BEGINS_WITH, r"Initially \1 is \2 "),
 )

@@ -20,11 +20,7 @@ _TRIGGER_FOR = re.compile(
 _ARRIVAL_OFF = re.compile(
     r"\barrival at (the [a-z ]+?) (is )?((?:[\d.]+|[a-z-]+) (?:s|seconds?)) (?:off|away|ahead)\b", re.IGNORECASE
 )
-_TRAILS_BY = re.compile(
-    r"\b(?:trails|follows) (it|the [\w-]+) by ((?:[\d.]+|[a-z-]+) (?:m|metres?|meters?|ft|feet|yards?|yd|s"
-    r"|seconds?))\b",
-    re.I,
-)
+_TRAILS_BY = re.compile(rf"\b(?:is )?(?:trails|trailing|follows) (it|the [\w-]+) by ({AMOUNT})", re.IGNORECASE)
 _SWITCHING = re.compile(
     r"\b(?:switching|the switch|the change) (?:takes place|occurs|happens) (?=when |with |at |once |as soon as )",
     re.IGNORECASE,
@@ -101,7 +97,6 @@ _PROVIDED_THEN = re.compile(
     re.IGNORECASE,
 )
 _TTA_FROM = re.compile(r"(?<=\d s) (?:TTA|TTC|time to arrival) (?=(?:from|to) (?:the|its) )")
-_TRAILS_NAMED = re.compile(r"\b(?:trails|follows) (it|the [\w-]+) by (\w+_(?:m|ft|s))\b", re.IGNORECASE)
 
 # "When X_m is the distance the ego still has to the conflict point"
 _IS_THE_TIME = re.compile(
@@ -249,7 +244,6 @@ MOMENT_PHRASES: Rules = (
     (_GIVEN_INLINE, r"\1. When \2, "),
     (_PROVIDED_THEN, r" and \1"),
     (_TTA_FROM, ""),
-    (_TRAILS_NAMED, r"is \2 behind \1"),
     (_IS_THE_TIME, r"\2 is \1 from "),
     (_AHEAD_OF_BOTH, r"\3 is \2 and \5 \4 from \1"),
     (_REMAIN_TO, r"\2 is \1 from \3 and \5 \4 from "),

@@ -60,6 +60,8 @@ class Gist:
         Ways told of no vehicle in a sentence: one vehicle must go all of them.
     meets
         Where it is said that the two ways meet.
+    title
+        The first line, where it was taken for a title.
     unplaced
         Whose way has to touch the driveway, and where it is spoken of, where nothing else was understood of it.
     assumptions
@@ -72,6 +74,7 @@ class Gist:
     told: list[tuple[str, Span]]
     titles: list[list[Way]]
     meets: list[Span]
+    title: list[Token]
     unplaced: list[tuple[int, Span]]
     assumptions: tuple[str, ...]
 
@@ -178,7 +181,9 @@ def _read(words: Words, title: tuple[Token, ...], road_map: RoadMap) -> Gist:
     told: list[tuple[str, Span]] = []
     told += [(token.tags[key], token.span) for token in title for key in _told_by(token)]
     events = sorted({id(event): event for event in events}.values(), key=lambda event: event.span.start)
-    return Gist(facts, events, words.tokens, told, list(titles.values()), meets, unplaced, _assumptions(words, title))
+    return Gist(
+        facts, events, words.tokens, told, list(titles.values()), meets, [*title], unplaced, _assumptions(words, title)
+    )
 
 
 def _set_remarks_aside(words: Words) -> list[Span]:

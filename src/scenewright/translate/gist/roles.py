@@ -169,10 +169,7 @@ class Roles:
             if each.start <= clause.start and each.subject == clause.subject
             for i in range(each.start, min(each.end, at))
         ]
-        into = [
-            i for i in stretch if self.words.tag(i, "area") == "driveway" and self.words.has([i - 2], "preposition")
-        ]
-        if any(self.words.tag(i - 2, "preposition") == "into" for i in into):
+        if any(self.words.tag(i, "area") == "driveway" and self._goes_into(i) for i in stretch):
             return False  # "wanting to turn left into the driveway, drives east on the road": that comes before
         sided = any(self.words.word(i) in ("left to", "right to") for i in stretch)
         own = [  # not "from the ego's left", "from our left"
@@ -181,6 +178,10 @@ class Roles:
             if "genitive" not in self.words.tags(i - 1) and self.words.word(i - 1) not in ("our", "your", "my")
         ]
         return sided or self.words.where(own, "direction", "left", "right") is not None
+
+    def _goes_into(self, area: int) -> bool:
+        """Whether an area is told to be gone into: "into the driveway"."""
+        return self.words.tag(self.words.skip(area - 1, _AREA_WORDS, -1), "preposition") == "into"
 
     def _comes(self, at: int, clause: Clause) -> bool:
         """Whether a vehicle is on its way where an area follows: "a left turn, coming eastbound on the road"."""

@@ -8,7 +8,11 @@ from __future__ import annotations
 
 import re
 
-from scenewright.translate.gist.rewriting import EGO, Rules
+from scenewright.translate.gist.rewriting import BEGINS, EGO, Rules
+
+_PRIORITY = r"(?:priority|precedence|right of way|right-of-way)"
+_EGO = rf"(?:the )?{EGO}"
+_HERO = r"(?:the (?:hero|POV|NPC)(?: vehicle)?|it|he|she)"
 
 _NO_NOTICE = re.compile(
     r"\b(?:takes? no (?:notice|account|heed) of|pays? no (?:attention|heed|regard) to|shows? no regard for) "
@@ -17,7 +21,7 @@ _NO_NOTICE = re.compile(
 )
 _DENIES = re.compile(
     r"\b(?:denies|refuses|denied|refused) (the [\w-]+(?: vehicle| car)?|us|it|[A-Z]{2,}) (?:the |its )?"
-    r"(?:right of way|right-of-way|priority|precedence)\b",
+    rf"{_PRIORITY}\b(?: to which (?:it|he|she|we) (?:is|are) entitled| that (?:it|he|she) has)?",
     re.IGNORECASE,
 )
 _KEEP_RIGHT = re.compile(
@@ -86,6 +90,26 @@ _REPENTS = re.compile(
     re.IGNORECASE,
 )
 _CHANGE_MIND = re.compile(r"\b(they|we) change (?:their|our) minds?(?:,? and|,)(?= )", re.IGNORECASE)
+_NOT_INSIST = re.compile(
+    rf"\bdoes not insist on (?:going first|(?:its|his|her|the) {_PRIORITY}|it)(?=[.;])", re.IGNORECASE
+)
+_NOT_RESPECTED = re.compile(
+    rf"{BEGINS}The {_PRIORITY} of {_EGO} is (?:not respected|disregarded|ignored|neglected)\.", re.IGNORECASE
+)
+_REFUSES_TO = re.compile(rf"\b(?:refuses|denies) {_PRIORITY} to (?={_EGO}|us\b)", re.IGNORECASE)
+_LEFT_TO_EGO = re.compile(
+    rf"{BEGINS}{_PRIORITY} is (?:left|given|granted|conceded|ceded) to ({_EGO}|us)(?=[.,;])", re.IGNORECASE
+)
+_MANNERS = re.compile(r"\b(the hero|it|he|she) minds (?:its|his|her) manners:", re.IGNORECASE)
+_RENOUNCES = re.compile(r"\b(?:renounces|relents|gives in|backs off)(?=[:,] (?:it|he|she|and)\b)", re.IGNORECASE)
+_FORGOES = re.compile(
+    rf"\b(?:waives|forgoes|renounces|gives up|cedes) (?:its|his|her|the) {_PRIORITY}(?: in favour of ({_EGO}"
+    rf"|us))?(?=,)",
+    re.IGNORECASE,
+)
+_CONTRARY_TO_DUTY = re.compile(
+    r",? contrary to (?:its|his|her) (?:obligation|duty) to (?:give way|yield|wait),?", re.IGNORECASE
+)
 
 
 # In this order: what one rule leaves, the next may read.
@@ -107,4 +131,12 @@ YIELDING_PHRASES: Rules = (
     (_IN_NO_MOOD, r"\1 won't yield: "),
     (_REPENTS, r"\1 "),
     (_CHANGE_MIND, r"\1"),
+    (_NOT_INSIST, "yields"),
+    (_NOT_RESPECTED, "The hero won't yield."),
+    (_REFUSES_TO, "won't yield to "),
+    (_LEFT_TO_EGO, r"Yielding to \1"),
+    (_MANNERS, r"\1 yields:"),
+    (_RENOUNCES, "yields"),
+    (_FORGOES, "yields"),
+    (_CONTRARY_TO_DUTY, " without yielding,"),
 )
