@@ -84,7 +84,7 @@ def untold(stretch: list[Token], deeds: set[str]) -> Token | None:
         if "nobody_yields" in token.tags and "dec" in deeds:
             return token
         deed = _DEEDS.get(token.tags.get("verb", ""))
-        finite = bool(token.forms & {"s", "ed"}) and not (sided and "event_noun" in token.tags)  # "two left turns"
+        finite = bool(token.forms & {"s", "ed"}) and not (sided and token.tags["verb"] == "turn")  # "two left turns"
         if deed is not None and ((negated and deed in deeds) or (finite and not negated and deed not in deeds)):
             return token
         negated = "negation" in token.tags or (negated and "verb" not in token.tags)
