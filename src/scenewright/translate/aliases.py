@@ -93,7 +93,8 @@ def letters(text: str) -> dict[str, str]:
 
 def _is_ego(name: str, text: str) -> bool:
     """Whether a name is said to be the ego: "V1 (vehicle under test)", "the vehicle under test (V1)"."""
-    said = rf"\b{name}{_IS}{_EGOS}\b|\b{_EGOS},? (?:\(|is |called |which is )(?:the )?{name}\b"
+    tested = rf"\b{name}(?: is|,| \() ?(?:the one )?(?:under test|being tested)\b"
+    said = rf"\b{name}{_IS}{_EGOS}\b|\b{_EGOS},? (?:\(|is |called |which is )(?:the )?{name}\b|{tested}"
     return re.search(said, text, re.IGNORECASE) is not None
 
 

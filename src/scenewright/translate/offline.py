@@ -50,6 +50,7 @@ from scenewright.translate.speech import spoken
 from scenewright.translate.steps import in_sentences
 from scenewright.translate.tokens import Token, refuse_unknown, tokenise
 from scenewright.translate.unsayable import refuse_unsayable
+from scenewright.translate.values import take_values, with_values
 
 _ROLES = {
     Role.INITIAL: "at the start",
@@ -142,6 +143,22 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     [('S', 'W'), ('W',)]
     """
     chosen_map = road_map if road_map is not None else default_map()
+    rest, given = take_values(text, name)
+    if rest == text:
+        return _translated(text, chosen_map, name)
+    try:
+        read = _translated(rest, chosen_map, name)
+    except TranslationError as error:
+        if error.place is not None and error.place.text == rest:
+            error.place = replace(error.place, text=text)
+        raise
+    readings = (Reading(each.span, each.span.excerpt(text), str(each), ()) for each in given)
+    program = with_values(read.program, given, text, name)
+    return replace(read, program=program, readings=(*read.readings, *readings))
+
+
+def _translated(text: str, chosen_map: RoadMap, name: str) -> Translation:
+    """Translate what is left when the values of parameters are taken out; also without its lead, where it has one."""
     refuse_unsayable(text, name)
     try:
         return _read(text, chosen_map, name)

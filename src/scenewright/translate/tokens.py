@@ -21,14 +21,14 @@ from scenewright.translate.numerals import number_in_words, tail
 from scenewright.translate.spelling import correction, suggestions
 from scenewright.units import UNITS, Dimension, Unit, unit_of_name
 
-_PARAMETER = r"[A-Za-z][A-Za-z0-9]*(?:\\?_[A-Za-z0-9]+)+"
+PARAMETER = r"[A-Za-z][A-Za-z0-9]*(?:\\?_[A-Za-z0-9]+)+"
 END_OF_SENTENCE = "\v"  # ends a sentence where a text has no full stop
 _RAW = re.compile(
     rf"""(?P<ie>\b(?:i\.e\.|e\.g\.),?)
     |(?P<wrt>\b[wW]\.?r\.?t\b\.?)
     |(?P<zero>\b(?:[Aa]t\s+)?[tT]\s*=\s*0(?:\.0)?(?:\s*s(?:ec)?)?(?![\w.]))
-    |(?P<braced>\{{\s*{_PARAMETER}\s*\}})
-    |(?P<parameter>{_PARAMETER})
+    |(?P<braced>\{{\s*{PARAMETER}\s*\}})
+    |(?P<parameter>{PARAMETER})
     |(?P<number>(?<![\w.])[+\-−]?(?:\d+(?:,\d+)*(?:\.\d+)?|\.\d+)(?:/\d+)?)
     |(?P<instant>\bt_?[01]\b|\bt\s*=\s*(?:t_?)?0(?:\s*s)?\b|\bv_?0\b|\bv\(0\))
     |(?P<word>[^\W\d_]+?n['’]t\b|['’](?:ll|re|ve|d|m)\b|[^\W\d_]+)

@@ -48,6 +48,7 @@ def is_predicate(tokens: list[Token], at: int) -> bool:
     if "colon" in tokens[back].tags:
         return not (tokens[at + 1].tags.keys() & {"be", "auxiliary"} or "s" in tokens[at + 1].forms)  # "Ego: a van"
     placed = back > 1 and "relation" in tokens[back - 2].tags  # "Ahead of the ego is a car"
+    placed = placed or tokens[back - 1].text.lower() in ("us", "me")  # "Coming towards us is a van"
     if placed or any(each.tags.get("determiner") == "another" for each in tokens[back:at]):
         return False
     return "be" in tokens[back].tags or ("comma" in tokens[back].tags and back < at - 1 and closes)
@@ -126,7 +127,7 @@ def is_our_own(tokens: list[Token], at: int) -> bool:
     if "our" not in tokens[at].tags.values() or at + 1 >= len(tokens):
         return False
     following = tokens[at + 1].text.lower()
-    return bool(tokens[at + 1].tags.keys() & {"measure", "measures"}) or following in (
+    return bool(tokens[at + 1].tags.keys() & {"measure", "measures", "aspect"}) or following in (
         "being",
         "run",
         "journey",

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from scenewright.translate.gist.rewriting import AMOUNT, BEGINS, Rules
+from scenewright.translate.gist.rewriting import AMOUNT, BEGINS, PRIORITY, Rules
 
 _ONE = r"(?:the )?(?:ego|hero|AV|SUT|VUT|POV|NPC)(?: vehicle)?"
 _EGO = r"(?:the )?(?:ego|AV|SUT|VUT)(?: vehicle)?"
@@ -203,11 +203,111 @@ _BEGINS_WITH = re.compile(
     re.IGNORECASE,
 )
 
+# "the driver of the ego vehicle": whoever drives it goes where it goes
+_DRIVER_OF = re.compile(
+    rf"\bthe (?:human )?(?:driver|operator) (?:of|behind the wheel of|in|at the wheel of) ({_ONE})\b(?!['\u2019])",
+    re.IGNORECASE,
+)
+_HAVING_STOOD = re.compile(
+    r"\bafter having (?:stood|stopped|waited|halted|come to (?:a|rest) ?(?:stop|halt|standstill)?)(?: there| still)?,? "
+    rf"(?={_HERO} )",
+    re.IGNORECASE,
+)
+_AT_END_OF_TURN = re.compile(
+    r"\bis (?:at the end of|through|done with|finished with) (?:its|his|her) turn\b",
+    re.IGNORECASE,
+)
+_OBLIGES_IT = re.compile(
+    r",? which (?:would|should|does|ought to)? ?(?:obliges?|requires?|forces?|compels?) (?:it|him|her) to (?:wait|yield"
+    r"|give way),? but (?:it|he|she) does not(?: do so)?(?=[.;])",
+    re.IGNORECASE,
+)
+_REMAIN_FROM = re.compile(
+    rf"\b({AMOUNT}) (?:remains?|(?:is|are) left) from ({_ONE}) to ({_PLACE}),? and ({AMOUNT}) from ({_ONE}) to "
+    rf"(?={_PLACE})",
+    re.IGNORECASE,
+)
+_AT_THE_TRIGGER = re.compile(rf"{BEGINS}At the (?:trigger|triggering) (?:instant|moment|time|point),? ", re.IGNORECASE)
+_INTENDED_BY_BOTH = re.compile(
+    rf"{BEGINS}(Left|Right) turns are (?:intended|planned|made|performed|wanted) by both(?: vehicles)?[,:] by ({_ONE}) "
+    rf"((?:from|into) [^.;,\d]*?),? and by ({_ONE}) (?=from |into )",
+    re.IGNORECASE,
+)
+_IS_THE_POSITION = re.compile(
+    rf"{BEGINS}({AMOUNT} (?:before|from|short of|away from) {_PLACE}) is the (?:initial|starting|first) (?:position"
+    rf"|place"
+    rf"|location) of ({_ONE})\b",
+    re.IGNORECASE,
+)
+_UNTIL_ARRIVAL = re.compile(
+    rf"\bhas ({AMOUNT}) (?:left )?(?:until|to|before) (?:its )?arrival at (?={_PLACE})",
+    re.IGNORECASE,
+)
+_WE_LET = re.compile(
+    rf"(?<!could )(?<!can )(?<!shall )(?<!should )(?<!may )\b(?:we|you|one) (?:let|have|make|lets|has|makes) "
+    rf"(?!both\b)({_ONE}) (?!at\b)(?=[a-z]+[ .,])",
+    re.IGNORECASE,
+)
+_WE_HAVE_AT = re.compile(rf"\b(?:we|you) have ({_ONE}) (?:at )?(?={AMOUNT})", re.IGNORECASE)
+# "Left into the driveway: this is the course of the hero", "A left turn is assigned to the hero"
+_THIS_IS_ITS_COURSE = re.compile(
+    rf"{BEGINS}([^.:;]+?): (?:this|that|such) is the (?:course|route|way|path|plan|task) of ({_ONE})\b", re.IGNORECASE
+)
+_IS_ASSIGNED = re.compile(
+    rf"{BEGINS}(?:an? )?([^.:;,\d]+?) is (?:assigned|given|allotted|allocated|attributed) to ({_ONE})(?=[,.])",
+    re.IGNORECASE,
+)
+_IS_REPRESENTED = re.compile(
+    rf"{BEGINS}((?:East|West|North|South)bound [^.:;,\d]+?) is (?:represented|played|embodied|provided) by "
+    rf"({_ONE})(?=[,.])",
+    re.IGNORECASE,
+)
+_DISTANCE_IN_TIME = re.compile(
+    r",? at an initial (?:distance|separation)(?: in time| in space)? of (?=[\w.]+)",
+    re.IGNORECASE,
+)
+_BEFORE_FOR_EACH = re.compile(
+    rf"{BEGINS}({AMOUNT}) before ({_PLACE}) for ({_ONE}),? and(?: at the same (?:time|moment|instant))?,? ({AMOUNT}) "
+    rf"before (?:it|({_PLACE})) for ({_ONE}), ",
+    re.IGNORECASE,
+)
+_STRAIGHT_MEETS = re.compile(r", meets (?:an?|the) (?=(?:\w+bound )?(?:ego|AV|SUT|VUT)\b)", re.IGNORECASE)
+_DOES_SO_BEFORE = re.compile(
+    rf"[;,:] (?:it|he|she) (?:will do|does|is going to do) (?:so|this|that) in front of (?=({_EGO}), "
+    rf"(?:who|which)\b)",
+    re.IGNORECASE,
+)
+_UPON_FULFILMENT = re.compile(
+    r"\b(?:up)?on (?:the )?fulfil(?:l)?ment of (?:the|this|that)(?: trigger(?:ing)?)? conditions?,? ", re.IGNORECASE
+)
+_LEG = re.compile(r"\b(?:approach|junction|intersection) leg\b|(?<=driveway) leg\b", re.IGNORECASE)
+_NO_PRIORITY = re.compile(
+    rf"(?:(?<=[;.]) |, (?:and|but|so) )(?:it|he|she|(?:the )?hero) (?:does not have|has no|lacks|doesn['\u2019]t "
+    rf"have) (?:the |any )?{PRIORITY}"
+    r"(?=[.;])",
+    re.IGNORECASE,
+)
+_VIOLATES = re.compile(
+    rf"\b(?:then )?(?:violates|infringes|breaches|disregards|ignores) (?:the|our|{_EGO}['\u2019]s) {PRIORITY}[:,] "
+    rf"(?=(?:it|he|she) )",
+    re.IGNORECASE,
+)
+_TO_THE_POINT = re.compile(r"(?<=accelerates) (?:up )?to the conflict point(?=\.)", re.IGNORECASE)
+_IS_STARTED = re.compile(r"\bwhen it is started(?=[.,;])", re.IGNORECASE)
+_VALUE_OF = re.compile(r"\bthe value of (\w+_\w+) is (?=\d)", re.IGNORECASE)
+_SO_THAT_IT_STANDS = re.compile(r"\bin this (?:manner|way|fashion),? (?=(?:it|he|she|the hero) yields)", re.IGNORECASE)
+
 
 def _before(found: re.Match[str]) -> str:
     """Return "and before the ego turns the hero has passed it" as "and passes it before the ego turns"."""
     verb = "passes" if found.group(2).lower() == "passed" else "crosses"
     return f"and {verb} {found.group(3)} {found.group(1)}"
+
+
+def _each_before(found: re.Match[str]) -> str:
+    """Return "When the ego is 5 s from the one place and the hero 3 s from the other, "."""
+    first, place, ego, second, other, hero = found.groups()
+    return f"When {ego} is {first} from {place} and {hero} {second} from {other or place}, "
 
 
 # In this order: what one rule leaves, the next may read.
@@ -265,4 +365,30 @@ FORMAL_PHRASES: Rules = (
     (_LIES_AHEAD_OF_EACH, r"\3 is \2 and \5 \4 from \1"),
     (_ARRIVES_ON, "is on the road "),
     (_BEGINS_WITH, r"Initially \1 is \2 "),
+    (_DRIVER_OF, r"\1"),
+    (_HAVING_STOOD, "Then "),
+    (_AT_END_OF_TURN, "completes its turn"),
+    (_OBLIGES_IT, " and won't yield"),
+    (_REMAIN_FROM, r"\2 is \1 from \3 and \5 \4 from "),
+    (_AT_THE_TRIGGER, "When "),
+    (_INTENDED_BY_BOTH, r"\2 turns \1 \3; \4 turns \1 "),
+    (_IS_THE_POSITION, r"Initially \2 is \1"),
+    (_UNTIL_ARRIVAL, r"is \1 from "),
+    (_WE_HAVE_AT, r"\1 is "),
+    (_WE_LET, r"\1 is to "),
+    (_THIS_IS_ITS_COURSE, r"\2 is \1"),
+    (_IS_ASSIGNED, r"\2: \1"),
+    (_IS_REPRESENTED, r"\2: \1"),
+    (_DISTANCE_IN_TIME, ", initially "),
+    (_BEFORE_FOR_EACH, _each_before),
+    (_STRAIGHT_MEETS, ". The "),
+    (_DOES_SO_BEFORE, ". "),
+    (_UPON_FULFILMENT, "Then "),
+    (_LEG, ""),
+    (_NO_PRIORITY, ""),
+    (_VIOLATES, ""),
+    (_TO_THE_POINT, ""),
+    (_IS_STARTED, "initially"),
+    (_VALUE_OF, r"\1 = "),
+    (_SO_THAT_IT_STANDS, ""),
 )

@@ -14,6 +14,7 @@ from functools import partial
 from scenewright.translate.aliases import without_aliases
 from scenewright.translate.gist.approach_phrases import APPROACH_PHRASES
 from scenewright.translate.gist.asides import ASIDES
+from scenewright.translate.gist.briefing_phrases import BRIEFING_PHRASES, we_for_you
 from scenewright.translate.gist.clock_phrases import CLOCK_PHRASES
 from scenewright.translate.gist.formal_phrases import FORMAL_PHRASES
 from scenewright.translate.gist.inverted_phrases import INVERTED_PHRASES
@@ -193,7 +194,7 @@ _WHERE_CROSS = re.compile(
 
 def without_idioms(text: str) -> str:
     """Return the text in plain words."""
-    text = without_aliases(text)
+    text = we_for_you(without_aliases(text))
     for pattern, words in _RULES:
         text = pattern.sub(partial(_said, words), text)
     return text
@@ -307,6 +308,7 @@ _RULES: Rules = (
     *TEST_MARKS,
     *CLOCK_PHRASES,
     *ASIDES,
+    *BRIEFING_PHRASES,
     *FORMAL_PHRASES,
     *INVERTED_PHRASES,
     *APPROACH_PHRASES,

@@ -52,9 +52,9 @@ def find_names(tokens: list[Token]) -> Names:
             continue  # of a letter
         if _is_director(tokens, at) or (speaker == HERO_ID and word in ("we", "us")):
             continue
-        if word in FIRST_PERSON or _has_it(word) or _is_own_wish(tokens, at):
+        if word in FIRST_PERSON or _has_it(word) or _is_own_wish(tokens, at) or is_our_own(tokens, at):
             names.actors[at] = speaker
-        elif "ego" in token.tags or is_our_own(tokens, at) or ("unknown" in token.tags and word in ours):
+        elif "ego" in token.tags or ("unknown" in token.tags and word in ours):
             names.actors[at] = EGO_ID
         elif word in ("they", "them") and (spoken or _somebody(tokens, at)):
             names.actors[at] = HERO_ID  # "we ... they": whoever it is, it is not the ego
@@ -85,7 +85,8 @@ def find_names(tokens: list[Token]) -> Names:
             another = at > 0 and tokens[at - 1].tags.get("determiner") == "another"
             if another and list(names.actors.values()).count(HERO_ID) > 1:
                 names.kinds |= {"hero", "another"}
-    egos = [tokens[at].text.lower() for at, actor in names.actors.items() if actor == EGO_ID]
+    named = [at for at, actor in names.actors.items() if actor == EGO_ID and not is_predicate(tokens, at)]
+    egos = [tokens[at].text.lower() for at in named]
     names.spoken = bool(egos) and all(each.split()[0] in FIRST_PERSON for each in egos)
     names.guessed = unknown
     _name_by_kind(tokens, names)
@@ -310,6 +311,9 @@ def _one_of_them(tokens: list[Token], at: int) -> bool:
 def _drives_it(tokens: list[Token]) -> bool:
     """Whether who is spoken to drives the ego: "You are following a car", "You (the ego) are", "You are in the ego"."""
     ways = ("follow", "drive", "come", "approach", "turn", "leave", "pull_out", "go", "sit")
+    other = _is_third_person(tokens) or any(
+        is_tested(tokens, at) for at, each in enumerate(tokens) if "noun" in each.tags
+    )
     for at, token in enumerate(tokens[:-2]):
         if token.text.lower() == "you" and "comma" in tokens[at + 1].tags:
             named = at + 2 + ("determiner" in tokens[at + 2].tags)
@@ -318,7 +322,7 @@ def _drives_it(tokens: list[Token]) -> bool:
         if token.text.lower() != "you" or "be" not in tokens[at + 1].tags:
             continue
         acts = tokens[at + 2].tags.get("verb") in ways and "ing" in tokens[at + 2].forms
-        if acts or "quantity" in tokens[at + 2].tags:
+        if not other and (acts or "quantity" in tokens[at + 2].tags):
             return True
     return False
 

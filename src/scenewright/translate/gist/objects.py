@@ -1,11 +1,11 @@
-"""Tells whether a name is what somebody does something to, and not who does it.
+"""Tells whether a name is what somebody does something to, and not who does it; and who is told of as seen.
 
 What enters: words with names. What leaves: whether the name at a token is an object: "for the ego", "follows the van".
 """
 
 from __future__ import annotations
 
-from scenewright.translate.gist.words import Words
+from scenewright.translate.gist.words import Clause, Words
 
 SEES = (
     "sees",
@@ -22,6 +22,8 @@ SEES = (
     "meets",
     "met",
     "encounters",
+    "faces",
+    "observes",
 )
 _CLOSES = ("link", "comma", "end", "preposition")
 SHARES = ("shares", "share", "sharing", "shared")
@@ -111,3 +113,20 @@ def _before_name(words: Words, at: int) -> int:
             break
         back -= 1
     return back
+
+
+def seen(words: Words, index: int) -> int | None:
+    """Return whom "westbound and going straight" is about after "A van sees the AV coming along the road"."""
+    for back in range(index, 1, -1):
+        clause, before, sees = words.clauses[back], words.clauses[back - 1], words.clauses[back - 2]
+        if is_finite(words, clause) or clause.link not in ("main", "and") or before.sentence != clause.sentence:
+            return None
+        if before.named and words.word(sees.end - 1) in SEES and sees.sentence == clause.sentence:
+            return None if is_finite(words, before) else before.subject
+    return None
+
+
+def is_finite(words: Words, clause: Clause) -> bool:
+    """Whether somebody does or is something in a clause: "goes", but not "going"."""
+    finite = any("verb" in words.tags(at) and "s" in words.tokens[at].forms for at in clause.inside)
+    return finite or words.has(clause.inside, "be", "auxiliary")

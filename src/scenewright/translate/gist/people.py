@@ -48,7 +48,7 @@ def drivers_of_ego(tokens: list[Token]) -> set[str]:
 
 
 def short_names(tokens: list[Token]) -> dict[str, int]:
-    """Return where the vehicle stands that a word is short for: "learner" for "a learner driver"."""
+    """Return where the vehicle stands that a word is short for: "learner" for "a learner driver"; the first of them."""
     found: dict[str, int] = {}
     for at, token in enumerate(tokens[:-1]):
         if "unknown" not in token.tags or not token.text.isalpha() or not at:
@@ -56,8 +56,8 @@ def short_names(tokens: list[Token]) -> dict[str, int]:
         named = at + 1
         while named < len(tokens) - 1 and "unknown" in tokens[named].tags:
             named += 1
-        if tokens[at - 1].tags.get("determiner") == "indefinite" and "noun" in tokens[named].tags:
-            found[token.text.lower()] = named
+        if tokens[at - 1].tags.get("determiner") in ("indefinite", "definite") and "noun" in tokens[named].tags:
+            found.setdefault(token.text.lower(), named)
     return found
 
 

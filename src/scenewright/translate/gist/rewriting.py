@@ -14,5 +14,6 @@ Rules = tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...]
 # "20 m", "fifteen feet", "initial_ego_m"
 AMOUNT = r"(?:(?:[\d.]+ ?|[a-z-]+ )(?:m|met(?:re|er)s?|ft|feet|foot|yd|yards?|s|seconds?)\b|\w+_(?:m|s|ft|yd)\b)"
 WHO = r"(?:(?:the|our) [\w-]+(?: vehicle| car| under test)?|it|he|she|[A-Z]{2,})"
-EGO = r"(?:ego(?: vehicle| car)?|AV|SUT|VUT|ADS)"
+EGO = r"(?:ego(?: vehicle| car)?|AV|SUT|VUT|ADS|DUT|EUT)"
+PRIORITY = r"(?:priority|precedence|right of way|right-of-way)"
 BEGINS = r"(?:(?<=[.!?;]\s)|^)"  # of a sentence

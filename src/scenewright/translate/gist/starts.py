@@ -90,7 +90,7 @@ class Starts:
             made.kind == "speed" and same and not words.verbs(plain) - {"drive", "go", "come", "make"}
         )
         earlier = bool(told_before)
-        own = clause.named or made.kind == "speed"
+        own = clause.named or made.kind == "speed" or words.verbs(before.inside) == {"begin"}
         return alone or (earlier and verbless and own and clause.link in ("and", "main"))
 
     def _goes_on_with_speeds(self, made: Measured) -> bool:

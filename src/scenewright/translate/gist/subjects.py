@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from scenewright.translate.events import EGO_ID, HERO_ID
 from scenewright.translate.gist.names import FIRST_PERSON, PERSONAL
-from scenewright.translate.gist.objects import SEES, is_object
+from scenewright.translate.gist.objects import SEES, is_finite, is_object, seen
 from scenewright.translate.gist.words import Clause, Words
 
 _CUED = ("triggered", "activated", "acts", "reacts", "cued")
@@ -240,8 +240,12 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     if words.word(clause.start) in ("its", "his", "her") and begun and "begin" in verbs:
         return HERO_ID  # "Its deceleration begins when": the ego's would be its own affair
     own = [at for at in pronouns if not words.has([at - 1], "preposition")]
-    if words.names.spoken and words.has(own, "pronoun", "possessive"):
+    far = bool(own) and words.has([own[0] + 2], "quantity") and words.word(own[0] + 3) == "to"  # "it's 82 yd to it"
+    if words.names.spoken and words.has(own, "pronoun", "possessive") and not (far and clause.link in _MAIN):
         return HERO_ID  # "we" are the ego, so "it" is the other one
+    if own and any(at > own[0] and words.word(at) in ("us", "me") for at in clause.inside):
+        speaker = next(words.names.actors.get(at) for at in clause.inside if words.word(at) in ("us", "me"))
+        return 1 - speaker if speaker is not None else last  # "it comes out in front of us"
     following = words.clauses[index + 1] if index + 1 < len(words.clauses) else clause
     asked = (
         following.link == "when" and following.sentence == clause.sentence and words.has(following.inside, "quantity")
@@ -259,6 +263,8 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
         return before.subject  # "Hero action: it brakes"
     if (owner := _whose_measure(words, index)) is not None:
         return owner
+    if (actor := seen(words, index)) is not None:
+        return actor
     that = words.word(clause.start - 1) in ("that", "this") and words.tag(clause.start, "event_noun") == "turn"
     if that and acting:
         return HERO_ID  # "... speeds up to complete its turn ... That turn is a left turn"
@@ -314,7 +320,7 @@ def _unnamed(words: Words, index: int, last: int | None, acting: bool) -> int | 
     if clause.link in _MAIN and ((pronouns and hero_here and strong) or (acting and (verbs & deeds or strong))):
         return HERO_ID
     owned = [at for at in pronouns if not words.has([at - 1], "preposition", "relation", "verb")]
-    if not owned and not any(each.named or _is_finite(words, each) for each in [*earlier, clause]):
+    if not owned and not any(each.named or is_finite(words, each) for each in [*earlier, clause]):
         beside = words.clauses[index + 1] if index + 1 < len(words.clauses) else clause
         with_it = "with" in (words.word(clause.end), words.word(clause.end + 1)) and words.has(
             [clause.start], "direction"
@@ -483,8 +489,3 @@ def _named_later(words: Words, index: int) -> int | None:
             if at in words.names.actors and not is_object(words, at):
                 return words.names.actors[at]
     return None
-
-
-def _is_finite(words: Words, clause: Clause) -> bool:
-    finite = any("verb" in words.tags(at) and "s" in words.tokens[at].forms for at in clause.inside)
-    return finite or words.has(clause.inside, "be", "auxiliary")

@@ -30,7 +30,9 @@ _AT_END = re.compile(
 )
 # "Ego under test, eastbound", "the ego, vehicle evaluated, comes"
 _BETWEEN = re.compile(
-    rf"\b({EGO})(?:,? under test|, (?:the |our )?{_VEHICLE} (?:{_TESTED}|that (?:is|we) {_TESTED}))(?=,)", re.IGNORECASE
+    rf"\b({EGO}|ours)(?:,? under test|, (?:the |our )?{_VEHICLE} (?:{_TESTED}|(?:that (?:is|we)|being) "
+    rf"{_TESTED}))(?:,(?= is\b)|(?=,))",
+    re.IGNORECASE,
 )
 # "the vehicle evaluated (the ego)", "the vehicle that we evaluate"
 _AFTER = re.compile(

@@ -345,7 +345,8 @@ class WayReader:
 
     def _follows(self, at: int, clause: Clause, verb: str) -> None:
         near = range(at + 1, at + 4)
-        noun = self.words.has([at - 1], "determiner") and self.words.has([at + 1], "colon", "end", "comma")
+        noun = self.words.has([at - 1], "determiner")
+        noun = noun and (verb == "lead" or self.words.has([at + 1], "colon", "end", "comma"))  # "the lead brakes"
         if noun or self.words.word(at - 1) in ("one", "path", "way", "course", "lane", "route"):
             return  # "its path leading past the driveway", "I need the following:", "one following the other"
         if self.words.has(near, "through") or self.words.has(range(at + 1, at + 3), "landmark"):
@@ -415,6 +416,8 @@ class WayReader:
     def _adjective(self, at: int, said: str) -> None:
         ahead = self.words.skip(at + 1, frozenset(("actor_adjective", "heading", "unknown", "direction")))
         actor = self.words.names.actors.get(at, self.words.names.actors.get(ahead))
+        if actor is None and "determiner" in self.words.tags(at - 1) and "relation" in self.words.tags(at - 2):
+            return  # "18 m behind the lead"
         if actor is None:
             actor = next((each.subject for each in self.words.clauses if at in each.inside), None)
         if actor is None:

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import re
 
-from scenewright.translate.gist.rewriting import BEGINS, EGO, Rules
+from scenewright.translate.gist.rewriting import BEGINS, EGO, PRIORITY, Rules
 
-_PRIORITY = r"(?:priority|precedence|right of way|right-of-way)"
 _EGO = rf"(?:the )?{EGO}"
 _HERO = r"(?:the (?:hero|POV|NPC)(?: vehicle)?|it|he|she)"
 
@@ -21,7 +20,7 @@ _NO_NOTICE = re.compile(
 )
 _DENIES = re.compile(
     r"\b(?:denies|refuses|denied|refused) (the [\w-]+(?: vehicle| car)?|us|it|[A-Z]{2,}) (?:the |its )?"
-    rf"{_PRIORITY}\b(?: to which (?:it|he|she|we) (?:is|are) entitled| that (?:it|he|she) has)?",
+    rf"{PRIORITY}\b(?: to which (?:it|he|she|we) (?:is|are) entitled| that (?:it|he|she) has)?",
     re.IGNORECASE,
 )
 _KEEP_RIGHT = re.compile(
@@ -91,20 +90,20 @@ _REPENTS = re.compile(
 )
 _CHANGE_MIND = re.compile(r"\b(they|we) change (?:their|our) minds?(?:,? and|,)(?= )", re.IGNORECASE)
 _NOT_INSIST = re.compile(
-    rf"\bdoes not insist on (?:going first|(?:its|his|her|the) {_PRIORITY}|it)(?=[.;])", re.IGNORECASE
+    rf"\bdoes not insist on (?:going first|(?:its|his|her|the) {PRIORITY}|it)(?=[.;])", re.IGNORECASE
 )
 _NOT_RESPECTED = re.compile(
-    rf"{BEGINS}The {_PRIORITY} of {_EGO} is (?:not respected|disregarded|ignored|neglected)\.", re.IGNORECASE
+    rf"{BEGINS}The {PRIORITY} of {_EGO} is (?:not respected|disregarded|ignored|neglected)\.", re.IGNORECASE
 )
-_REFUSES_TO = re.compile(rf"\b(?:refuses|denies) {_PRIORITY} to (?={_EGO}|us\b)", re.IGNORECASE)
+_REFUSES_TO = re.compile(rf"\b(?:refuses|denies) {PRIORITY} to (?={_EGO}|us\b)", re.IGNORECASE)
 _LEFT_TO_EGO = re.compile(
-    rf"{BEGINS}{_PRIORITY} is (?:left|given|granted|conceded|ceded) to ({_EGO}|us)(?=[.,;])", re.IGNORECASE
+    rf"{BEGINS}{PRIORITY} is (?:left|given|granted|conceded|ceded) to ({_EGO}|us)(?=[.,;])", re.IGNORECASE
 )
 _MANNERS = re.compile(r"\b(the hero|it|he|she) minds (?:its|his|her) manners:", re.IGNORECASE)
 _RENOUNCES = re.compile(r"\b(?:renounces|relents|gives in|backs off)(?=[:,] (?:it|he|she|and)\b)", re.IGNORECASE)
 _FORGOES = re.compile(
-    rf"\b(?:waives|forgoes|renounces|gives up|cedes) (?:its|his|her|the) {_PRIORITY}(?: in favour of ({_EGO}"
-    rf"|us))?(?=,)",
+    rf"\b(?:waives|forgoes|renounces|gives up|cedes) (?:its|his|her|the) {PRIORITY}(?: in favour of ({_EGO}"
+    rf"|us))?(?=[,:])",
     re.IGNORECASE,
 )
 _CONTRARY_TO_DUTY = re.compile(

@@ -1,0 +1,141 @@
+"""Turns of phrase of briefings and test plans: who is told to drive, questions with their answers, labels in short.
+
+What enters: nothing. What leaves: `BRIEFING_PHRASES`, patterns with what to say instead, in their order: "Where are
+they at first?" is "At first:". Nothing that is said instead is longer.
+"""
+
+from __future__ import annotations
+
+import re
+
+from scenewright.translate.gist.rewriting import AMOUNT, BEGINS, EGO, PRIORITY, Rules
+
+_ONE = r"(?:the )?(?:ego|hero|AV|SUT|VUT|POV|NPC|EUT|DUT)(?: vehicle)?"
+_PLACE = r"the (?:conflict point|stop line|intersection)"
+_NAMED = r"(?!at\b|it\b|them\b|both\b)(?:the |our |its )?[\w-]+(?: (?:car|vehicle|under test))?"
+# "You are in the car under test", "You = the SUT": then "you" is who "we" is elsewhere
+_TESTED = rf"(?:the (?:car|vehicle|one) (?:under test|being tested)|the (?:tested|test) (?:car|vehicle)|(?:the )?{EGO})"
+_YOU_ARE_IT = re.compile(
+    r"\byou(?: (?:are|drive|sit)|['\u2019]re|r car is| ?=| \()?(?: in| driving|(?: [^.;:\d()]{0,40}?)? (?:sitting"
+    r"|sit) in"
+    rf"|(?: [^.;:\d()]{{0,30}}?) in| (?:at|behind) the wheel of)? ?\b{_TESTED}\b(?!['\u2019])"
+    rf"|\byour (?:\w+ ){{0,2}}(?:car|vehicle)(?: is|,)? {_TESTED}\b(?!['\u2019])",
+    re.IGNORECASE,
+)
+_YOU = re.compile(
+    r"\b(?:you|yourself)\b(?! (?:see|know|need|want to test|can|could|may|might|would|should|please|have to test))",
+    re.IGNORECASE,
+)
+_AFTER = re.compile(r"\b((?:across|towards?|behind|in front of|past|lets?|for|of) )you\b", re.IGNORECASE)
+_YOUR = re.compile(r"\byour(s)?\b", re.IGNORECASE)
+_WE = re.compile(r"\b(?:we|us|our|I|my|me)\b")
+
+
+def we_for_you(text: str) -> str:
+    """Return the text with "we" in place of "you" where that is who drives the ego, and nobody else speaks.
+
+    >>> we_for_you("You are in the car under test. You turn left.")
+    'we  are in the car under test. we  turn left.'
+    """
+    if not _YOU_ARE_IT.search(text) or _WE.search(text):
+        return text
+    text = _AFTER.sub(lambda found: (found[1] + "us").ljust(len(found.group())), text)
+    text = _YOU.sub(lambda found: "we".ljust(len(found.group())), text)
+    return _YOUR.sub(lambda found: ("ours" if found[1] else "our").ljust(len(found.group())), text)
+
+
+_WHO_IS_TESTED = re.compile(
+    rf"{BEGINS}(?:Who|What|Which (?:car|vehicle)) is (?:under test|the ego|being tested)\? (The|An?) ([\w-]+)(?=[,.;])",
+    re.IGNORECASE,
+)
+_WHO_IS_OTHER = re.compile(
+    rf"{BEGINS}(?:Who|What) is (?:the )?(?:opponent|other(?: one| car| vehicle)?|hero|adversary|NPC|POV)\? (?=An? )",
+    re.IGNORECASE,
+)
+_WHERE_IS_IT = re.compile(
+    rf"{BEGINS}Where (?:is|does) (the [\w-]+) (?:at first|at the start|initially|to begin with|start|begin)\? "
+    r"(?:It|He|She) (?:is|starts|begins) ",
+    re.IGNORECASE,
+)
+_WHERE_AT_FIRST = re.compile(
+    rf"{BEGINS}Where (?:are|is|do|does) [^.?!\d]{{0,30}}?(?:at first|at the start|initially|to begin with|start"
+    rf"|begin)\? "
+    r"(?!It\b|He\b|She\b)",
+    re.IGNORECASE,
+)
+_WHEN_DOES = re.compile(rf"{BEGINS}When (?:does|do|will|is) [^.?!\d]{{1,40}}\? (?:When |With )", re.IGNORECASE)
+_WHAT_THEN = re.compile(
+    rf"{BEGINS}(?:And )?What (?:then|next|happens (?:then|next)|does (?:it|he|she|the [\w-]+) do(?: then| next)?)\? ",
+    re.IGNORECASE,
+)
+_UNTIL_BOTH = re.compile(
+    rf"{BEGINS}(?:Let|Have) (?:both|them|the two|both (?:cars|vehicles)) (?:drive|run|go|roll)(?: on)? until ",
+    re.IGNORECASE,
+)
+_THAT_IS_TRIGGER = re.compile(
+    rf"{BEGINS}((?:[^.:;?\d]|\.\d)*\d(?:[^.:;?]|\.\d)*?)(?:: that(?:['\u2019]s| is) (?:the|my|our) (?:trigger|cue"
+    rf"|signal)|, and (?:that"
+    rf"|this) is the trigger)(?=\.)",
+    re.IGNORECASE,
+)
+# "before ego (from the driveway, left turn) begins to turn"
+_BRACKET_BETWEEN = re.compile(
+    rf"\b((?:before|after|once|until|when) {_ONE}) (\([^()\d]*\)) ((?:begins|starts|gets|passes|reaches|has|turns"
+    rf"|goes)\b[^.;,()]*)",
+    re.IGNORECASE,
+)
+_AND_ITSELF = re.compile(
+    rf" with ({_NAMED} {AMOUNT} (?:from|before|short of) {_PLACE}) and itself (?={AMOUNT})", re.IGNORECASE
+)
+_HAVE_PRIORITY = re.compile(rf"\blets? (?:it|us|them|{_ONE}) have (?:the |its )?{PRIORITY}\b", re.IGNORECASE)
+_THROUGH_TRAFFIC = re.compile(r", through traffic(?=[,.;])", re.IGNORECASE)
+_GO_RIGHT_AT = re.compile(
+    r"\bgo(es|ing|)? (left|right) at the (?:end|bottom|mouth)(?: of (?:it|the driveway))?",
+    re.IGNORECASE,
+)
+_TURN_AHEAD = re.compile(r"(?<=turn) (\(\w+\) )?ahead(?=[.,;])", re.IGNORECASE)
+_BRAKING_WITH = re.compile(rf"{BEGINS}(?:Its )?Braking (?:starts|begins|sets in) with ", re.IGNORECASE)
+_UPON = re.compile(rf"{BEGINS}Upon (?={_ONE} TT[AC] )", re.IGNORECASE)
+_VERSUS = re.compile(rf"(?<=\)) (?:vs|versus)\.? (?={_ONE}\b)", re.IGNORECASE)
+_CONDITION = re.compile(r"^([ \t]*(?:[-*] )?)(?:cond|trig)(?: ?= ?|: )", re.IGNORECASE | re.MULTILINE)
+_ACT = re.compile(r"^([ \t]*(?:[-*] )?)(?:act|action) ?= ?", re.IGNORECASE | re.MULTILINE)
+_SEQUENCE = re.compile(rf"({_ONE}) SEQ(?:UENCE)?(?=:)", re.IGNORECASE)
+_IS_PLACED = re.compile(rf"{BEGINS}(?:Stage|Put|Place|Position|Spawn) ({_NAMED}) (?={AMOUNT}|on |in )", re.IGNORECASE)
+# "For the re-creation let ego start 7.5 s from it", "Please replicate in sim with our car as the ego"
+_FOR_THE_SAKE = re.compile(
+    r"\bFor the (?:re-?creation|test|simulation|replay|run|reconstruction),? let (?=[\w ]+ (?:start|begin)\b)"
+)
+_REPLICATE = re.compile(
+    rf"{BEGINS}(?:Please )?(?:replicate|recreate|re-create|reproduce|rebuild|build|replay)(?: (?:this|it|that))? in "
+    rf"(?:the )?"
+    r"(?:sim|simulation|simulator)(?: with (our (?:car|vehicle) )as the ego, (?=starting ))?",
+    re.IGNORECASE,
+)
+
+
+# In this order: what one rule leaves, the next may read.
+BRIEFING_PHRASES: Rules = (
+    (_WHO_IS_TESTED, r"\1 \2 is under test"),
+    (_WHO_IS_OTHER, "There is "),
+    (_WHERE_IS_IT, r"At first \1 is "),
+    (_WHERE_AT_FIRST, "At first: "),
+    (_WHEN_DOES, "When "),
+    (_WHAT_THEN, ""),
+    (_UNTIL_BOTH, "When "),
+    (_THAT_IS_TRIGGER, r"When \1"),
+    (_BRACKET_BETWEEN, r"\1 \3 \2"),
+    (_AND_ITSELF, r" when \1 and it "),
+    (_HAVE_PRIORITY, "yields"),
+    (_THROUGH_TRAFFIC, ", straight on"),
+    (_GO_RIGHT_AT, r"turn\1 \2"),
+    (_TURN_AHEAD, r" \1"),
+    (_BRAKING_WITH, "It brakes when "),
+    (_UPON, "When "),
+    (_VERSUS, "; "),
+    (_CONDITION, r"\1when "),
+    (_ACT, r"\1then "),
+    (_SEQUENCE, r"\1"),
+    (_IS_PLACED, r"\1 is "),
+    (_FOR_THE_SAKE, ""),
+    (_REPLICATE, lambda found: "we are " if found[1] else ""),
+)
