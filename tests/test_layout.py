@@ -8,6 +8,8 @@ import subprocess
 import sys
 import tomllib
 import zipfile
+from collections import Counter
+from collections.abc import Iterator
 from importlib.metadata import entry_points, version
 from pathlib import Path
 
@@ -129,3 +131,19 @@ def test_importing_the_packages_loads_nothing_heavy() -> None:
     code = f"import importlib, sys\nfor name in {names!r}: importlib.import_module(name)\nprint(*sys.modules)"
     result = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
     assert sorted(HEAVY & set(result.stdout.split())) == []
+
+
+def test_module_level_names_are_bound_once() -> None:
+    twice = {}
+    for path in sorted((ROOT / "src").rglob("*.py")):
+        bound = Counter(_bound(ast.parse(path.read_text(encoding="utf-8"))))
+        twice[path.name] = [name for name, count in bound.items() if count > 1]
+    assert {name: names for name, names in twice.items() if names} == {}
+
+
+def _bound(module: ast.Module) -> Iterator[str]:
+    for node in module.body:
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            yield node.name
+        elif isinstance(node, ast.Assign):
+            yield from (target.id for target in node.targets if isinstance(target, ast.Name))

@@ -31,7 +31,8 @@ _FIRST = re.compile(
 # What somebody says of the test: words that are not known change nothing there.
 _FRAME = re.compile(
     r"(?:(?:hi|hello|hey|so|ok|okay|well|right|now|dear|good (?:morning|day|evening))\b[\w ]{0,12},? )?(?:"
-    r"(?:(?:legal|marketing|sales|management|safety|homologation|validation|planning|everybody) |(?:my|our|the|a) "
+    r"the (?:happy|normal|nominal|standard|usual|classic|nice|easy|worst|hard) (?:path|case)\b"
+    r"|(?:(?:legal|marketing|sales|management|safety|homologation|validation|planning|everybody) |(?:my|our|the|a) "
     r"(?:customer|client|boss|manager|supervisor|team|professor|colleague|lead|committee|board) )"
     r"(?:has |have )?(?:asked|told|wants|wanted|needs)\b"
     r"|(?:i|we)(?: would|['\u2019]d| am|['\u2019]m| are)? (?:like|want|need|remember|recall|try|trying|looking"
@@ -44,7 +45,7 @@ _FRAME = re.compile(
     r"(?:is|was|checks|covers|tests|concerns|deals|failed|happened|comes|came)\b"
     r"|(?:the )?(?:validation |test |safety |main )?(?:objective|purpose|goal|aim|motivation|background|hazard"
     r"|rationale"
-    r"|summary|title|subject|story|context|idea|point|coverage gap)\b"
+    r"|concern|worry|risk|threat|issue|failure|summary|title|subject|story|context|idea|point|coverage gap)\b"
     r")",
     re.IGNORECASE,
 )

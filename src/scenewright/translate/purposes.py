@@ -56,7 +56,8 @@ _AIM = re.compile(
 )
 # "It shall be demonstrated that the ego does not panic.", "The ego's reaction to a late brake is under test."
 _SHOWN = re.compile(
-    r"(?:(?<=[.!?]\s)|(?<=\n)|^)(?:It (?:shall|is to|should|must|has to) be (?:demonstrated|shown|verified|proven"
+    r"(?:(?<=[.!?]\s)|(?<=\n)|^)(?:(?:Here,? )?(?:we|I) (?:seek|want|look for|need) (?:evidence|proof|confirmation) "
+    r"that\b|It (?:shall|is to|should|must|has to) be (?:demonstrated|shown|verified|proven"
     r"|checked"
     r"|tested|established|confirmed) (?:that|whether|how) (?:the )?(?:ego|AV|SUT|VUT)\b"
     rf"|The (?:ego|AV|SUT|VUT)['\u2019]s (?:reaction|response|behaviou?r) to (?=[^.]* (?:is|are) (?:under test|tested"
@@ -65,7 +66,8 @@ _SHOWN = re.compile(
     re.IGNORECASE,
 )
 _OF_EGO = re.compile(
-    r"\b(?:how|whether|if|that|for) (?:the |our )?(?:ego|AV|ADS|SUT|VUT|vehicle under test|planner|policy)\b"
+    r"\b(?:how|whether|if|that|for) (?:the |our )?(?:ego|AV|ADS|SUT|VUT|vehicle under test|planner|policy|system)\b"
+    r"|\b(?:confuse|surprise|upset|disturb|impress|bother)s? (?:the |our )?(?:ego|AV|SUT|VUT|system|planner|policy)\b"
 )
 
 

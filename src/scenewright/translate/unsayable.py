@@ -367,7 +367,9 @@ _PHRASES = tuple(
             r"|all the way\b(?=[^.]*\.[^.]*\b(?:accelerat|brak|decelerat|stop))"
             r"|until the (?:very )?end (?:of the (?:test|run|scenario))?|from (?:start|beginning) to (?:finish|end))"
             r"|\b(?:throughout|at all times|all the time|all along),? (?:(?:the|this) (?:whole |entire )?(?:test|run"
-            rf"|scenario),? )?[^.;\d\n]{{0,40}}?{_SPEED}",
+            rf"|scenario),? )?[^.;\d\n]{{0,40}}?{_SPEED}"
+            r"|\bkeeps? (?:one and the same|the same|a constant|an unchanged|its) speed from [^.;,\d]{3,40} to the "
+            r"(?:last|end|very end)\b",
             "a speed for the whole test, in which the hero reacts",
         ),
         (

@@ -174,7 +174,8 @@ def _either(tokens: list[Token], names: Names) -> int | None:
     first = next((at for at, actor in names.actors.items() if actor == HERO_ID), None)
     if first is None or tokens[first].text.lower() not in ego_words or not first:
         return None
-    return first if tokens[first - 1].tags.get("determiner") == "definite" else None
+    beside = "relation" in tokens[first + 1].tags and any("ego" in each.tags for each in tokens[first + 2 : first + 4])
+    return first if tokens[first - 1].tags.get("determiner") == "definite" and not beside else None
 
 
 def _speaker(tokens: list[Token]) -> int:

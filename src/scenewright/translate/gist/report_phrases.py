@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import re
 
-from scenewright.translate.gist.rewriting import AMOUNT, EGO, WHO, Rules
+from scenewright.translate.gist.rewriting import AMOUNT, BEGINS, EGO, WHO, Rules
 
+_ONE = r"(?:the )?(?:ego|hero|AV|SUT|VUT|POV|NPC)(?: vehicle)?"
+_PLACE = r"the (?:conflict point|stop line|intersection)"
 # "the distance by which the ego trails the hero has shrunk to 12 m"
 _BY_WHICH = re.compile(
     rf"\bthe (distance|gap|time) by which ({WHO}) (?:follows|trails|is behind|lags behind) ({WHO}) (?=has|is"
@@ -159,6 +161,108 @@ _IS_ONCOMING = re.compile(
     re.IGNORECASE,
 )
 
+# "i.e. to enter the same eastbound lane" after a turn
+_IE_TO_ENTER = re.compile(
+    r", (?:i\.e\.,?|that is,?|namely) to (?:enter|join|merge into) (?:the )?(?:same )?(\w+bound) (?:lane"
+    r"|road)(?=[.,;])",
+    re.IGNORECASE,
+)
+_TURNING_BY = re.compile(
+    r"\b(?:by|via|through) (?:making |means of )?an? (left|right) turn (?=onto|into|out|from)",
+    re.IGNORECASE,
+)
+_THAT_OF_EACH = re.compile(
+    rf"{BEGINS}Two (left|right) turns (?:cross|meet|conflict|merge|are involved|take place)(?: here)?: that of "
+    rf"({_ONE}),? "
+    rf"([^.;:\d]*?),? and that of ({_ONE}),? (?=[^.;:\d]+\.)",
+    re.IGNORECASE,
+)
+_BRAKING_OF = re.compile(
+    rf"{BEGINS}(?:The )?(?:braking|deceleration) of ({_ONE})(, at [^,;:]*?,)? (?:is|gets) (?:initiated|started"
+    rf"|triggered|begun) "
+    r"(?=when|once|as soon as|at the moment)",
+    re.IGNORECASE,
+)
+_SAID_ONE = re.compile(rf"{BEGINS}Said (?=hero|ego|vehicle|van|car|POV|NPC|SUT|AV)")
+_SIMULATOR_PLACES = re.compile(
+    rf"{BEGINS}The (?:simulator|simulation|scenario|test) (?:shall|must|should|is to) (?:place|put|position|spawn"
+    rf"|start) ({_ONE}) ",
+    re.IGNORECASE,
+)
+_AND_ROUTES = re.compile(r"(?<=[\w,]) and (?:shall )?route it (?=left|right|straight)", re.IGNORECASE)
+_IT_ROUTES = re.compile(
+    rf"({_ONE}) it (?:shall|must|should|is to) (?:route|send|drive|lead) (?=left|right|straight"
+    rf"|west|east)",
+    re.IGNORECASE,
+)
+_REMAINING_OF_EACH = re.compile(
+    rf"\bwhen ({AMOUNT}|\w+_\w+) and ({AMOUNT}|\w+_\w+) are the (?:remaining )?(?:distances|times)(?: to arrival)? "
+    rf"of ({_ONE}) (?:to|from|at) "
+    rf"({_PLACE}) and of ({_ONE}) (?:to|from|at) ({_PLACE})(?:,? respectively)?",
+    re.IGNORECASE,
+)
+_FOUND_FIRST = re.compile(r"\bis first found (?=[\w.]+ )", re.IGNORECASE)
+_TURN_IN_QUESTION = re.compile(
+    rf"({_ONE}) ((?:begins|starts) (?:to turn|its turn|turning))\. (?:The turn in question|That turn|This turn) is "
+    rf"an? (?=left|right)",
+    re.IGNORECASE,
+)
+_TWO_ARE = re.compile(
+    rf"\b(?:the two|both)(?: vehicles| cars)? are ({AMOUNT} from {_PLACE}) \(({_ONE})\) and ({AMOUNT} from "
+    rf"{_PLACE}) \(({_ONE})\)",
+    re.IGNORECASE,
+)
+_EACH_OF_TWO = re.compile(r"\beach of (?:the|these) two(?: vehicles| cars)? is\b", re.IGNORECASE)
+_DEPARTURE = re.compile(
+    r"\b(?:A )?departure from (?:this|that|the) (?:stop|halt|standstill)(?:,? with acceleration,?| under "
+    r"acceleration)? follows\b",
+    re.IGNORECASE,
+)
+_COMPLETION = re.compile(
+    rf"\bcompletion of ({_ONE})['\u2019]s turn (?:takes place|occurs|happens) (?=before)",
+    re.IGNORECASE,
+)
+_STANDS_UNTIL = re.compile(
+    rf"{BEGINS}(?:It|He|She) (?:stands|waits|remains|stays)(?: there| still)? until ((?:[^.;\d]|\.\d)*\d[^;]*?); "
+    rf"(?:at|from) (?:that|this) "
+    r"(?:instant|moment|time|point) (?:it|he|she) (?=(?:moves|sets|pulls|drives|starts|goes|accelerates))",
+    re.IGNORECASE,
+)
+_NOT_TO_ENTER = re.compile(
+    rf"({_ONE}) (?:is not|does not intend|does not want|is not going) to (?:enter|join|pull onto) the road yet:",
+    re.IGNORECASE,
+)
+_TURN_IS_CROSSED = re.compile(
+    rf"{BEGINS}({_ONE})['\u2019]s (left|right) turn ((?:from|into) [^.;:\d]*?) is (?:crossed|met|cut) by (?=an? )",
+    re.IGNORECASE,
+)
+_ACCELERATE_HERO = re.compile(rf"{BEGINS}Accelerate ({_ONE}) (?=when|once|as soon as)", re.IGNORECASE)
+_SWITCHES_TO = re.compile(r"\bswitches (?:over )?to (braking|accelerating|coasting)\b", re.IGNORECASE)
+_SETS_NOT_OFF = re.compile(
+    r"\b(it|he|she) (?:doesn['\u2019]t|does not|won['\u2019]t|will not) (?:set off|move off|start|move|go)(?: again"
+    r"| on)? until "
+    rf"((?:the|our) [\w-]+(?: (?:car|vehicle))?|it|we|{_ONE}) (has|have) ",
+    re.IGNORECASE,
+)
+_WHAT_I_TEACH = re.compile(
+    r"\bdoes what (?:I|we) (?:teach|preach|like|expect|want|asked for|recommend)(?: \w+)?: "
+    r"(brake)s?\b",
+    re.IGNORECASE,
+)
+
+_RIGHT_NOW = re.compile(
+    r"\bright (?=now\b|then\b|away\b|at (?:that|this) (?:moment|instant|point|time)\b)",
+    re.IGNORECASE,
+)
+_STAYS_IN_LANE = re.compile(r"\bstay(s|ing) in ((?:its|his|her|the) (?:\w+bound )?lane)\b", re.IGNORECASE)
+_ITS_PATH = re.compile(rf"{BEGINS}({_ONE})['\u2019]s (?:path|route|course|way|itinerary): ", re.IGNORECASE)
+_TESTING_A = re.compile(
+    r"\b(?:you|we|they)(?:['\u2019]re| are) testing (?:a|the) (car|vehicle|van) (?:that|which) "
+    r"",
+    re.IGNORECASE,
+)
+
+
 # In this order: what one rule leaves, the next may read.
 REPORT_PHRASES: Rules = (
     (_SEPARATE, r"\2 is \1 from \3 and \5 \4 from \6"),
@@ -201,4 +305,30 @@ REPORT_PHRASES: Rules = (
     (_ONE_UNDER_TEST, "the ego"),
     (_AND_AHEAD, r"\3 is \2 \1; both are"),
     (_IS_ONCOMING, r"\1 oncoming"),
+    (_IE_TO_ENTER, r", \1"),
+    (_TURNING_BY, r"turning \1 "),
+    (_THAT_OF_EACH, r"\2 turns \1 \3; \4 turns \1 "),
+    (_BRAKING_OF, lambda found: f"{found[1]} brakes{(found[2] or '').strip(',')} "),
+    (_SAID_ONE, "The "),
+    (_SIMULATOR_PLACES, r"\1 is "),
+    (_AND_ROUTES, " and goes "),
+    (_IT_ROUTES, r"\1 goes "),
+    (_REMAINING_OF_EACH, r"When \3 is \1 from \4 and \5 \2 from \6"),
+    (_FOUND_FIRST, "is first "),
+    (_TURN_IN_QUESTION, r"\1 \2. \1's turn is a "),
+    (_TWO_ARE, r"\2 is \1 and \4 \3"),
+    (_EACH_OF_TWO, "both are"),
+    (_DEPARTURE, "It then accelerates"),
+    (_COMPLETION, r"\1 completes its turn "),
+    (_STANDS_UNTIL, r"When \1, the hero "),
+    (_NOT_TO_ENTER, r"\1 yields:"),
+    (_TURN_IS_CROSSED, r"\1 turns \2 \3. There is "),
+    (_ACCELERATE_HERO, r"\1 accelerates "),
+    (_SWITCHES_TO, r"starts \1"),
+    (_SETS_NOT_OFF, r"\1 waits until \2 \3 "),
+    (_WHAT_I_TEACH, r"\1s"),
+    (_RIGHT_NOW, ""),
+    (_STAYS_IN_LANE, r"follow\1 \2"),
+    (_ITS_PATH, r"\1: "),
+    (_TESTING_A, r"the test \1 "),
 )
