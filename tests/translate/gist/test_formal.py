@@ -136,3 +136,52 @@ def test_moments(formal: str) -> None:
 )
 def test_the_road_is_where_it_comes_from_where_it_turns_into_the_driveway(way: str) -> None:
     assert meaning(way + HERO + MOMENT + STOPS) == meaning(EGO + HERO + MOMENT + STOPS)
+
+
+@pytest.mark.parametrize(
+    "told",
+    [
+        f"{EGO}{HERO}At the trigger instant 28 m remain from the ego to the conflict point and 9 m from the "
+        f"hero to the stop line. From then on {STOPS}",
+        f"{EGO}{HERO}When 28 m and 9 m are the remaining distances of the ego to the conflict point and of the"
+        f" hero to the stop line respectively, {STOPS}",
+        f"{EGO}{HERO}The moment the two are 28 m from the conflict point (ego) and 9 m from the stop line "
+        f"(hero), {STOPS}",
+        f"{EGO}{HERO}28 m before the conflict point for the ego, and at the same time 9 m before the stop line"
+        f" for the hero, {STOPS}",
+        "The simulator shall place the ego eastbound on the road, 80 m before the intersection, and route it "
+        f"left into the driveway. {HERO}{MOMENT}{STOPS}",
+        "The ego's left turn from the eastbound road into the driveway is crossed by a hero which comes out "
+        "of the driveway and turns left onto the road, heading east. Initially the ego is 80 m before the "
+        f"intersection. {MOMENT}{STOPS}",
+        "A left turn from the eastbound road into the driveway is assigned to the ego, at an initial distance"
+        f" of 80 m from the intersection. {HERO}{MOMENT}{STOPS}",
+        f"{EGO}The hero is not to enter the road yet: coming out of the driveway for a left turn, to go east, "
+        f"it yields. {MOMENT}{STOPS}",
+        f"{EGO}The hero is right now on the driveway and wants to turn left onto the road, heading east. "
+        f"{MOMENT}{STOPS}",
+        f"{EGO}{HERO}We seek evidence that normal giving way does not confuse the system. {MOMENT}{STOPS}",
+    ],
+)
+def test_told_formally(told: str) -> None:
+    assert meaning(told) == meaning(EGO + HERO + MOMENT + STOPS)
+
+
+@pytest.mark.parametrize(
+    "again",
+    [
+        "Then it accelerates, and completion of the hero's turn takes place before the ego begins to turn.",
+        "Departure from this stop, with acceleration, follows; the hero is at the end of its turn before the "
+        "ego begins to turn.",
+        "After having stood there it accelerates and completes its turn before the ego begins to turn.",
+    ],
+)
+def test_going_on_after_a_stop(again: str) -> None:
+    plain = "Then it accelerates and completes its turn before the ego begins to turn."
+    assert meaning(f"{EGO}{HERO}{MOMENT}{STOPS} {again}") == meaning(f"{EGO}{HERO}{MOMENT}{STOPS} {plain}")
+
+
+def test_who_keeps_one_speed_to_the_end_does_not_brake() -> None:
+    stops = STOPS.replace("hero", "hero, which keeps one and the same speed from the first moment to the last,")
+    with pytest.raises(TranslationError):
+        meaning(EGO + HERO + MOMENT + stops)

@@ -281,6 +281,7 @@ _I_MEAN_EGO = re.compile(r"(?:(?<=[.!?]\s)|^)By (?:us|we) I mean the ego: we (?=
 _NO_YIELD = re.compile(r"(?<=accelerates), no (?:yield|yielding)(?=, (?:passes|goes|crosses)\b)")
 
 _TAG_QUESTION = re.compile(r", (?:right|ok|okay|yes|see)\?(?=\s+[A-Z])")
+_AS_BEFORE = re.compile(r", as before(?=[,.;])", re.IGNORECASE)
 _WEEKDAY = re.compile(r"(?:(?<=[.!?]\s)|(?<=\n)|^)(?:Mon|Tue|Wed|Thu|Fri|Sat|Sun)\. (?=[A-Z])")
 
 
@@ -381,5 +382,6 @@ ASIDES: Rules = (
     (_I_MEAN_EGO, "We, the ego, "),
     (_NO_YIELD, ""),
     (_TAG_QUESTION, "."),
+    (_AS_BEFORE, ""),
     (_WEEKDAY, ""),
 )

@@ -30,6 +30,49 @@ _AFTER = re.compile(r"\b((?:across|towards?|behind|in front of|past|lets?|for|of
 _YOUR = re.compile(r"\byour(s)?\b", re.IGNORECASE)
 _WE = re.compile(r"\b(?:we|us|our|I|my|me)\b")
 
+# "Begin its braking when ...; finish it at a standstill 5 m before": "it" is the braking, not the turn
+_FINISH_IT = re.compile(
+    r"\b(?:finish|conclude|complete) (?:it|this|the braking|its braking|the deceleration) (?:at|in|with) (?=an? "
+    r"(?:complete |full )?"
+    r"(?:standstill|stop|halt))",
+    re.IGNORECASE,
+)
+_END_IT = re.compile(
+    rf"\b(?:end|finish) (?:it|this|the braking|its braking) with ({_ONE}) (?:stationary|at rest|stopped"
+    rf"|standing)(?= )",
+    re.IGNORECASE,
+)
+_MAKE_IT = re.compile(rf"{BEGINS}Make ({_ONE}) (?=an? )", re.IGNORECASE)
+_GIVE_CUE = re.compile(
+    rf"{BEGINS}Give {_ONE} (?:its|the) (?:cue|signal|trigger) when ([^.;]*(?:\.\d[^.;]*)*)\. (?:On|At|Upon) (?:its"
+    rf"|the|that|this) "
+    rf"(?:cue|signal|trigger),? ",
+    re.IGNORECASE,
+)
+_LET_GO_AGAIN = re.compile(
+    r"\b(?:let|have|make) it (?:go|set off|drive off|move off) again,? (?:speeding up|accelerating|with "
+    r"acceleration)(?=[,.])",
+    re.IGNORECASE,
+)
+_HAVE_IT_PASS = re.compile(r"(?<= and) have it (pass|cross|clear) (?=the conflict point)", re.IGNORECASE)
+_ASKED_OF = re.compile(
+    rf"{BEGINS}(?:Q: )?(?:What (?:does|about|is) ({_ONE})(?: do(?:ing)?)?|And ({_ONE})|How does ({_ONE}) (?:behave"
+    rf"|move|drive))\? (?:A: )?(?:It|He|She) (?=[a-z]+s\b)",
+    re.IGNORECASE,
+)
+_ASKED_WHEN = re.compile(rf"{BEGINS}Q: [^?\d]{{3,60}}\? A: ", re.IGNORECASE)
+_STRAY_ASKED = re.compile(rf"{BEGINS}(?:How|And then|Then what|With what result)\? (?:A: )?(?=[A-Z])")
+_AND_UPON_IT = re.compile(
+    rf"{BEGINS}((?:[^.:;?\d]|\.\d)*\d(?:[^.:;?]|\.\d)*?): (?:that|this) is (?:the|my|our) (?:trigger|cue|signal),? "
+    rf"and (?:up)?on it,? ",
+    re.IGNORECASE,
+)
+_PLACE_AHEAD = re.compile(
+    rf"\b(?:the )?(conflict point|stop line|intersection) ({AMOUNT}) (?:ahead"
+    rf"|away)(?=[,.;])",
+    re.IGNORECASE,
+)
+
 
 def we_for_you(text: str) -> str:
     """Return the text with "we" in place of "you" where that is who drives the ego, and nobody else speaks.
@@ -138,4 +181,15 @@ BRIEFING_PHRASES: Rules = (
     (_IS_PLACED, r"\1 is "),
     (_FOR_THE_SAKE, ""),
     (_REPLICATE, lambda found: "we are " if found[1] else ""),
+    (_FINISH_IT, "It makes "),
+    (_END_IT, r"\1 stops"),
+    (_MAKE_IT, r"\1 is "),
+    (_GIVE_CUE, r"When \1, "),
+    (_LET_GO_AGAIN, "it accelerates"),
+    (_HAVE_IT_PASS, lambda found: f" {found[1]}{'es' if found[1].endswith('s') else 's'} "),
+    (_ASKED_OF, lambda found: f"{found[1] or found[2] or found[3]} "),
+    (_ASKED_WHEN, ""),
+    (_STRAY_ASKED, ""),
+    (_AND_UPON_IT, r"When \1, "),
+    (_PLACE_AHEAD, r"\2 from \1"),
 )

@@ -155,17 +155,23 @@ def cut(words: Words) -> list[Clause]:
 def _resume(words: Words, clauses: list[Clause]) -> None:
     """Read "before the AV, which is turning left, begins its turn" as a bound that goes on after what is put in."""
     for number, clause in enumerate(clauses):
-        rest = [at for at in clause.inside if not words.tags(at).keys() & {"determiner", "actor_adjective"}]
+        rest = [at for at in clause.inside if not words.tags(at).keys() & {"determiner", "actor_adjective", "heading"}]
         bare = clause.link in BOUNDS and len(rest) == 1 and rest[0] in words.names.actors
         later = [each for each in clauses[number + 1 : number + 5] if each.sentence == clause.sentence]
-        put_in = bool(later) and (later[0].link == "that" or "ing" in words.tokens[later[0].start].forms)
-        if not bare or not put_in:
+        if not bare or not later or (later[0].link == "main" and _goes_on(words, later[0])):
             continue
-        goes_on = next((each for each in later[1:] if each.link == "main"), None)
-        if goes_on is not None and words.has([goes_on.start], "verb", "be", "auxiliary"):
+        goes_on = next((each for each in later[1:] if each.link == "main" and _goes_on(words, each)), None)
+        if goes_on is not None:
             goes_on.link, goes_on.subject, goes_on.named = clause.link, words.names.actors[rest[0]], True
             clause.link = "main"
             words.used.add(clause.start - 1)
+
+
+def _goes_on(words: Words, clause: Clause) -> bool:
+    """Whether a clause begins with its verb: "passes the conflict point"."""
+    finite = "verb" in words.tags(clause.start) and words.tokens[clause.start].forms & {"s", "ed"}
+    helps = words.has([clause.start], "be", "auxiliary") and not words.word(clause.start).endswith("ing")
+    return bool(finite) or helps
 
 
 def _turn_until_to_when(words: Words, clauses: list[Clause]) -> None:

@@ -19,8 +19,8 @@ _DANGERS = frozenset(
 )  # fmt: skip
 # "at the end of its turn", but not "before the beginning of the turn of the ego", which is an order
 _EDGE_OF_TURN = re.compile(
-    r"(?<!before the )(?<!prior to the )\b(?:start|beginning|end) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b"
-    r"|\bend of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b",
+    r"(?<!before the )(?<!prior to the )\b(?:start|beginning) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b"
+    r"|\bend of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b(?!\s+before)",
     re.IGNORECASE,
 )
 _COUNTED = re.compile(

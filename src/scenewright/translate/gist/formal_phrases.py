@@ -214,7 +214,7 @@ _HAVING_STOOD = re.compile(
     re.IGNORECASE,
 )
 _AT_END_OF_TURN = re.compile(
-    r"\bis (?:at the end of|through|done with|finished with) (?:its|his|her) turn\b",
+    r"\bis (?:at the end of|through|done with|finished with) (?:its|his|her) turn(?= before\b)",
     re.IGNORECASE,
 )
 _OBLIGES_IT = re.compile(

@@ -65,6 +65,8 @@ def find_names(tokens: list[Token]) -> Names:
                 names.both.add(at)
         elif word in PERSONAL or token.tags.keys() & {"latter", "pronoun", "possessive"}:
             names.pronouns.add(at)
+        elif word == "driver" and at and tokens[at - 1].text.lower() == "whose" and names.actors:
+            names.actors[at] = names.actors[max(names.actors)]  # "the ego, whose driver is attentive,"
         elif "noun" in token.tags and not token.slips and not _is_last_one(tokens, at):
             if _is_one_more(tokens, at) and HERO_ID in names.actors.values():
                 names.kinds |= {"hero", "another"}

@@ -168,7 +168,7 @@ _IE_TO_ENTER = re.compile(
     re.IGNORECASE,
 )
 _TURNING_BY = re.compile(
-    r"\b(?:by|via|through) (?:making |means of )?an? (left|right) turn (?=onto|into|out|from)",
+    r"\b(?:by|via|through) (?:making |means of )?an? (left|right) turn (?=onto|into|out|from the (?:road|driveway))",
     re.IGNORECASE,
 )
 _THAT_OF_EACH = re.compile(
@@ -250,11 +250,8 @@ _WHAT_I_TEACH = re.compile(
     re.IGNORECASE,
 )
 
-_RIGHT_NOW = re.compile(
-    r"\bright (?=now\b|then\b|away\b|at (?:that|this) (?:moment|instant|point|time)\b)",
-    re.IGNORECASE,
-)
-_STAYS_IN_LANE = re.compile(r"\bstay(s|ing) in ((?:its|his|her|the) (?:\w+bound )?lane)\b", re.IGNORECASE)
+_RIGHT_NOW = re.compile(r"\bright (?=now\b|away\b)", re.IGNORECASE)
+_STAYS_IN_LANE = re.compile(r"\bstaying in ((?:its|his|her|the) (?:\w+bound )?lane)\b", re.IGNORECASE)
 _ITS_PATH = re.compile(rf"{BEGINS}({_ONE})['\u2019]s (?:path|route|course|way|itinerary): ", re.IGNORECASE)
 _TESTING_A = re.compile(
     r"\b(?:you|we|they)(?:['\u2019]re| are) testing (?:a|the) (car|vehicle|van) (?:that|which) "
@@ -328,7 +325,7 @@ REPORT_PHRASES: Rules = (
     (_SETS_NOT_OFF, r"\1 waits until \2 \3 "),
     (_WHAT_I_TEACH, r"\1s"),
     (_RIGHT_NOW, ""),
-    (_STAYS_IN_LANE, r"follow\1 \2"),
+    (_STAYS_IN_LANE, r"driving in \1"),
     (_ITS_PATH, r"\1: "),
     (_TESTING_A, r"the test \1 "),
 )

@@ -390,8 +390,10 @@ def _resumed_after(words: Words, clause: Clause, first: Clause, pronouns: list[i
     alone = first is not clause and first.named and not finite
     forms = words.tokens[clause.start].forms
     denies = words.word(clause.start) in ("doesn't", "does not", "does")
-    goes_on = clause.link == "main" and ((bool(forms & {"s", "ed"}) and "base" not in forms) or denies)
     put_in = [each for each in words.sentence(clause) if first.start < each.start < clause.start]
+    told = bool(put_in) and all(each.link == "that" or (each.link == "and" and not each.named) for each in put_in)
+    denies = denies or (told and words.has([clause.start], "be"))  # "The ego, which nobody has seen, is 12 m from it"
+    goes_on = clause.link == "main" and ((bool(forms & {"s", "ed"}) and "base" not in forms) or denies)
     placed = bool(put_in) and all(words.has(each.inside, "quantity") or _is_relative(words, each) for each in put_in)
     bare = not words.has(first.inside, "be", "quantity", "auxiliary") and clause.start not in pronouns
     return first if alone and goes_on and placed and bare else None
