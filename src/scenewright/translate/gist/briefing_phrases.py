@@ -73,6 +73,24 @@ _PLACE_AHEAD = re.compile(
     re.IGNORECASE,
 )
 
+_AT_THAT_LINE = re.compile(r"\bat (?:that|this) (?=(?:stop )?line\b|conflict point\b|intersection\b)", re.IGNORECASE)
+_STARTING_STATE = re.compile(
+    rf"{BEGINS}([^.:;]+): (?:that|this) is the (?:starting|initial|first|opening) (?:state|situation|position"
+    rf"|condition) of ({_ONE})\b",
+    re.IGNORECASE,
+)
+_THEIR_TIMES = re.compile(
+    rf"\btheir (?:times(?: to arrival)?|distances) are ({AMOUNT}) \(([\w-]+), to ({_PLACE})\) and ({AMOUNT}) "
+    rf"\(([\w-]+), to ({_PLACE})\)",
+    re.IGNORECASE,
+)
+_BEGIN_WITH_WHEN = re.compile(
+    rf"{BEGINS}To begin with, (?=when [^.]*\d[^.]*, [^.]* (?:brakes|accelerates|stops"
+    rf"|begins|starts)\b)",
+    re.IGNORECASE,
+)
+_PLANNERS_CAR = re.compile(r"\bthe (?:planner|stack|policy|AI)['\u2019]s (car|vehicle)\b", re.IGNORECASE)
+
 
 def we_for_you(text: str) -> str:
     """Return the text with "we" in place of "you" where that is who drives the ego, and nobody else speaks.
@@ -192,4 +210,9 @@ BRIEFING_PHRASES: Rules = (
     (_STRAY_ASKED, ""),
     (_AND_UPON_IT, r"When \1, "),
     (_PLACE_AHEAD, r"\2 from \1"),
+    (_AT_THAT_LINE, "at the "),
+    (_STARTING_STATE, r"Initially \2 is \1"),
+    (_THEIR_TIMES, r"\2 is \1 from \3 and \5 \4 from \6"),
+    (_BEGIN_WITH_WHEN, ""),
+    (_PLANNERS_CAR, r"the test \1"),
 )

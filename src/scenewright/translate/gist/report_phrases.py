@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from scenewright.translate.gist.rewriting import AMOUNT, BEGINS, EGO, WHO, Rules
+from scenewright.translate.gist.rewriting import AMOUNT, BEGINS, EGO, PRIORITY, WHO, Rules
 
 _ONE = r"(?:the )?(?:ego|hero|AV|SUT|VUT|POV|NPC)(?: vehicle)?"
 _PLACE = r"the (?:conflict point|stop line|intersection)"
@@ -178,9 +178,9 @@ _THAT_OF_EACH = re.compile(
     re.IGNORECASE,
 )
 _BRAKING_OF = re.compile(
-    rf"{BEGINS}(?:The )?(?:braking|deceleration) of ({_ONE})(, at [^,;:]*?,)? (?:is|gets) (?:initiated|started"
+    rf"{BEGINS}(?:The |A )?(?:braking|deceleration) of ({_ONE})(, at [^,;:]*?,)? (?:is|gets) (?:initiated|started"
     rf"|triggered|begun) "
-    r"(?=when|once|as soon as|at the moment)",
+    r"(?=when|once|as soon as|as the|at the moment)",
     re.IGNORECASE,
 )
 _SAID_ONE = re.compile(rf"{BEGINS}Said (?=hero|ego|vehicle|van|car|POV|NPC|SUT|AV)")
@@ -259,6 +259,36 @@ _TESTING_A = re.compile(
     re.IGNORECASE,
 )
 
+_SEPARATE_FROM = re.compile(
+    rf"{BEGINS}({AMOUNT}) separates? ({_ONE}), which is ([^.;,\d]*), from (?={_PLACE})",
+    re.IGNORECASE,
+)
+_IT_IS_INTENDED = re.compile(
+    rf"{BEGINS}It is the (?:intention|plan|aim|goal|task) of ({_ONE})((?:, [^.;]*?,)?) to (?=turn|go|drive|continue"
+    rf"|follow|head)",
+    re.IGNORECASE,
+)
+_LEADS_TO_STOP = re.compile(
+    r"(?:\b(it) (?:leads|results|ends|finishes|culminates)|, which (?:finishes|culminates)) (?:to|in|with|at) "
+    r"(?=an? (?:complete |full )?(?:stop|standstill|halt)\b)",
+    re.IGNORECASE,
+)
+_RENEWED = re.compile(
+    rf"\bA (?:renewed|second|new|subsequent) acceleration (?:then )?(?:takes|carries|brings) ({_ONE}|it) (?:past"
+    rf"|through|over|across) "
+    r"(?=the conflict point)",
+    re.IGNORECASE,
+)
+_FOLLOWS_TO = re.compile(
+    r"\b((?:left|right)(?: turn)?) and (?:then )?follows? the road to the (east|west|north"
+    r"|south)\b",
+    re.IGNORECASE,
+)
+_WITHOUT_CARING = re.compile(
+    rf",? without (?:caring|bothering|worrying) about the (?=(?:\w+bound )?{EGO}, (?:who|which)\b)", re.IGNORECASE
+)
+_RESPECTS = re.compile(rf"\brespects (?:our|its|the {EGO}['\u2019]s) {PRIORITY}(?=[:,.])", re.IGNORECASE)
+
 
 # In this order: what one rule leaves, the next may read.
 REPORT_PHRASES: Rules = (
@@ -328,4 +358,11 @@ REPORT_PHRASES: Rules = (
     (_STAYS_IN_LANE, r"driving in \1"),
     (_ITS_PATH, r"\1: "),
     (_TESTING_A, r"the test \1 "),
+    (_SEPARATE_FROM, r"\2 is \3, \1 from "),
+    (_IT_IS_INTENDED, r"\1\2 wants to "),
+    (_LEADS_TO_STOP, lambda found: "it makes " if found[1] else " to "),
+    (_RENEWED, r"\1 then accelerates and passes "),
+    (_FOLLOWS_TO, r"\1, heading \2"),
+    (_WITHOUT_CARING, " and won't yield. The "),
+    (_RESPECTS, "yields"),
 )
