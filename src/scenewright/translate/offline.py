@@ -49,7 +49,7 @@ from scenewright.translate.run_ons import parted
 from scenewright.translate.speech import spoken
 from scenewright.translate.steps import in_sentences
 from scenewright.translate.tokens import Token, refuse_unknown, tokenise
-from scenewright.translate.unsayable import refuse_unsayable
+from scenewright.translate.unsayable import refuse_unplaced_stop, refuse_unsayable
 from scenewright.translate.values import take_values, with_values
 
 _ROLES = {
@@ -351,6 +351,7 @@ def _assembled(
             expected=f"what fits {routes.ego} and {routes.hero}",
             fix="check the turns and the directions of travel",
         )
+    refuse_unplaced_stop([each.place is not None for each in facts.phases if each.to_stop], text, name)
     assembler = Assembler(facts, routes, text, name)
     program = assembler.program(map_name)
     _all_amounts_used(program, tokens, text, name)

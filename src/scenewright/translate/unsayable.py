@@ -404,6 +404,33 @@ _PHRASES = tuple(
     )
 )
 
+# "it is 20 m from the stop line and stops there": at the line, or where it is
+_STOPS_THERE = re.compile(
+    r"\b(?:stops|stopping|halts|(?:comes|coming|brakes|braking) to (?:a |an )?(?:complete |full )?(?:stop|halt"
+    r"|standstill|rest))"
+    r" (?:right |exactly |just )?(?:there|here|at (?:this|that) (?:spot|place|point))(?=[.;,]|\s*$)",
+    re.IGNORECASE,
+)
+
+
+def refuse_unplaced_stop(stops_placed: list[bool], text: str, name: str) -> None:
+    """Refuse "and stops there" where no place of a stop was understood; `stops_placed` tells it for each stop.
+
+    Raises
+    ------
+    TranslationError
+        With the phrase.
+    """
+    found = _STOPS_THERE.search(text)
+    if found and stops_placed and not any(stops_placed):
+        raise TranslationError(
+            "it is not clear where this is",
+            place=Place(name, text, Span(*found.span())),
+            found=found.group(),
+            expected="a place with its name: at the stop line, 5 m before the conflict point",
+            fix="name the place at which the hero stops",
+        )
+
 
 def refuse_unsayable(text: str, name: str) -> None:
     """Refuse a text in which a phrase stands that no program can say.

@@ -105,3 +105,20 @@ def test_who_is_seen_is_the_one_that_goes_straight() -> None:
         "before the stop line."
     )
     assert told[0] == [("W",), ("S", "E")]
+
+
+LINE = (
+    "The ego goes straight on, eastbound, 80 m from the intersection at first. A van in the driveway is to turn left. "
+    "It starts braking when the ego is 40 m from the conflict point and it is 20 m from the stop line, and it stops "
+)
+
+
+def test_a_stop_at_the_line_spoken_of() -> None:
+    assert "A1x(t2) == stop_line" in meaning(f"{LINE}at that line.")[1]
+
+
+@pytest.mark.parametrize("where", ["there", "right there", "here", "at that spot", "at this point"])
+def test_there_is_no_place(where: str) -> None:
+    with pytest.raises(TranslationError):
+        meaning(f"{LINE}{where}.")
+    assert "A1x(t2) == stop_line - 2" in meaning(f"{LINE}2 m before the stop line. It stops {where}.")[1]
