@@ -48,7 +48,10 @@ class Referents:
         """Resolve "a car", "the truck", "another vehicle", "the oncoming car"."""
         known = self.nouns.get(HERO_ID)
         if determiner in ("indefinite", "another"):
-            if known is not None and (self.by_indefinite or determiner == "another" or noun not in known):
+            one_more = (
+                self.by_indefinite or determiner == "another" or "other" in adjectives or noun not in (known or ())
+            )
+            if known is not None and one_more:
                 raise self._refuse(
                     "there is more than one other vehicle here",
                     span,

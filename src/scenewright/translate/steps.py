@@ -10,7 +10,12 @@ import re
 
 from scenewright.translate.tokens import END_OF_SENTENCE
 
-_STEP = re.compile(r"^([ \t]*(?:[-*] )?)(Given|GIVEN|When|WHEN|Then|THEN|And|AND|But|BUT)\b:?[ \t]*", re.MULTILINE)
+_STEP = re.compile(
+    r"^([ \t]*(?:[-*] )?)(Given|GIVEN|When|WHEN|Then|THEN|And|AND|But|BUT|As soon as|Once|If|The moment|(?:Exactly"
+    r"|Just) when"
+    r"|At the (?:very |exact )?moment (?:when|at which))\b:?[ \t]*",
+    re.MULTILINE,
+)
 _WHOLE = re.compile(r",[^\n]*[.!?;]\s*\Z")
 _STOP = re.compile(r"[.,;]\s*\Z")
 
@@ -23,6 +28,7 @@ def in_sentences(text: str) -> str:
     """
     steps = list(_STEP.finditer(text))
     words = [step.group(2).capitalize() for step in steps]
+    words = [word if word in ("Given", "Then", "And", "But") else "When" for word in words]
     if not {"When", "Then"} <= set(words) or words[0] not in ("Given", "When"):
         return text
     parts, done, kind, asked = [], 0, "", 0

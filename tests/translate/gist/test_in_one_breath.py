@@ -47,6 +47,20 @@ def test_steps(indent: str, title: str) -> None:
     assert meaning(title + "\n".join(indent + step for step in steps)) == meaning(PLAIN)
 
 
+@pytest.mark.parametrize("moment", ["As soon as", "Once", "The moment", "At the very moment when"])
+def test_steps_with_another_word_for_when(moment: str) -> None:
+    """The second line of the moment was read as one of the start."""
+    steps = (
+        "Given the ego drives west on the road, 80 m before the intersection, about to turn right into the driveway",
+        "And the hero drives east on the road, about to turn left into the driveway",
+        f"{moment} the ego is 28 m from the conflict point",
+        "And the hero is 24 m from the conflict point",
+        "Then the hero brakes",
+        "And it stops 7 m before the conflict point",
+    )
+    assert meaning("\n".join(steps)) == meaning(PLAIN)
+
+
 @pytest.mark.parametrize(
     ("plain", "said"),
     [
