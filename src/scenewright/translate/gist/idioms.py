@@ -21,7 +21,7 @@ from scenewright.translate.gist.inverted_phrases import INVERTED_PHRASES
 from scenewright.translate.gist.moment_phrases import MOMENT_PHRASES
 from scenewright.translate.gist.phrases import PHRASES
 from scenewright.translate.gist.report_phrases import REPORT_PHRASES
-from scenewright.translate.gist.rewriting import Rules
+from scenewright.translate.gist.rewriting import Rules, needed
 from scenewright.translate.gist.spoken_phrases import SPOKEN_PHRASES
 from scenewright.translate.gist.test_marks import TEST_MARKS
 from scenewright.translate.gist.yielding_phrases import YIELDING_PHRASES
@@ -195,8 +195,13 @@ _WHERE_CROSS = re.compile(
 def without_idioms(text: str) -> str:
     """Return the text in plain words."""
     text = we_for_you(without_aliases(text))
-    for pattern, words in _RULES:
-        text = pattern.sub(partial(_said, words), text)
+    lowered = text.lower()
+    for held, pattern, words in _INDEXED:
+        if held not in lowered:
+            continue
+        changed = pattern.sub(partial(_said, words), text)
+        if changed != text:
+            text, lowered = changed, changed.lower()
     return text
 
 
@@ -322,3 +327,4 @@ _RULES: Rules = (
     (_CROSSING_OF, "conflict point"),
     (_CROSSING, "conflict point"),
 )
+_INDEXED = tuple((needed(pattern), pattern, words) for pattern, words in _RULES)
