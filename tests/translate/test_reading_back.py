@@ -155,3 +155,9 @@ def test_any_program_is_read_back_whole(program: Program) -> None:
             if isinstance(node, ParameterRef):
                 assert node.name in text
     assert read_back(program) == read_back(program)
+
+
+def test_the_range_of_a_parameter_is_read_back() -> None:
+    head = "parameters:\n- gap_m in [20, 30]\n- rate_mpss\n\n"
+    program = parse_program(f"{head}{BODY}A0(t1) == A1(t1)\nA0x(t1) == stop_line - gap_m\nA1a(dec) == -rate_mpss\n")
+    assert "Left open: gap_m from 20 m to 30 m and rate_mpss." in read_back(program)

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from fractions import Fraction
 
 from scenewright.program.expressions import Elapsed, Formula
 from scenewright.program.printer import print_route
 from scenewright.program.structure import KnotKey, Role, Structure, knots_of, read_structure, synchronised
-from scenewright.program.types import Actor, Constraint, HeadingsRoute, IntentRoute, PieceKind, Program
+from scenewright.program.types import Actor, Constraint, HeadingsRoute, IntentRoute, Parameter, PieceKind, Program
 from scenewright.roads.grounding import Scene
 from scenewright.roads.routes import Route
 from scenewright.translate.wording import Wording, amount, listed
@@ -99,11 +100,9 @@ class _Reader:
         return f"{_capital(name)} {kind} {print_route(spec)}."
 
     def _parameters(self) -> list[str]:
-        given = [p for p in self.program.parameters if p.value is not None]
-        left = [p.name for p in self.program.parameters if p.value is None]
-        told = [
-            f"{p.name} is {amount(p.value * p.unit.si_factor, p.unit.dimension)}" for p in given if p.value is not None
-        ]
+        parameters = self.program.parameters
+        told = [f"{p.name} is {_in_unit(p, p.value)}" for p in parameters if p.value is not None]
+        left = [_left_open(p) for p in parameters if p.value is None]
         sentences = [f"Given: {listed(told)}."] if told else []
         return [*sentences, f"Left open: {listed(left)}."] if left else sentences
 
@@ -227,3 +226,17 @@ def _way(route: Route) -> str:
 
 def _capital(text: str) -> str:
     return text[:1].upper() + text[1:]
+
+
+def _in_unit(parameter: Parameter, value: Fraction) -> str:
+    return amount(value * parameter.unit.si_factor, parameter.unit.dimension)
+
+
+def _left_open(parameter: Parameter) -> str:
+    """Return the name of a parameter without a value, with its bounds where it has any of its own."""
+    low = None if parameter.low is None else _in_unit(parameter, parameter.low)
+    high = None if parameter.high is None else _in_unit(parameter, parameter.high)
+    if low is not None and high is not None:
+        return f"{parameter.name} from {low} to {high}"
+    bound = f" from {low}" if low is not None else f" up to {high}" if high is not None else ""
+    return parameter.name + bound
