@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import re
 
+from scenewright.translate.declared import with_declared
+
 _KINDS = (
     r"(?:car|vehicle|actor|agent|driver|party|participant|player|unit|body|object|machine|traffic participant"
     r"|road user)"
@@ -44,7 +46,7 @@ def without_aliases(text: str) -> str:
     >>> without_aliases("V1 (vehicle under test) goes west. V2 turns left. V2 brakes.")
     'AV                      goes west. OV turns left. OV brakes.'
     """
-    text = without_short_names(text)
+    text = with_declared(without_short_names(text))
     if found := _TRAFFIC.search(text):
         text = text[: found.start(1)] + " " * len(found.group(1)) + text[found.end(1) :]
         text = re.sub(r"\btraffic\b", "target ", text, flags=re.IGNORECASE)
@@ -72,8 +74,31 @@ def without_short_names(text: str) -> str:
     for found in _BROUGHT_IN.finditer(text):
         brought = re.compile(rf" \\({found.group(2)}\\)")
         text = brought.sub(lambda each: " " * len(each.group()), text, count=1)
-        short, ego = found.group(2), re.search(rf"{_EGOS}$", found.group(1), re.IGNORECASE) is not None
-        if short in ("AV", "OV", "SV", "POV", "NPC", "EGO", "VUT", "SUT", "GVT", "TTC", "TTA", "CP", "SL"):
+        short, ego = (
+            found.group(2),
+            re.search(rf"{_EGOS}$|(?:under test|of interest)$", found.group(1), re.I) is not None,
+        )
+        if short in (
+            "UUT",
+            "EUT",
+            "DUT",
+            "HAV",
+            "ADS",
+            "CAV",
+            "AV",
+            "OV",
+            "SV",
+            "POV",
+            "NPC",
+            "EGO",
+            "VUT",
+            "SUT",
+            "GVT",
+            "TTC",
+            "TTA",
+            "CP",
+            "SL",
+        ):
             continue
         name = {2: "AV" if ego else "OV", 3: "ego" if ego else "POV", 4: "ego " if ego else "hero"}[len(short)]
         first = re.compile(rf" \({short}\)")

@@ -15,6 +15,7 @@ from scenewright.translate.events import EGO_ID, HERO_ID, Event
 from scenewright.translate.facts import Facts, LaneRelation, Order, Phase
 from scenewright.translate.moments import TELLING, MomentReader
 
+_SINCE_BEFORE = re.compile(r"\b(?:has|had|have) been (?:standing|waiting|stationary|stopped|sitting)\b", re.IGNORECASE)
 _NAMED_TRIGGER = re.compile(r"trigger|activation|\b(?:start|beginning|onset) of (?:the|its)", re.IGNORECASE)
 
 
@@ -115,6 +116,9 @@ class Interpreter(MomentReader):
         self._conditions(conditions, events)
         reacts = bool(conditions)
         for event in events:
+            stood = event.verb in ("wait", "stop", "sit") and event.actor == HERO_ID
+            if stood and conditions and _SINCE_BEFORE.search(event.span.excerpt(self.text)):
+                raise self._refuse("this was so before the moment", event.span, "stands at the stop line at first")
             if "steady" in event.notes and event.mode != "main":
                 raise self._refuse("a constant speed is no moment", event.span)
             if event.verb == "attitude":
@@ -225,9 +229,14 @@ class Interpreter(MomentReader):
                 self.pending_release.pop()  # "arrives there at 5 m/s after the ego has passed it"
                 self._set_order(Order(False, self._ego_landmark(event), event))
             elif phase is not None and phase.kind != "dec":
-                self._apply_release(phase, at_start=phase.goal_event not in events)
+                told = [each for every in self.facts.phases for each in every.events]
+                waits = any(each.verb == "wait" and each.duration is None and self._says_wait(each) for each in told)
+                self._apply_release(phase, at_start=waits or phase.goal_event not in events)
         else:
             raise self._refuse("it is not clear what comes after this", event.span)
+
+    def _says_wait(self, event: Event) -> bool:
+        return "wait" in event.span.excerpt(self.text).lower()
 
     def _runs(self) -> bool:
         """Whether the hero is on its way to a goal of which the ego's moment is told: "the ego passes after it"."""

@@ -61,6 +61,8 @@ class ParenthesisReader(PlaceAdjunctReader):
             self._open("be", self.at - 1)  # "Actors: ego (turns left), NPC (eastbound)": all is said in parentheses
         inner = inner[1:] if inner[0].text.lower() in ("it", "he", "she", "which", "who") else inner
         name = "ego" if actor == EGO_ID else "hero"
+        if not inner:
+            return False  # "()"
         finite = bool(inner[0].forms & {"s"}) or bool(inner[0].tags.keys() & {"be", "auxiliary"})
         told = [Token(name, opening.span, {name: name})]
         told += [] if finite else [Token(":", opening.span, {"colon": ":"})]

@@ -38,6 +38,8 @@ class AmountReader(MeasureReader):
         quantities = [self.words.tokens[at].quantity for at in made.clause.inside]
         alike = [each for each in quantities if each and made.quantity and each.dimension == made.quantity.dimension]
         alone = len(alike) == 1 and (made.kind == "speed" or sum(each is not None for each in quantities) == 1)
+        beside = made.at - 1 in self.words.names.actors and self.words.has([made.at - 2], "determiner")
+        alone = alone and not beside  # "They start with the ego 85 m from it"
         if made.clause.both and alone and made.kind in ("speed", "place") and not made.target:
             return [replace(made, actor=EGO_ID), replace(made, actor=HERO_ID)]
         return [made]

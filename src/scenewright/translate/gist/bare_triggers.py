@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from scenewright.translate.events import EGO_ID, HERO_ID
 from scenewright.translate.gist.measured import Measured
@@ -24,11 +25,14 @@ class BareTriggers:
     ----------
     opens
         Amounts whose moment is open, in the order of the text.
+    started
+        Whether it is said where the ego is at first.
     """
 
     words: Words
     deeds: Sequence[Deed]
     opens: list[Measured]
+    started: bool
 
     def find(self) -> list[Measured]:
         """Return the amounts of the trigger; none where there is none."""
@@ -41,7 +45,7 @@ class BareTriggers:
             return told
         then = next((each for each in self.words.clauses if each.link == "moment" or self._from_then_on(each)), None)
         if then is None:
-            return self._before_a_colon()
+            return self._before_a_colon() or self._just_before_the_deed()
         return list({made.actor: made for made in self.opens if made.at < then.start}.values())
 
     def _from_then_on(self, clause: Clause) -> bool:
@@ -124,3 +128,27 @@ class BareTriggers:
         before = any(each.start <= self.opens[0].at for each in colons)
         both = {made.actor for made in self.opens} >= {EGO_ID, HERO_ID}
         return self.opens if after or (before and both) else []
+
+    def _just_before_the_deed(self) -> list[Measured]:
+        """Read "At first it is 9 s from it. ... The AV is 3 s from the line. The van is 5 s from the point. It brakes".
+
+        Both have to be told where they are, last of all before the hero acts, and the ego where it was at first.
+        """
+        acts = [
+            d for d in self.deeds if d.actor == HERO_ID and d.kind in (*_ACTS, "not_yield") and d.clause.link != "that"
+        ]
+        if not acts:
+            return []
+        told = [made for made in self.opens if made.at < acts[0].at][-2:]
+        if {made.actor for made in told} != {EGO_ID, HERO_ID} or any(made.kind != "place" for made in told):
+            return []
+        sentences = [told[0].clause.sentence, told[1].clause.sentence, acts[0].clause.sentence]
+        near = all(self._follows(here, then) for here, then in pairwise(sentences))
+        comes = bool(self.words.verbs(range(told[0].clause.start, told[0].at)) & {"reach", "get_within"})
+        earlier = any(made.actor == EGO_ID and made.at < told[0].at for made in self.opens)
+        return told if near and (comes or earlier or self.started) else []
+
+    def _follows(self, here: int, then: int) -> bool:
+        """Whether nothing that is known stands between two sentences."""
+        between = [each for each in self.words.clauses if here < each.sentence < then]
+        return not any(each.named or self.words.has(each.inside, "quantity", "landmark", "verb") for each in between)

@@ -173,6 +173,11 @@ _REPLICATE = re.compile(
     re.IGNORECASE,
 )
 
+_WHAT_DOES_IT = re.compile(
+    rf"{BEGINS}What does (the (?:hero|ego)(?: vehicle)?) do\? It (?=drives|goes|is|travels|comes|wants|follows)",
+    re.IGNORECASE,
+)
+
 
 # In this order: what one rule leaves, the next may read.
 BRIEFING_PHRASES: Rules = (
@@ -181,6 +186,7 @@ BRIEFING_PHRASES: Rules = (
     (_WHERE_IS_IT, r"At first \1 is "),
     (_WHERE_AT_FIRST, "At first: "),
     (_WHEN_DOES, "When "),
+    (_WHAT_DOES_IT, r"\1 "),
     (_WHAT_THEN, ""),
     (_UNTIL_BOTH, "When "),
     (_THAT_IS_TRIGGER, r"When \1"),

@@ -35,14 +35,14 @@ _UNREAL = re.compile(
     re.IGNORECASE,
 )
 _ALL_BUT = re.compile(
-    r"\b(?:any|every|no)thing (?:but|except|other than)\b(?! to (?:follow|keep|stay|go|drive)\b)|\ball but\b",
+    r"\b(?:any|every|no)thing (?:but|except|other than)\b(?! (?:to )?(?:follow|keep|stay|go|drive)\b)|\ball but\b",
     re.IGNORECASE,
 )
 _DEPENDS = re.compile(
     r"\b(?:provided|providing|assuming|on (?:the )?condition)(?: that)?\b(?![^,.;]*(?:\d|_(?:m|ft|s)\b))"
     r"|\bunless\b(?! (?:otherwise )?(?:stated|noted|specified|told))|\b(?:as|so) long as\b(?! (?:it|we|the \w+) "
     r"(?:needs?|takes?|requires?) to complete\b)|\bin case\b"
-    r"|\b(?:only|even) if\b|\bexcept (?:when|if|that)\b",
+    r"|\b(?:only|even) if\b|\bexcept (?:when|if|that)\b(?! it is (?:ahead|in front) of)",
     re.IGNORECASE,
 )
 _CHANCE = re.compile(
@@ -54,7 +54,7 @@ _CHANCE = re.compile(
 )
 _ONE_OF = re.compile(
     r"\b(?:one|either|any) of (?:the two|them|these|the (?:two )?(?:vehicles|cars)) "
-    r"(?:brakes|stops|accelerates|slows|yields|goes|passes|starts|begins)\b",
+    r"(?:brakes|stops|accelerates|slows|yields|goes|passes|starts|begins|(?:is|has) (?:[\d.]+ |\w+_(?:m|s|ft)\b))",
     re.IGNORECASE,
 )
 _AGAIN_AND_AGAIN = re.compile(

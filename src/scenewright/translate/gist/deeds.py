@@ -153,6 +153,9 @@ class DeedReader:
             wholly = self.words.word(at) == "complete" and self.words.tag(at - 1, "verb") == "stop"
             if verb is None or "heading" in tags or wholly or self.words.word(at).startswith(("finds ", "found ")):
                 continue  # "it stops complete", "finds itself 85 m before it"
+            uses = self.words.word(at).startswith("us") and verb in ("go", "drive")
+            if uses and not self.words.has(range(at + 1, clause.end), "area"):
+                continue  # "using a deceleration of 3 m/s^2"
             if negation is not None and verb == "let" and self.words.word(at + 1) in ("up", "go", "off"):
                 self.words.used.add(negation)  # "brakes and does not let up until it stands"
                 return
@@ -160,6 +163,8 @@ class DeedReader:
                 if self._denied(verb, at, clause):
                     self.words.used.add(negation)
                     negation = None
+            elif verb == "let" and self.words.word(at) == "given":
+                continue  # "Given a time to arrival of 2 s for the ego"
             elif verb == "let" and at == clause.start and self._is_told_to(clause):
                 continue  # "make the van stop, and only then let it drive on"
             elif (verb == "let" and clause.subject == HERO_ID and self._lets(at, clause)) or (

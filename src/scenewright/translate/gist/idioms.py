@@ -12,17 +12,24 @@ from collections.abc import Callable
 from functools import partial
 
 from scenewright.translate.aliases import without_aliases
+from scenewright.translate.gist.allotting_phrases import ALLOTTING_PHRASES
 from scenewright.translate.gist.approach_phrases import APPROACH_PHRASES
 from scenewright.translate.gist.asides import ASIDES
 from scenewright.translate.gist.briefing_phrases import BRIEFING_PHRASES, we_for_you
 from scenewright.translate.gist.clock_phrases import CLOCK_PHRASES
+from scenewright.translate.gist.conduct_phrases import CONDUCT_PHRASES
+from scenewright.translate.gist.following_phrases import FOLLOWING_PHRASES
 from scenewright.translate.gist.formal_phrases import FORMAL_PHRASES
+from scenewright.translate.gist.halting_phrases import HALTING_PHRASES
 from scenewright.translate.gist.inverted_phrases import INVERTED_PHRASES
 from scenewright.translate.gist.moment_phrases import MOMENT_PHRASES
+from scenewright.translate.gist.order_phrases import ORDER_PHRASES
 from scenewright.translate.gist.phrases import PHRASES
 from scenewright.translate.gist.report_phrases import REPORT_PHRASES
 from scenewright.translate.gist.rewriting import Rules, needed
+from scenewright.translate.gist.route_phrases import ROUTE_PHRASES
 from scenewright.translate.gist.spoken_phrases import SPOKEN_PHRASES
+from scenewright.translate.gist.staging_phrases import STAGING_PHRASES
 from scenewright.translate.gist.test_marks import TEST_MARKS
 from scenewright.translate.gist.yielding_phrases import YIELDING_PHRASES
 
@@ -138,7 +145,9 @@ _BOTH_HOLD = re.compile(
     r" \((?:both|all)(?: of (?:them|these))? (?:must|shall|have to|should|need to)? ?(?:hold|apply|be true|be met)\)",
     re.I,
 )
-_SPEED_NOUGHT = re.compile(r"\bspeed (?:is )?(?:0|zero)(?: m/s| km/h)? at\b", re.IGNORECASE)
+_SPEED_NOUGHT = re.compile(
+    r"\bspeed (?:is )?(?:0|zero)(?: m/s| km/h)? at\b(?! (?:first|the (?:start|beginning|outset)))", re.IGNORECASE
+)
 _TO_SPEED_NOUGHT = re.compile(
     r"\bto (?:a )?(?:speed|velocity) (?:of )?(?:0|zero)(?! ?\.)(?: m/s| km/h)?(?=[\s,.;])", re.IGNORECASE
 )
@@ -316,6 +325,13 @@ _RULES: Rules = (
     *BRIEFING_PHRASES,
     *FORMAL_PHRASES,
     *INVERTED_PHRASES,
+    *STAGING_PHRASES,
+    *ALLOTTING_PHRASES,
+    *CONDUCT_PHRASES,
+    *FOLLOWING_PHRASES,
+    *ROUTE_PHRASES,
+    *ORDER_PHRASES,
+    *HALTING_PHRASES,
     *APPROACH_PHRASES,
     *MOMENT_PHRASES,
     *SPOKEN_PHRASES,

@@ -254,7 +254,9 @@ class MeasureReader:
             timed = made.quantity is not None and made.quantity.dimension == "time"
             if not timed or "measure" not in self.words.tags(at) or self.words.word(to) != "to":
                 continue
-            if (ahead := self.words.names.actors.get(self.words.skip(to + 1, _BESIDE))) is not None:
-                made.actor = 1 - ahead
+            name = self.words.skip(to + 1, _BESIDE)
+            if (ahead := self.words.names.actors.get(name)) is not None:
+                behind = self.words.tag(name + 1, "relation") == "behind"  # "a time gap to the ego behind it"
+                made.actor = ahead if behind else 1 - ahead
         if self.words.where(made.clause.inside, "verb", "follow") is not None:
             made.actor = made.clause.subject

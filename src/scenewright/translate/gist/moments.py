@@ -25,7 +25,10 @@ _BOUNDS: dict[str, Bound] = {
     "at most": "<=", "no more than": "<=", "not more than": "<=",
 }  # fmt: skip
 _PAST = ("was", "were", "had")
-_THEN = ("then", "by then", "at the time", "at that time", "at that point", "at this point")
+_THEN = (
+    "then", "by then", "right then", "just then", "at the time", "at that time", "at that point", "at this point",
+    "at that moment", "at this moment", "at that very moment", "at that instant", "at the same moment",
+)  # fmt: skip
 _FAR = 12
 _AT_TRIGGER = re.compile(r"[Ss]peed of [\w ]+ at the trigger ?:|[\w ]+['\u2019]?s? speed at the trigger ?:")
 
@@ -57,7 +60,8 @@ class MomentReader:
                 raise self.words.refuse("it is not clear whose amount this is", made.span)
         first = min((made.at for made in self.of("trigger")), default=None)
         if first is None:
-            triggers = BareTriggers(self.words, self.deeds, self.of("open")).find()
+            started = any(made.actor == EGO_ID and made.kind == "place" for made in self.of("start"))
+            triggers = BareTriggers(self.words, self.deeds, self.of("open"), started).find()
             self.moments |= {made.at: "trigger" for made in triggers}
             first = min((made.at for made in triggers), default=None)
         self._just_before_the_moment()
@@ -166,6 +170,8 @@ class MomentReader:
         past = any(self.words.word(at) in _PAST for at in range(clause.start, made.at))
         if asked and clause.link == "that" and past:
             raise self.words.refuse(UNCLEAR, made.span)
+        if made.kind == "place" and clause.link == "moment" and self._goes_on_at_start(clause):
+            return "start"
         if made.kind == "place" and (clause.link == "moment" or self._at_that_moment(clause)):
             return "trigger"
         if made.kind == "place" and (self._when_it_acts(clause) or self._begins_here(made)):
@@ -176,6 +182,14 @@ class MomentReader:
         if made.kind == "place" and self._is_told_then(clause):
             return "trigger"
         return "trigger" if self._deed_beside(clause) else "open"
+
+    def _goes_on_at_start(self, clause: Clause) -> bool:
+        """Whether this is "At that time the hero is 90 m from it" after "At the start the ego is 40 m from it"."""
+        told = [each for each in self.measured if each.clause.sentence == clause.sentence - 1]
+        start = bool(told) and all(self.moments.get(each.at) == "start" for each in told)
+        acts = any(deed.clause.sentence == clause.sentence and deed.kind != "go" for deed in self.deeds)
+        later = any(each.link == "when" and each.sentence > clause.sentence for each in self.words.clauses)
+        return start and not acts and later and "trigger" not in self.words.word(clause.start - 1)
 
     def _stands(self, made: Measured) -> bool:
         """Whether a speed is one of who stands: "standing there at 2 m/s", "the ego, stationary there, does 4 m/s"."""
@@ -367,9 +381,9 @@ class MomentReader:
     def _at_that_moment(self, clause: Clause) -> bool:
         """Whether a sentence only tells how all stand: "At the trigger the ego is ..., and the van is ..."."""
         sentence = self.words.sentence(clause)
-        first = any(
-            each.link == "moment" and self.words.word(each.start - 1).endswith("the trigger") for each in sentence[:1]
-        )
+        opens = sentence[0].start - 1
+        opens -= self.words.has([opens], "comma")  # "At the trigger, the ego is ..."
+        first = sentence[0].link == "moment" and self.words.word(opens).endswith("the trigger")
         key = self.words.span(sentence[0]).union(self.words.span(sentence[-1])).excerpt(self.words.text)
         first = first or _AT_TRIGGER.match(key) is not None
         acted = any(d.actor == HERO_ID and d.clause.sentence == clause.sentence and d.kind != "go" for d in self.deeds)

@@ -50,6 +50,8 @@ def find_names(tokens: list[Token]) -> Names:
         word = token.text.lower()
         if word == "subject" and at + 1 < len(tokens) and "colon" in tokens[at + 1].tags:
             continue  # of a letter
+        if word == "other" and at + 1 < len(tokens) and _is_no_vehicle(tokens[at + 1]):
+            continue  # "in other words", "no other events", "other than that"
         if _is_director(tokens, at) or (speaker == HERO_ID and word in ("we", "us")):
             continue
         if word in FIRST_PERSON or _has_it(word) or _is_own_wish(tokens, at) or is_our_own(tokens, at):
@@ -95,6 +97,12 @@ def find_names(tokens: list[Token]) -> Names:
     _name_this(tokens, names)
     names.unclear = _either(tokens, names)
     return names
+
+
+def _is_no_vehicle(token: Token) -> bool:
+    """Whether "other" before this is no vehicle: "other words", "other than"."""
+    plural = token.text.lower().endswith("s") and "verb" not in token.tags and "unknown" in token.tags
+    return plural or token.text.lower() == "than"
 
 
 def _has_it(word: str) -> bool:

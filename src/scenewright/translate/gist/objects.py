@@ -25,6 +25,7 @@ SEES = (
     "faces",
     "observes",
 )
+_STAGES = ("let", "have", "make", "place", "put")
 _CLOSES = ("link", "comma", "end", "preposition")
 SHARES = ("shares", "share", "sharing", "shared")
 _BESIDE = frozenset(("determiner", "actor_adjective", "possessive", "heading", "hero", "noun", "unknown", "direction"))
@@ -74,7 +75,13 @@ def is_object(words: Words, at: int) -> bool:
     if "opposed" in tags and words.named(range(words.sentence_at(at).start, back)) is not None:
         return True  # "a left turn of the ego against an eastbound van"
     if verb == "let":  # "lets the ego pass", but not the imperative "let the ego drive"
-        told = words.word(back - 1) in ("to", "and") or words.has([back - 1], "negation", "auxiliary")
+        stages = words.word(words.sentence_at(back).start) in _STAGES  # "Let A ..., and let B"
+        link = words.word(back - 1).split()[-1:]
+        told = (
+            link in (["to"], ["by"])
+            or (link == ["and"] and not stages)
+            or words.has([back - 1], "negation", "auxiliary")
+        )
         return told or bool(words.tokens[back].forms & {"s", "ing"})
     return verb in _TAKES_OBJECT
 

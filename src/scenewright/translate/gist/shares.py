@@ -9,7 +9,11 @@ from itertools import pairwise
 
 from scenewright.translate.gist.measured import Measured
 from scenewright.translate.gist.owners import told_for
-from scenewright.translate.gist.words import Words
+from scenewright.translate.gist.words import DEEDS, Words
+
+_BESIDE = ("and", "while", "whilst", "with", "but", "as")
+_THIS_AMOUNT = ("this time", "that time", "this distance", "that distance")
+_OTHERS = ("itself", "himself", "herself", "second", "other", "one", "latter", "the latter", "the second")
 
 
 def share(words: Words, found: list[Measured]) -> None:
@@ -21,6 +25,8 @@ def share(words: Words, found: list[Measured]) -> None:
     _told_in_front(words, found)
     _same_place(words, found)
     _in_order(words, found)
+    _one_each(words, found)
+    _speeds_of_each(words, found)
 
 
 def _back_references(words: Words, found: list[Measured]) -> None:
@@ -146,7 +152,7 @@ def _is_short(words: Words, made: Measured) -> bool:
 def _alike(first: Measured, second: Measured) -> bool:
     if first.quantity is None or second.quantity is None or first.clause.sentence != second.clause.sentence:
         return False
-    return first.quantity.dimension == second.quantity.dimension
+    return _is_measured_alike(first, second)
 
 
 def _take_place(made: Measured, other: Measured) -> None:
@@ -171,3 +177,82 @@ def _in_order(words: Words, found: list[Measured]) -> None:
         if len(named) == 2 and not between and actors[named[0]] != actors[named[1]]:
             own[0].actor, own[1].actor = actors[named[0]], actors[named[1]]
             words.used |= {i for i in range(own[1].at, own[1].at + 9) if "respectively" in words.tags(i)}
+
+
+def _one_each(words: Words, found: list[Measured]) -> None:
+    """Read "when this time is 2 s and the van's is 4 s", "the ego is 20 m and himself 30 m from it" as one of each.
+
+    One vehicle is not at two places at one moment: where one of two amounts names its vehicle and the other does not,
+    that is the other's. A mere "it" decides nothing.
+    """
+    places = [made for made in found if made.kind == "place" and made.quantity is not None]
+    for first, second in pairwise(places):
+        alike = first.actor is not None and first.actor == second.actor
+        if not alike or first.clause.sentence != second.clause.sentence or first.clause.labels != second.clause.labels:
+            continue
+        marks = [at for at in range(first.at + 1, second.at) if words.word(at) in _BESIDE]
+        between = range(first.at + 1, second.at)
+        if not marks or words.verbs(between) & DEEDS or words.has(between, "stop_noun"):
+            continue
+        asked = [each.start for each in words.clauses if each.link == "when" and each.start <= first.at]
+        begin = max([*asked[-1:], words.sentence_at(first.at).start])
+        parted = (
+            at for at in range(first.at - 1, begin, -1) if words.word(at) in _BESIDE or words.has([at], "quantity")
+        )
+        here = range(next(parted, begin), marks[0])
+        there = range(marks[-1] + 1, _end_of(words, second.at))
+        own = {words.names.actors[at] for at in here if at in words.names.actors}
+        other = {words.names.actors[at] for at in there if at in words.names.actors}
+        if len(own) == 1 and len(other) == 1 and own != other:
+            (first.actor,), (second.actor,) = own, other
+        elif len(other) == 1 and not own and not any(at in words.names.actors for at in range(begin, first.at)):
+            first.actor = 1 - next(iter(other))
+            told = any(words.word(at) in _THIS_AMOUNT for at in here)
+            told = told or any(words.word(at) in ("this", "that") and "measure" in words.tags(at + 1) for at in here)
+            earlier = [m for m in places if m.at < begin and m.actor == first.actor and _is_measured_alike(m, first)]
+            if told and not words.has(here, "landmark") and earlier:
+                first.landmark, first.relation = earlier[-1].landmark, earlier[-1].relation  # "once this time is 2 s"
+        elif len(own) == 1 and not other and any(_is_someone(words, at) for at in there if at < second.at):
+            second.actor = 1 - next(iter(own))
+
+
+def _is_measured_alike(first: Measured, second: Measured) -> bool:
+    assert first.quantity is not None
+    assert second.quantity is not None
+    return first.quantity.dimension == second.quantity.dimension
+
+
+def _speeds_of_each(words: Words, found: list[Measured]) -> None:
+    """Read "the ego and the hero drive at 6 m/s and 12 m/s" and "6 m/s is the speed of A, and 12 m/s of B"."""
+    speeds = [made for made in found if made.kind == "speed" and not made.target]
+    for first, second in pairwise(speeds):
+        alike = first.actor == second.actor and first.clause.sentence == second.clause.sentence
+        if not alike or any(
+            each is not first and each is not second and each.clause.sentence == first.clause.sentence
+            for each in speeds
+        ):
+            continue
+        sentence = words.sentence_at(first.at)
+        actors = words.names.actors
+        before = [actors[at] for at in range(sentence.start, first.at) if at in actors]
+        between = [actors[at] for at in range(first.at + 1, second.at) if at in actors]
+        after = [actors[at] for at in range(second.at + 1, sentence.stop) if at in actors]
+        acts = words.verbs(sentence) & {"brake", "stop", "accelerate", "pass", "complete"}
+        if acts or len({*before, *between, *after}) != 2:
+            continue
+        if len(before) == 2 and not between and not after:
+            first.actor, second.actor = before
+            words.used |= {at for at in sentence if "respectively" in words.tags(at)}
+        elif not before and len(between) == 1 and len(after) == 1 and between != after:
+            first.actor, second.actor = between[0], after[0]
+
+
+def _end_of(words: Words, at: int) -> int:
+    """Return where what is said of an amount ends."""
+    parting = ("quantity", "comma", "end", "link", "colon")
+    return next((i for i in range(at + 1, len(words.tokens)) if words.has([i], *parting)), len(words.tokens))
+
+
+def _is_someone(words: Words, at: int) -> bool:
+    """Whether a word stands for a vehicle that is not the one just named: "himself", "the second", "the grey one"."""
+    return words.word(at) in _OTHERS or ("unknown" in words.tags(at) and "determiner" in words.tags(at - 1))

@@ -61,6 +61,11 @@ class Starts:
                 i for i in range(at + 1, made.at) if "frame_noun" not in words.tags(i) and words.word(i) not in RUNS
             ]  # "starts the run 9 s from it"
             acts = any(d.clause is clause and d.at < made.at and d.kind in ("brake", "accelerate") for d in self.deeds)
+            told_last = words.clauses[index - 1] if index else clause
+            done = any(d.clause is told_last and d.kind in ("brake", "stop", "accelerate") for d in self.deeds)
+            goes_on = done and told_last.sentence == clause.sentence and "ing" in words.tokens[at].forms
+            if words.tag(at, "verb") == "begin" and goes_on:
+                return False  # "it brakes to a halt, beginning 28 m before that point"
             if words.tag(at, "verb") == "begin" and not words.verbs(between) and not acts:
                 return True
         if words.has(clause.inside, "measure", "landmark") and re.search(
@@ -79,6 +84,9 @@ class Starts:
             return False
         if "start" in before.labels and clause.link == "and" and not clause.named:
             return True  # "when the recording started it was 120 m before it and its speed was 55 km/h"
+        opened = words.tag(before.start, "adverb") == "initially" and clause.link == "and" and not clause.named
+        if opened and not any(d.clause.sentence == clause.sentence and d.kind in ("brake", "stop") for d in self.deeds):
+            return True  # "At first the ego drives at 30 mph and is 8 s from it"
         alone = all(words.tag(i, "adverb") == "initially" or "determiner" in words.tags(i) for i in before.inside)
         plain = [i for i in range(clause.start, made.at) if "actor_adjective" not in words.tags(i)]
         verbless = not words.has(plain, "verb", "be")  # "and the lead vehicle 22 m from it"

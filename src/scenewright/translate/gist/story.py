@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Literal
 
+from scenewright.errors import Span
 from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place, Relation, goes_on
 from scenewright.translate.facts import Condition, Facts, Order, Phase
 from scenewright.translate.gist.clauses import BOUNDS
@@ -30,6 +31,14 @@ _OUGHT = re.compile(
     r"|no|without|far from|fail\w*|disregard\w*|ignor\w*|neglect\w*|refus\w*|den(?:y|ies|ied))\b",
     re.IGNORECASE,
 )
+# "a speed that it holds unchanged from the first to the last second of the run"
+_ALL_THE_TIME = re.compile(
+    r"\bspeed\b[^.;\n]{0,20}\b(?:hold|keep|maintain)s?\b(?:(?!lane)[^.;\n]){0,40}\b(?:throughout|all (?:the time"
+    r"|through|along)"
+    r"|from (?:the )?(?:first|beginning|start) to (?:the )?(?:last|end)|the whole (?:run|time|test))\b",
+    re.IGNORECASE,
+)
+_ORDERED = re.compile(r"\b(?:is to|must|shall|has to|needs to|should)\b", re.IGNORECASE)
 _STANDS = re.compile(r"\b(?:stand|stood|stationary|stopped|standstill|still|rest|idl)", re.IGNORECASE)
 
 
@@ -57,6 +66,7 @@ class StoryTeller:
             Where they contradict each other, or make no whole story.
         """
         self._check_clock()
+        self.deeds = [self._at_first(deed) for deed in self.deeds]
         for made in (*self.moments.of("start"), *self.moments.of("trigger")):
             self._state(made)
         for deed in self.deeds:
@@ -64,7 +74,7 @@ class StoryTeller:
             waits = deed.kind == "wait" and (first or deed.clause.sentence < self.trigger_sentence)
             if deed.actor == EGO_ID and waits and self._stands_at_first(deed):
                 raise self.words.refuse("an ego that stands at the start is not supported", deed.span)
-            if deed.actor == EGO_ID and deed.kind not in _EGO_MAY and not waits:
+            if deed.actor == EGO_ID and (deed.kind not in _EGO_MAY or self._is_ordered(deed)) and not waits:
                 message = "the ego cannot be told what to do: the driving policy under test drives it"
                 raise self.words.refuse(message, deed.span)
         self._refuse_loose_moments()
@@ -73,6 +83,7 @@ class StoryTeller:
         slows = [deed for deed in told if deed.kind in _SLOWS]
         if slows and not any(deed.kind in _GOES for deed in told):
             told = sorted([*told, *self._told_early()], key=lambda deed: deed.at)
+        told = self._without_result(told)
         if slows:  # "brakes and keeps at it until it stands"
             told = [deed for deed in told if deed.clause.link == "then" or not self._only_keeps(deed)]
         self._check(told)
@@ -87,6 +98,17 @@ class StoryTeller:
         self._order(goes)
         self._check_first()
         return self.facts
+
+    def _at_first(self, deed: Deed) -> Deed:
+        """Return "its speed is zero at first", told before the trigger, as a wait."""
+        early = deed.kind == "stop" and deed.actor == HERO_ID and deed.clause.sentence < self.trigger_sentence
+        first = self.words.where(deed.clause.inside, "adverb", "initially") is not None
+        told = early and (first or "start" in deed.clause.labels) and not self._has_stop_verb(deed)
+        return replace(deed, kind="wait") if told else deed
+
+    def _has_stop_verb(self, deed: Deed) -> bool:
+        """Whether somebody is told to stop or to brake, not to be stopped."""
+        return bool(self.words.verbs(deed.clause.inside) & {"stop", "brake", "yield"})
 
     def _check_clock(self) -> None:
         """Refuse what is told of another sentence beside "5 s after the start": it may be of another moment."""
@@ -115,10 +137,29 @@ class StoryTeller:
         """Refuse "... then the ego begins its turn", told after what the hero does, where it orders nothing."""
         acts = [d.at for d in self.deeds if d.actor == HERO_ID and d.kind in ("pass", "complete", "accelerate")]
         for deed in self.deeds:
-            loose = deed.actor == EGO_ID and deed.kind == "turn" and self.moments.begins(deed) and deed.clause.named
-            late = deed.clause.sentence >= self.trigger_sentence and any(at < deed.at for at in acts)
+            named = deed.clause.named or "who" in deed.clause.labels
+            loose = deed.actor == EGO_ID and deed.kind == "turn" and named
+            loose = loose and (self.moments.begins(deed) or self._between_deeds(deed))
+            late = deed.clause.sentence >= self.trigger_sentence
+            late = late and (self._between_deeds(deed) or any(at < deed.at for at in acts))
             if loose and late and deed.clause.link != "that":
                 raise self.words.refuse("it is not clear what this orders", self.words.span(deed.clause))
+
+    def _is_ordered(self, deed: Deed) -> bool:
+        """Whether "As soon as the hero has stopped, the ego is to give up its turn" tells the ego what to do."""
+        clause = deed.clause
+        if clause.sentence < self.trigger_sentence or clause.link not in ("main", "then") or not clause.named:
+            return False
+        ordered = _ORDERED.search(self.words.span(clause).excerpt(self.words.text)) is not None
+        earlier = [each for each in self.words.sentence(clause) if each.start < clause.start and each.link == "when"]
+        return ordered and any(each.subject == HERO_ID for each in earlier) and deed.kind not in ("before", "after")
+
+    def _between_deeds(self, deed: Deed) -> bool:
+        """Whether "the ego turns" is told after the hero has stopped and before it goes on."""
+        own = [each for each in self.deeds if each.actor == HERO_ID]
+        stopped = any(each.kind in (*_SLOWS, "wait") and each.at < deed.at for each in own)
+        goes = any(each.kind in _GOES and each.at > deed.at for each in own)
+        return stopped and goes and deed.clause.link == "main" and deed.clause.sentence > self.trigger_sentence
 
     # -- states -------------------------------------------------------------------------------------------------------
     def _state(self, made: Measured) -> None:
@@ -172,10 +213,16 @@ class StoryTeller:
         """Read "a taxi is standing at the stop line" before the trigger: it waits there until then."""
         for deed in self.deeds:
             first = deed.kind == "wait" and deed.actor == HERO_ID and self._is_before(deed)
-            if first and _STANDS.search(deed.span.excerpt(self.words.text)):
+            if first and (_STANDS.search(deed.span.excerpt(self.words.text)) or self._waits_at_line(deed)):
                 self.facts.standing = self.facts.standing or self._event(deed)
             elif first and not self._tells_where(deed) and not self._slows_later():
                 raise self.words.refuse("it is not said where the hero waits", deed.span)
+
+    def _waits_at_line(self, deed: Deed) -> bool:
+        """Whether a vehicle "waits at the stop line", told before the trigger."""
+        at = self.words.where(range(deed.at, deed.clause.end), "landmark", "stop_line")
+        told = self.words.has(deed.clause.inside, "quantity") or deed.clause.sentence >= self.trigger_sentence
+        return at is not None and not told and self.words.tag(at - 2, "preposition") == "at" and not self._slows_later()
 
     def _slows_later(self) -> bool:
         """Whether the hero comes to a stop from its trigger on, so that it does not stand before."""
@@ -187,7 +234,8 @@ class StoryTeller:
         if deed.clause.sentence < self.trigger_sentence:
             return True
         first = min(made.at for made in self.moments.of("trigger"))
-        relative = deed.clause.link == "that" and deed.at < first
+        been = any("been" in self.words.word(at).split() for at in range(deed.clause.start, deed.at + 1))
+        relative = deed.clause.link == "that" and (deed.at < first or been)  # "which has been standing at the line"
         stands = bool(_STANDS.search(deed.span.excerpt(self.words.text)))
         return relative and stands and not any(d.actor == HERO_ID and d.kind in _SLOWS for d in self.deeds)
 
@@ -232,11 +280,22 @@ class StoryTeller:
             and not self._counts(d)
         ]
 
+    def _without_result(self, told: list[Deed]) -> list[Deed]:
+        """Leave out "The hero passes it first. When ...", where it is told again after what comes before."""
+        slows = [deed for deed in told if deed.kind in _SLOWS]
+        early = [d for d in told if d.kind in ("pass", "complete") and d.clause.sentence < self.trigger_sentence]
+        again = {d.kind for d in told if slows and d.at > slows[0].at}
+        result = [d for d in early if slows and d.at < slows[0].at and d.kind in again and d.clause.link != "that"]
+        return [deed for deed in told if deed not in result]
+
     def _only_keeps(self, deed: Deed) -> bool:
         return deed.kind in ("keep", "go") and deed.span.excerpt(self.words.text).lower().startswith(("keep", "kept"))
 
     def _check(self, told: list[Deed]) -> None:
         """Refuse what contradicts itself or is no story."""
+        always = _ALL_THE_TIME.search(self.words.text)
+        if always is not None and any(deed.kind in _MOVES for deed in told):
+            raise self.words.refuse("a speed that is held all the time cannot change", Span(*always.span()))
         kinds = {deed.kind for deed in told}
         slows = [deed for deed in told if deed.kind in _SLOWS]
         goes = [deed for deed in told if deed.kind in _GOES]
@@ -446,6 +505,8 @@ class StoryTeller:
         if phase.kind == "dec" and not (first and landmark == "turn_start" and phase.place and self._stopped_by(deed)):
             raise self.words.refuse("a stop cannot be ordered against the ego", deed.span)
         again = previous is not None and previous.kind == deed.kind and "same" in (deed.landmark, previous.landmark)
+        if known is not None and again and deed.landmark == "turn_start" and previous is not None and first:
+            known = self.facts.order = None  # "ahead of the ego, and it has passed it before the ego begins to turn"
         if known is not None and again:
             return  # "ahead of the ego, that is, before the ego does"
         if known is not None:
@@ -453,6 +514,8 @@ class StoryTeller:
         event = Event("pass", EGO_ID, deed.span, deed.clause.sentence)
         self.events.append(event)
         reached = phase.goal_event is not None and phase.goal_event.sentence == deed.clause.sentence
+        waits = any(self._only_waits(each) for each in self.deeds)
+        reached = reached and not waits  # "It waits. It sets off and passes the point only after the ego has turned"
         at_end = (
             first
             or deed.landmark == "same"
@@ -467,6 +530,11 @@ class StoryTeller:
             self.facts.order = replace(self.facts.order, margin=margin.quantity, margin_bound=bound)
         if phase.goal is None and first and phase.kind != "dec":
             phase.goal, phase.goal_event = "conflict_point", event
+
+    def _only_waits(self, deed: Deed) -> bool:
+        """Whether the hero waits, and not for a time that is told."""
+        waits = deed.kind == "wait" and deed.actor == HERO_ID and self.words.word(deed.at).startswith("wait")
+        return waits and not self.words.has(deed.clause.inside, "quantity")
 
     def _stopped_by(self, moment: Deed) -> bool:
         """Whether the hero is said to stand by then: "it has come to a stop before the ego begins to turn"."""

@@ -7,6 +7,7 @@ something else may be set aside; what may change the scenario may not.
 from __future__ import annotations
 
 from scenewright.translate.events import HERO_ID
+from scenewright.translate.gist.objects import SEES
 from scenewright.translate.gist.words import DEEDS, Clause, Deed, Words
 
 _AT_TIMES = frozenset(
@@ -51,11 +52,16 @@ def refuse_strange_conditions(words: Words, last: int) -> None:
 
     `last` is where the last amount of the trigger stands: whatever is told before it has to be known.
     """
+    _refuse_strange_part_of_trigger(words)
     sentence = words.sentence_at(last).start
     first = next((each.start for each in words.clauses if each.link == "when" and sentence <= each.start <= last), None)
     if first is None:
         return
     for at in range(first, _end_of_condition(words, last)):
+        clause = next((each for each in words.clauses if at in each.inside), None)
+        felt = words.tag(at, "verb") == "attitude" and words.word(at) not in SEES
+        if felt and clause is not None and clause.link in ("when", "and") and not words.has(clause.inside, "quantity"):
+            raise words.refuse("a condition like this cannot be seen", words.span(clause))  # "and its driver waves"
         if "unknown" not in words.tags(at) or at in words.names.actors or words.word(at).endswith("ly"):
             continue
         if any(words.has([near], "landmark") for near in (at + 1, at - 1)) or words.word(at) in _HARMLESS:
@@ -67,6 +73,16 @@ def refuse_strange_conditions(words: Words, last: int) -> None:
             raise words.refuse(f"'{words.word(at)}' was not understood: it may be a condition", words.tokens[at].span)
 
 
+def _refuse_strange_part_of_trigger(words: Words) -> None:
+    """Refuse "Trigger: ego 22 m from it, hero 27 m from it, hero's driver looking up from the phone"."""
+    for clause in (each for each in words.clauses if "trigger" in each.labels and each.named):
+        told = words.has(clause.inside, "quantity", "landmark", "measure") or words.verbs(clause.inside) & DEEDS
+        strange = any("unknown" in words.tags(at) and words.word(at).endswith("ing") for at in clause.inside)
+        felt = words.verbs(clause.inside) & {"attitude", "want"}
+        if not told and (strange or felt):
+            raise words.refuse("a condition like this cannot be seen", words.span(clause))
+
+
 def _end_of_condition(words: Words, last: int) -> int:
     """Return where a condition ends: "brakes when the ego is 7 m behind it and gives a long blast on its horn"."""
     end = last
@@ -74,7 +90,8 @@ def _end_of_condition(words: Words, last: int) -> int:
         if last in clause.inside:
             end = clause.end
         elif clause.start == end + 1 and clause.link == "and" and words.word(end) == "and":
-            acts = _is_named(words, clause) or words.verbs(clause.inside) & DEEDS
+            told = words.verbs(clause.inside) - {"attitude"} or words.has(clause.inside, "be", "auxiliary", "quantity")
+            acts = (_is_named(words, clause) and told) or words.verbs(clause.inside) & DEEDS
             end = end if acts else clause.end
     return end
 
@@ -88,6 +105,8 @@ def _is_part_of_name(words: Words, at: int) -> bool:
         if back in words.names.actors:
             break
         back -= 1
+    if back == at - 1 and back in words.names.actors and words.word(at).endswith(("s", "ed", "ing")):
+        return ahead in words.names.actors  # "its driver waves" tells what he does
     ahead += "genitive" in words.tags(ahead)  # "the learner's car"
     return ahead in words.names.actors or back in words.names.actors
 

@@ -63,7 +63,11 @@ def _beats_ego(words: Words, index: int) -> bool:
     named = words.named(following.inside) == EGO_ID
     earlier = [each for each in words.sentence(clause) if each.start < clause.start]
     told = bool(earlier) and words.has(earlier[-1].inside, "quantity") and any(e.link == "when" for e in earlier)
-    if not told or clause.start in words.names.pronouns:
+    acted = bool(earlier) and earlier[-1].subject == EGO_ID and earlier[-1].named and earlier[-1].link in _MAIN
+    pronoun = clause.start in words.names.pronouns or words.word(clause.start) in ("its", "his", "her")
+    if pronoun:
+        told = not acted  # "It completes its turn before the ego passes": whoever it is, it is not the ego
+    if not told:
         return False  # "the ego pulls away, and completes its turn before the ego ..." is nonsense
     return following.link == "before" and following.sentence == clause.sentence and named
 

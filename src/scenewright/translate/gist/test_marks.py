@@ -54,6 +54,12 @@ _WHAT_IS_TESTED = re.compile(
     r"|behaviou?r))?(?=[,.])"
 )
 
+# "Car-to-car rear with a twist": the name of a kind of test, which tells nothing of who is behind
+_CAR_TO_CAR = re.compile(
+    r"\b(?:car|vehicle)[- ]to[- ](?:car|vehicle) (?:rear|front|head-on|crossing)(?: [a-z]+){0,3}(?=[:.,])",
+    re.IGNORECASE,
+)
+
 
 # In this order: what one rule leaves, the next may read.
 TEST_MARKS: Rules = (
@@ -63,4 +69,5 @@ TEST_MARKS: Rules = (
     (_AFTER, r"test \1"),
     (_RELATIVE, ", the ego,"),
     (_WHAT_IS_TESTED, r"\1 is under test"),
+    (_CAR_TO_CAR, "test"),
 )
