@@ -122,7 +122,7 @@ def _named(text: str, name: str) -> str:
         return text
     pattern = rf"\b((?:the|our|my|an?|this|that) )(?:{'|'.join(alike)})\b(?! (?:and|or) )"
     text = re.sub(pattern, lambda found: _fitted(found, f"{_article(found.group(1))}ego"), text, flags=re.IGNORECASE)
-    if not name.islower():
+    if not name.islower() or len(words) > 1:  # "My cue: robot car 5 m from it"
         text = re.sub(rf"(?<![\w-]){re.escape(name)}(?![\w-])", lambda found: _fitted(found, "ego"), text)
     return text
 

@@ -258,7 +258,7 @@ _SHORT_STOP = re.compile(
     re.IGNORECASE,
 )
 _OF_STANDSTILL = re.compile(
-    r"\b(?:a|an) ([\d.]+|[a-z]+)[ -](s|seconds?) (standstill|stop|wait|pause|halt)\b", re.IGNORECASE
+    r"\b(?:a|an) ([\d.]+|[a-z]+)[ -](s|seconds?) (standstill|stop|pause|halt)\b", re.IGNORECASE
 )
 _BEGINNING_AT = re.compile(
     rf", (?:beginning|starting)(?: to (?:do so|brake|slow(?: down)?))? ({AMOUNT} (?:before|from|short of) (?:the "

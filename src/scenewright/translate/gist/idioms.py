@@ -26,7 +26,7 @@ from scenewright.translate.gist.moment_phrases import MOMENT_PHRASES
 from scenewright.translate.gist.order_phrases import ORDER_PHRASES
 from scenewright.translate.gist.phrases import PHRASES
 from scenewright.translate.gist.report_phrases import REPORT_PHRASES
-from scenewright.translate.gist.rewriting import Rules, needed
+from scenewright.translate.gist.rewriting import Rules, held
 from scenewright.translate.gist.route_phrases import ROUTE_PHRASES
 from scenewright.translate.gist.spoken_phrases import SPOKEN_PHRASES
 from scenewright.translate.gist.staging_phrases import STAGING_PHRASES
@@ -205,8 +205,8 @@ def without_idioms(text: str) -> str:
     """Return the text in plain words."""
     text = we_for_you(without_aliases(text))
     lowered = text.lower()
-    for held, pattern, words in _INDEXED:
-        if held not in lowered:
+    for runs, pattern, words in _INDEXED:
+        if not any(run in lowered for run in runs):
             continue
         changed = pattern.sub(partial(_said, words), text)
         if changed != text:
@@ -343,4 +343,4 @@ _RULES: Rules = (
     (_CROSSING_OF, "conflict point"),
     (_CROSSING, "conflict point"),
 )
-_INDEXED = tuple((needed(pattern), pattern, words) for pattern, words in _RULES)
+_INDEXED = tuple((held(pattern), pattern, words) for pattern, words in _RULES)

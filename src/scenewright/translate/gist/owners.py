@@ -72,7 +72,8 @@ def _resumed(words: Words, at: int, clause: Clause) -> str | None:
 
 def owner_of(words: Words, at: int, clause: Clause) -> int | None:
     """Return whose the amount at `at` is: by its measure, who was named last before it, or whom the clause is about."""
-    told = _by_measure(words, at, clause)
+    told = _by_measure_after(words, at)
+    told = told if told is not None else _by_measure(words, at, clause)
     if told is not None:
         return told
     if words.word(at - 1) in ("itself", "himself", "herself") and at - 2 not in words.names.actors:
@@ -99,6 +100,12 @@ def _just_for(words: Words, name: int, at: int, clause: Clause) -> bool:
         and first
         and all("adverb" in words.tags(i) for i in range(name + 1, at))
     )
+
+
+def _by_measure_after(words: Words, at: int) -> int | None:
+    """Return whose "4 s time to arrival of the ego" are: the measure follows the amount."""
+    measured = measure_of(words, at + 1) in ("length", "time") and words.word(at + 2) == "of"
+    return words.named(range(at + 3, at + 6)) if measured else None
 
 
 def _by_measure(words: Words, at: int, clause: Clause) -> int | None:

@@ -279,6 +279,55 @@ _WHICH_IS_LABEL = re.compile(
     r", which is (?:the|a) (?:label|outcome|behaviou?r|quantity|metric|result) (?:that|which) [^.;,\d]*(?=[.;])",
     re.IGNORECASE,
 )
+_BEING_PROMPTS = re.compile(
+    rf"{BEGINS}Being ({AMOUNT}) from ({_PLACE}) with ({_EGO}) ({AMOUNT}) from ({_PLACE}|it) (?:prompts|causes"
+    rf"|makes) the hero (?:to )?"
+    r"(brake|accelerate)\b",
+    re.IGNORECASE,
+)
+_GAP_CAUSES = re.compile(
+    rf"{BEGINS}An? (time headway|headway|time gap|gap|distance) of ({AMOUNT})( between (?:[\w ]+?))? (?:causes"
+    rf"|makes|prompts|leads) (the "
+    r"hero) (?:to )?(brake|decelerate)\b",
+    re.IGNORECASE,
+)
+_HAVING_STOPPED_AT = re.compile(
+    rf"{BEGINS}Having (?:stopped|halted|come to (?:a (?:full |complete )?(?:stop|halt)|rest)) ((?:{AMOUNT} "
+    rf"(?:before|short of|from)|just "
+    rf"before) {_PLACE}), (it|the hero) ",
+    re.IGNORECASE,
+)
+_NO_MANOEUVRE_BUT = re.compile(
+    r"\bplans no (?:manoeuvre|maneuver|turn) (?:other than|but|except) (?=following|keeping|staying)", re.IGNORECASE
+)
+_YIELDS_THEN_GOES = re.compile(
+    rf"{BEGINS}Interaction: (?:the )?hero yields,? (?:and )?then goes\. (?=It )", re.IGNORECASE
+)
+_UNTIL_ARRIVAL = re.compile(
+    rf"({AMOUNT}) (?:are|is) left until (the [\w-]+)['\u2019]s arrival at ({_PLACE}) and ({AMOUNT}) until (the "
+    rf"[\w-]+)['\u2019]s(?=,)",
+    re.IGNORECASE,
+)
+_TURN_MADE_BY = re.compile(
+    r"\ba (left|right) turn ([^,;.]*?)(,? (?:east|west)bound,?)? is to be made by (the (?:ego|hero))\b", re.IGNORECASE
+)
+_ONE_THAT_REMAINS = re.compile(r"\bthe one that remains (?=for )", re.IGNORECASE)
+_WINDS_UP = re.compile(
+    r"\b(?:winds|ends|finishes) (?:up )?(?:stopped|standing|stationary|at rest)(?: at)? (?=[\d.]+ |\w+_(?:m|ft)\b"
+    r"|just before)",
+    re.IGNORECASE,
+)
+_ALTHOUGH_COULD = re.compile(
+    r", (?:although|though|even though) (?:it|he|she) (?:could|might|should|ought to) (?:yield|stop|wait|give way"
+    r"|brake),",
+    re.IGNORECASE,
+)
+_CHANGES_MODE = re.compile(
+    r"\b(?:transitions|switches|changes|goes|shifts) (?:in)?to (?:an? |its )?[\w-]+ (?:mode|policy|behaviou?r"
+    r"|profile|state)[:;] (?:it|he) ",
+    re.IGNORECASE,
+)
+_LET_RESUME = re.compile(r"\bWe then let (it|the hero) (?:resume|go on|continue) by accelerating\b", re.IGNORECASE)
 
 
 def _parted(found: re.Match[str]) -> str:
@@ -318,6 +367,16 @@ def _own_and_ego(found: re.Match[str]) -> str:
 def _ego_last(found: re.Match[str]) -> str:
     amount, place, ego, there, other = found.groups()
     return f"When the hero is {amount} from {place} and {ego} is {other} from {there}, the hero "
+
+
+def _own_prompts(found: re.Match[str]) -> str:
+    amount, place, ego, other, there, deed = found.groups()
+    return f"When the hero is {amount} from {place} and {ego} is {other} from {there}, the hero {deed}s"
+
+
+def _stops_then(found: re.Match[str]) -> str:
+    place, hero = found.groups()
+    return f"{hero[0].upper()}{hero[1:]} stops {place}. Then it "
 
 
 def _by_two(found: re.Match[str]) -> str:
@@ -390,6 +449,18 @@ STAGING_PHRASES: Rules = (
     (_DEFINED_BY_TWO, _by_two),
     (_DOES_AT, _does_when_at),
     (_GAINS_LEAD, "accelerates"),
+    (_BEING_PROMPTS, _own_prompts),
+    (_GAP_CAUSES, r"When the \1\3 is \2, \4 \5s"),
+    (_HAVING_STOPPED_AT, _stops_then),
+    (_NO_MANOEUVRE_BUT, "is "),
+    (_YIELDS_THEN_GOES, "Hero: "),
+    (_UNTIL_ARRIVAL, r"\2 is \1 and \5 \4 from \3"),
+    (_TURN_MADE_BY, r"\4 is to make a \1 turn \2\3"),
+    (_ONE_THAT_REMAINS, "the time that remains "),
+    (_WINDS_UP, "stops "),
+    (_ALTHOUGH_COULD, ""),
+    (_CHANGES_MODE, ""),
+    (_LET_RESUME, r"Then \1 accelerates"),
     (_HOLD_UNTIL, "wait until "),
     (_CRUISE_UNTIL, r"when \1, "),
     (_AND_AFTER_HALT, "and then "),

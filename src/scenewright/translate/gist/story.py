@@ -481,6 +481,10 @@ class StoryTeller:
     def _is_purpose(self, deed: Deed) -> bool:
         """Whether it is only said what for: "To let the ego make its turn, a car stops. It brakes when ..."."""
         to = self.words.word(deed.clause.start - 2) == "to"
+        goes = (d for d in self.deeds if d.actor == HERO_ID and d.kind in _GOES and d.at > deed.at)
+        own = [d for d in goes if d.clause.sentence == deed.clause.sentence and d.clause.link == "then"]
+        if any(self.words.word(d.clause.start - 1).startswith("only") for d in own):
+            return False  # "stops to let the ego complete its turn and only then carries on"
         return to and deed.clause.sentence < self.trigger_sentence
 
     def _let(self, deed: Deed) -> None:
