@@ -9,6 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 
+def _within_word(pair: str) -> bool:
+    """Whether two characters next to each other belong to one word."""
+    return all(char.isalnum() or char == "_" for char in pair)
+
+
 @dataclass(frozen=True, slots=True)
 class Span:
     """A stretch of a source text, as character offsets ``[start, end)``."""
@@ -24,6 +29,19 @@ class Span:
         """Return the span without the spaces and commas that it begins and ends with."""
         said = self.excerpt(text)
         return Span(self.start + len(said) - len(said.lstrip(" ,\n")), self.end - len(said) + len(said.rstrip(" ,\n")))
+
+    def whole_words(self, text: str) -> Span:
+        """Return the span grown to whole words, where it begins or ends within one.
+
+        >>> Span(5, 7).whole_words("two words here")
+        Span(start=4, end=9)
+        """
+        start, end = self.start, self.end
+        while 0 < start < len(text) and _within_word(text[start - 1 : start + 1]):
+            start -= 1
+        while 0 < end < len(text) and _within_word(text[end - 1 : end + 1]):
+            end += 1
+        return Span(start, end)
 
     def line_column(self, text: str) -> tuple[int, int]:
         """Return the 1-based line and column at which the span starts in `text`."""

@@ -65,7 +65,9 @@ class ConditionAssembler:
         for event in events:
             span = span.union(event.span) if span else event.span
             self.ids.setdefault(id(event), []).append(identifier)
-        self.constraints.append(Constraint(identifier, formula, span and span.trimmed(self.text)))
+        self.constraints.append(
+            Constraint(identifier, formula, span and span.trimmed(self.text).whole_words(self.text))
+        )
 
     def _landmark(self, name: str, actor: int, span: Span) -> Landmark:
         verb = {"turn_start": "begins", "turn_end": "completes"}.get(name)

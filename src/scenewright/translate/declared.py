@@ -120,10 +120,15 @@ def _named(text: str, name: str) -> str:
         alike.append(re.escape(words[-1]))
     if len(words) == 1 and words[0].lower() in _GENERIC:
         return text
-    pattern = rf"\b((?:the|our|my|an?|this|that) )(?:{'|'.join(alike)})\b(?! (?:and|or) )"
-    text = re.sub(pattern, lambda found: _fitted(found, f"{_article(found.group(1))}ego"), text, flags=re.IGNORECASE)
+    pattern = rf"\b((?:the|our|my|an?|this|that) )(?:{'|'.join(alike)})\b(['\u2019]s\b)?(?! (?:and|or) )"
+
+    def the_ego(found: re.Match[str]) -> str:
+        return _fitted(found, f"{_article(found.group(1))}ego{found.group(2) or ''}")
+
+    text = re.sub(pattern, the_ego, text, flags=re.IGNORECASE)
     if not name.islower() or len(words) > 1:  # "My cue: robot car 5 m from it"
-        text = re.sub(rf"(?<![\w-]){re.escape(name)}(?![\w-])", lambda found: _fitted(found, "ego"), text)
+        bare = re.compile(rf"(?<![\w-]){re.escape(name)}(['\u2019]s)?(?![\w-])")
+        text = bare.sub(lambda found: _fitted(found, f"ego{found.group(1) or ''}"), text)
     return text
 
 

@@ -488,4 +488,5 @@ def _reading(
     tells_route = any(said.event is event for wishes in facts.wishes.values() for said in wishes.values())
     if (tells_route or not parts) and event.actor is not None:
         parts.append(f"the {ACTOR_NAMES[event.actor]}'s route: {routes.of(event.actor)}")
-    return Reading(event.span, event.span.excerpt(text), "; ".join(parts), ids)
+    span = event.span.whole_words(text)  # where words were put in another order it may begin within one
+    return Reading(span, span.excerpt(text), "; ".join(parts), ids)

@@ -11,7 +11,11 @@ import re
 
 from scenewright.translate.gist.rewriting import AMOUNT, BEGINS, PRIORITY, Rules
 
-_HERO = r"(?:the hero(?: vehicle)?|hero|the other (?:vehicle|car)|the (?:car|vehicle|one) (?:in front|ahead))"
+_HERO = (
+    r"(?:the hero(?: vehicle)?|hero|the other (?:vehicle|car)|the (?:car|vehicle|one) (?:in front|ahead)"
+    r"|the (?!ego|av\b|sut\b|vut\b|conflict|stop|inter|drive|road|lane|same|test|trigger|moment|time|distance|gap|turn"
+    r"|vehicle|car|brak|decel|speed)[\w-]+)"
+)
 _RATE = r"(?:[\d.]+ ?(?:m/s\^2|m/s\u00b2|m/s2|g|ft/s\^2)|\w+_mpss)"
 _STOPPED = (
     r"(?:has (?:stopped|come to (?:a )?(?:full |complete )?(?:stop|rest|standstill|halt))|stands still|is at rest"
@@ -257,9 +261,7 @@ _SHORT_STOP = re.compile(
     rf"|the stop line))",
     re.IGNORECASE,
 )
-_OF_STANDSTILL = re.compile(
-    r"\b(?:a|an) ([\d.]+|[a-z]+)[ -](s|seconds?) (standstill|stop|pause|halt)\b", re.IGNORECASE
-)
+_OF_STANDSTILL = re.compile(r"\b(?:a|an) ([\d.]+|[a-z]+)[ -](s|seconds?) (standstill|stop|pause|halt)\b", re.IGNORECASE)
 _BEGINNING_AT = re.compile(
     rf", (?:beginning|starting)(?: to (?:do so|brake|slow(?: down)?))? ({AMOUNT} (?:before|from|short of) (?:the "
     rf"conflict point"

@@ -11,7 +11,11 @@ import re
 from scenewright.translate.gist.rewriting import BEGINS, Rules
 
 _EGO = r"(?:the ego(?: vehicle)?|ego|the AV|the SUT|our car)"
-_HERO = r"(?:the hero(?: vehicle)?|hero|it|he|she|the other (?:vehicle|car))"
+_HERO = (
+    r"(?:the hero(?: vehicle)?|hero|it|he|she|the other (?:vehicle|car)"
+    r"|the (?!ego|av\b|sut\b|vut\b|conflict|stop|inter|drive|road|lane|same|test|trigger|moment|time|distance|gap|turn"
+    r"|vehicle|car)[\w-]+)"
+)
 _TURNS = r"(?:to turn|its turn|turning|the turn|its own turn)"
 _POINT = r"(?:the conflict point|it|that point|there)"
 _BEGINS_TURN = rf"(?:begins|starts|commences) {_TURNS}"
