@@ -103,6 +103,12 @@ _PHRASES = tuple(
             "what is taken back",
         ),
         (
+            # no route tells which of several lanes is meant, and "left" alone would be read as a turn
+            r"\b(?:left|right|near|off|inner|outer|inside|outside|middle|cent(?:re|er)|fast|slow|passing|overtaking"
+            r"|adjacent|next|neighbou?ring)(?:-?hand|most)? lanes?\b",
+            "one of several lanes of a road",
+        ),
+        (
             r"\bon the wrong side\b|\bwrong[- ]way\b|\bside wrong\b|\bghost driver\b|\bagainst the (?:flow|traffic)\b",
             "driving on the wrong side",
         ),

@@ -125,7 +125,7 @@ _EXPECTED = re.compile(
 )
 _EXPECTS_MOTION = re.compile(
     r"\d|\b(?:brak|accelerat|slow|stop|yield|wait|until|when|east|west|north|south|left|right|straight|before|after"
-    r"|unless|if)",
+    r"|unless|if|turn|pass|cross|first|last|give|speed|signal|indicat)",
     re.IGNORECASE,
 )
 # "Please run it with both versions of the planner.": what is done with the test
