@@ -150,6 +150,10 @@ class TranslationError(ScenewrightError):
     """A description could not be understood, in whole or in part."""
 
 
+class UnknownWordsError(TranslationError):
+    """Words, or a turn of phrase, are not known; nothing is known to be wrong with them."""
+
+
 class MapError(ScenewrightError):
     """A map file is missing, broken, or lacks what the scenario needs."""
 

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from scenewright.judge.case import Case
     from scenewright.judge.verdict import Condition, Verdict
     from scenewright.trace.model import Trace
-    from scenewright.translate.offline import Translation
+    from scenewright.translate.translation import Translation
 
 Mode = Literal["closed", "open"]
 Tolerance = Literal["tight", "loose"]

@@ -59,5 +59,5 @@ def test_what_one_comes_towards_may_be_the_intersection(way: str) -> None:
 
 def test_comes_towards_the_ego_is_oncoming() -> None:
     intro = "The ego goes west and starts 80 m before the intersection."
-    way = " The hero comes towards the ego and goes straight on."
-    assert translate_offline(intro + way + MEETS).program.actors[1].route.headings == ("E",)
+    way = " The hero comes towards the ego and turns left into the driveway."
+    assert translate_offline(intro + way + MEETS).program.actors[1].route.headings == ("E", "N")

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
     from scenewright.orchestrate import Request, Result
     from scenewright.program.types import Program
-    from scenewright.translate.offline import Translation
+    from scenewright.translate.translation import Translation
 
 ProgramFile = Annotated[
     Path | None,
@@ -129,7 +129,7 @@ def _read_back(program: Program, map_name: str | None) -> tuple[str, ...]:
 def _translation_data(text: str, sentences: tuple[str, ...], translation: Translation | None) -> dict[str, object]:
     """Return a translation as plain data."""
     from scenewright.translate.model.translation import ModelTranslation
-    from scenewright.translate.offline import explain
+    from scenewright.translate.translation import explain
 
     rows = explain(translation) if translation else []
     keys = ("words", "understood", "constraints")

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from scenewright.program.types import Program
     from scenewright.roads.grounding import Scene
     from scenewright.solve.plan import Plan
-    from scenewright.translate.offline import Translation
+    from scenewright.translate.translation import Translation
 
 # Conditions of these kinds are the same in every run; they are shown one by one only where one fails.
 ROUTINE = ("route", "safety")

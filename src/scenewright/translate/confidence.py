@@ -29,6 +29,7 @@ class Basis(Enum):
     FACTS = Confidence(0.7, "the facts were picked out of a free text; what tells none was set aside")
     CORRECTED = Confidence(0.6, "a misspelt word was corrected")
     GUESSED = Confidence(0.5, "an unknown word was taken for a description that changes nothing")
+    LIKENESS = Confidence(0.4, "read by likeness to descriptions whose meaning is known")
 
 
 _KINDS = (

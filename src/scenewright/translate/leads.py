@@ -82,7 +82,10 @@ def find_lead(text: str, name: str) -> Span | None:
     if found is None:
         return None
     said = found["said"]
-    tokens = laid_out(" " * found.start("said") + said, name)
+    try:
+        tokens = laid_out(" " * found.start("said") + said, name)
+    except TranslationError:  # nothing is left of it: "You know that driveway?"
+        return None
     plain = _ASKS.split(_WHAT_HAPPENS.sub("", said))[0].replace("after all", "")
     framed = _FRAME.match(said) is not None or not any(_is_finite(token) for token in tokens)
     if not framed and (

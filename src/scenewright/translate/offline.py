@@ -1,115 +1,38 @@
-"""The offline translator: a description in English becomes a program, without network or model.
+"""The offline translator: a description in English becomes a program, without network or server.
 
 What enters: a description and, optionally, the map it is about. What leaves: a `Translation`: the program, how every
-clause was read, and what had to be assumed. Two readers with rules of their own read it: one goes through the grammar
-of its clauses and has to understand every word, the other looks for its facts and has to account for every name,
-amount, way and deed. The first is believed, unless the second reads something else: then the text is refused. Where
-only the second can read it, what was set aside stands among the assumptions.
+clause was read, and what had to be assumed. Readers that know rules read it (`rules`). A small network that was trained
+on descriptions (`learned`) stands in where they do not know the words, if it is sure, and stands against them where it
+is sure of something else: then the text is refused.
 """
 
 from __future__ import annotations
 
-import itertools
-import re
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from scenewright.errors import Place, Span, TranslationError
-from scenewright.program.expressions import Number, ParameterRef, walk
-from scenewright.program.printer import print_expression
-from scenewright.program.structure import Role, read_structure
+from scenewright.errors import MapError, Place, Span, TranslationError, UnknownWordsError
 from scenewright.program.types import Program
-from scenewright.roads import find_conflict
-from scenewright.translate.aliases import without_short_names
-from scenewright.translate.assemble import Assembler
-from scenewright.translate.clauses import ClauseReader
-from scenewright.translate.commentary import denied, without_commentary
-from scenewright.translate.confidence import Basis, basis_of
-from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, Event
-from scenewright.translate.facts import Facts
-from scenewright.translate.fronting import unfronted
-from scenewright.translate.geometry import is_remark
-from scenewright.translate.gist.amounts import WHOSE_SPEED
-from scenewright.translate.gist.reader import check_told, names_in, read_gist
-from scenewright.translate.gist.story import STOP_AND_SPEED
-from scenewright.translate.headlines import untold
-from scenewright.translate.interpret import Interpreter
-from scenewright.translate.itineraries import Itineraries, choose_routes, default_map
-from scenewright.translate.layout import lay_out
-from scenewright.translate.leads import check_lead, find_lead
-from scenewright.translate.limits import owner_of_limit, refuse_limit, take_limits
-from scenewright.translate.notes import noted
-from scenewright.translate.phrases import Phrases
-from scenewright.translate.purposes import check_purpose, take_purposes
-from scenewright.translate.references import Referents
-from scenewright.translate.relatives import related
-from scenewright.translate.rewording import reworded
-from scenewright.translate.run_ons import parted
-from scenewright.translate.speech import spoken
-from scenewright.translate.steps import in_sentences
-from scenewright.translate.tokens import Token, refuse_unknown, tokenise
-from scenewright.translate.unsayable import refuse_unplaced_stop, refuse_unsayable
+from scenewright.roads.grounding import ground
+from scenewright.translate.confidence import Basis
+from scenewright.translate.itineraries import default_map
+from scenewright.translate.learned.reader import Likely, read_likely
+from scenewright.translate.reading_back import read_back
+from scenewright.translate.rules import read_by_rules
+from scenewright.translate.translation import Reading, Translation, refuse_two_ways
+from scenewright.translate.unsayable import refuse_unsayable
 from scenewright.translate.values import take_values, with_values
-
-_ROLES = {
-    Role.INITIAL: "at the start",
-    Role.TRIGGER: "the moment at which the hero reacts",
-    Role.INTERACTION: "what the hero does",
-    Role.OUTCOME: "how it ends",
-}
-
-_AT_ONCE = re.compile(
-    r"\b(?:at|in) the (?:very )?same (?:moment|time|instant|second)|\buses? (?:that|this) (?:very )?moment"
-    r"|\bsimultaneously\b|\bconcurrently\b",
-    re.IGNORECASE,
-)
-
-_SAME_WAY = re.compile(
-    r"\b(?:(?:come|drive|travel)(?:s|ing)? along (?:the|a) road (?:the same way|in the same direction)"
-    r"|one behind the other|in single file)\b",
-    re.IGNORECASE,
-)
-_AT_TRIGGER = re.compile(r"\b(?:at|on|upon) (?:the )?trigger\b", re.IGNORECASE)
-
-# A heading with keys under it, further in: whose heading that is, the grammar of clauses does not know.
-_NESTED = re.compile(r"^([ \t]*)\S[^\n:]*:[ \t]*\n(?:\1[ \t]+[^\n:]+:[^\n]+\n?){2,}", re.MULTILINE)
 
 if TYPE_CHECKING:
     from scenewright.roads import RoadMap
 
+# How sure the network has to be. Chosen on texts that it was not trained on: docs/evaluation.md says how.
+SURE_ENOUGH_TO_READ = 0.85
+SURE_ENOUGH_TO_DOUBT = 0.9
+WORTH_A_HINT = 0.3
+UNSAYABLE = 0.05  # the probability of being sayable below which what the rules read is refused
 
-@dataclass(frozen=True, slots=True)
-class Reading:
-    """How one clause was understood.
-
-    Attributes
-    ----------
-    span, text
-        The clause, as offsets into the description and as words.
-    understood
-        Its meaning in plain words.
-    constraint_ids
-        The constraints that it gave; empty for clauses that decide a route.
-    confidence, basis
-        How sure the reading is, from 0 to 1, and what that means; see `confidence.Basis`.
-    """
-
-    span: Span
-    text: str
-    understood: str
-    constraint_ids: tuple[str, ...]
-    confidence: float = 1.0
-    basis: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Translation:
-    """A program with the account of how it came from the description."""
-
-    program: Program
-    readings: tuple[Reading, ...]
-    assumptions: tuple[str, ...]
+_HINT = "\n            what a description like this one may mean, not surely: "
 
 
 def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "description") -> Translation:
@@ -157,336 +80,62 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     return replace(read, program=program, readings=(*read.readings, *readings))
 
 
-def _translated(text: str, chosen_map: RoadMap, name: str) -> Translation:
-    """Translate what is left when the values of parameters are taken out; also without its lead, where it has one."""
+def _translated(text: str, road_map: RoadMap, name: str) -> Translation:
+    """Translate what is left when the values of parameters are taken out."""
     refuse_unsayable(text, name)
     try:
-        return _read(text, chosen_map, name)
-    except TranslationError as error:
-        lead = find_lead(text, name)
-        if lead is None:
+        read = read_by_rules(text, road_map, name)
+    except UnknownWordsError as error:
+        likely = read_likely(text, name, road_map)
+        if likely is None or likely.probability < SURE_ENOUGH_TO_READ:
+            if likely is not None and likely.probability > WORTH_A_HINT:
+                error.fix = f"{error.fix or ''}{_HINT}{' '.join(read_back(likely.program))}".strip()
             raise
-        try:
-            read = _read(" " * lead.end + text[lead.end :], chosen_map, name)
-            assumed = check_lead(lead, text, name, read.program, chosen_map)
-        except TranslationError:
-            raise error from None
-        return replace(read, assumptions=(assumed, *read.assumptions))
-
-
-def _read(text: str, chosen_map: RoadMap, name: str) -> Translation:
-    """Translate by the grammar of clauses, by the facts alone where that fails; both have to agree."""
-    if _NESTED.search(text) or take_limits(text, name)[1]:
-        return _by_facts(text, chosen_map, name)
-    try:
-        read = _by_grammar(text, chosen_map, name)
-    except TranslationError as error:
-        try:
-            return _by_facts(text, chosen_map, name)
-        except TranslationError as second:
-            raise _joined(error, second) from None
-    _check_second_reading(read.program, text, chosen_map, name)
+        return _by_likeness(likely, error, text)
+    _check_on_map(read.program, text, road_map, name)
+    _doubt(read.program, text, road_map, name)
     return read
 
 
-def _joined(first: TranslationError, second: TranslationError) -> TranslationError:
-    """Return the first refusal; where words are not known, with what is amiss even if they are stepped over."""
-    if "not understood" not in first.message or "word" not in first.message or second.message == first.message:
-        return first
-    where = f" ('{second.found}')" if second.found else ""
-    fix = f"{first.fix} - but even without them: {second.message}{where}"
-    return TranslationError(first.message, place=first.place, found=first.found, expected=first.expected, fix=fix)
-
-
-def _by_grammar(text: str, road_map: RoadMap, name: str) -> Translation:
-    """Translate clause by clause; every word has to be understood."""
-    rest, purposes = take_purposes(text, name)
-    rest = without_short_names(in_sentences(parted(rest)))
-    tokens = unfronted(reworded(related(spoken(noted(tokenise(rest, name))))))
-    tokens, comments = without_commentary(tokens)
-    tokens, titles = lay_out(tokens)
-    refuse_unknown(tokens, text, name)
-    referents = Referents(text, name)
-    phrases = Phrases(text, name, tokens, referents)
-    skipped = [(words, words[0].span.union(words[-1].span)) for words in (*comments, *titles)]
-    _assume_what_was_read(phrases, skipped)
-    events = ClauseReader(phrases).read()
-    facts = Interpreter(text, name).run(events, phrases.described)
-    _complete(facts, text, name)
-    _deeds_done(facts, phrases, text, name)
-    routes = choose_routes(facts, road_map, text, name)
-    for stretch, span in skipped:
-        _check_skipped(stretch, span, facts, routes, Place(name, text, span))
-    aside = _set_purposes_aside(purposes, facts, routes, text, name)
-    return _assembled(facts, routes, events, tokens, (*phrases.assumptions, *aside), road_map.name, text, name)
-
-
-def _by_facts(text: str, road_map: RoadMap, name: str) -> Translation:
-    """Translate by the facts alone that a free text tells."""
-    rest, purposes = take_purposes(text, name)
-    rest, limits = take_limits(in_sentences(parted(rest)), name)
-    gist = read_gist(rest, name, road_map)
-    named = names_in(text, name) if limits else {}
-    for limit in limits:
-        if owner_of_limit(limit, text, named) != HERO_ID:
-            raise refuse_limit(limit, "it is not one of the other vehicle", text, name)
-        event = Event("be", HERO_ID, limit.span, -1)
-        gist.facts.limits.append((limit, event))
-        gist.events.append(event)
-    _complete(gist.facts, text, name)
-    routes = choose_routes(gist.facts, road_map, text, name)
-    check_told(gist, routes, text, name)
-    if gist.title:
-        span = gist.title[0].span.union(gist.title[-1].span)
-        _check_skipped(gist.title, span, gist.facts, routes, Place(name, text, span))
-    assumed = (*gist.assumptions, *_set_purposes_aside(purposes, gist.facts, routes, text, name))
-    read = _assembled(gist.facts, routes, gist.events, gist.tokens, assumed, road_map.name, text, name)
-    basis = Basis.FACTS.value
-    readings = (
-        each if each.confidence < basis.value else replace(each, confidence=basis.value, basis=basis.meaning)
-        for each in read.readings
+def _by_likeness(likely: Likely, error: UnknownWordsError, text: str) -> Translation:
+    """Return what the text means by its likeness to others, and say among the assumptions what rules could not read."""
+    basis = Basis.LIKENESS.value
+    readings = tuple(
+        Reading(part.span, part.span.excerpt(text), part.meaning, part.constraint_ids, basis.value, basis.meaning)
+        for part in likely.parts
     )
-    return replace(read, readings=tuple(readings))
+    sure = f"{min(likely.probability, 0.99):.0%} sure"
+    assumed = (
+        f"the text was read by its likeness to descriptions whose meaning is known, {sure}: compare the program with "
+        f"what was meant ({error.message})"
+    )
+    return Translation(likely.program, readings, (assumed,))
 
 
-def _set_purposes_aside(
-    purposes: tuple[Span, ...], facts: Facts, routes: Itineraries, text: str, name: str
-) -> tuple[str, ...]:
-    """Return what is assumed of sentences that tell what the test is for; refuse one that tells another test."""
-    for span in purposes:
-        check_purpose(span, text, name, routes, _deeds(facts))
-    said = (" ".join(span.excerpt(text).strip(" ,").split()) for span in purposes)
-    return tuple(f"'{words}' tells what the test is for; nothing in it is orchestrated" for words in said)
-
-
-# What no reading by grammar alone may overrule: there it is the speed of whoever was named first, or of another moment.
-_NEVER_READ = (WHOSE_SPEED, STOP_AND_SPEED)
-
-
-def _check_second_reading(program: Program, text: str, road_map: RoadMap, name: str) -> None:
-    """Refuse a text of which its facts alone say something else than its grammar: one of the readings is wrong."""
+def _check_on_map(program: Program, text: str, road_map: RoadMap, name: str) -> None:
+    """Refuse a text that speaks of a place which these two routes do not have on this map."""
     try:
-        other = _by_facts(text, road_map, name).program
-    except TranslationError as error:
-        if error.message in _NEVER_READ:
-            raise
+        ground(program, road_map)
+    except MapError as error:
+        whole = Place(name, text, Span(0, len(text)))
+        raise TranslationError(
+            error.message, place=whole, found=error.found, expected=error.expected, fix=error.fix
+        ) from None
+
+
+def _doubt(program: Program, text: str, road_map: RoadMap, name: str) -> None:
+    """Refuse what was read by rules where descriptions like this one surely mean something else, or nothing sayable."""
+    likely = read_likely(text, name, road_map)
+    if likely is None:
         return
-    if [(each.route, each.sketch) for each in program.actors] != [(each.route, each.sketch) for each in other.actors]:
-        place, found = Place(name, text, Span(0, len(text))), "another route, or another order of what the hero does"
-    else:
-        formulas = [each.formula for each in other.constraints]
-        only = [each for each in program.constraints if each.formula not in formulas]
-        if not only and len(formulas) == len(program.constraints):
-            return
-        constraint = only[0] if only else other.constraints[-1]
-        place, found = Place(name, text, constraint.span), print_expression(constraint.formula)
-    raise TranslationError(
-        "this can be read in two ways",
-        place=place,
-        found=found,
-        expected="one meaning by the grammar of its clauses and by its facts alone",
-        fix="say it in shorter sentences, each with the name of the vehicle it is about",
-    )
-
-
-def _assume_what_was_read(phrases: Phrases, skipped: list[tuple[list[Token], Span]]) -> None:
-    for _, span in sorted(skipped, key=lambda each: each[1].start):
-        words = " ".join(span.excerpt(phrases.text).split())
-        phrases.assume(f"'{words}' comments on the test; nothing in it is orchestrated")
-    for token in phrases.tokens:
-        if "guess" in token.tags:
-            phrases.assume(f"'{token.text}' is taken for a description that changes nothing")
-        if "unit_before" in token.tags:
-            phrases.assume(f"'{token.text}' has the unit of the amount before it")
-        for written, read in token.slips:
-            phrases.assume(f"'{written}' is read as '{read}'")
-
-
-def _check_skipped(stretch: list[Token], span: Span, facts: Facts, routes: Itineraries, place: Place) -> None:
-    """Refuse a title or a comment that says what the rest does not say, or what is not so."""
-    text = place.text or ""
-    found = " ".join(span.excerpt(text).split())
-    if word := denied(stretch, [(route.turn, *route.headings) for route in (routes.ego, routes.hero)]):
+    if likely.sayable < UNSAYABLE:
         raise TranslationError(
-            f"'{word.text}' was stepped over as a title or a comment, but neither vehicle does this",
-            place=place,
-            found=found,
-            expected=f"what fits {routes.ego} or {routes.hero}",
-            fix="say in a sentence of its own who does this",
+            "this seems to say something that no program can say",
+            place=Place(name, text, likely.doubtful),
+            found=likely.doubtful.excerpt(text),
+            expected="what a program can say: places, times, speeds, one moment, one deed of one other vehicle",
+            fix="say only where the two vehicles are, which way they go, when the hero reacts and what it does",
         )
-    if word := untold(stretch, _deeds(facts)):
-        raise TranslationError(
-            f"'{word.text}' was stepped over as a title, but it is not told again",
-            place=place,
-            found=found,
-            expected="a sentence that says when the hero does this",
-            fix="tell it in a sentence of its own",
-        )
-    if is_remark(stretch) and find_conflict(routes.ego, routes.hero) is None:
-        raise TranslationError(
-            "it is said that the ways of the two vehicles meet, but they do not",
-            place=place,
-            found=found,
-            expected=f"what fits {routes.ego} and {routes.hero}",
-            fix="check the turns and the directions of travel",
-        )
-
-
-def _assembled(
-    facts: Facts,
-    routes: Itineraries,
-    events: list[Event],
-    tokens: list[Token],
-    assumed: tuple[str, ...],
-    map_name: str,
-    text: str,
-    name: str,
-) -> Translation:
-    """Build the program, and say what every event came to."""
-    if (same := _SAME_WAY.search(text)) and routes.ego.headings[0] != routes.hero.headings[0]:
-        raise TranslationError(
-            "the two vehicles do not come the same way",
-            place=Place(name, text, Span(*same.span())),
-            found=same.group(),
-            expected=f"what fits {routes.ego} and {routes.hero}",
-            fix="check the turns and the directions of travel",
-        )
-    refuse_unplaced_stop([each.place is not None for each in facts.phases if each.to_stop], text, name)
-    assembler = Assembler(facts, routes, text, name)
-    program = assembler.program(map_name)
-    _all_amounts_used(program, tokens, text, name)
-    assumptions = tuple(dict.fromkeys((*assumed, *facts.assumptions, *routes.assumptions, *assembler.assumptions)))
-    roles = read_structure(program).roles
-    readings = (_reading(event, facts, routes, assembler, roles, text) for event in events)
-    return Translation(program, tuple(_rated(each, assumptions) for each in readings), assumptions)
-
-
-def explain(translation: Translation) -> list[tuple[str, str, str]]:
-    """Return rows for display: the words of each clause, how they were understood, the constraints they gave."""
-    rows = []
-    for reading in translation.readings:
-        formulas = [
-            print_expression(translation.program.constraint(identifier).formula)
-            for identifier in reading.constraint_ids
-        ]
-        understood = reading.understood
-        if reading.confidence < 1:
-            understood += f" [confidence {reading.confidence:g}: {reading.basis}]"
-        rows.append((reading.text, understood, "; ".join(formulas)))
-    return rows
-
-
-def _rated(reading: Reading, assumptions: tuple[str, ...]) -> Reading:
-    """Return the reading with how sure it is."""
-    route = re.search(r"the (ego|hero)'s route", reading.understood)
-    found = basis_of(reading.text, route.group(1) if route else None, route is not None, assumptions).value
-    return replace(reading, confidence=found.value, basis=found.meaning)
-
-
-def _deeds(facts: Facts) -> set[str]:
-    """Return what the hero is told to do: "dec" (slow down), "stop", "go"."""
-    deeds = {"go" if phase.kind in ("acc", "go", "turn") else "dec" for phase in facts.phases}
-    return deeds | ({"stop"} if any(phase.to_stop for phase in facts.phases) else set())
-
-
-def _complete(facts: Facts, text: str, name: str) -> None:
-    place = Place(name, text, Span(0, len(text)))
-    for actor in (EGO_ID, HERO_ID):
-        if actor not in facts.mentioned:
-            what = "no ego" if actor == EGO_ID else "no other vehicle"
-            raise TranslationError(
-                f"there is {what} in the description",
-                place=place,
-                found=text[:60],
-                expected="the ego (the vehicle under test) and one hero (the other vehicle)",
-                fix="say where each of them is and what it wants",
-            )
-    if not facts.phases:
-        raise TranslationError(
-            "there is no interaction: it is not said what the hero does",
-            place=place,
-            found=text[:60],
-            expected="a hero that brakes, stops, accelerates or turns when something happens",
-            fix="add for example 'the hero brakes to a stop 5 m behind the conflict point'",
-        )
-    slowing = [phase for phase in facts.phases if phase.kind == "dec"]
-    goes_on = len(facts.phases) > 1 and slowing and slowing[0].to_speed is not None and not slowing[0].to_stop
-    _refuse_at_once(facts, text, name)
-    if facts.not_yielding is not None and slowing and not (goes_on and facts.not_yielding.verb == "stop"):
-        event = facts.not_yielding
-        raise TranslationError(
-            "the hero is said to stop and not to stop",
-            place=Place(name, text, event.span),
-            found=event.span.excerpt(text),
-            expected=slowing[0].events[0].span.excerpt(text),
-            fix="say one of them",
-        )
-
-
-def _refuse_at_once(facts: Facts, text: str, name: str) -> None:
-    """Refuse "brakes and at the same moment accelerates"."""
-    if {phase.kind for phase in facts.phases} >= {"dec", "acc"} and len(_AT_TRIGGER.findall(text)) > 1:
-        again = list(_AT_TRIGGER.finditer(text))[-1]
-        raise TranslationError(
-            "the hero is said to slow down and to speed up at one time",
-            place=Place(name, text, Span(*again.span())),
-            found=again.group(),
-            expected="one after the other",
-            fix="say which comes first",
-        )
-    for first, second in itertools.pairwise(facts.phases):
-        span = first.events[0].span.union((second.goal_event or second.events[-1]).span)
-        if {first.kind, second.kind} >= {"dec", "acc"} and (found := _AT_ONCE.search(span.excerpt(text))):
-            raise TranslationError(
-                "the hero is said to slow down and to speed up at one time",
-                place=Place(name, text, span),
-                found=found.group(),
-                expected="one after the other",
-                fix="say which comes first",
-            )
-
-
-def _deeds_done(facts: Facts, phrases: Phrases, text: str, name: str) -> None:
-    """Refuse "its braking begins when ..." where the hero does not brake."""
-    for kinds, span in phrases.onsets:
-        if not any(phase.kind in kinds for phase in facts.phases):
-            raise TranslationError(
-                "something begins here that the hero is not said to do",
-                place=Place(name, text, span),
-                found=span.excerpt(text),
-                expected="the beginning of what the hero does",
-                fix="say in a sentence what the hero does",
-            )
-
-
-def _all_amounts_used(program: Program, tokens: list[Token], text: str, name: str) -> None:
-    """Refuse a text with a number or a parameter that no constraint holds: a last guard against dropping a clause."""
-    used = {
-        node.span
-        for constraint in program.constraints
-        for node in walk(constraint.formula)
-        if isinstance(node, Number | ParameterRef)
-    }
-    for token in tokens:
-        if token.quantity is not None and token.quantity.term.span not in used and token.quantity.span not in used:
-            raise TranslationError(
-                f"'{token.text}' was read but could not be used",
-                place=Place(name, text, token.span),
-                found=token.text,
-                expected="a place, time, speed or rate that fits the clause",
-                fix="say it in a sentence of its own",
-            )
-
-
-def _reading(
-    event: Event, facts: Facts, routes: Itineraries, assembler: Assembler, roles: Mapping[str, Role], text: str
-) -> Reading:
-    ids = tuple(dict.fromkeys(assembler.ids.get(id(event), ())))
-    parts = list(
-        dict.fromkeys([*(_ROLES[roles[identifier]] for identifier in ids), *facts.understood.get(id(event), ())])
-    )
-    tells_route = any(said.event is event for wishes in facts.wishes.values() for said in wishes.values())
-    if (tells_route or not parts) and event.actor is not None:
-        parts.append(f"the {ACTOR_NAMES[event.actor]}'s route: {routes.of(event.actor)}")
-    span = event.span.whole_words(text)  # where words were put in another order it may begin within one
-    return Reading(span, span.excerpt(text), "; ".join(parts), ids)
+    if likely.probability > SURE_ENOUGH_TO_DOUBT:
+        expected = "one meaning by rules and by likeness to other descriptions"
+        refuse_two_ways(program, likely.program, text, name, expected)

@@ -21,7 +21,7 @@ from scenewright.translate.model.settings import TranslatorSettings
 if TYPE_CHECKING:
     from scenewright.roads.model import RoadMap
     from scenewright.translate.model.exchange import Model
-    from scenewright.translate.offline import Translation
+    from scenewright.translate.translation import Translation
 
 OFFLINE = "offline"
 TRANSLATORS = "offline, openai:NAME, anthropic:NAME, google:NAME, openai-compatible:NAME or files:DIR"

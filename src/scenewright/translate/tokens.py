@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache
 
-from scenewright.errors import Place, Span, TranslationError
+from scenewright.errors import Place, Span, TranslationError, UnknownWordsError
 from scenewright.program.expressions import Number, ParameterRef
 from scenewright.translate.contractions import short_verb
 from scenewright.translate.lexicon import Lexicon, load_lexicon
@@ -427,7 +427,9 @@ def refuse_unknown(tokens: list[Token], text: str, name: str) -> None:
     if not unknown:
         for token in tokens:
             if "bare_number" in token.tags:
-                raise TranslationError(
+                # "two" may count something; digits want a unit.
+                kind = UnknownWordsError if token.text.isalpha() else TranslationError
+                raise kind(
                     f"'{token.text}' has no unit",
                     place=Place(name, text, token.span),
                     found=token.text,
@@ -441,7 +443,7 @@ def refuse_unknown(tokens: list[Token], text: str, name: str) -> None:
     near = {word: suggestions(word, lexicon.words) for word in words}
     hints = [f"did you mean '{found[0]}' for '{word}'?" for word, found in near.items() if found]
     listed = ", ".join(f"'{word}'" for word in words[:12])
-    raise TranslationError(
+    raise UnknownWordsError(
         f"these words were not understood: {listed}" if len(words) > 1 else f"this word was not understood: {listed}",
         place=Place(name, text, unknown[0].span),
         found=listed,

@@ -22,6 +22,11 @@ _PHRASES = tuple(
             rf"\bthere (?:is|are|was|were) no (?!other|second|further|third)(?:\w+ )?{_VEHICLES}\b(?! (?:but|other))",
             "a vehicle that is not there can do nothing",
         ),
+        (
+            r"(?<![\w.])(?:TBD|TBC|TBA|n/a|x{1,3} (?:s|m|seconds|met(?:er|re)s)|\[ *\]|\.\.\. ?(?:s|m)\b)(?!\w)"
+            r"|\?{2,}|(?<!\w)_{2,}(?!\w)",
+            "an amount that is left blank",
+        ),
         (r"\b(?:twice|thrice|repeatedly|several times|again and again)\b", "what happens several times"),
         (r"\bfor the (?:first|second|third|fourth|last|\d+(?:st|nd|rd|th)) time\b", "what happens several times"),
         (

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from scenewright.translate.model.exchange import Usage
 from scenewright.translate.model.settings import Question
-from scenewright.translate.offline import Translation
+from scenewright.translate.translation import Translation
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,7 +22,7 @@ from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.model import RoadMap
 from scenewright.translate.model.amounts import amount_faults
 from scenewright.translate.model.reply import LONGEST_PROGRAM, Reply
-from scenewright.translate.offline import Reading
+from scenewright.translate.translation import Reading
 
 MOST_LINES = 300
 DEEPEST = 30

@@ -1,0 +1,211 @@
+"""Reads a description by likeness: what descriptions like this one mean, and how sure that is.
+
+What enters: a description and a map. What leaves: `Likely`, a program with its probability and with the words that
+counted for each part; None where the network cannot say. It refuses nothing and believes nothing: `offline` decides.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass, fields, is_dataclass, replace
+from typing import Any, cast
+
+from scenewright.errors import ScenewrightError, Span
+from scenewright.program.arithmetic import negate
+from scenewright.program.check import check_program
+from scenewright.program.expressions import Formula, Negate, Node, ParameterRef, Term, walk
+from scenewright.program.structure import read_structure
+from scenewright.program.text import parse_program
+from scenewright.program.types import Constraint, Parameter, Program
+from scenewright.roads import RoadMap
+from scenewright.roads.grounding import ground
+from scenewright.translate.learned.amounts import amounts_of, clause_around, sentences
+from scenewright.translate.learned.consistency import fits_words, parts_named
+from scenewright.translate.learned.network import Answers, Floats, load_network
+from scenewright.translate.learned.pieces import Pieces, cut
+from scenewright.translate.tokens import Quantity, tokenise
+from scenewright.translate.translation import ROLES
+
+EGO_WAY, HERO_WAY, STORY, SAYABLE = "ego", "hero", "story", "sayable"
+_AMOUNT = "#"  # stands in a part for the amount that it has
+_EGO_SKETCH = "t0, go, t1, go, t2"
+_AT_ONCE = "A0(t1) == A1(t1)"  # every trigger
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """One part of what a description is taken to mean, with the words that counted most for it."""
+
+    meaning: str
+    span: Span
+    probability: float
+    constraint_ids: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Likely:
+    """What a description most likely means.
+
+    Attributes
+    ----------
+    program
+        With spans into the description.
+    probability
+        That all of it is so, and that a program can say all that the description says.
+    sayable
+        That a program can say all that the description says.
+    doubtful
+        The sentence that counted most for that.
+    parts
+        How it comes together.
+    """
+
+    program: Program
+    probability: float
+    sayable: float
+    doubtful: Span
+    parts: tuple[Part, ...]
+
+
+def read_likely(text: str, name: str, road_map: RoadMap) -> Likely | None:
+    """Return what descriptions like `text` mean; None where there is no such program, or none on this map."""
+    network = load_network()
+    amounts = amounts_of(text, name)
+    if not amounts or road_map.name != network.meanings["map"]:
+        return None
+    pieces = cut(text, amounts, network.vocabulary)
+    if len(pieces.numbers) > network.most_pieces:
+        return None
+    answers = network.answer(pieces)
+    kinds = parts_named(
+        tokenise(text, name), [network.meanings["parts"][int(each.argmax())] for each in answers.amounts]
+    )
+    if kinds is None:
+        return None
+    told = _Told(text, amounts, kinds, pieces, answers, network.meanings)
+    if told.contradicts_itself():
+        return None
+    try:
+        program = told.program(name)
+        check_program(program, text, name)
+        scene = ground(program, road_map)
+    except ScenewrightError:
+        return None
+    if not fits_words(text, [(route.turn, *route.headings) for route in scene.routes.values()]):
+        return None
+    parts = told.parts(program)
+    sayable = float(told.answers.likely[SAYABLE][1])
+    probability = sayable * math.prod(part.probability for part in parts)
+    return Likely(program, probability, sayable, told.counted(SAYABLE), parts)
+
+
+@dataclass(frozen=True, slots=True)
+class _Told:
+    """A text with what the network answered."""
+
+    text: str
+    amounts: list[Quantity]
+    kinds: list[str]  # the constraint that each amount belongs to
+    pieces: Pieces
+    answers: Answers
+    meanings: dict[str, Any]
+
+    def best(self, question: str) -> int:
+        return int(self.answers.likely[question].argmax())
+
+    def way(self, question: str) -> str:
+        return ", ".join(self.meanings["ways"][self.best(question)])
+
+    def contradicts_itself(self) -> bool:
+        """Whether two things are told of one state; the same amount may be told twice."""
+        told = {(kind, amount.term) for kind, amount in zip(self.kinds, self.amounts, strict=True)}
+        states = [line.split(" == ")[0] for line, _ in self.lines() if " == " in line]
+        return len({kind for kind, _ in told}) < len(told) or len(set(states)) < len(states)
+
+    def lines(self) -> list[tuple[str, Quantity | None]]:
+        """Return the constraints as they are written, each with its amount, in the order of a program."""
+        story = self.meanings["stories"][self.best(STORY)]
+        lines: dict[str, Quantity | None] = dict.fromkeys((_AT_ONCE, *story["constraints"]))
+        for kind, amount in zip(self.kinds, self.amounts, strict=True):
+            lines.setdefault(kind, amount)
+        return sorted(lines.items(), key=lambda line: _rank(line[0]))
+
+    def program(self, name: str) -> Program:
+        """Build the program: written down with a name for each amount, parsed, and the amounts put in."""
+        lines, told = self.lines(), self.counted(STORY)
+        sketch = self.meanings["stories"][self.best(STORY)]["sketch"]
+        written = [line.replace(_AMOUNT, f"said_{at}_m") for at, (line, _) in enumerate(lines)]
+        actors = (
+            f"Actor 0:\n- {self.way(EGO_WAY)}\n- [{_EGO_SKETCH}]\n",
+            f"Actor 1:\n- {self.way(HERO_WAY)}\n- [{sketch}]\n",
+        )
+        draft = parse_program("\n".join((*actors, "Constraints:", *written, "")), name)
+        constraints = tuple(
+            Constraint(each.id, cast(Formula, _filled(each.formula, amount)), span, span)
+            for each, (_, amount) in zip(draft.constraints, lines, strict=True)
+            for span in [told if amount is None else clause_around(amount.span, self.text)]
+        )
+        used = [node.name for each in constraints for node in walk(each.formula) if isinstance(node, ParameterRef)]
+        parameters = tuple(Parameter(each) for each in dict.fromkeys(used))
+        drivers = tuple(replace(actor, span=None) for actor in draft.actors)
+        return Program(name, drivers, constraints, parameters, draft.map_name, self.text)
+
+    def parts(self, program: Program) -> tuple[Part, ...]:
+        """Return how the program comes together, in the order of the text."""
+        ids = {line: each.id for (line, _), each in zip(self.lines(), program.constraints, strict=True)}
+        story = tuple(ids[line] for line, amount in self.lines() if amount is None)
+        parts = [
+            Part(f"the ego's route: {self.way(EGO_WAY)}", self.counted(EGO_WAY), self._sure(EGO_WAY)),
+            Part(f"the hero's route: {self.way(HERO_WAY)}", self.counted(HERO_WAY), self._sure(HERO_WAY)),
+            Part("what happens, in which order", self.counted(STORY), self._sure(STORY), story),
+        ]
+        roles = read_structure(program).roles
+        for kind, amount, likely in zip(self.kinds, self.amounts, self.answers.amounts, strict=True):
+            clause, identifier = clause_around(amount.span, self.text), ids[kind]
+            parts.append(Part(ROLES[roles[identifier]], clause, float(likely.max()), (identifier,)))
+        return tuple(sorted(parts, key=lambda part: part.span.start))
+
+    def counted(self, question: str) -> Span:
+        """Return the sentence whose words counted most for an answer."""
+        weights: Floats = self.answers.counted[question]
+        best, most = Span(0, len(self.text)), -1.0
+        for sentence in sentences(self.text):
+            inside = [at for at, span in enumerate(self.pieces.spans) if sentence.start <= span.start < sentence.end]
+            if (much := float(weights[inside].sum())) > most and sentence.excerpt(self.text).strip():
+                best, most = sentence, much
+        return best.trimmed(self.text)
+
+    def _sure(self, question: str) -> float:
+        return float(self.answers.likely[question].max())
+
+
+def _filled(node: Node, amount: Quantity | None) -> Node:
+    """Return `node` with the amount in place of the name that stands for it, and without spans of the draft."""
+    if isinstance(node, ParameterRef) and amount is not None:
+        return amount.term
+    if isinstance(node, Negate) and amount is not None:
+        return negate(cast(Term, _filled(node.operand, amount)), amount.span)
+    changed: dict[str, Any] = {}
+    for each in fields(node):
+        value = getattr(node, each.name)
+        if isinstance(value, Span):
+            changed[each.name] = amount.span if amount is not None else None
+        elif is_dataclass(value):
+            changed[each.name] = _filled(cast(Node, value), amount)
+    return replace(node, **changed)
+
+
+def _rank(line: str) -> int:
+    """Return where a constraint stands: the beginning, the trigger, what the hero does, the ego's moment, the order."""
+    if "t0)" in line:
+        return 0
+    if line == _AT_ONCE:
+        return 1
+    if "t1)" in line and "A1(t2)" not in line:
+        return 2
+    if re.match(r"A1a|A1x\(t2\)|A1v\(t2\)", line):
+        return 3
+    if line.startswith("A0x"):
+        return 5
+    return 6 if re.match(r"A\d\(t\d\) [<>-]", line) else 4

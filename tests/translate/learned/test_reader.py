@@ -1,0 +1,216 @@
+"""What the network answers becomes a program; what it was taught is what its examples mean."""
+
+from __future__ import annotations
+
+import random
+import sys
+import tomllib
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from scenewright.program.expressions import Number, ParameterRef, walk
+from scenewright.program.printer import print_expression
+from scenewright.program.text import parse_program
+from scenewright.study.meaning import differences
+from scenewright.translate.itineraries import default_map
+from scenewright.translate.learned import reader
+from scenewright.translate.learned.network import Answers, Network, load_network
+from scenewright.translate.learned.pieces import Pieces
+from scenewright.translate.learned.reader import Likely, read_likely
+
+ROOT = Path(__file__).parents[3]
+TEXTS = Path(__file__).parents[1] / "texts"
+MEANINGS = load_network().meanings
+SAMPLE = 250
+
+PLAIN = (
+    "Ego is on the driveway exit, 30 m behind the stop line, and wants to turn left onto the road travelling "
+    "eastbound. "
+    "The hero vehicle is on the road and goes straight on, westbound. When the ego is 12 m behind the stop line and "
+    "the hero vehicle is 25 m behind the conflict point, the hero vehicle begins to decelerate to a complete stop at "
+    "6 m behind the conflict point."
+)
+
+
+@pytest.fixture(scope="module")
+def lessons() -> object:
+    sys.path.insert(0, str(ROOT / "tools" / "train_reader"))
+    import lessons
+
+    sys.path.pop(0)
+    return lessons
+
+
+def answer_with(monkeypatch: pytest.MonkeyPatch, answers: Answers) -> None:
+    monkeypatch.setattr(Network, "answer", lambda self, pieces: answers)
+
+
+def surely(count: int, answer: int, sure: float = 1.0) -> np.ndarray:
+    likely = np.full(count, (1 - sure) / (count - 1), np.float32)
+    likely[answer] = sure
+    return likely
+
+
+def right_answers(pieces: int, ego: int, hero: int, story: int, parts: list[int], sure: float = 1.0) -> Answers:
+    likely = {
+        "ego": surely(len(MEANINGS["ways"]), ego, sure),
+        "hero": surely(len(MEANINGS["ways"]), hero),
+        "story": surely(len(MEANINGS["stories"]), story),
+        "sayable": surely(2, 1),
+    }
+    counted = {question: np.full(pieces, 1 / pieces, np.float32) for question in likely}
+    amounts = np.stack([surely(len(MEANINGS["parts"]), part) for part in parts])
+    return Answers(likely, counted, amounts)
+
+
+def test_the_answers_that_are_taught_are_what_the_texts_mean(lessons: object, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Taken apart as the training does it, and put together as the reader does it, a program stays what it was."""
+    stories = [(story["sketch"], *story["constraints"]) for story in MEANINGS["stories"]]
+    rows = [
+        row
+        for name in ("paper_kind.toml", "prose.toml")
+        for row in tomllib.loads((TEXTS / name).read_text(encoding="utf-8"))["text"]
+        if "program" in row
+    ]
+    asked, wrong = 0, []
+    for row in random.Random(3).sample(rows, SAMPLE):
+        program = parse_program(row["program"])
+        amounts = lessons.amounts_in(row["text"], row["id"])  # type: ignore[attr-defined]
+        meant = None if amounts is None else lessons.meant_by(program, [lessons.value_of(each) for each in amounts[1]])  # type: ignore[attr-defined]
+        example = lessons.Example(row["id"], [], [])  # type: ignore[attr-defined]
+        if amounts is None:
+            continue
+        lessons.answer(example, meant, [lessons.value_of(each) for each in amounts[1]], stories, MEANINGS["parts"])  # type: ignore[attr-defined]
+        if not example.sayable or any(len(parts) > 1 for parts in example.parts):
+            continue  # two parts with one value: the text alone tells which is which
+        asked += 1
+        parts = [each[0] for each in example.parts]
+        monkeypatch.setattr(
+            Network, "answer",
+            lambda self, pieces, e=example, p=parts: right_answers(len(pieces.numbers), e.ego, e.hero, e.story, p),
+        )  # fmt: skip
+        likely = read_likely(amounts[0], row["id"], default_map())
+        if likely is None or differences(program, likely.program):
+            wrong.append(row["id"])
+    assert asked > SAMPLE / 2
+    assert wrong == []
+
+
+def read_plain() -> Likely:
+    likely = read_likely(PLAIN, "plain", default_map())
+    assert likely is not None
+    return likely
+
+
+def test_a_plain_text_is_read_and_surely() -> None:
+    likely = read_plain()
+    assert likely.probability > 0.9
+    assert [print_expression(each.formula) for each in likely.program.constraints] == [
+        "A0x(t0) == stop_line - 30",
+        "A0(t1) == A1(t1)",
+        "A0x(t1) == stop_line - 12",
+        "A1x(t1) == conflict_point - 25",
+        "A1x(t2) == conflict_point - 6",
+        "A1v(t2) == 0",
+    ]
+
+
+def test_every_amount_points_at_its_words() -> None:
+    for constraint in read_plain().program.constraints:
+        for node in walk(constraint.formula):
+            if isinstance(node, Number) and node.value:
+                assert node.span is not None
+                assert node.span.excerpt(PLAIN).startswith(f"{float(node.value):g} m")
+                assert constraint.source is not None
+                assert node.span.excerpt(PLAIN) in constraint.source.excerpt(PLAIN)
+
+
+def test_the_parts_cover_all_constraints() -> None:
+    likely = read_plain()
+    told = [identifier for part in likely.parts for identifier in part.constraint_ids]
+    assert sorted(told) == sorted(constraint.id for constraint in likely.program.constraints)
+
+
+def test_parameters_keep_their_names() -> None:
+    text = PLAIN.replace("12 m", "ego_gap_m").replace("at 6 m", "at end_gap_m")
+    likely = read_likely(text, "named", default_map())
+    assert likely is not None
+    names = {n.name for each in likely.program.constraints for n in walk(each.formula) if isinstance(n, ParameterRef)}
+    assert names == {"ego_gap_m", "end_gap_m"} == {each.name for each in likely.program.parameters}
+
+
+def test_the_probability_is_that_of_all_answers_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    part = MEANINGS["parts"].index("A0x(t1) == stop_line - #")
+    story = next(at for at, each in enumerate(MEANINGS["stories"]) if each["constraints"] == ["A1v(t2) == 0"])
+    ways = [MEANINGS["ways"].index(way) for way in (["S", "E"], ["W"])]
+    text = "The ego is 12 m behind it."
+    answer_with(monkeypatch, right_answers(9, *ways, story, [part], 0.6))
+    monkeypatch.setattr(reader, "cut", lambda *_: Pieces((0,) * 9, (4,), (reader.Span(0, 5),) * 9))
+    likely = read_likely(text, "unsure", default_map())
+    assert likely is not None
+    assert likely.probability == pytest.approx(0.6, abs=1e-3)
+
+
+def test_two_amounts_for_one_thing_are_no_program(monkeypatch: pytest.MonkeyPatch) -> None:
+    part = MEANINGS["parts"].index("A0x(t1) == stop_line - #")
+    ways = [MEANINGS["ways"].index(way) for way in (["S", "E"], ["W"])]
+    monkeypatch.setattr(
+        Network, "answer", lambda self, pieces: right_answers(len(pieces.numbers), *ways, 0, [part] * len(pieces.marks))
+    )
+    assert read_likely("The ego is 12 m behind it, or 13 m.", "two", default_map()) is None
+    assert read_likely("The ego is 12 m behind it, 12 m.", "twice", default_map()) is not None
+
+
+@pytest.mark.parametrize("text", ["", "The ego turns left.", "The ego is a_strange_name behind it, 3 m."])
+def test_a_text_without_amounts_that_can_be_read_is_left_alone(text: str) -> None:
+    assert read_likely(text, "nothing", default_map()) is None
+
+
+@pytest.mark.parametrize(
+    ("added", "read"),
+    [
+        ("Two cars meet here.", True),
+        ("Step 3: this is all.", True),
+        ("There are three things to see.", True),
+        ("The hero is at 20.", False),
+        ("At 12 for the ego this begins.", False),
+        ("It is three from there.", False),
+        ("The ego has 3 m, the hero two and a half.", False),
+    ],
+)
+def test_a_number_without_a_unit_counts_something_or_is_missed(
+    added: str, read: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    part = MEANINGS["parts"].index("A0x(t1) == stop_line - #")
+    ways = [MEANINGS["ways"].index(way) for way in (["S", "E"], ["W"])]
+    monkeypatch.setattr(
+        Network, "answer", lambda self, pieces: right_answers(len(pieces.numbers), *ways, 0, [part] * len(pieces.marks))
+    )
+    assert (read_likely(f"The ego is 3 m behind it. {added}", "counted", default_map()) is not None) is read
+
+
+@pytest.mark.parametrize(
+    ("text", "read"),
+    [
+        ("When both are 12 m from it, it brakes.", False),
+        ("Each of them does 12 m/s.", False),
+        ("Both turn left, and the ego is 12 m from it.", True),
+        ("Both turn left. The ego is 12 m from it.", True),
+    ],
+)
+def test_what_is_told_of_both_is_left_to_the_rules(text: str, read: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    part = MEANINGS["parts"].index("A0v(t0) == #" if "m/s" in text else "A0x(t1) == stop_line - #")
+    ways = [MEANINGS["ways"].index(way) for way in (["S", "E"], ["W"])]
+    monkeypatch.setattr(Network, "answer", lambda self, pieces: right_answers(len(pieces.numbers), *ways, 0, [part]))
+    assert (read_likely(text, "both", default_map()) is not None) is read
+
+
+def test_a_long_text_is_left_alone() -> None:
+    assert read_likely(f"{PLAIN} {'It is so. ' * 100}", "long", default_map()) is None
+
+
+def test_another_map_is_left_alone() -> None:
+    assert read_likely(PLAIN, "elsewhere", replace(default_map(), name="elsewhere")) is None
