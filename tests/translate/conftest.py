@@ -11,7 +11,7 @@ import pytest
 
 from scenewright.translate import offline
 
-WITH_THE_LEARNED_READER = ("learned", "test_translation_set", "test_kept_aside")
+WITH_THE_LEARNED_READER = ("learned", "test_texts_of_authors", "test_kept_aside")
 
 
 @pytest.fixture(autouse=True, scope="module")

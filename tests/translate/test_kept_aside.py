@@ -14,7 +14,7 @@ RIGHT_PAPER, RIGHT_FREE, WRONG = 0.98, 0.8, 0.01  # what is aimed at
 
 
 def reading_of(text: str) -> Asking:
-    return translate_offline(text).program, ()
+    return Asking(translate_offline(text).program)
 
 
 def test_new_texts_are_read_as_often_as_is_aimed_at() -> None:

@@ -78,24 +78,6 @@ def test_free_texts_mean_the_same_or_are_refused(name: str, least: float) -> Non
     assert len(outcomes) >= 40
 
 
-# What one would have to know of the world to refuse it: a green arrow that goes out is a traffic light, nobody closes
-# up from 20 m to 35 m, and a gap "politely left open" is not closed. "Braking begins" is taken to be the hero's, and so
-# is "it slows down" where only the hero can be told to.
-ACCEPTED = {"rr-03", "vrf-48", "yex-08", "yex-26", "y6zi-58", "y9zs-41", "y9zs-50", "y9zx-18"}
-
-
-@pytest.mark.parametrize(
-    ("name", "least"), [("paper_kind.toml", 0.97), ("prose.toml", 0.8), ("beyond.toml", 0.2), ("traps.toml", 0.0)]
-)
-def test_texts_of_more_authors_mean_the_same_or_are_refused(name: str, least: float) -> None:
-    """Each was new to the translator once; see the evaluation in the documentation for how it did then."""
-    texts = read_texts(Path(__file__).parent / "texts" / name)
-    outcomes = {each.text.id: each.outcome for each in measure(texts, reading_of, Z3Backend())}
-    assert {identifier for identifier, each in outcomes.items() if each in BAD} <= ACCEPTED
-    assert Counter(outcomes.values())["right"] >= least * len(outcomes)
-    assert len(outcomes) >= 60
-
-
 def test_what_cannot_be_meant_is_refused() -> None:
     refusals = rows("refusals.toml")
     assert [row["id"] for row in refusals if outcome(row) != "refused"] == []

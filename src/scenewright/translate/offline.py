@@ -93,7 +93,7 @@ def _translated(text: str, road_map: RoadMap, name: str) -> Translation:
             raise
         return _by_likeness(likely, error, text)
     _check_on_map(read.program, text, road_map, name)
-    _doubt(read.program, text, road_map, name)
+    _doubt(read, text, road_map, name)
     return read
 
 
@@ -123,12 +123,14 @@ def _check_on_map(program: Program, text: str, road_map: RoadMap, name: str) -> 
         ) from None
 
 
-def _doubt(program: Program, text: str, road_map: RoadMap, name: str) -> None:
+def _doubt(read: Translation, text: str, road_map: RoadMap, name: str) -> None:
     """Refuse what was read by rules where descriptions like this one surely mean something else, or nothing sayable."""
     likely = read_likely(text, name, road_map)
     if likely is None:
         return
-    if likely.sayable < UNSAYABLE:
+    # Where the grammar of its clauses accounts for every word of a text, nothing in it is left unsaid.
+    free = any(reading.basis == Basis.FACTS.value.meaning for reading in read.readings)
+    if free and likely.sayable < UNSAYABLE:
         raise TranslationError(
             "this seems to say something that no program can say",
             place=Place(name, text, likely.doubtful),
@@ -138,4 +140,4 @@ def _doubt(program: Program, text: str, road_map: RoadMap, name: str) -> None:
         )
     if likely.probability > SURE_ENOUGH_TO_DOUBT:
         expected = "one meaning by rules and by likeness to other descriptions"
-        refuse_two_ways(program, likely.program, text, name, expected)
+        refuse_two_ways(read.program, likely.program, text, name, expected)

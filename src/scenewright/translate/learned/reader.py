@@ -204,8 +204,7 @@ def _rank(line: str) -> int:
         return 1
     if "t1)" in line and "A1(t2)" not in line:
         return 2
-    if re.match(r"A1a|A1x\(t2\)|A1v\(t2\)", line):
-        return 3
-    if line.startswith("A0x"):
-        return 5
-    return 6 if re.match(r"A\d\(t\d\) [<>-]", line) else 4
+    orders = (r"A1a", r"A1x\(t2\)", r"A1v\(t2\)", r"A1", r"A0x", r"")
+    if re.match(r"A\d\(t\d\) [<>-]", line):
+        return 3 + len(orders)
+    return 3 + next(at for at, begins in enumerate(orders) if re.match(begins, line))
