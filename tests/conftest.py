@@ -7,6 +7,9 @@ import shutil
 import signal
 from pathlib import Path
 
+# One test process runs on each core: numpy's own threads would only be in each other's way.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 import hypothesis
 import pytest
 
