@@ -11,12 +11,13 @@ import pytest
 
 from scenewright.translate import offline
 
-WITH_THE_LEARNED_READER = ("learned", "test_texts_of_authors", "test_kept_aside")
+WITH_THE_LEARNED_READER = ("learned", "test_texts_of_authors")
 
 
 @pytest.fixture(autouse=True, scope="module")
 def rules_alone(request: pytest.FixtureRequest) -> Iterator[None]:
-    if any(name in str(request.node.path) for name in WITH_THE_LEARNED_READER):
+    path = request.node.path
+    if {path.stem, path.parent.name} & set(WITH_THE_LEARNED_READER):
         yield
         return
     with pytest.MonkeyPatch.context() as patch:

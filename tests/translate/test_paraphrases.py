@@ -12,7 +12,8 @@ from scenewright.program.expressions import Number, ParameterRef, walk
 from scenewright.program.printer import print_expression, print_program
 from scenewright.program.structure import Role, read_structure
 from scenewright.program.text import parse_program
-from scenewright.translate.offline import explain, translate_offline
+from scenewright.translate.offline import translate_offline
+from scenewright.translate.translation import explain
 
 CASES = tomllib.loads(Path(__file__).with_name("paraphrases.toml").read_text(encoding="utf-8"))["case"]
 SYNCHRONISED = "A0(t1) == A1(t1)"

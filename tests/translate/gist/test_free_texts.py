@@ -9,7 +9,7 @@ import pytest
 from scenewright.errors import TranslationError
 from scenewright.program.printer import print_expression
 from scenewright.program.types import HeadingsRoute, Program
-from scenewright.translate import offline
+from scenewright.translate import rules
 from scenewright.translate.confidence import Basis
 from scenewright.translate.itineraries import default_map
 from scenewright.translate.offline import Translation, translate_offline
@@ -171,7 +171,7 @@ def test_a_list_with_headings_and_a_vehicle_of_an_unknown_kind() -> None:
 
 
 AGREED = (
-    "Ego is on the driveway exit and wants to turn right, 20 m behind the stop line. The hero travels westbound. "
+    "Ego is on the driveway exit and wants to turn left, 20 m behind the stop line. The hero travels westbound. "
     "When the ego is 12 m behind the stop line and the hero 30 m before the conflict point, the hero brakes to a stop "
     "5 m before the conflict point."
 )
@@ -179,12 +179,12 @@ AGREED = (
 
 @pytest.mark.parametrize(
     ("said", "otherwise"),
-    [("20 m", "21 m"), ("12 m", "21 m"), ("5 m", "6 m"), ("westbound", "eastbound"), ("turn right", "turn left")],
+    [("20 m", "21 m"), ("12 m", "21 m"), ("5 m", "6 m"), ("westbound", "eastbound"), ("turn left", "turn right")],
 )
 def test_two_readings_that_differ_are_no_reading(monkeypatch: pytest.MonkeyPatch, said: str, otherwise: str) -> None:
     """The reader of clauses is made to hear another word; the reader of facts hears what is written."""
-    mishear = offline._by_grammar
-    monkeypatch.setattr(offline, "_by_grammar", lambda text, *rest: mishear(text.replace(said, otherwise), *rest))
+    mishear = rules._by_grammar
+    monkeypatch.setattr(rules, "_by_grammar", lambda text, *rest: mishear(text.replace(said, otherwise), *rest))
     with pytest.raises(TranslationError, match="two ways"):
         read(AGREED)
     assert read(AGREED.replace(said, otherwise)).program.actors

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import random
-import sys
 import tomllib
 from dataclasses import replace
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -21,7 +21,6 @@ from scenewright.translate.learned.network import Answers, Network, load_network
 from scenewright.translate.learned.pieces import Pieces
 from scenewright.translate.learned.reader import Likely, read_likely
 
-ROOT = Path(__file__).parents[3]
 TEXTS = Path(__file__).parents[1] / "texts"
 MEANINGS = load_network().meanings
 SAMPLE = 250
@@ -31,15 +30,6 @@ PLAIN = (
     "The hero drives west along the road, straight on. When the ego is 12 m before the stop line and the hero is 25 m "
     "before the conflict point, the hero begins to brake and comes to a complete stop at 6 m before the conflict point."
 )
-
-
-@pytest.fixture(scope="module")
-def lessons() -> object:
-    sys.path.insert(0, str(ROOT / "tools" / "train_reader"))
-    import lessons
-
-    sys.path.pop(0)
-    return lessons
 
 
 def answer_with(monkeypatch: pytest.MonkeyPatch, answers: Answers) -> None:
@@ -64,8 +54,11 @@ def right_answers(pieces: int, ego: int, hero: int, story: int, parts: list[int]
     return Answers(likely, counted, amounts)
 
 
-def test_the_answers_that_are_taught_are_what_the_texts_mean(lessons: object, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_answers_that_are_taught_are_what_the_texts_mean(
+    training: tuple[ModuleType, ModuleType], monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Taken apart as the training does it, and put together as the reader does it, a program stays what it was."""
+    lessons, _ = training
     stories = [(story["sketch"], *story["constraints"]) for story in MEANINGS["stories"]]
     rows = [
         row
@@ -75,13 +68,13 @@ def test_the_answers_that_are_taught_are_what_the_texts_mean(lessons: object, mo
     ]
     asked, unread, wrong = 0, [], []
     for row in random.Random(3).sample(rows, SAMPLE):
-        program = parse_program(row["program"])
-        amounts = lessons.amounts_in(row["text"], row["id"])  # type: ignore[attr-defined]
-        meant = None if amounts is None else lessons.meant_by(program, [lessons.value_of(each) for each in amounts[1]])  # type: ignore[attr-defined]
-        example = lessons.Example(row["id"], [], [])  # type: ignore[attr-defined]
-        if amounts is None:
+        found = lessons.amounts_in(row["text"], row["id"])
+        if found is None:
             continue
-        lessons.answer(example, meant, [lessons.value_of(each) for each in amounts[1]], stories, MEANINGS["parts"])  # type: ignore[attr-defined]
+        text, amounts = found
+        program, told = parse_program(row["program"]), [lessons.value_of(each) for each in amounts]
+        example = lessons.Example(row["id"], [], [])
+        lessons.answer(example, lessons.meant_by(program, told), told, stories, MEANINGS["parts"])
         if not example.sayable or any(len(parts) > 1 for parts in example.parts):
             continue  # two parts with one value: the text alone tells which is which
         asked += 1
@@ -90,7 +83,7 @@ def test_the_answers_that_are_taught_are_what_the_texts_mean(lessons: object, mo
             Network, "answer",
             lambda self, pieces, e=example, p=parts: right_answers(len(pieces.numbers), e.ego, e.hero, e.story, p),
         )  # fmt: skip
-        likely = read_likely(amounts[0], row["id"], default_map())
+        likely = read_likely(text, row["id"], default_map())
         if likely is None:  # a word of the text is taken to say otherwise
             unread.append(row["id"])
         elif differences(program, likely.program):

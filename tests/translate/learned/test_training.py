@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import random
-import sys
 import tomllib
-from collections.abc import Iterator
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pytest
@@ -22,18 +21,8 @@ PIECES = {number: piece for piece, number in NETWORK.vocabulary.items()}
 
 
 @pytest.fixture(scope="module")
-def tool() -> Iterator[tuple[Any, Any]]:
-    sys.path.insert(0, str(TOOL))
-    import changes
-    import lessons
-
-    yield lessons, changes
-    sys.path.remove(str(TOOL))
-
-
-@pytest.fixture(scope="module")
-def lesson(tool: tuple[Any, Any]) -> Any:
-    lessons, _ = tool
+def lesson(training: tuple[ModuleType, ModuleType]) -> Any:
+    lessons, _ = training
     stories = [(story["sketch"], *story["constraints"]) for story in NETWORK.meanings["stories"]]
     examples = []
     for row in tomllib.loads(TEXTS.read_text(encoding="utf-8"))["text"][:120]:
@@ -48,8 +37,8 @@ def lesson(tool: tuple[Any, Any]) -> Any:
 
 
 @pytest.fixture
-def changer(tool: tuple[Any, Any], lesson: Any) -> Any:
-    _, changes = tool
+def changer(training: tuple[ModuleType, ModuleType], lesson: Any) -> Any:
+    _, changes = training
     told = tomllib.loads((TOOL / "changes.toml").read_text(encoding="utf-8"))
     return changes.Changer(told, lesson, random.Random(4))
 

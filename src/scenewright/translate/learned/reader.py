@@ -12,7 +12,7 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any, cast
 
 from scenewright.errors import ScenewrightError, Span
-from scenewright.program.arithmetic import negate
+from scenewright.program.arithmetic import JUST_BEFORE_M, negate
 from scenewright.program.check import check_program
 from scenewright.program.expressions import Formula, Negate, Node, ParameterRef, Term, walk
 from scenewright.program.structure import read_structure
@@ -30,6 +30,8 @@ from scenewright.translate.translation import ROLES
 EGO_WAY, HERO_WAY, STORY, SAYABLE = "ego", "hero", "story", "sayable"
 _AMOUNT = "#"  # stands in a part for the amount that it has
 _EGO_SKETCH = "t0, go, t1, go, t2"
+_JUST_BEFORE = f"'just before' is {JUST_BEFORE_M} m before"
+_JUST_BEFORE_ENDS = f" - {JUST_BEFORE_M}"
 _AT_ONCE = "A0(t1) == A1(t1)"  # every trigger
 
 
@@ -59,6 +61,8 @@ class Likely:
         The sentence that counted most for that.
     parts
         How it comes together.
+    assumptions
+        What no words of it say.
     """
 
     program: Program
@@ -66,6 +70,7 @@ class Likely:
     sayable: float
     doubtful: Span
     parts: tuple[Part, ...]
+    assumptions: tuple[str, ...]
 
 
 def read_likely(text: str, name: str, road_map: RoadMap) -> Likely | None:
@@ -83,7 +88,8 @@ def read_likely(text: str, name: str, road_map: RoadMap) -> Likely | None:
     )
     if kinds is None:
         return None
-    told = _Told(text, amounts, kinds, pieces, answers, network.meanings)
+    story = network.meanings["stories"][int(answers.likely[STORY].argmax())]
+    told = _Told(text, amounts, kinds, pieces, answers, story["sketch"], _lines(story["constraints"], kinds, amounts))
     if told.contradicts_itself():
         return None
     try:
@@ -97,7 +103,8 @@ def read_likely(text: str, name: str, road_map: RoadMap) -> Likely | None:
     parts = told.parts(program)
     sayable = float(told.answers.likely[SAYABLE][1])
     probability = sayable * math.prod(part.probability for part in parts)
-    return Likely(program, probability, sayable, told.counted(SAYABLE), parts)
+    assumed = (_JUST_BEFORE,) if any(line.endswith(_JUST_BEFORE_ENDS) for line, _ in told.lines) else ()
+    return Likely(program, probability, sayable, told.counted(SAYABLE), parts, assumed)
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,41 +116,30 @@ class _Told:
     kinds: list[str]  # the constraint that each amount belongs to
     pieces: Pieces
     answers: Answers
-    meanings: dict[str, Any]
-
-    def best(self, question: str) -> int:
-        return int(self.answers.likely[question].argmax())
+    sketch: str
+    lines: list[tuple[str, Quantity | None]]  # the constraints as they are written, in order, each with its amount
 
     def way(self, question: str) -> str:
-        return ", ".join(self.meanings["ways"][self.best(question)])
+        return ", ".join(load_network().meanings["ways"][int(self.answers.likely[question].argmax())])
 
     def contradicts_itself(self) -> bool:
         """Whether two things are told of one state; the same amount may be told twice."""
         told = {(kind, amount.term) for kind, amount in zip(self.kinds, self.amounts, strict=True)}
-        states = [line.split(" == ")[0] for line, _ in self.lines() if " == " in line]
+        states = [line.split(" == ")[0] for line, _ in self.lines if " == " in line]
         return len({kind for kind, _ in told}) < len(told) or len(set(states)) < len(states)
-
-    def lines(self) -> list[tuple[str, Quantity | None]]:
-        """Return the constraints as they are written, each with its amount, in the order of a program."""
-        story = self.meanings["stories"][self.best(STORY)]
-        lines: dict[str, Quantity | None] = dict.fromkeys((_AT_ONCE, *story["constraints"]))
-        for kind, amount in zip(self.kinds, self.amounts, strict=True):
-            lines.setdefault(kind, amount)
-        return sorted(lines.items(), key=lambda line: _rank(line[0]))
 
     def program(self, name: str) -> Program:
         """Build the program: written down with a name for each amount, parsed, and the amounts put in."""
-        lines, told = self.lines(), self.counted(STORY)
-        sketch = self.meanings["stories"][self.best(STORY)]["sketch"]
-        written = [line.replace(_AMOUNT, f"said_{at}_m") for at, (line, _) in enumerate(lines)]
+        told = self.counted(STORY)
+        written = [line.replace(_AMOUNT, f"said_{at}_m") for at, (line, _) in enumerate(self.lines)]
         actors = (
             f"Actor 0:\n- {self.way(EGO_WAY)}\n- [{_EGO_SKETCH}]\n",
-            f"Actor 1:\n- {self.way(HERO_WAY)}\n- [{sketch}]\n",
+            f"Actor 1:\n- {self.way(HERO_WAY)}\n- [{self.sketch}]\n",
         )
         draft = parse_program("\n".join((*actors, "Constraints:", *written, "")), name)
         constraints = tuple(
             Constraint(each.id, cast(Formula, _filled(each.formula, amount)), span, span)
-            for each, (_, amount) in zip(draft.constraints, lines, strict=True)
+            for each, (_, amount) in zip(draft.constraints, self.lines, strict=True)
             for span in [told if amount is None else clause_around(amount.span, self.text)]
         )
         used = [node.name for each in constraints for node in walk(each.formula) if isinstance(node, ParameterRef)]
@@ -153,8 +149,8 @@ class _Told:
 
     def parts(self, program: Program) -> tuple[Part, ...]:
         """Return how the program comes together, in the order of the text."""
-        ids = {line: each.id for (line, _), each in zip(self.lines(), program.constraints, strict=True)}
-        story = tuple(ids[line] for line, amount in self.lines() if amount is None)
+        ids = {line: each.id for (line, _), each in zip(self.lines, program.constraints, strict=True)}
+        story = tuple(ids[line] for line, amount in self.lines if amount is None)
         parts = [
             Part(f"the ego's route: {self.way(EGO_WAY)}", self.counted(EGO_WAY), self._sure(EGO_WAY)),
             Part(f"the hero's route: {self.way(HERO_WAY)}", self.counted(HERO_WAY), self._sure(HERO_WAY)),
@@ -178,6 +174,14 @@ class _Told:
 
     def _sure(self, question: str) -> float:
         return float(self.answers.likely[question].max())
+
+
+def _lines(story: list[str], kinds: list[str], amounts: list[Quantity]) -> list[tuple[str, Quantity | None]]:
+    """Return the constraints of a story and of its amounts, in the order of a program."""
+    lines: dict[str, Quantity | None] = dict.fromkeys((_AT_ONCE, *story))
+    for kind, amount in zip(kinds, amounts, strict=True):
+        lines.setdefault(kind, amount)
+    return sorted(lines.items(), key=lambda line: _rank(line[0]))
 
 
 def _filled(node: Node, amount: Quantity | None) -> Node:
