@@ -10,6 +10,7 @@ from collections.abc import Iterator
 import pytest
 
 from scenewright.translate import offline
+from scenewright.translate.learned.reader import read_likely
 
 WITH_THE_LEARNED_READER = ("learned", "test_texts_of_authors")
 
@@ -23,3 +24,8 @@ def rules_alone(request: pytest.FixtureRequest) -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(offline, "read_likely", lambda *_: None)
         yield
+
+
+@pytest.fixture
+def with_the_learned_reader(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(offline, "read_likely", read_likely)

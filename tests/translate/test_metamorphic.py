@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 import string
 import tomllib
+from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 from itertools import permutations
@@ -280,6 +281,7 @@ def test_words_that_matter_are_never_dropped(text: str, first: str, second: str)
     assert bare(program) != bare(original), [print_expression(c.formula) for c in program.constraints]
 
 
+MISSED = 0.01  # of such texts, by the learned reader; may only fall
 CHANGES = {
     "left": "right", "right": "left", "west": "east", "east": "west", "westbound": "eastbound",
     "eastbound": "westbound",
@@ -290,24 +292,47 @@ CHANGES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("text", TEXTS, ids=[text[:40] for text in TEXTS])
-def test_every_single_word_that_matters_counts(text: str) -> None:
-    """With one word changed in one place, a text is refused or says something else."""
-    original = bare(translate_offline(text).program)
+def with_one_word_changed(text: str) -> Iterator[str]:
+    """Yield texts that say something else than `text`, or nothing that makes sense."""
+    ego, hero = translate_offline(text).program.actors
     for word, other in CHANGES.items():
         for match in re.finditer(rf"\b{word}\b", text):
             changed = f"{text[: match.start()]}{other}{text[match.end() :]}"
-            if word in ("ego", "hero") and original[0][0][1] == original[0][1][1]:  # type: ignore[index]
+            if word in ("ego", "hero") and ego.route == hero.route:
                 continue  # behind each other: whose heading is told does not matter
             if word in ("ego", "hero") and re.match(r"\w+ (?:is oncoming|comes the other way)", text[match.start() :]):
                 continue  # each of two vehicles that meet is oncoming to the other
             if re.search(r"(?:side|access) driveway$", changed[: match.start() + len(other)]):
                 continue  # a side road and a side driveway are the same here
+            yield changed
+
+
+@pytest.mark.parametrize("text", TEXTS, ids=[text[:40] for text in TEXTS])
+def test_every_single_word_that_matters_counts(text: str) -> None:
+    """With one word changed in one place, a text is refused or says something else."""
+    original = bare(translate_offline(text).program)
+    for changed in with_one_word_changed(text):
+        try:
+            program = translate_offline(changed).program
+        except TranslationError:
+            continue
+        assert bare(program) != original, changed
+
+
+def test_the_learned_reader_misses_few_words(with_the_learned_reader: None) -> None:
+    """It looks at the whole of a text: that it hears every single word is not certain, as it is of the rules."""
+    tried, missed = 0, []
+    for text in TEXTS[::3]:
+        original = bare(translate_offline(text).program)
+        both = [exchanged(text, *words) for words in OPPOSITES if words != ("ego", "hero")]
+        for changed in [*with_one_word_changed(text), *(each for each in both if each != text)]:
+            tried += 1
             try:
-                program = translate_offline(changed).program
+                missed += [changed] if bare(translate_offline(changed).program) == original else []
             except TranslationError:
                 continue
-            assert bare(program) != original, changed
+    assert tried > 300
+    assert len(missed) <= MISSED * tried, missed
 
 
 def test_known_units_have_spellings() -> None:

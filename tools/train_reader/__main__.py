@@ -28,10 +28,9 @@ from changes import Changer
 from lessons import MAP, PIECES, WAYS, Example, Lesson, prepare
 from network import HEADS, Reader, stored_weights
 from torch import Tensor, nn
-from torch.nn import functional
 
 CHANGES = Path(__file__).with_name("changes.toml")
-SPOILED = 0.15  # of the texts, in each round
+SPOILED, EXCHANGED = 0.15, 0.15  # of the texts, in each round
 BLURRED = 0.03  # of the words
 
 
@@ -54,20 +53,35 @@ def batched(examples: list[Example], unknown: int = 0, blur: float = 0.0) -> tup
 
 def loss_of(network: Reader, examples: list[Example], unknown: int, blur: float) -> Tensor:
     scores, slots = network(*batched(examples, unknown, blur))
-    loss = 2 * functional.cross_entropy(scores["sayable"], torch.tensor([int(each.sayable) for each in examples]))
-    good = [at for at, each in enumerate(examples) if each.sayable]
-    if not good:
+    told = {question: each.log_softmax(-1) for question, each in scores.items()}
+    sayable = [at for at, each in enumerate(examples) if each.sayable]
+    unsayable = [at for at, each in enumerate(examples) if not each.sayable]
+    loss = -2 * told["sayable"][unsayable, 0].sum() / len(examples)
+    if not sayable:
         return loss
-    for question in ("ego", "hero", "story"):
-        loss = loss + functional.cross_entropy(
-            scores[question][good], torch.tensor([getattr(examples[at], question) for at in good])
-        )
-    amounts = [(at, m, p) for at in good for m, p in zip(examples[at].marks, examples[at].parts, strict=True)]
-    likely = slots[torch.tensor([a for a, _, _ in amounts]), torch.tensor([m for _, m, _ in amounts])].log_softmax(-1)
-    right = torch.full_like(likely, -1e9)
-    for row, (_, _, parts) in enumerate(amounts):
-        right[row, parts] = 0
-    return loss - 2 * (likely + right).logsumexp(-1).mean()
+    answers = {question: [getattr(examples[at], question) for at in sayable] for question in ("ego", "hero", "story")}
+    of_text = {question: told[question][sayable, those] for question, those in answers.items()}
+    of_text["sayable"] = told["sayable"][sayable, 1]
+    amounts = [
+        (text, at, mark, parts)
+        for text, at in enumerate(sayable)
+        for mark, parts in zip(examples[at].marks, examples[at].parts, strict=True)
+    ]
+    text_of, at_of, mark_of = (torch.tensor(each) for each in zip(*(row[:3] for row in amounts), strict=True))
+    likely = slots[at_of, mark_of].log_softmax(-1)
+    wrong = torch.full_like(likely, -1e9)
+    for row, (*_, parts) in enumerate(amounts):
+        wrong[row, parts] = 0
+    of_amount = (likely + wrong).logsumexp(-1)
+    denied = torch.tensor([examples[at].denied for at in sayable])
+    if denied.any():  # whatever it means, not all of that together
+        joint = torch.stack(list(of_text.values())).sum(0).index_add(0, text_of, of_amount)[denied]
+        loss = loss - 2 * torch.log1p(-joint.exp().clamp(max=1 - 1e-6)).sum() / len(examples)
+    meant = ~denied
+    if meant.any():
+        loss = loss - 2 * of_text["sayable"][meant].sum() / len(examples) - 2 * of_amount[meant[text_of]].mean()
+        loss = loss - torch.stack([of_text[question][meant].mean() for question in answers]).sum()
+    return loss
 
 
 def learn(
@@ -84,11 +98,12 @@ def learn(
     first = [group["lr"] for group in optimiser.param_groups]
     unknown = lesson.vocabulary.index("[UNK]")
     size = 32
-    steps = int(rounds * len(rows) * (1 + SPOILED) / size)
+    steps = int(rounds * len(rows) * (1 + SPOILED + EXCHANGED) / size)
     done, began, running = 0, time.monotonic(), 0.0
     network.train()
     while done < steps:
-        bad = (changer.worse(each) for each in chance.sample(rows, int(SPOILED * len(rows))))
+        bad = [changer.worse(each) for each in chance.sample(rows, int(SPOILED * len(rows)))]
+        bad += [changer.other(each) for each in chance.sample(rows, int(EXCHANGED * len(rows)))]
         pool = [changer.better(each) for each in rows] + [each for each in bad if each is not None]
         chance.shuffle(pool)
         batches = []

@@ -1,7 +1,7 @@
-"""Changes good texts: into others that mean the same, and into others that have to be refused.
+"""Changes good texts: into others that mean the same, that mean something else, or that have to be refused.
 
 What enters: an example, and `changes.toml`. What leaves: another example. Without it the network believes every text
-that looks like a scenario.
+that looks like a scenario, and sees no single word.
 """
 
 from __future__ import annotations
@@ -63,6 +63,31 @@ class Changer:
             _, claims = self._claims(good)
             changed = self._put_in(good, self.chance.choice(claims)) if claims else None
         return None if changed is None else Example(good.id, changed.numbers)
+
+    def other(self, good: Example) -> Example | None:
+        """Return it with one word exchanged for another on which its meaning hangs: it does not mean the same."""
+        if not good.sayable:
+            return None
+        found = []
+        for said, instead in self.changes["exchanged"]:
+            if {said, instead} == {"ego", "hero"} and good.ego == good.hero:
+                continue  # one behind the other: whose way is told does not matter
+            one, other = self._cut(said), self._cut(instead)
+            starts = (at for at in range(1, len(good.numbers) - len(one)) if good.numbers[at : at + len(one)] == one)
+            found.append([(at, one, other) for at in starts if not self._names_a_place(good, at)])
+        found = [each for each in found if each]
+        if not found:
+            return None
+        at, one, other = self.chance.choice(self.chance.choice(found))
+        more = len(other) - len(one)
+        numbers = good.numbers[:at] + other + good.numbers[at + len(one) :]
+        if len(numbers) > PIECES:
+            return None
+        return replace(good, numbers=numbers, marks=[mark + more * (mark > at) for mark in good.marks], denied=True)
+
+    def _names_a_place(self, text: Example, at: int) -> bool:
+        """Whether it is the road of "side road", which is the same place as the driveway."""
+        return text.numbers[at - 1] in {self.vocabulary[word] for word in ("side", "access", "exit", "minor")}
 
     def _cut(self, said: str) -> list[int]:
         if said not in self.pieces:

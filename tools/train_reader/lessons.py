@@ -20,6 +20,7 @@ from scenewright.program.printer import print_expression
 from scenewright.program.text import parse_program
 from scenewright.program.types import HeadingsRoute, Program
 from scenewright.translate.itineraries import default_map
+from scenewright.translate.learned.consistency import BOTH
 from scenewright.translate.learned.pieces import cut
 from scenewright.translate.rules import read_by_rules
 from scenewright.translate.tokens import Quantity, tokenise
@@ -46,7 +47,10 @@ NUMBER = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?(?:/\d+)?)(?![\w(])")
 
 @dataclass
 class Example:
-    """A text as the network sees it, with the right answers; none but `sayable` where nothing can say the text."""
+    """A text as the network sees it, with the right answers; none but `sayable` where nothing can say the text.
+
+    Where `denied`, it means anything but what the answers say.
+    """
 
     id: str
     numbers: list[int]
@@ -56,6 +60,7 @@ class Example:
     hero: int = 0
     story: int = 0
     parts: list[list[int]] = field(default_factory=list)  # for each amount those that it may have
+    denied: bool = False
 
 
 def texts() -> Iterator[tuple[str, str, Program | None]]:
@@ -142,10 +147,19 @@ def meant_by(program: Program, told: list[str]) -> Meant | None:
     return Meant(ways, (sketch, *sorted(without)), kept)
 
 
-def shared(meant: Meant, told: list[str]) -> bool:
-    """Whether one amount is told for two parts, as in "both are 30 m from it": the reader leaves such texts alone."""
-    wanted = Counter(value for _, value in meant.amounts)
-    return any(0 < told.count(value) < count for value, count in wanted.items())
+def joined(meant: Meant, told: list[str]) -> Meant | None:
+    """Return it with one part for an amount that is told of two things at once; None where it is not clear of which.
+
+    "Both are 30 m from it" tells one amount and means two constraints.
+    """
+    amounts = []
+    for value, count in Counter(value for _, value in meant.amounts).items():
+        parts = sorted(part for part, each in meant.amounts if each == value)
+        times = told.count(value)
+        if 1 < times < count:
+            return None
+        amounts += [(part, value) for part in ([BOTH.join(parts)] if times == 1 else parts)]
+    return Meant(meant.ways, meant.story, amounts)
 
 
 @dataclass
@@ -169,7 +183,7 @@ def prepare(full: list[str]) -> Lesson:
         program = program if found else None
         values = [value_of(each) for each in amounts]
         meant = meant_by(program, values) if program is not None else None
-        if meant is not None and shared(meant, values):
+        if meant is not None and (meant := joined(meant, values)) is None:
             continue
         rows.append((identifier, rest, amounts, meant))
         used |= set(cut(rest, amounts, everything).numbers)

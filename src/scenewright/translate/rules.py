@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from scenewright.errors import Place, Span, TranslationError
+from scenewright.errors import Place, Span, TranslationError, UnknownWordsError
 from scenewright.program.expressions import Number, ParameterRef, walk
 from scenewright.program.structure import Role, read_structure
 from scenewright.program.types import Program
@@ -63,6 +63,11 @@ _SAME_WAY = re.compile(
     re.IGNORECASE,
 )
 _AT_TRIGGER = re.compile(r"\b(?:at|on|upon) (?:the )?trigger\b", re.IGNORECASE)
+
+_TOO = re.compile(
+    r"\b(?:likewise|ditto|too|as well|just like|same|so (?:does|is|will)|do(?:es)? so|follows suit|both|together)\b",
+    re.IGNORECASE,
+)
 
 # A heading with keys under it, further in: whose heading that is, the grammar of clauses does not know.
 _NESTED = re.compile(r"^([ \t]*)\S[^\n:]*:[ \t]*\n(?:\1[ \t]+[^\n:]+:[^\n]+\n?){2,}", re.MULTILINE)
@@ -156,6 +161,7 @@ def _by_facts(text: str, road_map: RoadMap, name: str) -> Translation:
     _complete(gist.facts, text, name)
     routes = choose_routes(gist.facts, road_map, text, name)
     check_told(gist, routes, text, name)
+    _refuse_turning_too(routes, text, name)
     if gist.title:
         span = gist.title[0].span.union(gist.title[-1].span)
         _check_skipped(gist.title, span, gist.facts, routes, Place(name, text, span))
@@ -167,6 +173,22 @@ def _by_facts(text: str, road_map: RoadMap, name: str) -> Translation:
         for each in read.readings
     )
     return replace(read, readings=tuple(readings))
+
+
+def _refuse_turning_too(routes: Itineraries, text: str, name: str) -> None:
+    """Refuse words that may tell the turn of a vehicle by that of the other: "turns right, and the van does so too"."""
+    turns = {route.turn for route in (routes.ego, routes.hero)}
+    if not any("no turn of it was mentioned" in each for each in routes.assumptions) or turns == {"straight"}:
+        return
+    if too := _TOO.search(text):
+        span = Span(*too.span())
+        raise UnknownWordsError(
+            "it is not clear whether this vehicle turns like the other",
+            place=Place(name, text, span),
+            found=span.excerpt(text),
+            expected="where each of the two vehicles turns",
+            fix="say it of each: 'the hero turns right'",
+        )
 
 
 def _set_purposes_aside(

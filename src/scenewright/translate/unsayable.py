@@ -23,9 +23,13 @@ _PHRASES = tuple(
             "a vehicle that is not there can do nothing",
         ),
         (
-            r"(?<![\w.])(?:TBD|TBC|TBA|n/a|x{1,3} (?:s|m|seconds|met(?:er|re)s)|\[ *\]|\.\.\. ?(?:s|m)\b)(?!\w)"
+            r"(?<![\w.])(?:TBD|TBC|TBA|n/a|x{1,3} (?:s|m|seconds|met(?:er|re)s)|(?<=\w )\[ *\]|\.\.\. ?(?:s|m)\b)(?!\w)"
             r"|\?{2,}|(?<!\w)_{2,}(?!\w)",
             "an amount that is left blank",
+        ),
+        (
+            r"\b(?:why|how come) (?:did|does|do|is|are|was|were|would|should|have|has|had)\b[^?]*\?",
+            "what is only asked",
         ),
         (r"\b(?:twice|thrice|repeatedly|several times|again and again)\b", "what happens several times"),
         (r"\bfor the (?:first|second|third|fourth|last|\d+(?:st|nd|rd|th)) time\b", "what happens several times"),

@@ -24,6 +24,7 @@ ADDED = {
     "twice": ". It does this twice. ",
 }
 EVERY = 9  # of the texts
+ACCEPTED = 0.03  # of such texts, by the learned reader; may only fall
 
 
 def good_texts() -> list[tuple[str, str]]:
@@ -76,3 +77,14 @@ def test_a_third_vehicle_is_refused() -> None:
 def test_a_bound_of_a_distance_or_a_speed_is_refused() -> None:
     missed = [(identifier, each) for identifier, text in good_texts() for each in changed(text) if read(each)]
     assert missed == []
+
+
+@pytest.mark.parametrize("added", ADDED.values(), ids=ADDED)
+def test_the_learned_reader_accepts_few_additions(added: str, with_the_learned_reader: None) -> None:
+    tried, missed = 0, []
+    for identifier, text in good_texts()[::3]:
+        for end in list(SENTENCE_END.finditer(text))[1:3]:
+            tried += 1
+            missed += [identifier] if read(f"{text[: end.start()]}{added}{text[end.end() :]}") else []
+    assert tried > 50
+    assert len(missed) <= ACCEPTED * tried, missed

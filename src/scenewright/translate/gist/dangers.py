@@ -17,6 +17,22 @@ _DANGERS = frozenset(
      "backing", "backwards", "backward", "reversing", "supposedly", "allegedly", "hypothetically",
      "vanishes", "disappears", "flyover", "overpass", "underpass", "viaduct", "tunnel"]
 )  # fmt: skip
+_NO_VEHICLES = frozenset(
+    [
+        "experiment",
+        "test",
+        "case",
+        "run",
+        "trial",
+        "scenario",
+        "variant",
+        "example",
+        "exercise",
+        "situation",
+        "time",
+        "page",
+    ]
+)
 # "at the end of its turn", but not "before the beginning of the turn of the ego", which is an order
 _EDGE_OF_TURN = re.compile(
     r"(?<!before the )(?<!prior to the )\b(?:start|beginning) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b"
@@ -112,6 +128,8 @@ def _is_harmless(words: Words, at: int) -> bool:
         ):
             return True  # "Westbound traffic consists of one van"
         return bool(before.keys() & {"heading", "direction", "actor_adjective"})
+    if token.text.lower() in ("third", "fourth") and words.word(at + 1) in _NO_VEHICLES:
+        return True  # "in the third experiment"
     kind = token.tags["unsupported"]
     if kind == "collisions" and "quantity" in after:
         return True  # "the AV hits 35 m to the conflict point"

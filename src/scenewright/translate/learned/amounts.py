@@ -1,13 +1,13 @@
 """Finds the amounts of a text, where the network sees all of them and each belongs to one vehicle.
 
-What enters: a description. What leaves: its amounts, or None where one has no unit ("and the hero 20") or may be that
-of both vehicles ("both are 30 m from it"): the network would drop a part of what is said. Also the clauses around them.
+What enters: a description. What leaves: its amounts, or None where one has no unit ("and the hero 20"): the network
+would drop a part of what is said. Also the clauses around them, and which may be told of both vehicles.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from scenewright.errors import ScenewrightError, Span
 from scenewright.translate.tokens import Quantity, tokenise
@@ -31,8 +31,7 @@ def amounts_of(text: str, name: str) -> list[Quantity] | None:
         return None
     if any("bare_number" in token.tags and not _counts(token.span, text) for token in tokens):
         return None
-    amounts = [token.quantity for token in tokens if token.quantity is not None]
-    return None if any(_may_be_of_both(amount, amounts, text) for amount in amounts) else amounts
+    return [token.quantity for token in tokens if token.quantity is not None]
 
 
 def clause_around(span: Span, text: str) -> Span:
@@ -46,6 +45,13 @@ def sentences(text: str) -> Iterator[Span]:
     return _stretches(text, _SENTENCE_END)
 
 
+def may_be_of_both(amount: Quantity, amounts: Sequence[Quantity], text: str) -> bool:
+    """Whether an amount may be told of both vehicles: "both are 30 m from it"."""
+    clause = clause_around(amount.span, text)
+    alone = sum(clause.start <= each.span.start < clause.end for each in amounts) == 1
+    return alone and _OF_BOTH.search(clause.excerpt(text)) is not None
+
+
 def _counts(span: Span, text: str) -> bool:
     """Whether a number without a unit counts or numbers something: "two cars", "Step 3:"; not "and the hero 20"."""
     if span.excerpt(text).lower() in ("one", "two"):
@@ -53,12 +59,6 @@ def _counts(span: Span, text: str) -> bool:
     if span.excerpt(text)[0].isdigit():
         return _NUMBERED.search(text, 0, span.start) is not None or _LISTED.match(text, span.end) is not None
     return _COUNTED.match(text, span.end) is not None and not _GOES_ON.match(text, span.end)
-
-
-def _may_be_of_both(amount: Quantity, amounts: list[Quantity], text: str) -> bool:
-    clause = clause_around(amount.span, text)
-    alone = sum(clause.start <= each.span.start < clause.end for each in amounts) == 1
-    return alone and _OF_BOTH.search(clause.excerpt(text)) is not None
 
 
 def _stretches(text: str, end: re.Pattern[str]) -> Iterator[Span]:

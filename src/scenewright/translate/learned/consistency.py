@@ -10,7 +10,10 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from scenewright.errors import Span
 from scenewright.translate.tokens import Token
+
+BOTH = " & "  # joins two constraints that one amount is told for: "both are 30 m from it"
 
 _LANDMARK = re.compile(r"\b(?:stop_line|conflict_point|intersection|turn)\b")
 _MEETING = ("conflict_point", "intersection", "turn")  # one place, where the ways of the two vehicles meet
@@ -31,13 +34,31 @@ _DENIED = re.compile(
     r"|(?:west|east|north|south)|(?:on|in|at|from|within|behind|ahead|past|short)\b(?! (?:its|his|her|any)\b))",
     re.IGNORECASE,
 )
+_SPEEDS_UP_TO_A_STOP = re.compile(
+    r"\b(?:accelerat(?:es|e|ing)|speed(?:s|ing)? up)\s(?:[^\s,;.]+\s|\d+\.\d+\s|,\s){0,7}?(?:to|until)\s"
+    r"(?:(?:a|an|it|he|she)\s)?(?:(?:complete|full|dead|final)\s)?(?:standstill|halt|stop\b(?!\s(?:line|bar))|stands\b|stops\b|rest\b)",
+    re.IGNORECASE,
+)
+_BOUND_BEFORE = re.compile(
+    r"\b(?:at (?:least|most)|(?:no|not) (?:more|less|fewer|later|sooner|earlier|closer|nearer|further|farther) than"
+    r"|(?:more|less|fewer|greater|smaller|faster|slower) than|minimum(?: of)?|maximum(?: of)?)\W*$",
+    re.IGNORECASE,
+)
+_BOUND_AFTER = re.compile(
+    r"\W*(?:or (?:more|less|so|above|below|faster|slower)|at (?:least|most)|and more)\b", re.IGNORECASE
+)
 
 
 def parts_named(tokens: Sequence[Token], parts: Sequence[str]) -> list[str] | None:
     """Return the part of each amount, at the place that stands beside it; None where that is another place."""
     at_amounts = [at for at, token in enumerate(tokens) if token.quantity is not None]
-    named = [_with_place(tokens, at, part) for at, part in zip(at_amounts, parts, strict=True)]
-    return None if None in named else [part for part in named if part is not None]
+    named = []
+    for at, part in zip(at_amounts, parts, strict=True):
+        each = [_with_place(tokens, at, one) for one in part.split(BOTH)]
+        if None in each or _up_to_nothing(tokens, at):
+            return None
+        named.append(BOTH.join(one for one in each if one is not None))
+    return named
 
 
 def fits_words(text: str, ways: Sequence[Sequence[str]]) -> bool:
@@ -51,7 +72,24 @@ def fits_words(text: str, ways: Sequence[Sequence[str]]) -> bool:
     known = {each for way in ways for each in way}
     turns = {found.group().lower() for found in _TURN.finditer(_NOT_A_TURN.sub(" ", text))}
     headings = {found.group(1)[0].upper() for found in _HEADING.finditer(text)}
-    return turns | headings <= known and _DENIED.search(text) is None
+    if _DENIED.search(text) or _SPEEDS_UP_TO_A_STOP.search(text):
+        return False
+    return turns | headings <= known
+
+
+def bounded(text: str, amount: Span) -> bool:
+    """Whether an amount is a bound and no value: "at least 12 m", "12 m or more"."""
+    begin = max(0, amount.start - 24)
+    return bool(_BOUND_BEFORE.search(text, begin, amount.start) or _BOUND_AFTER.match(text, amount.end))
+
+
+def _up_to_nothing(tokens: Sequence[Token], at: int) -> bool:
+    """Whether an amount is told up to something that nobody knows: "7 m from the tree"."""
+    rest = [token for token in tokens[at + 1 : at + 1 + _AHEAD] if "determiner" not in token.tags]
+    if not rest or "relation" not in rest[0].tags:
+        return False
+    head = next((at for at, token in enumerate(rest[1:], 1) if "unknown" not in token.tags), len(rest))
+    return head > 1 and (head == len(rest) or not rest[head].tags.keys() & {"landmark", "hero", "ego", "vehicle"})
 
 
 def _with_place(tokens: Sequence[Token], at: int, part: str) -> str | None:

@@ -14,14 +14,14 @@ from typing import Any, cast
 from scenewright.errors import ScenewrightError, Span
 from scenewright.program.arithmetic import JUST_BEFORE_M, negate
 from scenewright.program.check import check_program
-from scenewright.program.expressions import Formula, Negate, Node, ParameterRef, Term, walk
+from scenewright.program.expressions import Formula, Negate, Node, Number, ParameterRef, Term, walk
 from scenewright.program.structure import read_structure
 from scenewright.program.text import parse_program
 from scenewright.program.types import Constraint, Parameter, Program
 from scenewright.roads import RoadMap
 from scenewright.roads.grounding import ground
-from scenewright.translate.learned.amounts import amounts_of, clause_around, sentences
-from scenewright.translate.learned.consistency import fits_words, parts_named
+from scenewright.translate.learned.amounts import amounts_of, clause_around, may_be_of_both, sentences
+from scenewright.translate.learned.consistency import BOTH, bounded, fits_words, parts_named
 from scenewright.translate.learned.network import Answers, Floats, load_network
 from scenewright.translate.learned.pieces import Pieces, cut
 from scenewright.translate.tokens import Quantity, tokenise
@@ -86,7 +86,11 @@ def read_likely(text: str, name: str, road_map: RoadMap) -> Likely | None:
     kinds = parts_named(
         tokenise(text, name), [network.meanings["parts"][int(each.argmax())] for each in answers.amounts]
     )
-    if kinds is None:
+    if kinds is None or any(bounded(text, amount.span) for amount in amounts):
+        return None
+    if any(
+        BOTH not in kind and may_be_of_both(amount, amounts, text) for kind, amount in zip(kinds, amounts, strict=True)
+    ):
         return None
     story = network.meanings["stories"][int(answers.likely[STORY].argmax())]
     told = _Told(text, amounts, kinds, pieces, answers, story["sketch"], _lines(story["constraints"], kinds, amounts))
@@ -113,7 +117,7 @@ class _Told:
 
     text: str
     amounts: list[Quantity]
-    kinds: list[str]  # the constraint that each amount belongs to
+    kinds: list[str]  # the constraint that each amount belongs to, or two of them
     pieces: Pieces
     answers: Answers
     sketch: str
@@ -124,7 +128,8 @@ class _Told:
 
     def contradicts_itself(self) -> bool:
         """Whether two things are told of one state; the same amount may be told twice."""
-        told = {(kind, amount.term) for kind, amount in zip(self.kinds, self.amounts, strict=True)}
+        pairs = zip(self.kinds, self.amounts, strict=True)
+        told = {(each, amount.term) for kind, amount in pairs for each in kind.split(BOTH)}
         states = [line.split(" == ")[0] for line, _ in self.lines if " == " in line]
         return len({kind for kind, _ in told}) < len(told) or len(set(states)) < len(states)
 
@@ -158,8 +163,8 @@ class _Told:
         ]
         roles = read_structure(program).roles
         for kind, amount, likely in zip(self.kinds, self.amounts, self.answers.amounts, strict=True):
-            clause, identifier = clause_around(amount.span, self.text), ids[kind]
-            parts.append(Part(ROLES[roles[identifier]], clause, float(likely.max()), (identifier,)))
+            clause, meant = clause_around(amount.span, self.text), tuple(ids[each] for each in kind.split(BOTH))
+            parts.append(Part(ROLES[roles[meant[0]]], clause, float(likely.max()), meant))
         return tuple(sorted(parts, key=lambda part: part.span.start))
 
     def counted(self, question: str) -> Span:
@@ -180,7 +185,8 @@ def _lines(story: list[str], kinds: list[str], amounts: list[Quantity]) -> list[
     """Return the constraints of a story and of its amounts, in the order of a program."""
     lines: dict[str, Quantity | None] = dict.fromkeys((_AT_ONCE, *story))
     for kind, amount in zip(kinds, amounts, strict=True):
-        lines.setdefault(kind, amount)
+        for each in kind.split(BOTH):
+            lines.setdefault(each, amount)
     return sorted(lines.items(), key=lambda line: _rank(line[0]))
 
 
@@ -189,6 +195,8 @@ def _filled(node: Node, amount: Quantity | None) -> Node:
     if isinstance(node, ParameterRef) and amount is not None:
         return amount.term
     if isinstance(node, Negate) and amount is not None:
+        if isinstance(amount.term, Number) and amount.term.value < 0:
+            return amount.term  # "brakes at -4 m/s^2" and "at 4 m/s^2" say the same
         return negate(cast(Term, _filled(node.operand, amount)), amount.span)
     changed: dict[str, Any] = {}
     for each in fields(node):
