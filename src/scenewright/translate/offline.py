@@ -28,8 +28,7 @@ if TYPE_CHECKING:
 
 # How sure the network has to be. Chosen on texts that it was not trained on: docs/evaluation.md says how.
 SURE_ENOUGH_TO_READ = 0.8
-SURE_ENOUGH_TO_DOUBT = 0.9
-SURE_ENOUGH_TO_DOUBT_FACTS = 0.7  # picked out of a free text
+SURE_ENOUGH_TO_DOUBT = 0.7
 WORTH_A_HINT = 0.3
 UNSAYABLE = 0.05  # the probability of being sayable below which what the rules read is refused
 
@@ -125,13 +124,13 @@ def _check_on_map(program: Program, text: str, road_map: RoadMap, name: str) -> 
 
 
 def _doubt(read: Translation, text: str, road_map: RoadMap, name: str) -> None:
-    """Refuse what was read by rules where descriptions like this one surely mean something else, or nothing sayable."""
+    """Refuse what was picked out of a free text where texts like this one mean something else, or nothing sayable."""
+    if all(reading.basis != Basis.FACTS.value.meaning for reading in read.readings):
+        return  # the grammar of its clauses accounts for every word of it
     likely = read_likely(text, name, road_map)
     if likely is None:
         return
-    # Where the grammar of its clauses accounts for every word of a text, nothing in it is left unsaid.
-    free = any(reading.basis == Basis.FACTS.value.meaning for reading in read.readings)
-    if free and likely.sayable < UNSAYABLE:
+    if likely.sayable < UNSAYABLE:
         raise TranslationError(
             "this seems to say something that no program can say",
             place=Place(name, text, likely.doubtful),
@@ -139,6 +138,6 @@ def _doubt(read: Translation, text: str, road_map: RoadMap, name: str) -> None:
             expected="what a program can say: places, times, speeds, one moment, one deed of one other vehicle",
             fix="say only where the two vehicles are, which way they go, when the hero reacts and what it does",
         )
-    if likely.probability > (SURE_ENOUGH_TO_DOUBT_FACTS if free else SURE_ENOUGH_TO_DOUBT):
+    if likely.probability > SURE_ENOUGH_TO_DOUBT:
         expected = "one meaning by rules and by likeness to other descriptions"
         refuse_two_ways(read.program, likely.program, text, name, expected)

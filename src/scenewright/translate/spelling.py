@@ -8,7 +8,7 @@ missing or too many: what a short word would stand for is never guessed (`sings`
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterator
 from functools import lru_cache
 
 # Words of their own, one letter from words that are known.
@@ -34,18 +34,42 @@ def correction(word: str, vocabulary: frozenset[str]) -> str | None:
     """
     if len(word) < 3 or not word.isalpha() or word in _NO_SLIPS:
         return None
-    near = {each for each in vocabulary if abs(len(each) - len(word)) <= 2 and _is_slip(word, each)}
+    near = {each for each in _alike(word, vocabulary) if _is_slip(word, each)}
     if len(near) > 1:  # forms of one word are told apart by the better fit; different words are not
         best = {each for each in near if _exchanged(word, each)} or near
         near = best
     return near.pop() if len(near) == 1 else None
 
 
-def suggestions(word: str, vocabulary: Iterable[str]) -> list[str]:
+@lru_cache(maxsize=4096)
+def suggestions(word: str, vocabulary: frozenset[str]) -> tuple[str, ...]:
     """Return known words that look like `word`, best first."""
     word = word.lower()
-    alike = [each for each in sorted(vocabulary) if abs(len(each) - len(word)) <= 3 and each[:1] == word[:1]]
-    return [each for each in difflib.get_close_matches(word, alike, n=2, cutoff=0.75) if each != word]
+    lengths = range(len(word) - 3, len(word) + 4)
+    alike = [each for length in lengths for each in _by_length(vocabulary).get(length, ()) if each[0] == word[0]]
+    return tuple(each for each in difflib.get_close_matches(word, sorted(alike), n=2, cutoff=0.75) if each != word)
+
+
+@lru_cache(maxsize=4)
+def _by_length(vocabulary: frozenset[str]) -> dict[int, list[str]]:
+    found: dict[int, list[str]] = {}
+    for each in vocabulary:
+        found.setdefault(len(each), []).append(each)
+    return found
+
+
+def _alike(word: str, vocabulary: frozenset[str]) -> Iterator[str]:
+    """Yield known words that it may be a slip of: one slip leaves the beginning of a word as it is, or its end."""
+    lengths, begins, ends = _by_length(vocabulary), word[:2], word[-2:]
+    for each in lengths.get(len(word), ()):
+        # In the shortest words there is no room for that, in the longest two vowels may be wrong.
+        if not 4 < len(word) < _VERY_LONG - 1 or each[:2] == begins or each[-2:] == ends:
+            yield each
+    for length in (len(word) - 1, len(word) + 1):
+        yield from (each for each in lengths.get(length, ()) if each[:2] == begins or each[-2:] == ends)
+    for length in (len(word) - 2, len(word) + 2):
+        if length >= _VERY_LONG:
+            yield from (each for each in lengths.get(length, ()) if each[:2] == begins)
 
 
 def _is_slip(word: str, known: str) -> bool:

@@ -199,7 +199,37 @@ def test_what_is_told_of_both_is_left_to_the_rules(text: str, read: bool, monkey
     part = MEANINGS["parts"].index("A0v(t0) == #" if "m/s" in text else "A0x(t1) == stop_line - #")
     ways = [MEANINGS["ways"].index(way) for way in (["S", "E"], ["W"])]
     monkeypatch.setattr(Network, "answer", lambda self, pieces: right_answers(len(pieces.numbers), *ways, 0, [part]))
-    assert (read_likely(text, "both", default_map()) is not None) is read
+    likely = read_likely(text, "both", default_map())
+    assert likely is not None
+    assert (likely.probability > 0.9) is read
+
+
+def test_one_amount_may_be_told_of_both(monkeypatch: pytest.MonkeyPatch) -> None:
+    part = MEANINGS["parts"].index("A0v(t0) == # & A1v(t0) == #")
+    ways = [MEANINGS["ways"].index(way) for way in (["S", "E"], ["W"])]
+    monkeypatch.setattr(Network, "answer", lambda self, pieces: right_answers(len(pieces.numbers), *ways, 0, [part]))
+    likely = read_likely("Each of them does 12 m/s.", "both", default_map())
+    assert likely is not None
+    assert likely.probability > 0.9
+    assert {"A0v(t0) == 12", "A1v(t0) == 12"} <= {print_expression(each.formula) for each in likely.program.constraints}
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "at least 12 m from it", "12 m from it at most", "no less than 12 m from it", "12 m or more from it",
+        "12 m from the tree", "12 m short of the painted bar",
+    ],
+)  # fmt: skip
+def test_a_bound_or_a_place_that_nobody_knows_is_no_amount(said: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    part = MEANINGS["parts"].index("A0x(t1) == stop_line - #")
+    ways = [MEANINGS["ways"].index(way) for way in (["S", "E"], ["W"])]
+    monkeypatch.setattr(Network, "answer", lambda self, pieces: right_answers(len(pieces.numbers), *ways, 0, [part]))
+    likely = read_likely(f"When the ego is {said}, the hero brakes.", "bound", default_map())
+    assert likely is None or likely.probability == 0.0
+    plain = read_likely("When the ego is 12 m from it, the hero brakes.", "plain", default_map())
+    assert plain is not None
+    assert plain.probability > 0.9
 
 
 def test_a_long_text_is_left_alone() -> None:

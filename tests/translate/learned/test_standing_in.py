@@ -94,20 +94,21 @@ def test_strict_refuses_what_is_read_by_likeness(monkeypatch: pytest.MonkeyPatch
 
 
 def test_another_meaning_that_is_sure_is_two_meanings(monkeypatch: pytest.MonkeyPatch) -> None:
-    likely = sure(read_likely(KNOWN, "known", default_map()))
+    likely = sure(read_likely(FREE, "free", default_map()))
     other = parse_program(OTHER)
     pretend(monkeypatch, replace(likely, program=other))
     with pytest.raises(TranslationError, match="two ways"):
-        translate_offline(KNOWN)
+        translate_offline(FREE)
+    assert translate_offline(KNOWN).program.actor(1).route != other.actor(1).route  # every word of it is accounted for
     pretend(monkeypatch, replace(likely, program=other, probability=0.5))
-    assert translate_offline(KNOWN).program.actor(1).route == likely.program.actor(1).route
+    assert translate_offline(FREE).program.actor(1).route == likely.program.actor(1).route
 
 
 def test_another_amount_that_is_sure_is_two_meanings(monkeypatch: pytest.MonkeyPatch) -> None:
-    pretend(monkeypatch, sure(read_likely(KNOWN.replace("6 m", "7 m"), "other", default_map())))
+    pretend(monkeypatch, sure(read_likely(FREE.replace("twelve", "thirteen"), "other", default_map())))
     with pytest.raises(TranslationError, match="two ways") as refused:
-        translate_offline(KNOWN)
-    assert refused.value.found == "A1x(t2) == conflict_point - 6"
+        translate_offline(FREE)
+    assert refused.value.found == "A1x(t2) == conflict_point - 12"
 
 
 def test_what_surely_cannot_be_said_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -118,10 +119,10 @@ def test_what_surely_cannot_be_said_is_refused(monkeypatch: pytest.MonkeyPatch) 
 
 
 def test_what_is_the_same_is_no_doubt(monkeypatch: pytest.MonkeyPatch) -> None:
-    pretend(monkeypatch, sure(read_likely(KNOWN, "known", default_map())))
-    read = translate_offline(KNOWN)
+    pretend(monkeypatch, sure(read_likely(FREE, "free", default_map())))
+    read = translate_offline(FREE)
     assert [print_expression(each.formula) for each in read.program.constraints][-1] == "A1v(t2) == 0"
-    assert read.assumptions == read_by_rules(KNOWN, default_map(), "known").assumptions
+    assert read.assumptions == read_by_rules(FREE, default_map(), "free").assumptions
 
 
 def test_places_that_the_routes_do_not_have_are_refused() -> None:

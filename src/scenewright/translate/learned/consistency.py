@@ -34,6 +34,19 @@ _DENIED = re.compile(
     r"|(?:west|east|north|south)|(?:on|in|at|from|within|behind|ahead|past|short)\b(?! (?:its|his|her|any)\b))",
     re.IGNORECASE,
 )
+# "comes from the west", "approaches from the western end"
+_ORIGIN = re.compile(
+    r"\b(?:com(?:es?|ing)|came|approach(?:es|ing|ed)?|arriv(?:es|ing|ed)|enters?|heads? in|rolls? in|drives? in)\s"
+    r"(?:in |up |along |on |down |over |(?:the |a )?(?:main )?(?:road|street) )*"
+    r"from the (east|west|north|south)(?:ern end)?\b",
+    re.IGNORECASE,
+)
+_OPPOSITE = {"e": "W", "w": "E", "n": "S", "s": "N"}
+_NEVER_READ = re.compile(
+    r"\b(?:strikes|rams|collides|crashes into)\b"
+    r"|\b(?:close|near) to (?:the|its|his|her) (?:stop line|conflict point|intersection|junction)\b",
+    re.IGNORECASE,
+)
 _SPEEDS_UP_TO_A_STOP = re.compile(
     r"\b(?:accelerat(?:es|e|ing)|speed(?:s|ing)? up)\s(?:[^\s,;.]+\s|\d+\.\d+\s|,\s){0,7}?(?:to|until)\s"
     r"(?:(?:a|an|it|he|she)\s)?(?:(?:complete|full|dead|final)\s)?(?:standstill|halt|stop\b(?!\s(?:line|bar))|stands\b|stops\b|rest\b)",
@@ -45,7 +58,9 @@ _BOUND_BEFORE = re.compile(
     re.IGNORECASE,
 )
 _BOUND_AFTER = re.compile(
-    r"\W*(?:or (?:more|less|so|above|below|faster|slower)|at (?:least|most)|and more)\b", re.IGNORECASE
+    r"\W*(?:or (?:so|above|below|faster|slower)|and more)\b"
+    r"|[^,.;:\n]{0,40}?\b(?:or (?:more|less)|at (?:least|most))\b(?! \d)",
+    re.IGNORECASE,
 )
 
 
@@ -62,7 +77,7 @@ def parts_named(tokens: Sequence[Token], parts: Sequence[str]) -> list[str] | No
 
 
 def fits_words(text: str, ways: Sequence[Sequence[str]]) -> bool:
-    """Whether every turn and heading that is told is somebody's, and nothing is denied but what may be.
+    """Whether every turn, heading and origin that is told is somebody's, and nothing is told that cannot be.
 
     Parameters
     ----------
@@ -72,7 +87,10 @@ def fits_words(text: str, ways: Sequence[Sequence[str]]) -> bool:
     known = {each for way in ways for each in way}
     turns = {found.group().lower() for found in _TURN.finditer(_NOT_A_TURN.sub(" ", text))}
     headings = {found.group(1)[0].upper() for found in _HEADING.finditer(text)}
-    if _DENIED.search(text) or _SPEEDS_UP_TO_A_STOP.search(text):
+    if any(pattern.search(text) for pattern in (_DENIED, _SPEEDS_UP_TO_A_STOP, _NEVER_READ)):
+        return False
+    begins = {way[1] for way in ways}
+    if not {_OPPOSITE[found.group(1)[0].lower()] for found in _ORIGIN.finditer(text)} <= begins:
         return False
     return turns | headings <= known
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import lru_cache
 from typing import Any, cast
 
 from scenewright.errors import ScenewrightError, Span
@@ -86,11 +87,7 @@ def read_likely(text: str, name: str, road_map: RoadMap) -> Likely | None:
     kinds = parts_named(
         tokenise(text, name), [network.meanings["parts"][int(each.argmax())] for each in answers.amounts]
     )
-    if kinds is None or any(bounded(text, amount.span) for amount in amounts):
-        return None
-    if any(
-        BOTH not in kind and may_be_of_both(amount, amounts, text) for kind, amount in zip(kinds, amounts, strict=True)
-    ):
+    if kinds is None:
         return None
     story = network.meanings["stories"][int(answers.likely[STORY].argmax())]
     told = _Told(text, amounts, kinds, pieces, answers, story["sketch"], _lines(story["constraints"], kinds, amounts))
@@ -102,11 +99,14 @@ def read_likely(text: str, name: str, road_map: RoadMap) -> Likely | None:
         scene = ground(program, road_map)
     except ScenewrightError:
         return None
-    if not fits_words(text, [(route.turn, *route.headings) for route in scene.routes.values()]):
-        return None
     parts = told.parts(program)
     sayable = float(told.answers.likely[SAYABLE][1])
     probability = sayable * math.prod(part.probability for part in parts)
+    if not fits_words(text, [(route.turn, *route.headings) for route in scene.routes.values()]) or any(
+        bounded(text, amount.span) or (BOTH not in kind and may_be_of_both(amount, amounts, text))
+        for kind, amount in zip(kinds, amounts, strict=True)
+    ):
+        probability = 0.0
     assumed = (_JUST_BEFORE,) if any(line.endswith(_JUST_BEFORE_ENDS) for line, _ in told.lines) else ()
     return Likely(program, probability, sayable, told.counted(SAYABLE), parts, assumed)
 
@@ -141,7 +141,7 @@ class _Told:
             f"Actor 0:\n- {self.way(EGO_WAY)}\n- [{_EGO_SKETCH}]\n",
             f"Actor 1:\n- {self.way(HERO_WAY)}\n- [{self.sketch}]\n",
         )
-        draft = parse_program("\n".join((*actors, "Constraints:", *written, "")), name)
+        draft = _draft("\n".join((*actors, "Constraints:", *written, "")))
         constraints = tuple(
             Constraint(each.id, cast(Formula, _filled(each.formula, amount)), span, span)
             for each, (_, amount) in zip(draft.constraints, self.lines, strict=True)
@@ -179,6 +179,12 @@ class _Told:
 
     def _sure(self, question: str) -> float:
         return float(self.answers.likely[question].max())
+
+
+@lru_cache(maxsize=1024)
+def _draft(written: str) -> Program:
+    """Parse a program: most of those that are written down only differ in their amounts."""
+    return parse_program(written)
 
 
 def _lines(story: list[str], kinds: list[str], amounts: list[Quantity]) -> list[tuple[str, Quantity | None]]:
