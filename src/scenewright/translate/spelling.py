@@ -47,7 +47,7 @@ def suggestions(word: str, vocabulary: frozenset[str]) -> tuple[str, ...]:
     word = word.lower()
     lengths = range(len(word) - 3, len(word) + 4)
     alike = [each for length in lengths for each in _by_length(vocabulary).get(length, ()) if each[0] == word[0]]
-    return tuple(each for each in difflib.get_close_matches(word, sorted(alike), n=2, cutoff=0.75) if each != word)
+    return tuple(each for each in difflib.get_close_matches(word, sorted(alike), n=2, cutoff=0.8) if each != word)
 
 
 @lru_cache(maxsize=4)

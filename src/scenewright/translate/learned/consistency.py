@@ -54,7 +54,7 @@ _SPEEDS_UP_TO_A_STOP = re.compile(
 )
 _BOUND_BEFORE = re.compile(
     r"\b(?:at (?:least|most)|(?:no|not) (?:more|less|fewer|later|sooner|earlier|closer|nearer|further|farther) than"
-    r"|(?:more|less|fewer|greater|smaller|faster|slower) than|minimum(?: of)?|maximum(?: of)?)\W*$",
+    r"|(?:more|greater|faster|slower) than|minimum(?: of)?|maximum(?: of)?)\W*$",
     re.IGNORECASE,
 )
 _BOUND_AFTER = re.compile(
