@@ -216,7 +216,8 @@ _PHRASES = tuple(
         (
             r"\b(?:has|have|had)(?: not|n['\u2019]t)? (?:yet )?(?:noticed|seen|spotted|recogni[sz]ed|detected"
             r"|reali[sz]ed) "
-            r"(?:it|him|her|us|the|that)\b",
+            r"(?:it|him|her|us|the|that)\b"
+            r"|\b(?:when|once|as soon as|if) (?:the |its |our )?(?:driver|passenger|rider)[^,.;]{0,40}? feels\b",
             "what somebody perceives",
         ),
         (r"\bas (?:if|though) to (?:turn|go|enter)\b", "what only seems so"),

@@ -44,7 +44,9 @@ _ORIGIN = re.compile(
 _OPPOSITE = {"e": "W", "w": "E", "n": "S", "s": "N"}
 _NEVER_READ = re.compile(
     r"\b(?:strikes|rams|collides|crashes into)\b"
-    r"|\b(?:close|near) to (?:the|its|his|her) (?:stop line|conflict point|intersection|junction)\b",
+    r"|\b(?:close|near) to (?:the|its|his|her) (?:stop line|conflict point|intersection|junction)\b"
+    r"|\b(?:can|could|do|did|does)(?:n['’]t|not| not|['’]t) (?:\w+ )?(?:remember|recall|know|tell)\b"
+    r"|\bnot (?:sure|certain|known|specified)\b|\bun(?:sure|known|specified|decided|clear)\b|\bleft open\b|\bforgot",
     re.IGNORECASE,
 )
 _SPEEDS_UP_TO_A_STOP = re.compile(
