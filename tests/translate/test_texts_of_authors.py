@@ -18,13 +18,17 @@ from scenewright.translate.offline import translate_offline
 FOLDER = Path(__file__).parent / "texts"
 EVERY = 3
 # A time to collision of whoever is behind, "it goes on only after", what stands first: rare facts, read wrong.
-WRONG = {"aj-019", "aj-046", "aj-049", "aj-102", "aj-116", "aj-118", "am-013", "ap-004"}
+WRONG = ("aj-019", "aj-046", "aj-049", "aj-102", "aj-116", "aj-118", "am-013", "ap-004")
 ACCEPTED_TRAPS = 51  # of 2258; may only fall
 
 
 def outcomes_of(name: str, first: int, every: int) -> dict[str, str]:
-    """Return how each text comes out: every one of so many, from the first asked for on."""
-    texts = read_texts(FOLDER / name)[first::every]
+    """Return how texts come out: every one of so many, from the first asked for on; those known to be wrong, too."""
+    texts = [
+        text
+        for at, text in enumerate(read_texts(FOLDER / name))
+        if at % every == first or (text.id in WRONG and not first)
+    ]
     assert len(texts) >= 60
     return {
         each.text.id: each.outcome
@@ -37,7 +41,7 @@ def outcomes_of(name: str, first: int, every: int) -> dict[str, str]:
 def test_texts_of_many_authors_mean_the_same_or_are_refused(name: str, least: float, part: int) -> None:
     outcomes = outcomes_of(name, part * EVERY, 3 * EVERY)
     wrong = {identifier for identifier, each in outcomes.items() if each not in ("right", "refused", "rightly refused")}
-    assert wrong <= WRONG
+    assert wrong == outcomes.keys() & set(WRONG)  # one that is right now leaves the list
     assert Counter(outcomes.values())["right"] >= least * len(outcomes)
 
 

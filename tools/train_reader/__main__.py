@@ -76,7 +76,7 @@ def loss_of(network: Reader, examples: list[Example], unknown: int, blur: float)
     denied = torch.tensor([examples[at].denied for at in sayable])
     if denied.any():  # whatever it means, not all of that together
         joint = torch.stack(list(of_text.values())).sum(0).index_add(0, text_of, of_amount)[denied]
-        loss = loss - 2 * torch.log1p(-joint.exp().clamp(max=1 - 1e-6)).sum() / len(examples)
+        loss = loss - 2 * torch.log(-torch.expm1(joint - 1e-6)).sum() / len(examples)
     meant = ~denied
     if meant.any():
         loss = loss - 2 * of_text["sayable"][meant].sum() / len(examples) - 2 * of_amount[meant[text_of]].mean()

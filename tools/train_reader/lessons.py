@@ -214,7 +214,7 @@ def answer(
     example: Example, meant: Meant | None, told: list[str], stories: list[tuple[str, ...]], parts: list[str]
 ) -> None:
     """Give an example its right answers, where the network can give them."""
-    if meant is None or meant.story not in stories or any(part not in parts for part, _ in meant.amounts):
+    if not told or meant is None or meant.story not in stories or any(part not in parts for part, _ in meant.amounts):
         return
     by_value = defaultdict(list)
     for part, value in meant.amounts:

@@ -2,8 +2,8 @@
 
 What enters: a description and, optionally, the map it is about. What leaves: a `Translation`: the program, how every
 clause was read, and what had to be assumed. Readers that know rules read it (`rules`). A small network that was trained
-on descriptions (`learned`) stands in where they do not know the words, if it is sure, and stands against them where it
-is sure of something else: then the text is refused.
+on descriptions (`learned`) stands in where they do not know the words, if it is sure, and stands against what they pick
+out of a free text where it is sure of something else: then the text is refused.
 """
 
 from __future__ import annotations
@@ -125,7 +125,7 @@ def _check_on_map(program: Program, text: str, road_map: RoadMap, name: str) -> 
 
 def _doubt(read: Translation, text: str, road_map: RoadMap, name: str) -> None:
     """Refuse what was picked out of a free text where texts like this one mean something else, or nothing sayable."""
-    if all(reading.basis != Basis.FACTS.value.meaning for reading in read.readings):
+    if not read.by_facts:
         return  # the grammar of its clauses accounts for every word of it
     likely = read_likely(text, name, road_map)
     if likely is None:

@@ -187,7 +187,10 @@ def _letters(tokens: list[Token]) -> list[Token]:
             read[at] = replace(token, tags={"heading": token.text})
         elif token.text.lower() == "through" and _ends(tokens, at + 1) and before.keys() & {"heading", "comma"}:
             read[at] = replace(token, tags={"direction": "straight"})  # "westbound through."
-        elif token.text.lower() == "going through" and _ends(tokens, at + 1) and "heading" in tokens[at - 2].tags:
+        elif (
+            token.text.lower() == "going through" and _ends(tokens, at + 1)
+            and "comma" in before and at > 1 and "heading" in tokens[at - 2].tags
+        ):  # fmt: skip
             read[at] = replace(token, tags={"direction": "straight"})  # "is westbound, going through, at 35 mph"
         elif token.text.lower() == "traffic" and "heading" in before and _joins(tokens, at - 2):
             read[at] = replace(token, tags={"area": "lane"})

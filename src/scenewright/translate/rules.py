@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from scenewright.errors import Place, Span, TranslationError, UnknownWordsError
+from scenewright.errors import Place, Span, TranslationError
 from scenewright.program.expressions import Number, ParameterRef, walk
 from scenewright.program.structure import Role, read_structure
 from scenewright.program.types import Program
@@ -64,8 +64,10 @@ _SAME_WAY = re.compile(
 )
 _AT_TRIGGER = re.compile(r"\b(?:at|on|upon) (?:the )?trigger\b", re.IGNORECASE)
 
-_TOO = re.compile(
-    r"\b(?:likewise|ditto|too|as well|just like|same|so (?:does|is|will)|do(?:es)? so|follows suit|both|together)\b",
+# "turns right, and the van does so too": nothing says whether that is its turn, too
+_TURNS_TOO = re.compile(
+    r"\bturn\w*\b[^.;]{0,90}?\b(?:does (?:so )?too|does so(?! by)|so (?:does|is|will)|likewise|ditto|follows suit"
+    r"|just like|(?:ego|hero|car|van|vehicle|truck|lorry|other) too)\b",
     re.IGNORECASE,
 )
 
@@ -86,13 +88,14 @@ def read_by_rules(text: str, road_map: RoadMap, name: str) -> Translation:
         itself or leaves a choice open.
     """
     try:
-        return _read(text, road_map, name)
+        return _refuse_turning_too(_read(text, road_map, name), text, name)
     except TranslationError as error:
         lead = find_lead(text, name)
         if lead is None:
             raise
         try:
-            read = _read(" " * lead.end + text[lead.end :], road_map, name)
+            rest = " " * lead.end + text[lead.end :]
+            read = _refuse_turning_too(_read(rest, road_map, name), rest, name)
             assumed = check_lead(lead, text, name, read.program, road_map)
         except TranslationError:
             raise error from None
@@ -161,7 +164,6 @@ def _by_facts(text: str, road_map: RoadMap, name: str) -> Translation:
     _complete(gist.facts, text, name)
     routes = choose_routes(gist.facts, road_map, text, name)
     check_told(gist, routes, text, name)
-    _refuse_turning_too(routes, text, name)
     if gist.title:
         span = gist.title[0].span.union(gist.title[-1].span)
         _check_skipped(gist.title, span, gist.facts, routes, Place(name, text, span))
@@ -172,23 +174,22 @@ def _by_facts(text: str, road_map: RoadMap, name: str) -> Translation:
         each if each.confidence < basis.value else replace(each, confidence=basis.value, basis=basis.meaning)
         for each in read.readings
     )
-    return replace(read, readings=tuple(readings))
+    return replace(read, readings=tuple(readings), by_facts=True)
 
 
-def _refuse_turning_too(routes: Itineraries, text: str, name: str) -> None:
+def _refuse_turning_too(read: Translation, text: str, name: str) -> Translation:
     """Refuse words that may tell the turn of a vehicle by that of the other: "turns right, and the van does so too"."""
-    turns = {route.turn for route in (routes.ego, routes.hero)}
-    if not any("no turn of it was mentioned" in each for each in routes.assumptions) or turns == {"straight"}:
-        return
-    if too := _TOO.search(text):
+    assumed = any("no turn of it was mentioned" in each for each in read.assumptions)
+    if assumed and (too := _TURNS_TOO.search(text)):
         span = Span(*too.span())
-        raise UnknownWordsError(
-            "it is not clear whether this vehicle turns like the other",
+        raise TranslationError(
+            "it is not clear whether both vehicles turn",
             place=Place(name, text, span),
             found=span.excerpt(text),
             expected="where each of the two vehicles turns",
             fix="say it of each: 'the hero turns right'",
         )
+    return read
 
 
 def _set_purposes_aside(

@@ -5,7 +5,7 @@ What enters: nothing. What leaves: the dataclasses that translators fill, and ro
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from scenewright.errors import Place, Span, TranslationError
 from scenewright.program.printer import print_expression
@@ -46,11 +46,18 @@ class Reading:
 
 @dataclass(frozen=True, slots=True)
 class Translation:
-    """A program with the account of how it came from the description."""
+    """A program with the account of how it came from the description.
+
+    Attributes
+    ----------
+    by_facts
+        Whether its facts were picked out of a free text; not every word of that is accounted for.
+    """
 
     program: Program
     readings: tuple[Reading, ...]
     assumptions: tuple[str, ...]
+    by_facts: bool = field(default=False, kw_only=True)
 
 
 def explain(translation: Translation) -> list[tuple[str, str, str]]:

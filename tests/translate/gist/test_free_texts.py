@@ -181,13 +181,34 @@ AGREED = (
     ("said", "otherwise"),
     [("20 m", "21 m"), ("12 m", "21 m"), ("5 m", "6 m"), ("westbound", "eastbound"), ("turn left", "turn right")],
 )
-def test_two_readings_that_differ_are_no_reading(monkeypatch: pytest.MonkeyPatch, said: str, otherwise: str) -> None:
+@pytest.mark.parametrize("more", ["", " Both travel at 10 m/s."])
+def test_two_readings_that_differ_are_no_reading(
+    monkeypatch: pytest.MonkeyPatch, said: str, otherwise: str, more: str
+) -> None:
     """The reader of clauses is made to hear another word; the reader of facts hears what is written."""
+    text = AGREED.replace("westbound.", f"westbound.{more}")
     mishear = rules._by_grammar
     monkeypatch.setattr(rules, "_by_grammar", lambda text, *rest: mishear(text.replace(said, otherwise), *rest))
     with pytest.raises(TranslationError, match="two ways"):
-        read(AGREED)
-    assert read(AGREED.replace(said, otherwise)).program.actors
+        read(text)
+    assert read(text.replace(said, otherwise)).program.actors
+
+
+@pytest.mark.parametrize(
+    "ways",
+    [
+        "The ego comes from the east and turns right into the driveway, the hero behind it does so too.",
+        "The ego drives east and turns left into the driveway, just like the hero ahead.",
+        "The hero ahead of the ego, westbound, turns right off the road into the driveway, and so does the ego.",
+    ],
+)
+def test_who_turns_like_the_other_does_not_go_straight_on(ways: str) -> None:
+    """Nothing says whether "so does the ego" is about its turn, or only about its way there."""
+    try:
+        actors = read(f"{ways} When the ego is 2 s behind the hero, the hero brakes at 2 m/s^2.").program.actors
+    except TranslationError:
+        return
+    assert [actor.route for actor in actors] == [actors[0].route] * 2
 
 
 ROUTES = (

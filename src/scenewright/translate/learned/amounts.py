@@ -1,4 +1,4 @@
-"""Finds the amounts of a text, where the network sees all of them and each belongs to one vehicle.
+"""Finds the amounts of a text, where the network sees all of them.
 
 What enters: a description. What leaves: its amounts, or None where one has no unit ("and the hero 20"): the network
 would drop a part of what is said. Also the clauses around them, and which may be told of both vehicles.

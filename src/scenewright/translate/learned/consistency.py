@@ -1,4 +1,4 @@
-"""Holds a reading against the words that no reading may contradict: places beside amounts, turns, headings, denials.
+"""Holds a reading against the words that no reading may contradict: places, turns, ways, denials, bounds, doubts.
 
 What enters: the tokens of a text and what the network makes of it. What leaves: the part of each amount, with the place
 that the text names, or None where a word says otherwise. The network looks at the whole of a text, and is sure of a
@@ -42,7 +42,8 @@ _ORIGIN = re.compile(
     re.IGNORECASE,
 )
 _OPPOSITE = {"e": "W", "w": "E", "n": "S", "s": "N"}
-_NEVER_READ = re.compile(
+# Collisions, amounts that are none, and what the author does not know.
+_BEYOND_IT = re.compile(
     r"\b(?:strikes|rams|collides|crashes into)\b"
     r"|\b(?:close|near) to (?:the|its|his|her) (?:stop line|conflict point|intersection|junction)\b"
     r"|\b(?:can|could|do|did|does)(?:n['’]t|not| not|['’]t) (?:\w+ )?(?:remember|recall|know|tell)\b"
@@ -50,18 +51,22 @@ _NEVER_READ = re.compile(
     re.IGNORECASE,
 )
 _SPEEDS_UP_TO_A_STOP = re.compile(
-    r"\b(?:accelerat(?:es|e|ing)|speed(?:s|ing)? up)\s(?:[^\s,;.]+\s|\d+\.\d+\s|,\s){0,7}?(?:to|until)\s"
-    r"(?:(?:a|an|it|he|she)\s)?(?:(?:complete|full|dead|final)\s)?(?:standstill|halt|stop\b(?!\s(?:line|bar))|stands\b|stops\b|rest\b)",
+    r"(?<!instead of )(?<!rather than )\b(?:accelerat(?:es|e|ing)|speed(?:s|ing)? up)\s"
+    r"(?:(?!(?:brak|slow|com|ha[sd]|get|decelerat|before|until)\w*\s)[^\s,;.]+\s|\d+\.\d+\s|,\s){0,7}?(?:to|until)\s"
+    r"(?:(?:a|an|it|he|she)\s)?(?:(?:complete|full|dead|final)\s)?"
+    r"(?:standstill|halt|stop\b(?!\s(?:line|bar))|stands\b|stops\b|rest\b)",
     re.IGNORECASE,
 )
 _BOUND_BEFORE = re.compile(
-    r"\b(?:at (?:least|most)|(?:no|not) (?:more|less|fewer|later|sooner|earlier|closer|nearer|further|farther) than"
-    r"|(?:more|greater|faster|slower) than|minimum(?: of)?|maximum(?: of)?)\W*$",
+    r"\b(?:at (?:the )?(?:very )?(?:least|most)"
+    r"|(?:no|not) (?:more|less|fewer|later|sooner|earlier|closer|nearer|further|farther)(?: away)? than"
+    r"|(?:more|greater|faster|slower|further|farther) than|(?:min|max)(?:imum)?\.?(?: distance| speed| gap)?(?: of)?"
+    r"|top speed of|exceed(?:s|ing)?)\W*$",
     re.IGNORECASE,
 )
 _BOUND_AFTER = re.compile(
-    r"\W*(?:or (?:so|above|below|faster|slower)|and more)\b"
-    r"|[^,.;:\n]{0,40}?\b(?:or (?:more|less)|at (?:least|most))\b(?! \d)",
+    r"\W*(?:or (?:so|above|below|faster|slower|closer|nearer|further|farther)|and more|(?:min|max)(?:imum)?)\b"
+    r"|(?:(?! and )[^,.;:\n]){0,40}?\b(?:or (?:more|less)|at (?:the )?(?:least|most))\b(?! \d)",
     re.IGNORECASE,
 )
 
@@ -89,7 +94,7 @@ def fits_words(text: str, ways: Sequence[Sequence[str]]) -> bool:
     known = {each for way in ways for each in way}
     turns = {found.group().lower() for found in _TURN.finditer(_NOT_A_TURN.sub(" ", text))}
     headings = {found.group(1)[0].upper() for found in _HEADING.finditer(text)}
-    if any(pattern.search(text) for pattern in (_DENIED, _SPEEDS_UP_TO_A_STOP, _NEVER_READ)):
+    if any(pattern.search(text) for pattern in (_DENIED, _SPEEDS_UP_TO_A_STOP, _BEYOND_IT)):
         return False
     begins = {way[1] for way in ways}
     if not {_OPPOSITE[found.group(1)[0].lower()] for found in _ORIGIN.finditer(text)} <= begins:
@@ -98,7 +103,7 @@ def fits_words(text: str, ways: Sequence[Sequence[str]]) -> bool:
 
 
 def bounded(text: str, amount: Span) -> bool:
-    """Whether an amount is a bound and no value: "at least 12 m", "12 m or more"."""
+    """Whether an amount is a bound or a rough one, and no value: "at least 12 m", "12 m or more", "12 m or so"."""
     begin = max(0, amount.start - 24)
     return bool(_BOUND_BEFORE.search(text, begin, amount.start) or _BOUND_AFTER.match(text, amount.end))
 
@@ -108,7 +113,7 @@ def _up_to_nothing(tokens: Sequence[Token], at: int) -> bool:
     rest = [token for token in tokens[at + 1 : at + 1 + _AHEAD] if "determiner" not in token.tags]
     if not rest or "relation" not in rest[0].tags:
         return False
-    head = next((at for at, token in enumerate(rest[1:], 1) if "unknown" not in token.tags), len(rest))
+    head = next((i for i, token in enumerate(rest[1:], 1) if "unknown" not in token.tags), len(rest))
     return head > 1 and (head == len(rest) or not rest[head].tags.keys() & {"landmark", "hero", "ego", "vehicle"})
 
 

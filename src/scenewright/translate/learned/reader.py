@@ -55,7 +55,7 @@ class Likely:
     program
         With spans into the description.
     probability
-        That all of it is so, and that a program can say all that the description says.
+        That all of it is so, and that a program can say all that the description says; 0 where a word forbids it.
     sayable
         That a program can say all that the description says.
     doubtful
