@@ -1,7 +1,7 @@
 """Texts of many authors, each new to the translator once: read as everybody's are, by rules and by likeness.
 
 Most of them are what the rules were widened for and what the learned reader was trained on: regression, no promise.
-Every text takes a quarter of an hour: here it is every third, `scenewright bench translate FILE` reads all of a file.
+All of them take some minutes: here it is every third, `scenewright bench translate FILE` reads all of a file.
 """
 
 from __future__ import annotations

@@ -50,9 +50,16 @@ class NounPhrases:
         """Return the stretch of text of tokens ``[start, end)``."""
         return self.tokens[start].span.union(self.tokens[max(start, end - 1)].span)
 
-    def refuse(self, message: str, span: Span, expected: str | None = None, fix: str | None = None) -> TranslationError:
+    def refuse(
+        self,
+        message: str,
+        span: Span,
+        expected: str | None = None,
+        fix: str | None = None,
+        kind: type[TranslationError] = TranslationError,
+    ) -> TranslationError:
         """Build the error for a stretch of the description."""
-        return TranslationError(
+        return kind(
             message,
             place=ErrorPlace(self.name, self.text, span),
             found=span.excerpt(self.text),

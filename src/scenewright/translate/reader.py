@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from scenewright.errors import Place as ErrorPlace
 from scenewright.errors import Span, TranslationError, UnknownWordsError
 from scenewright.translate.events import EGO_ID, HERO_ID, Event, Place
 from scenewright.translate.phrases import Phrases
@@ -52,12 +51,12 @@ class ReaderState:
         while end + 1 < len(tokens) and not tokens[end + 1].tags.keys() & {"end", "comma"}:
             end += 1
         rest = self.phrases.span(self.at, min(end + 1, self.at + 5))
-        return UnknownWordsError(
+        return self.phrases.refuse(
             f"'{token.text}' could not be understood here: '{rest.excerpt(self.phrases.text)}'",
-            place=ErrorPlace(self.phrases.name, self.phrases.text, token.span),
-            found=token.span.excerpt(self.phrases.text),
-            expected="one of: who, where (12 m behind the stop line), what (brakes, stops, turns left), when, before",
-            fix="say it in a sentence of its own; nothing is guessed and nothing is dropped",
+            token.span,
+            "one of: who, where (12 m behind the stop line), what (brakes, stops, turns left), when, before",
+            "say it in a sentence of its own; nothing is guessed and nothing is dropped",
+            kind=UnknownWordsError,
         )
 
     def _stuck_before(self, message: str) -> TranslationError:
@@ -71,13 +70,12 @@ class ReaderState:
         if self.subject_span is not None and self.pending_heading is not None and self.passive_object is None:
             self._open("be", self.at - 1)  # "Westbound ego."
         if self.subject_span is not None:
-            words = self.subject_span.excerpt(self.phrases.text)
-            raise UnknownWordsError(
-                f"nothing is said about '{words}' here",
-                place=ErrorPlace(self.phrases.name, self.phrases.text, self.subject_span),
-                found=words,
-                expected="a verb or a place after it",
-                fix="say what each vehicle does in a clause of its own",
+            raise self.phrases.refuse(
+                f"nothing is said about '{self.subject_span.excerpt(self.phrases.text)}' here",
+                self.subject_span,
+                "a verb or a place after it",
+                "say what each vehicle does in a clause of its own",
+                kind=UnknownWordsError,
             )
 
     def _take_subject(self, phrase: NounPhrase) -> None:

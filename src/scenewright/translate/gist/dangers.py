@@ -18,21 +18,9 @@ _DANGERS = frozenset(
      "vanishes", "disappears", "flyover", "overpass", "underpass", "viaduct", "tunnel"]
 )  # fmt: skip
 _NO_VEHICLES = frozenset(
-    [
-        "experiment",
-        "test",
-        "case",
-        "run",
-        "trial",
-        "scenario",
-        "variant",
-        "example",
-        "exercise",
-        "situation",
-        "time",
-        "page",
-    ]
-)
+    ["experiment", "test", "case", "run", "trial", "scenario", "variant", "example", "exercise", "situation", "time",
+     "page"]
+)  # fmt: skip
 # "at the end of its turn", but not "before the beginning of the turn of the ego", which is an order
 _EDGE_OF_TURN = re.compile(
     r"(?<!before the )(?<!prior to the )\b(?:start|beginning) of (?:its|the|his|her)\s+(?:\w+\s+)?turn\b"
