@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -23,6 +24,7 @@ from scenewright.simulate.prediction import (
     EgoSample,
     Predictor,
     RoadAware,
+    is_unsteady,
     predictor_called,
     since_jump,
 )
@@ -94,6 +96,53 @@ def test_acceleration_is_averaged_and_jitter_left_out() -> None:
     assert -1.0 < even < 2.0
     assert ConstantAcceleration(average_s=0.0).recent_acceleration(past) == 2.0
     assert ConstantAcceleration().recent_acceleration(steadily(0.0, 8.0, 0.01)) == 0.0
+
+
+def past_of(accels_mpss: Sequence[float], speed_mps: float = 8.0) -> list[EgoSample]:
+    """A past of these accelerations, one every 20 ms."""
+    samples, s_m = [], 0.0
+    for k, accel_mpss in enumerate(accels_mpss):
+        samples.append((0.02 * k, s_m, speed_mps, accel_mpss))
+        s_m += 0.02 * speed_mps
+        speed_mps += 0.02 * accel_mpss
+    return samples
+
+
+def jitter(mean_mpss: float, by_mpss: float, steps: int = 60) -> list[float]:
+    chance = random.Random(1)
+    return [mean_mpss + chance.gauss(0.0, by_mpss) for _ in range(steps)]
+
+
+@pytest.mark.parametrize(
+    ("accels_mpss", "unsteady"),
+    [
+        (jitter(0.0, 0.15), True),
+        (jitter(-1.2, 0.3), True),
+        (jitter(0.0, 0.002), False),
+        ([0.4] * 60, False),
+        ([0.3] * 50 + [-2.5] * 10, False),  # it changed its mind, once
+        ([-2.0 + 0.06 * k for k in range(60)], True),  # on its way to something else
+        ([-1.0 + 0.01 * k for k in range(60)], False),
+        (jitter(0.0, 0.3, steps=8), False),  # too short a past to tell
+    ],
+)
+def test_an_acceleration_that_changes_at_every_step_is_unsteady(accels_mpss: list[float], unsteady: bool) -> None:
+    assert is_unsteady(past_of(accels_mpss)) is unsteady
+
+
+@pytest.mark.parametrize("predictor", [ConstantAcceleration(), RoadAware(((500.0, 0.0),))])
+def test_an_unsteady_acceleration_is_forgotten(predictor: Predictor) -> None:
+    steady = past_of([-0.8] * 60)
+    unsteady = past_of([-0.8 + (0.2 if k % 2 else -0.2) for k in range(60)])
+    now_s, _, speed_mps, _ = unsteady[-1]
+    foreseen, held = predictor.predict(unsteady), predictor.predict(steady)
+    accels = [foreseen.state(now_s + after_s)[2] for after_s in (0.05, 1.3, 2.6)]
+    assert accels[0] < -0.6
+    assert accels[0] < accels[1] < accels[2]
+    assert abs(accels[2]) < 0.1
+    for after_s in (0.5, 1.0):  # soon it has lost less, and all the same it loses what one that is steady does
+        assert foreseen.state(now_s + after_s)[1] > held.state(now_s + after_s)[1]
+    assert foreseen.state(now_s + 5.0)[1] == pytest.approx(speed_mps - 0.8, abs=0.2)
 
 
 def test_ego_that_stands_sets_off_again() -> None:

@@ -22,6 +22,8 @@ _NOTABLE_MPSS = 0.15
 # Over how long a past it is judged whether the ego heeds the hero, and for how long its own way lasts (s).
 _JUDGED_S, _LATELY_S, _OWN_WAY_S = 1.0, 0.4, 1.0
 _LARGEST_OWN_MPSS = 1.5
+# Headways that people keep, in how many halvings one is told from another, and below which speed it is not (m/s).
+_HEADWAYS_S, _HALVINGS, _CRAWLS_MPS = (0.8, 2.5), 5, 1.0
 # Accelerations further apart than this tell one who heeds from one who does not.
 _TELLING_MPSS = 0.3
 _FINE_STEP_S, _FINE_FOR_S, _COARSE_STEP_S, _HORIZON_S = 0.1, 4.0, 0.4, 20.0
@@ -66,16 +68,17 @@ def foresee_follower(base: Profile, history: Sequence[EgoSample], leader: Leader
     if room_m <= 0.0 or not _heeds(history, leader, cruise_mps):
         return base
     s_m, speed_mps = start_m, start_mps
-    own_mpss = 0.0
+    own_mpss, headway_s = 0.0, _HEADWAY_S
     engaged = -_interaction(time_s, s_m, speed_mps, leader) > _NOTABLE_MPSS
     if engaged:
-        own_mpss = _own_way(history, leader, cruise_mps)
+        headway_s = _own_headway_s(history, leader, cruise_mps)
+        own_mpss = _own_way(history, leader, cruise_mps, headway_s)
     moves: list[tuple[float, float, int]] = []
     elapsed = 0.0
     while elapsed < _HORIZON_S:
         step_s = _FINE_STEP_S if elapsed < _FINE_FOR_S else _COARSE_STEP_S
         now_s = time_s + elapsed
-        model = _modelled(now_s, s_m, speed_mps, leader, cruise_mps)
+        model = _modelled(now_s, s_m, speed_mps, leader, cruise_mps, headway_s)
         alone = base.state(now_s)[2]
         if engaged:
             accel = model + own_mpss * (elapsed < _OWN_WAY_S)
@@ -92,7 +95,7 @@ def foresee_follower(base: Profile, history: Sequence[EgoSample], leader: Leader
     return Profile(chain(time_s, start_m, start_mps, moves))
 
 
-def _interaction(time_s: float, s_m: float, speed_mps: float, leader: Leader) -> float:
+def _interaction(time_s: float, s_m: float, speed_mps: float, leader: Leader, headway_s: float = _HEADWAY_S) -> float:
     room_m, leader_mps = leader.ahead(time_s, s_m)
     return following_accel(
         speed_mps,
@@ -100,7 +103,7 @@ def _interaction(time_s: float, s_m: float, speed_mps: float, leader: Leader) ->
         leader_mps,
         accel_mpss=_ACCEL_MPSS,
         brake_mpss=_BRAKE_MPSS,
-        headway_s=_HEADWAY_S,
+        headway_s=headway_s,
         standstill_m=_STANDSTILL_M,
     )
 
@@ -109,8 +112,10 @@ def _free(speed_mps: float, cruise_mps: float) -> float:
     return _ACCEL_MPSS * (1.0 - (speed_mps / cruise_mps) ** 4)
 
 
-def _modelled(time_s: float, s_m: float, speed_mps: float, leader: Leader, cruise_mps: float) -> float:
-    accel = _free(speed_mps, cruise_mps) + _interaction(time_s, s_m, speed_mps, leader)
+def _modelled(
+    time_s: float, s_m: float, speed_mps: float, leader: Leader, cruise_mps: float, headway_s: float = _HEADWAY_S
+) -> float:
+    accel = _free(speed_mps, cruise_mps) + _interaction(time_s, s_m, speed_mps, leader, headway_s)
     return max(-_HARDEST_MPSS, accel)
 
 
@@ -138,10 +143,24 @@ def _heeds(history: Sequence[EgoSample], leader: Leader, cruise_mps: float) -> b
     return all(abs(seen - behind) <= abs(seen - other) for other in others)
 
 
-def _own_way(history: Sequence[EgoSample], leader: Leader, cruise_mps: float) -> float:
+def _own_headway_s(history: Sequence[EgoSample], leader: Leader, cruise_mps: float) -> float:
+    """Return the headway (s) that the ego seems to keep: with it the model drives as the ego has driven lately."""
+    samples = [sample for sample in _lately(history, _JUDGED_S) if sample[0] > 0.0][::5]
+    if not samples or history[-1][2] < _CRAWLS_MPS:
+        return _HEADWAY_S
+    seen = sum(sample[3] for sample in samples) / len(samples)
+    low, high = _HEADWAYS_S
+    for _ in range(_HALVINGS):  # the longer the headway, the less it accelerates
+        middle = 0.5 * (low + high)
+        modelled = sum(_modelled(*sample[:3], leader, cruise_mps, middle) for sample in samples) / len(samples)
+        low, high = (middle, high) if modelled > seen else (low, middle)
+    return 0.5 * (low + high)
+
+
+def _own_way(history: Sequence[EgoSample], leader: Leader, cruise_mps: float, headway_s: float) -> float:
     """Return by how much the ego has lately accelerated more than the model does (m/s^2)."""
     samples = [sample for sample in _lately(history, _LATELY_S) if sample[0] > 0.0]
     if not samples:
         return 0.0
-    more = sum(sample[3] - _modelled(*sample[:3], leader, cruise_mps) for sample in samples) / len(samples)
+    more = sum(sample[3] - _modelled(*sample[:3], leader, cruise_mps, headway_s) for sample in samples) / len(samples)
     return max(-_LARGEST_OWN_MPSS, min(_LARGEST_OWN_MPSS, more))

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Protocol
 
 from scenewright.errors import InputError
@@ -27,6 +28,9 @@ _JUMP_MPSS = 1.0
 # Who has gained this much a second over the last second is speeding up on purpose.
 _LATELY_S, _SPEEDS_UP_MPSS = 1.0, 0.6
 _STEP_S, _MOST_STEPS = 0.5, 20
+# An acceleration that changes by this much (m/s^2) at every step is no sign of what comes; how it is forgotten (s).
+_UNSTEADY_MPSS, _UNSTEADY_FOR_S, _FORGETS_S, _FORGOTTEN_S = 0.03, 0.5, 1.0, 3.0
+_FEWEST_CHANGES, _FORGET_STEP_S = 10, 0.25
 # Below this share of what people drive there it crawls.
 _CRAWLS = 0.25
 
@@ -47,10 +51,22 @@ def jumped(accels_mpss: Sequence[float], count: int = 1) -> bool:
     return min(abs(min(after) - max(before)), abs(max(after) - min(before))) > _JUMP_MPSS
 
 
-def lately(history: Sequence[EgoSample], for_s: float) -> list[float]:
+def lately(history: Sequence[EgoSample], for_s: float, most: int = 12) -> list[float]:
     """Return the accelerations (m/s^2) of the last moments, the newest first."""
     last_s = history[-1][0]
-    return [sample[3] for sample in reversed(history[-12:]) if sample[0] >= last_s - for_s]
+    return [sample[3] for sample in reversed(history[-most:]) if sample[0] >= last_s - for_s]
+
+
+def is_unsteady(history: Sequence[EgoSample]) -> bool:
+    """Whether the ego's acceleration changes at every step: its foot trembles, or is on its way to something else."""
+    values = lately(history, _UNSTEADY_FOR_S, 60)
+    changes = sorted(abs(after - before) for after, before in pairwise(values))
+    return len(changes) >= _FEWEST_CHANGES and changes[len(changes) // 2] > _UNSTEADY_MPSS
+
+
+def fading(after_s: float, for_s: float) -> float:
+    """Return the share of an unsteady acceleration that is left, on average, in a while that begins later."""
+    return math.exp(-(after_s + 0.5 * for_s) / _FORGETS_S)
 
 
 class Predictor(Protocol):
@@ -102,9 +118,10 @@ class ConstantAcceleration:
         time_s, s_m, speed_mps, _ = history[-1]
         accel = self.recent_acceleration(history)
         moves: list[tuple[float, float, int]] = []
-        end_speed = max(0.0, speed_mps + accel * self.hold_s)
+        held = self.held(history, accel)
+        end_speed = max(0.0, speed_mps + sum(duration_s * held_mpss for duration_s, held_mpss, _ in held))
         if end_speed > 0.3:
-            moves.append((self.hold_s, accel, 0))
+            moves += held
             moves += self.speeding_up(history, end_speed)
         else:
             if speed_mps > 0.05 and accel < -0.05:
@@ -112,6 +129,13 @@ class ConstantAcceleration:
             moves.append((self.standstill_s, 0.0, 0))
             moves.append((self.restart_speed_mps / self.restart_mpss, self.restart_mpss, 0))
         return Profile(chain(time_s, s_m, speed_mps if speed_mps > 0.05 else 0.0, moves))
+
+    def held(self, history: Sequence[EgoSample], accel_mpss: float) -> list[tuple[float, float, int]]:
+        """Return for how long an acceleration is kept: for a while, or ever less of it where the foot is unsteady."""
+        if not is_unsteady(history) or self.pull(history):
+            return [(self.hold_s, accel_mpss, 0)]
+        steps = round(_FORGOTTEN_S / _FORGET_STEP_S)
+        return [(_FORGET_STEP_S, accel_mpss * fading(k * _FORGET_STEP_S, _FORGET_STEP_S), 0) for k in range(steps)]
 
     def speeding_up(self, history: Sequence[EgoSample], speed_mps: float) -> list[tuple[float, float, int]]:
         """Return how one that has been speeding up for a while goes on to `cruise_mps` from a speed below it."""
@@ -198,10 +222,15 @@ class RoadAware:
         if not ahead:
             return self.base.predict(history)
         first, pull = self.base.recent_acceleration(history), self.base.pull(history)
+        unsteady = is_unsteady(history)
         moves: list[tuple[float, float, int]] = []
         elapsed = 0.0
         while elapsed < self.horizon_s:
-            wanted = first if elapsed < self.base.hold_s else self.base.pulled(pull, speed)
+            wanted = self.base.pulled(pull, speed)
+            if unsteady:
+                wanted += (first - wanted) * fading(elapsed, self.step_s)
+            elif elapsed < self.base.hold_s:
+                wanted = first
             needed = max((self._needed(place, s_m, speed) for place in ahead), default=0.0)
             if needed > 0.85 * self.gentle_mpss:
                 wanted = min(wanted, -needed) if elapsed < self.base.hold_s and first < 0 else -needed
