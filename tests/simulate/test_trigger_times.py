@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from stories import YIELDS_DISTANCE, YIELDS_TIME
+from stories import BRAKES_GAP, HERO, YIELDS_DISTANCE, YIELDS_TIME
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.program.structure import read_structure
@@ -14,18 +14,23 @@ from scenewright.roads.load import load_map
 from scenewright.simulate.prediction import ConstantAcceleration
 from scenewright.simulate.triggers import PlannedTrigger, TriggerTimes
 from scenewright.solve.arrival import TIGHT_LENGTH_M, linear_conditions
+from scenewright.solve.situation import HeroState
 
 NOW_S = 5.0
 HERO_MOTION = Profile(chain(0.0, 0.0, 8.0, [(60.0, 0.0, 0)]))
 
 
-def times(text: str = YIELDS_DISTANCE) -> tuple[TriggerTimes, float]:
-    """Return when the trigger of a hero that is to yield comes, and the ego's place (m) at it, at no speed."""
+def times_of(text: str) -> TriggerTimes:
     scene = ground(parse_program(text), load_map("t_intersection"), {})
     structure = read_structure(scene.program)
     conditions = linear_conditions(scene, structure)
-    found = TriggerTimes(scene, structure, conditions, ConstantAcceleration(cruise_mps=13.9))
-    side = found.ego_side(scene.program.heroes[0])
+    return TriggerTimes(scene, structure, conditions, ConstantAcceleration(cruise_mps=13.9))
+
+
+def times(text: str = YIELDS_DISTANCE) -> tuple[TriggerTimes, float]:
+    """Return when the trigger of a hero that is to yield comes, and the ego's place (m) at it, at no speed."""
+    found = times_of(text)
+    side = found.ego_side(found.scene.program.heroes[0])
     assert side is not None
     return found, -side.constant / side.weights[EGO][0]
 
@@ -80,3 +85,32 @@ def test_a_time_that_was_met_between_two_ticks_is_not_waited_for_again(late_m: f
     assert (instant_s < NOW_S + 0.1) is due
     (later_s,) = found.instants_s(hero, NOW_S, ego, {}, PlannedTrigger(NOW_S + 3.0, HERO_MOTION))
     assert later_s > NOW_S + 1.5
+
+
+@pytest.mark.parametrize(
+    ("accel_mpss", "until_s", "waits_s"),
+    [
+        (-1.0, NOW_S, 0.5),  # it is to brake at its trigger, and has just done so
+        (-1.0, NOW_S - 0.4, 0.2),
+        (-1.0, NOW_S - 2.0, 0.2),
+        (-0.3, NOW_S, 0.2),  # not to be seen
+        (1.0, NOW_S, 0.2),  # nothing of what is to begin
+    ],
+)
+def test_a_trigger_that_both_decide_waits_until_the_hero_is_settled(
+    accel_mpss: float, until_s: float, waits_s: float
+) -> None:
+    found = times_of(BRAKES_GAP)
+    hero = found.scene.program.heroes[0]
+    condition = found.joint_condition(hero)
+    assert condition is not None
+    held_s, changes_s = until_s - 1.0, 1.0
+    way = [(held_s, 0.0, 0), (changes_s, accel_mpss, 0), (NOW_S - until_s + 60.0, 0.0, 0)]
+    history = Profile(chain(0.0, 100.0, 10.0, [move for move in way if move[0] > 0.0]))
+    s_m, speed_mps, _ = history.state(NOW_S)
+    state = HeroState(NOW_S, s_m, speed_mps, 0, {}, history)
+    per_metre = condition.weights[EGO][0]
+    due_m = -(condition.constant + condition.weights[HERO][0] * s_m) / per_metre  # where the ego would be due now
+    ego = Profile(chain(NOW_S, due_m - 0.2, speed_mps + 1.0, [(60.0, 0.0, 0)]))  # 0.2 s before that
+    coasting_s = found.coasting_s(hero, ego, state, PlannedTrigger(NOW_S + 1.0, history), NOW_S + 1.0)
+    assert coasting_s == pytest.approx(NOW_S + waits_s, abs=0.02)

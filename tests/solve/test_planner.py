@@ -253,3 +253,25 @@ def test_one_that_is_late_goes_as_soon_and_as_hard_as_it_can() -> None:
     stands_s = plan.profiles[1].knot_times_s["t3"] - past["t2"]
     assert STANDSTILL_MIN_S <= stands_s <= STANDSTILL_MIN_S + 0.03
     assert max(segment.accel_mpss for segment in plan.profiles[1].segments) >= 0.97 * ACCEL_MAX_MPSS
+
+
+def test_one_that_is_pressed_stands_no_longer_than_can_be_seen() -> None:
+    """The ego is expected late, so nothing speaks against a longer stand but that it might make haste."""
+    scene = YIELDS_THEN_GOES.scene()
+    stands_s, passes_s = {}, {}
+    for pressed in (False, True):
+        planner = planner_of(scene)
+        situation = situation_of(scene, 1.5, 15.0)
+        first = planner.first_plan([situation]).plan
+        assert first is not None
+        profile = first.profiles[1]
+        now_s = profile.knot_times_s["t2"] + 0.1
+        past = {knot: profile.knot_times_s[knot] for knot in ("t0", "t1", "t2")}
+        hero = HeroState(now_s, profile.state(now_s)[0], 0.0, 2, past, profile)
+        after = replace(situation, time_s=now_s, heroes={1: hero}, trigger_s={}, pressed=pressed)
+        plan = planner.replan([after]).plan
+        assert plan is not None
+        knots_s = plan.profiles[1].knot_times_s
+        stands_s[pressed], passes_s[pressed] = knots_s["t3"] - past["t2"], knots_s["t4"]
+    assert stands_s[True] < STANDSTILL_MIN_S + 0.05 < stands_s[False]
+    assert passes_s[True] < passes_s[False] - 0.3

@@ -16,11 +16,13 @@ from scenewright.program.structure import Role, Structure, knots_of
 from scenewright.program.types import EGO, Actor
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.following import Leader, foresee_follower
+from scenewright.simulate.leading import ways_to_lead
 from scenewright.simulate.prediction import EgoSample, Predictor, jumped, lately
 from scenewright.simulate.triggers import PlannedTrigger, TriggerTimes
 from scenewright.solve.arrival import LinearCondition
+from scenewright.solve.limits import URGENT, WHOLE
 from scenewright.solve.plan import Plan
-from scenewright.solve.planner import Attempt, Planner
+from scenewright.solve.planner import JUST_BEFORE_S, Attempt, Planner
 from scenewright.solve.situation import HeroState, Situation
 
 # While much time is left a late or early ego is nothing to act on; the dead band shrinks to almost nothing.
@@ -41,6 +43,8 @@ _RETRY_EVERY = 3
 _PATIENCE_S = 3.0
 # How often a first plan is made again, for an ego that reacts to the one before.
 _SECOND_THOUGHTS = 2
+# How many ways in which a hero may lead the ego are asked for; in which manners it would rather not drive ahead of it.
+_MOST_LED, _HARD = 3, (WHOLE.name, URGENT.name)
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,17 +162,55 @@ class Replanner:
         prediction = self._foresee()
         heroes = {hero.id: self._hero_state(hero, time_s) for hero in self.scene.program.heroes}
         situations = self._situations(time_s, prediction, self.ego_knots_s, heroes)
-        if self._plan_still_fits(time_s, situations[0]):
+        if self._is_pressed(time_s, prediction, heroes):
+            situations = [replace(situation, pressed=True) for situation in situations]
+        elif self._plan_still_fits(time_s, situations[0]):
             return Replan(time_s, "kept", "", 0.0, self.plan.tolerance, "the plan still fits the ego")
         if self._failures >= _PATIENT_FAILURES and len(self.records) % _RETRY_EVERY:
             return Replan(time_s, "unsat, last plan goes on", "", 0.0, self.plan.tolerance, "failed a moment ago")
         attempt = self.planner.replan(situations)
+        if _is_hard(attempt):
+            led = self._led(time_s, heroes)
+            other = self.planner.replan(led) if led else attempt
+            attempt = other if other.plan is not None and (attempt.plan is None or not _is_hard(other)) else attempt
         self._failures = 0 if attempt.plan is not None else self._failures + 1
         if attempt.plan is not None:
             self.plan = self._continued(attempt.plan, time_s)
         else:
             self._wait_for_joint_triggers(time_s)
         return self._record(time_s, attempt)
+
+    def _led(self, time_s: float, heroes: Mapping[int, HeroState]) -> list[Situation]:
+        """Return situations that a hero brings about by driving faster or slower, and the ego by following it."""
+        if len(self._times.leaders) != 1 or len(heroes) != 1:
+            return []
+        hero_id, clearance = next(iter(self._times.leaders.items()))
+        hero = self.scene.program.actor(hero_id)
+        condition = self._times.joint_condition(hero)
+        if condition is None or self.structure.trigger_knot(hero_id) in heroes[hero_id].knots_s:
+            return []
+        led = ways_to_lead(
+            hero_id,
+            heroes[hero_id],
+            condition,
+            self.predictor.predict(self._samples),
+            self._samples,
+            offset_m=clearance.offset_m,
+            top_mps=self.planner.limits[hero_id].approach_speed_max_mps,
+            cruise_mps=self.planner.limits[EGO].natural_approach_speed_mps,
+        )
+        return [
+            self._situation(time_s, way.ego, self.ego_knots_s, heroes, {hero_id: way.instant_s})
+            for way in led[:_MOST_LED]
+        ]
+
+    def _is_pressed(self, time_s: float, prediction: Profile, heroes: Mapping[int, HeroState]) -> bool:
+        """Whether a hero is about to do what decides who is first, and would come too late for an ego in haste."""
+        knots_s = [knot_s for hero in heroes for knot_s in self.plan.profiles[hero].knot_times_s.values()]
+        if not any(time_s < knot_s <= time_s + JUST_BEFORE_S for knot_s in knots_s):
+            return False
+        hasty = self._situations(time_s, self._times.in_haste(prediction, time_s), self.ego_knots_s, heroes)[0]
+        return not hasty.trigger_s and not self._plan_still_fits(time_s, hasty)
 
     def _wait_for_joint_triggers(self, time_s: float) -> None:
         """Let heroes whose trigger both decide go on as they are: to begin at the old moment would be too early."""
@@ -288,7 +330,7 @@ class Replanner:
         if coasting is not None:
             knots = self._times.ego_knots_s(time_s, prediction, ego_past, coasting)
             in_force = {hero: self._planned_trigger_s(self.scene.program.actor(hero)) for hero in coasting}
-            situations.append(Situation(time_s, prediction, knots, heroes, coasting, in_force, coasting=True))
+            situations.append(Situation(time_s, prediction, knots, heroes, coasting, in_force, in_force, coasting=True))
         for k in range(max((len(instants) for instants in choices.values()), default=1)):
             triggers = {hero: instants[min(k, len(instants) - 1)] for hero, instants in choices.items()}
             situations.append(self._situation(time_s, prediction, ego_past, heroes, triggers))
@@ -309,8 +351,9 @@ class Replanner:
         slack_s = min((times.slack_s(hero, prediction, triggers_s[hero.id]) for hero in planning), default=0.0)
         earliest = {hero.id: times.earliest_s(hero, time_s, prediction, triggers_s[hero.id]) for hero in planning}
         hasty = {hero: arrivals for hero, arrivals in earliest.items() if arrivals}
+        there = {hero.id: times.hero_there_s(hero, time_s, self._planned_trigger(hero)) for hero in planning}
         knots = times.ego_knots_s(time_s, prediction, ego_past, triggers_s)
-        return Situation(time_s, prediction, knots, heroes, triggers_s, in_force, slack_s, hasty)
+        return Situation(time_s, prediction, knots, heroes, triggers_s, in_force, there, slack_s, hasty)
 
     def _coasting(
         self, prediction: Profile, heroes: Mapping[int, HeroState], choices: Mapping[int, list[float]]
@@ -372,3 +415,8 @@ class Replanner:
         last_ego = max(situation.ego_knots_s.values(), default=0.0)
         last_own = max(times.values(), default=0.0)
         return last_ego <= situation.time_s or last_own + 0.5 < last_ego
+
+
+def _is_hard(attempt: Attempt) -> bool:
+    """Whether there is no plan, or only one that takes a hero's whole authority."""
+    return attempt.plan is None or attempt.plan.manner in _HARD

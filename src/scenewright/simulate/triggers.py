@@ -12,12 +12,13 @@ from dataclasses import dataclass, field
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.program.structure import Structure
-from scenewright.program.types import EGO, Actor
+from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.prediction import ConstantSpeed, Predictor
-from scenewright.solve.arrival import TIGHT_LENGTH_M, LinearCondition, tight_of
+from scenewright.solve.arrival import TIGHT_LENGTH_M, LinearCondition, hero_side, tight_of
 from scenewright.solve.clearance import Clearance
 from scenewright.solve.lags import Lag
+from scenewright.solve.limits import SETTLED_MPSS
 from scenewright.solve.situation import SHORTEST_LEAD_S, HeroState
 
 _LONGEST_SLACK_S = 1.0
@@ -35,9 +36,11 @@ _NEAR, _NEARLY_S = 0.5, 0.5
 # What is so near (s) is waited for a while (s) beyond all patience: to move now would put it off again.
 _NEARLY_THERE_S, _MOST_PATIENCE_S = 1.5, 4.0
 # How soon a trigger was to come (s) that the ego may have met between two ticks; how late it would come again.
-_DUE_S, _AGAIN_S = 0.12, 0.2
+_DUE_S, _AGAIN_S, _STILL_GOOD = 0.12, 0.2, 0.8
 # Who does not get nearer to its place than this before it stands is there.
 _STANDS_MPS, _STANDS_THERE_M = 0.02, 0.9 * TIGHT_LENGTH_M
+# How long a hero is to be seen settled (s).
+_SEEN_SETTLED_S, _ROUNDING_S = 0.5, 1e-6
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,7 +138,7 @@ class TriggerTimes:
         """
         due_s = max(planned_s, time_s + SHORTEST_LEAD_S)
         late = arrival_s > due_s + _AGAIN_S and planned_s < time_s + _DUE_S
-        return late and self.ego_miss(hero, prediction, due_s) <= _NEAR
+        return late and self.ego_miss(hero, prediction, due_s) <= _STILL_GOOD
 
     def _ego_arrival_s(self, condition: LinearCondition, time_s: float, prediction: Profile) -> float:
         """Return when the ego will be at its side: at once where it is past it, late where that is not in sight."""
@@ -162,6 +165,12 @@ class TriggerTimes:
         shifted = (planned.time_s + shift for shift in _RETRY_TRIGGERS_S)
         return [*result, *(instant for instant in shifted if instant > time_s + SHORTEST_LEAD_S)]
 
+    def joint_condition(self, hero: Actor) -> LinearCondition | None:
+        """Return the condition on both that alone decides when the hero's trigger comes; None where it is not so."""
+        conditions = self._conditions_of(hero)
+        both = len(conditions) == 1 and set(conditions[0].weights) == {EGO, hero.id}
+        return conditions[0] if both and self.ego_side(hero) is None else None
+
     def coasting_s(
         self, hero: Actor, prediction: Profile, state: HeroState, planned: PlannedTrigger, latest_s: float
     ) -> float | None:
@@ -169,19 +178,31 @@ class TriggerTimes:
 
         An ego that follows the hero answers whatever that does: the less it does, the better the ego is foreseen.
         """
-        both = [c for c in self._conditions_of(hero) if set(c.weights) == {EGO, hero.id}]
-        if len(both) != 1 or len(self._conditions_of(hero)) != 1 or self.ego_side(hero) is not None:
+        both = self.joint_condition(hero)
+        if both is None:
             return None
         time_s = state.time_s
         motion = Profile(chain(time_s, state.s_m, state.speed_mps, [(1.0, 0.0, state.piece)]))
-        crossing = both[0].first_time({EGO: prediction, hero.id: motion}, time_s)
-        soonest_s = time_s + SHORTEST_LEAD_S
+        crossing = both.first_time({EGO: prediction, hero.id: motion}, time_s)
+        soonest_s = max(time_s + SHORTEST_LEAD_S, self._settled_s(hero, state))
         soon_s = _NEARLY_THERE_S if time_s < latest_s + _MOST_PATIENCE_S else _NEARLY_S
         if crossing is not None and crossing < max(latest_s, time_s + soon_s):
             return max(crossing, soonest_s)
         # Between two ticks it may have come sooner than foreseen.
         near = self.joint_miss(hero, prediction, soonest_s, motion) <= _NEAR
         return soonest_s if near and planned.time_s < time_s + _NEARLY_S else None
+
+    def _settled_s(self, hero: Actor, state: HeroState) -> float:
+        """Return from when on a hero that holds its speed from now on has been settled for as long as can be seen."""
+        knots = hero.sketch.knots
+        begins = hero.sketch.pieces[knots.index(self.structure.trigger_knot(hero.id) or knots[0])]
+        sense = 1.0 if begins is PieceKind.ACC else -1.0
+        moved = [
+            min(segment.end_s, state.time_s)
+            for segment in state.history.segments
+            if sense * segment.accel_mpss > SETTLED_MPSS and segment.start_s < state.time_s - _ROUNDING_S
+        ]
+        return moved[-1] + _SEEN_SETTLED_S if moved else -math.inf
 
     def earliest_s(
         self, hero: Actor, time_s: float, prediction: Profile, expected_s: float
@@ -196,13 +217,26 @@ class TriggerTimes:
         found: list[tuple[float, float]] = []
         for share in _HASTE_SHARES:
             begin_s = time_s + share * (expected_s - time_s)
-            s_m, speed_mps, _ = prediction.state(begin_s)
-            pull = _HASTE_MPSS * max(0.0, 1.0 - (speed_mps / self.cruise_mps) ** 4)
-            motion = self.predictor.predict([(begin_s, s_m, max(speed_mps, _SETS_OFF_MPS), pull)])
-            arrival = side.first_time({EGO: motion}, begin_s)
+            arrival = side.first_time({EGO: self.in_haste(prediction, begin_s)}, begin_s)
             found.append((begin_s, expected_s if arrival is None else min(expected_s, arrival)))
         notably_s = max(_NOTABLY_EARLIER_S, _NOTABLE_SHARE * (expected_s - time_s))
         return tuple(found) if expected_s - found[0][1] > notably_s else ()
+
+    def in_haste(self, prediction: Profile, begin_s: float) -> Profile:
+        """Return how an ego goes on that is as foreseen up to a moment, and then makes haste."""
+        s_m, speed_mps, _ = prediction.state(begin_s)
+        pull = _HASTE_MPSS * max(0.0, 1.0 - (speed_mps / self.cruise_mps) ** 4)
+        return self.predictor.predict([(begin_s, s_m, max(speed_mps, _SETS_OFF_MPS), pull)])
+
+    def hero_there_s(self, hero: Actor, time_s: float, planned: PlannedTrigger) -> float:
+        """Return when the hero will be at its side, going on as planned; now where it was there already."""
+        side, motion = hero_side(self.conditions, self.structure, hero.id), {hero.id: planned.approach}
+        if side is None:
+            return planned.time_s
+        there_s = side.first_time(motion, time_s)
+        if there_s is None:
+            there_s = time_s if side.first_time(motion, planned.approach.start_s) is not None else planned.time_s
+        return there_s
 
     def slack_s(self, hero: Actor, prediction: Profile, instant_s: float) -> float:
         """Return the time in which the ego gets one tight tolerance off its side of the trigger."""

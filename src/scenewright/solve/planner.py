@@ -24,7 +24,7 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition, hero_side
 from scenewright.solve.clearance import Clearance
 from scenewright.solve.hero_problem import HeroProblem
-from scenewright.solve.limits import Limits, Manner
+from scenewright.solve.limits import HASTE, Limits, Manner
 from scenewright.solve.lowering import TIGHT, compared_dimension
 from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.solve.problem import Backend, Satisfiable, Unknown
@@ -33,9 +33,11 @@ from scenewright.solve.situation import SHORTEST_LEAD_S, Situation
 from scenewright.solve.trials import COAST, EXACT, Trial, first_trials, hasty, off, opening, relaxed, trials
 
 _TRIES_A_TICK = 5
-# Halvings in which the best for an outcome in doubt is searched: one that is promised by no more than this (s). What
-# comes after the trigger is asked again at every tick; only just before it begins (s) is it worth that.
-_HASTENINGS, _DOUBTFUL_S, _JUST_BEFORE_S = 5, 0.1, 0.25
+# How finely the best for an outcome in doubt is searched: one that is promised by no more than this (s). What comes
+# after the trigger is asked again at every tick; only just before it begins (s) is it worth that.
+_FINELY_S, _DOUBTFUL_S, JUST_BEFORE_S = 0.01, 0.1, 0.25
+# By how much more than is promised (s) an ego that may make haste is looked for.
+_MOST_HASTE_S = 2.0
 # What arithmetic calls just out of reach may be rounding.
 _HOPE_SLACK = 0.02
 # By how much of what the ego may be off its side the trigger is moved: no more than it takes.
@@ -142,15 +144,18 @@ class Planner:
         From a step to the next it may be a second, and what is not needed here may be missing when the ego makes haste.
         """
         margin_s = trial.manner.outcome_margin_s
-        doubtful = trial.manner.outcome and margin_s <= _DOUBTFUL_S and not trial.tolerance
+        doubtful = trial.manner.outcome and not trial.tolerance and (margin_s <= _DOUBTFUL_S or situation.pressed)
         if attempt.plan is None or not doubtful or trial not in self.trials:
             return attempt
         knots = [knot_s for profile in attempt.plan.profiles.values() for knot_s in profile.knot_times_s.values()]
         now_s = situation.time_s
-        if not situation.trigger_s and not any(now_s < knot_s <= now_s + _JUST_BEFORE_S for knot_s in knots):
+        soon = situation.pressed or any(now_s < knot_s <= now_s + JUST_BEFORE_S for knot_s in knots)
+        if not situation.trigger_s and not soon:
             return attempt
         low, high = self.trials[self.trials.index(trial) - 1].manner.outcome_margin_s, margin_s
-        for _ in range(_HASTENINGS):
+        if situation.pressed:
+            low, trial = margin_s + _MOST_HASTE_S, Trial(replace(HASTE, clear=False))
+        while low - high > _FINELY_S:
             middle = 0.5 * (low + high)
             manner = replace(trial.manner, outcome_margin_s=middle)
             timed = self._timed(Trial(manner), situation)
@@ -322,19 +327,24 @@ def _is_put_off(situation: Situation) -> bool:
 
 
 def retimed(situation: Situation, tolerance: Fraction) -> Situation:
-    """Return `situation` with the trigger moved towards where it was planned, as far as the ego may be off its side.
+    """Return `situation` with the trigger moved towards the plan in force, as far as the ego may be off its side.
 
-    A late ego is met half way: the hero a little off its place, the ego a little off its own.
+    A late ego is met half way: the hero a little off its place, the ego a little off its own. Where the plan has the
+    trigger already when the ego is at its side, it is moved towards when the hero is.
     """
     if not tolerance or not situation.planned_trigger_s:
         return situation
     triggers = dict(situation.trigger_s)
     ego_knots = dict(situation.ego_knots_s)
-    for hero, planned in situation.planned_trigger_s.items():
+    for hero, planned_s in situation.planned_trigger_s.items():
         now = triggers[hero]
         reach = float(tolerance) * situation.ego_slack_s
         soonest = min(now, situation.time_s + SHORTEST_LEAD_S)
-        triggers[hero] = moved = max(soonest, now + max(-reach, min(reach, planned - now)))
+        off_s, there_s = planned_s - now, situation.hero_there_s.get(hero, planned_s) - now
+        # An ego that is past its side is not waited for: what is put off at every tick never comes.
+        if off_s * there_s >= 0.0 and abs(there_s) > abs(off_s) and (there_s < 0.0 or now > soonest):
+            off_s = there_s
+        triggers[hero] = moved = max(soonest, now + max(-reach, min(reach, off_s)))
         ego_knots = {name: moved if time_s == now else time_s for name, time_s in ego_knots.items()}
     return replace(situation, trigger_s=triggers, ego_knots_s=ego_knots)
 

@@ -42,6 +42,8 @@ class Situation:
         For each hero that has a trigger ahead: the instant at which it should come now.
     planned_trigger_s
         The instant that the plan in force has for it.
+    hero_there_s
+        When the hero is at its own side, as it goes on by that plan: what took a tolerance is not there when planned.
     ego_slack_s
         By how much the instant may move until the ego is one tight tolerance off its own side.
     earliest_s
@@ -49,6 +51,8 @@ class Situation:
         its side at the earliest if it made haste from that instant on. Empty where it does not look like that.
     coasting
         Whether heroes that hold their speed meet the trigger at that instant.
+    pressed
+        Whether an ego in haste might be first where a hero is to be.
     """
 
     time_s: float
@@ -57,6 +61,8 @@ class Situation:
     heroes: Mapping[int, HeroState]
     trigger_s: Mapping[int, float]
     planned_trigger_s: Mapping[int, float] = field(default_factory=dict)
+    hero_there_s: Mapping[int, float] = field(default_factory=dict)
     ego_slack_s: float = 0.0
     earliest_s: Mapping[int, tuple[tuple[float, float], ...]] = field(default_factory=dict)
     coasting: bool = False
+    pressed: bool = False
