@@ -289,10 +289,14 @@ class HeroProblem:
         if turn is None or turn_top >= top:
             return
         if stretch.approach and stretch.end_knot is None:
-            too_fast = isinstance(v0, Fraction) and v0 > pin(turn_top)
-            if not too_fast and hero.id in self._turning:
-                condition = is_slow_in_turn(turn, turn_top, x0, v0, x1, v1)
-                self.problem.require(condition, f"{hero.name} turns at up to {turn_top:.1f} m/s")
+            origin = f"{hero.name} turns at up to {turn_top:.1f} m/s"
+            if hero.id not in self._turning:
+                return
+            hardest = pin(self.limits[hero.id].brake_max_mpss)
+            if not (isinstance(x0, Fraction) and isinstance(v0, Fraction) and v0 > pin(turn_top)):
+                self.problem.require(is_slow_in_turn(turn, turn_top, x0, v0, x1, v1), origin)
+            elif v0 * v0 - pin(turn_top) ** 2 < 2 * hardest * (pin(turn.start_m) - x0):
+                self.problem.require(compare("<=", x1, pin(turn.start_m)), origin)  # it slows down before its turn
             return
         braking = hero.sketch.pieces[stretch.piece] is PieceKind.DEC
         condition = keeps_to_turn_speed(turn, turn_top, x0, v0, x1, v1, braking)

@@ -165,7 +165,7 @@ class Manner:
 
 STEADY = Manner("steady", 0.0, 0.0, 1, True, (1.2, 2.4), (1.2, 2.5), (0.6, 1.2), 2.0, True)
 # Where the moment is free and holding the speed leads to one: only rounding is made up for.
-COASTING = Manner("steady", 0.02, 0.02, 1, True, (0.7, 6.0), (0.8, 3.5), (0.5, 3.0), MOVING_MPS, False)
+COASTING = Manner("steady", 0.02, 0.02, 1, True, (0.6, 8.0), (0.8, 4.0), (0.5, 3.0), MOVING_MPS, False)
 GENTLE = Manner("gentle", 1.0, 1.2, 2, True, (0.9, 4.0), (1.0, 2.5), (0.6, 1.5), 1.5, True)
 FIRM = Manner("firm", 2.5, 3.0, 3, True, (0.7, 6.0), (0.8, 3.5), (0.5, 3.0), MOVING_MPS, False)
 WHOLE = Manner("whole", ACCEL_MAX_MPSS, BRAKE_MAX_MPSS, 5, True, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)
