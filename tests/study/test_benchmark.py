@@ -132,13 +132,13 @@ def test_draws_span_what_they_should() -> None:
                     assert value <= drawn.high + 0.01
                 if not name.startswith("initial"):
                     seen[name.rpartition("_")[2]].append(value)
-    # A few rows need an ego from further away than 60 m or 5 s; see docs/benchmark.md.
+    # Some rows need an ego from further away than 60 m or 5 s; see docs/benchmark.md.
     assert min(seen["m"]) < 3.5
     assert 59 < max(seen["m"]) <= 100
     assert sum(value > 60 for value in seen["m"]) < 0.05 * len(seen["m"])
     assert min(seen["s"]) < 0.6
     assert 4.9 < max(seen["s"]) <= 9
-    assert sum(value > 5 for value in seen["s"]) < 0.15 * len(seen["s"])
+    assert sum(value > 5 for value in seen["s"]) < 0.2 * len(seen["s"])
     assert min(seen["mpss"]) < 1.4
     assert 6.6 < max(seen["mpss"]) <= 7
 
