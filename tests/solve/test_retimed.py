@@ -8,7 +8,7 @@ from fractions import Fraction
 from scenewright.motion.profile import Profile, chain
 from scenewright.solve.limits import COUNTER, Wait
 from scenewright.solve.planner import retimed
-from scenewright.solve.situation import Situation
+from scenewright.solve.situation import SHORTEST_LEAD_S, Situation
 from scenewright.solve.stretches import timed_approach
 
 HERO = 1
@@ -37,3 +37,19 @@ def test_a_wait_that_takes_all_the_time_leaves_a_way_to_the_trigger() -> None:
         way = timed_approach(replace(COUNTER, wait=wait), 0, rest_s, "t1")
         assert sum(stretch.duration_s or 0 for stretch in way) == rest_s
         assert way[-1].end_knot == "t1"
+
+
+def test_moves_towards_when_the_hero_is_there_where_it_is_planned_for_now() -> None:
+    """A plan that took a tolerance has the hero elsewhere at its trigger: both are to be a little off."""
+    for planned_s, there_s, moved_s in ((5.4, 5.3, 5.3), (5.4, 5.6, 5.6), (5.35, 5.6, 5.35), (5.35, 5.2, 5.2)):
+        here = replace(situation(planned_s), hero_there_s={HERO: there_s})
+        assert abs(retimed(here, Fraction(1)).trigger_s[HERO] - moved_s) < 1e-9
+        nearer = retimed(here, Fraction(1, 20)).trigger_s[HERO]
+        assert abs(nearer - 5.4) <= 0.05 + 1e-9
+
+
+def test_an_ego_past_its_side_is_not_waited_for() -> None:
+    """Its trigger is due at once, at every tick anew: what is put off each time never comes."""
+    due_s = situation(5.0).time_s + SHORTEST_LEAD_S
+    here = replace(situation(due_s), trigger_s={HERO: due_s}, hero_there_s={HERO: 6.0})
+    assert retimed(here, Fraction(1)).trigger_s[HERO] == due_s
