@@ -35,9 +35,9 @@ from scenewright.solve.trials import COAST, EXACT, Trial, first_trials, hasty, o
 _TRIES_A_TICK = 5
 # How finely the best for an outcome in doubt is searched: one that is promised by no more than this (s). What comes
 # after the trigger is asked again at every tick; only just before it begins (s) is it worth that.
-_FINELY_S, _DOUBTFUL_S, JUST_BEFORE_S = 0.01, 0.1, 0.25
+_FINELY_S, _DOUBTFUL_S, JUST_BEFORE_S = 0.02, 0.1, 0.25
 # By how much more than is promised (s) an ego that may make haste is looked for.
-_MOST_HASTE_S = 2.0
+_MOST_HASTE_S = 0.6
 # What arithmetic calls just out of reach may be rounding.
 _HOPE_SLACK = 0.02
 # By how much of what the ego may be off its side the trigger is moved: no more than it takes.
