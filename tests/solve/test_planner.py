@@ -236,11 +236,8 @@ def test_a_hero_is_ready_for_an_ego_that_makes_haste_and_for_one_that_stops(
                 assert segment.end_s_m + reach_m >= place - 1e-3
 
 
-def test_one_that_is_late_goes_as_soon_and_as_hard_as_it_can() -> None:
-    """It stands, and the ego will be there before it: no time is lost that another whim of the ego may give back."""
-    scene = YIELDS_THEN_GOES.scene()
-    planner = planner_of(scene)
-    situation = situation_of(scene, 12.0, 4.0)
+def standing(planner: Planner, situation: Situation) -> tuple[Situation, float]:
+    """Return the situation a moment after the hero has come to its stand, and when it has (s)."""
     first = planner.first_plan([situation]).plan
     assert first is not None
     profile = first.profiles[1]
@@ -248,9 +245,18 @@ def test_one_that_is_late_goes_as_soon_and_as_hard_as_it_can() -> None:
     past = {knot: profile.knot_times_s[knot] for knot in ("t0", "t1", "t2")}
     hero = HeroState(now_s, profile.state(now_s)[0], 0.0, 2, past, profile)
     after = replace(situation, time_s=now_s, heroes={1: hero}, trigger_s={})
+    return after, past["t2"]
+
+
+def test_one_that_is_late_goes_as_soon_and_as_hard_as_it_can() -> None:
+    """It stands, and the ego will be there before it: no time is lost that another whim of the ego may give back."""
+    scene = YIELDS_THEN_GOES.scene()
+    planner = planner_of(scene)
+    situation = situation_of(scene, 12.0, 4.0)
+    after, stands_since_s = standing(planner, situation)
     plans = (planner.replan([after]).plan for _ in range(20))  # a tick makes a few tries, the next one goes on
     plan = next(each for each in plans if each is not None)
-    stands_s = plan.profiles[1].knot_times_s["t3"] - past["t2"]
+    stands_s = plan.profiles[1].knot_times_s["t3"] - stands_since_s
     assert STANDSTILL_MIN_S <= stands_s <= STANDSTILL_MIN_S + 0.03
     assert max(segment.accel_mpss for segment in plan.profiles[1].segments) >= 0.97 * ACCEL_MAX_MPSS
 
@@ -262,16 +268,10 @@ def test_one_that_is_pressed_stands_no_longer_than_can_be_seen() -> None:
     for pressed in (False, True):
         planner = planner_of(scene)
         situation = situation_of(scene, 1.5, 15.0)
-        first = planner.first_plan([situation]).plan
-        assert first is not None
-        profile = first.profiles[1]
-        now_s = profile.knot_times_s["t2"] + 0.1
-        past = {knot: profile.knot_times_s[knot] for knot in ("t0", "t1", "t2")}
-        hero = HeroState(now_s, profile.state(now_s)[0], 0.0, 2, past, profile)
-        after = replace(situation, time_s=now_s, heroes={1: hero}, trigger_s={}, pressed=pressed)
-        plan = planner.replan([after]).plan
+        after, stands_since_s = standing(planner, situation)
+        plan = planner.replan([replace(after, pressed=pressed)]).plan
         assert plan is not None
         knots_s = plan.profiles[1].knot_times_s
-        stands_s[pressed], passes_s[pressed] = knots_s["t3"] - past["t2"], knots_s["t4"]
+        stands_s[pressed], passes_s[pressed] = knots_s["t3"] - stands_since_s, knots_s["t4"]
     assert stands_s[True] < STANDSTILL_MIN_S + 0.05 < stands_s[False]
     assert passes_s[True] < passes_s[False] - 0.2
