@@ -74,7 +74,7 @@ lock: ## Resolve both locks again (needs uv; LOCK_ARGS=--upgrade moves to newer 
 
 # Locks hold names, versions and hashes, but no address: each machine keeps its own package index.
 lock_command = uv pip compile pyproject.toml --quiet --universal --python-version 3.11 --generate-hashes --no-header \
-	--no-annotate --no-emit-index-url --no-emit-find-links $(LOCK_ARGS)
+	--no-annotate --no-strip-extras --no-emit-index-url --no-emit-find-links $(LOCK_ARGS)
 
 .PHONY: clean
 clean: ## Remove the environment, caches and everything built
