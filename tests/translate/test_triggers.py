@@ -2,20 +2,13 @@
 
 from __future__ import annotations
 
-import tomllib
-from importlib.resources import files
-
 import pytest
 
 from scenewright.errors import TranslationError
 from scenewright.program.printer import print_expression
-from scenewright.program.text import parse_program
 from scenewright.translate.lexicon import alternatives
 from scenewright.translate.offline import translate_offline
 
-TEXTS = tomllib.loads(
-    (files("scenewright.study") / "translation_set" / "fresh_triggers.toml").read_text(encoding="utf-8")
-)["text"]
 START = "The ego leaves the driveway and turns right. The hero drives west along the road. "
 DEED = "the hero brakes to a stop 5 m before the conflict point."
 DEALT = {"A0x(t1) == conflict_point - 12", "A1x(t1) == conflict_point - 30"}
@@ -23,17 +16,6 @@ DEALT = {"A0x(t1) == conflict_point - 12", "A1x(t1) == conflict_point - 30"}
 
 def formulas(text: str) -> set[str]:
     return {print_expression(each.formula) for each in translate_offline(text).program.constraints}
-
-
-@pytest.mark.parametrize("row", TEXTS, ids=[row["id"] for row in TEXTS])
-def test_texts_about_triggers(row: dict[str, str]) -> None:
-    if "refuse" in row:
-        with pytest.raises(TranslationError):
-            translate_offline(row["text"])
-        return
-    wanted, read = parse_program(row["program"]), translate_offline(row["text"]).program
-    assert [actor.sketch for actor in read.actors] == [actor.sketch for actor in wanted.actors]
-    assert {each.formula for each in read.constraints} == {each.formula for each in wanted.constraints}
 
 
 @pytest.mark.parametrize(

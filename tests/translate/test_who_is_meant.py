@@ -30,7 +30,6 @@ def test_what_either_vehicle_may_own_is_refused(owner: str) -> None:
     [
         "The ego follows a car, whose initial distance to the stop line is 20 m.",
         "The ego follows a car, which is 20 m from the stop line at the start.",
-        "The ego follows a car, whose initial speed is 5 m/s.",
     ],
 )
 def test_who_was_named_just_before_owns_it(owner: str) -> None:

@@ -74,14 +74,13 @@ def _in_words(program: Program, constraint_id: str) -> str:
 
 def clauses(translation: Translation) -> Table:
     """Return how each clause was understood."""
-    made = table("words", "understood as", "constraints", "sure", right=("sure",))
+    made = table("words", "understood as", "constraints")
     for reading in translation.readings:
         formulas = list(_formulas(translation, reading.constraint_ids))
         plain = reading.understood
         for formula in formulas:
             plain = plain.replace(formula, "")
-        sure = f"{reading.confidence:.0%}"
-        made.add_row(Text(reading.text), Text(plain.strip("; ")), Text("\n".join(formulas)), sure)
+        made.add_row(Text(reading.text), Text(plain.strip("; ")), Text("\n".join(formulas)))
     return made
 
 

@@ -30,7 +30,6 @@ from scenewright.program.types import Actor, HeadingsRoute, Parameter, PieceKind
 from scenewright.translate.conditions import ConditionAssembler
 from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, Event, Place
 from scenewright.translate.facts import Condition, Phase
-from scenewright.translate.limits import limit_formula, refuse_limit
 from scenewright.translate.tokens import Quantity
 
 _POSITION: Order = 0
@@ -54,11 +53,6 @@ class Assembler(ConditionAssembler):
             landmark, event = self.facts.let_goal
             aim = self._landmark(landmark, EGO_ID, event.span)
             self._add(Compare("==", State(EGO_ID, _POSITION, Knot("t2")), aim), event)
-        for limit, event in self.facts.limits:
-            try:
-                self._add(limit_formula(limit, sketch), event)
-            except ValueError as error:
-                raise refuse_limit(limit, str(error), self.text, self.name) from None
         ego_sketch = Sketch(("t0", "t1", "t2"), (PieceKind.GO, PieceKind.GO))
         actors = tuple(
             Actor(actor, ACTOR_NAMES[actor], HeadingsRoute(self.routes.of(actor).headings), each)

@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from scenewright.translate.events import Event, Place
-from scenewright.translate.limits import Limit
 from scenewright.translate.tokens import Quantity
 
 WishKey = Literal["origin_kind", "origin_heading", "turn", "destination_kind", "destination_heading"]
@@ -93,7 +92,6 @@ class Facts:
     let_goal: tuple[str, Event] | None = None  # the moment of the ego that the hero lets it reach
     steady: Event | None = None  # the hero does not speed up
     held: Event | None = None  # what the hero does not do until the ego has passed
-    limits: list[tuple[Limit, Event]] = field(default_factory=list)  # what the hero keeps below, and where it is said
     standing: Event | None = None  # the hero waits at the start until the trigger
     mentioned: set[int] = field(default_factory=set)
     assumptions: list[str] = field(default_factory=list)

@@ -369,9 +369,10 @@ class MeasureReader(VerbReader):
         if measured.kind == "ttc" and measured.actor is None and self.subject is None:
             measured.actor = EGO_ID  # "when the TTC is 3 s": there are only two vehicles
         if measured.actor is None:
-            if self.current is None and self.subject_span is None and isinstance(measured.target, str):
+            told = "speed" if measured.kind == "speed" else "distance" if isinstance(measured.target, str) else None
+            if self.current is None and self.subject_span is None and told is not None:
                 raise self.phrases.refuse(
-                    "it is not said whose distance this is",
+                    f"it is not said whose {told} this is",
                     self.phrases.span(measured.start, measured.end),
                     "the ego's or the hero's",
                     "name the vehicle",

@@ -1,9 +1,8 @@
-"""The offline translator: a description in English becomes a program, without network or server.
+"""The offline translator: a description of the paper's kind becomes a program, without network or server.
 
 What enters: a description and, optionally, the map it is about. What leaves: a `Translation`: the program, how every
-clause was read, and what had to be assumed. Readers that know rules read it (`rules`). A small network that was trained
-on descriptions (`learned`) stands in where they do not know the words, if it is sure, and stands against what they pick
-out of a free text where it is sure of something else: then the text is refused.
+clause was read, and what had to be assumed. It reads clause by clause (`rules`) and has to understand every word: free
+prose is refused, with the advice to let a model translate it.
 """
 
 from __future__ import annotations
@@ -14,25 +13,16 @@ from typing import TYPE_CHECKING
 from scenewright.errors import MapError, Place, Span, TranslationError, UnknownWordsError
 from scenewright.program.types import Program
 from scenewright.roads.grounding import ground
-from scenewright.translate.confidence import Basis
 from scenewright.translate.itineraries import default_map
-from scenewright.translate.learned.reader import Likely, read_likely
-from scenewright.translate.reading_back import read_back
 from scenewright.translate.rules import read_by_rules
-from scenewright.translate.translation import Reading, Translation, refuse_two_ways
+from scenewright.translate.translation import Reading, Translation
 from scenewright.translate.unsayable import refuse_unsayable
 from scenewright.translate.values import take_values, with_values
 
 if TYPE_CHECKING:
     from scenewright.roads import RoadMap
 
-# How sure the network has to be. Chosen on texts that it was not trained on: docs/evaluation.md says how.
-SURE_ENOUGH_TO_READ = 0.8
-SURE_ENOUGH_TO_DOUBT = 0.7
-WORTH_A_HINT = 0.3
-UNSAYABLE = 0.05  # the probability of being sayable below which what the rules read is refused
-
-_HINT = " - a description like this one may mean, but not surely: "
+_ADVICE = "or let a language model read it: --translator PROVIDER:MODEL (scenewright translate --help)"
 
 
 def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "description") -> Translation:
@@ -55,8 +45,7 @@ def translate_offline(text: str, road_map: RoadMap | None = None, name: str = "d
     Raises
     ------
     TranslationError
-        Where neither reader understands the text, where they understand different things, and where it contradicts
-        itself or leaves a choice open.
+        Where the text is not understood, contradicts itself, or leaves a choice open.
 
     Examples
     --------
@@ -86,30 +75,10 @@ def _translated(text: str, road_map: RoadMap, name: str) -> Translation:
     try:
         read = read_by_rules(text, road_map, name)
     except UnknownWordsError as error:
-        likely = read_likely(text, name, road_map)
-        if likely is None or likely.probability < SURE_ENOUGH_TO_READ:
-            if likely is not None and likely.probability > WORTH_A_HINT:
-                error.fix = f"{error.fix or ''}{_HINT}{' '.join(read_back(likely.program))}".strip()
-            raise
-        return _by_likeness(likely, error, text)
+        error.fix = f"{error.fix}; {_ADVICE}" if error.fix else _ADVICE
+        raise
     _check_on_map(read.program, text, road_map, name)
-    _doubt(read, text, road_map, name)
     return read
-
-
-def _by_likeness(likely: Likely, error: UnknownWordsError, text: str) -> Translation:
-    """Return what the text means by its likeness to others, and say among the assumptions what rules could not read."""
-    basis = Basis.LIKENESS.value
-    readings = tuple(
-        Reading(part.span, part.span.excerpt(text), part.meaning, part.constraint_ids, basis.value, basis.meaning)
-        for part in likely.parts
-    )
-    sure = f"{min(likely.probability, 0.99):.0%} sure"
-    assumed = (
-        f"the text was read by its likeness to descriptions whose meaning is known, {sure}: compare the program with "
-        f"what was meant ({error.message})"
-    )
-    return Translation(likely.program, readings, (assumed, *likely.assumptions))
 
 
 def _check_on_map(program: Program, text: str, road_map: RoadMap, name: str) -> None:
@@ -121,23 +90,3 @@ def _check_on_map(program: Program, text: str, road_map: RoadMap, name: str) -> 
         raise TranslationError(
             error.message, place=whole, found=error.found, expected=error.expected, fix=error.fix
         ) from None
-
-
-def _doubt(read: Translation, text: str, road_map: RoadMap, name: str) -> None:
-    """Refuse what was picked out of a free text where texts like this one mean something else, or nothing sayable."""
-    if not read.by_facts:
-        return  # the grammar of its clauses accounts for every word of it
-    likely = read_likely(text, name, road_map)
-    if likely is None:
-        return
-    if likely.sayable < UNSAYABLE:
-        raise TranslationError(
-            "this seems to say something that no program can say",
-            place=Place(name, text, likely.doubtful),
-            found=likely.doubtful.excerpt(text),
-            expected="what a program can say: places, times, speeds, one moment, one deed of one other vehicle",
-            fix="say only where the two vehicles are, which way they go, when the hero reacts and what it does",
-        )
-    if likely.probability > SURE_ENOUGH_TO_DOUBT:
-        expected = "one meaning by rules and by likeness to other descriptions"
-        refuse_two_ways(read.program, likely.program, text, name, expected)

@@ -1,10 +1,7 @@
-"""The readers that know rules: a description in English becomes a program, clause by clause or by its facts.
+"""The reader that knows rules: a description of the paper's kind becomes a program, clause by clause.
 
 What enters: a description and a map. What leaves: a `Translation`: the program, how every clause was read, and what had
-to be assumed. Two readers with rules of their own read it: one goes through the grammar of its clauses and has to
-understand every word, the other looks for its facts and has to account for every name, amount, way and deed. The first
-is believed, unless the second reads something else: then the text is refused. Where only the second can read it, what
-was set aside stands among the assumptions.
+to be assumed. The grammar of clauses has to understand every word; free prose is refused.
 """
 
 from __future__ import annotations
@@ -12,7 +9,6 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from scenewright.errors import Place, Span, TranslationError
@@ -24,23 +20,16 @@ from scenewright.translate.aliases import without_short_names
 from scenewright.translate.assemble import Assembler
 from scenewright.translate.clauses import ClauseReader
 from scenewright.translate.commentary import denied, without_commentary
-from scenewright.translate.confidence import Basis, basis_of
 from scenewright.translate.events import ACTOR_NAMES, EGO_ID, HERO_ID, Event
 from scenewright.translate.facts import Facts
 from scenewright.translate.fronting import unfronted
 from scenewright.translate.geometry import is_remark
-from scenewright.translate.gist.amounts import WHOSE_SPEED
-from scenewright.translate.gist.reader import check_told, names_in, read_gist
-from scenewright.translate.gist.story import STOP_AND_SPEED
 from scenewright.translate.headlines import untold
 from scenewright.translate.interpret import Interpreter
 from scenewright.translate.itineraries import Itineraries, choose_routes
 from scenewright.translate.layout import lay_out
-from scenewright.translate.leads import check_lead, find_lead
-from scenewright.translate.limits import owner_of_limit, refuse_limit, take_limits
 from scenewright.translate.notes import noted
 from scenewright.translate.phrases import Phrases
-from scenewright.translate.purposes import check_purpose, take_purposes
 from scenewright.translate.references import Referents
 from scenewright.translate.relatives import related
 from scenewright.translate.rewording import reworded
@@ -48,7 +37,7 @@ from scenewright.translate.run_ons import parted
 from scenewright.translate.speech import spoken
 from scenewright.translate.steps import in_sentences
 from scenewright.translate.tokens import Token, refuse_unknown, tokenise
-from scenewright.translate.translation import ROLES, Reading, Translation, refuse_two_ways
+from scenewright.translate.translation import ROLES, Reading, Translation
 from scenewright.translate.unsayable import refuse_unplaced_stop
 
 _AT_ONCE = re.compile(
@@ -79,57 +68,28 @@ if TYPE_CHECKING:
 
 
 def read_by_rules(text: str, road_map: RoadMap, name: str) -> Translation:
-    """Translate by the two readers that know rules; also without the lead of the text, where it has one.
+    """Translate clause by clause; every word has to be understood.
 
     Raises
     ------
     TranslationError
-        Where neither reader understands the text, where they understand different things, and where it contradicts
-        itself or leaves a choice open.
+        Where the text is not understood, where it contradicts itself, and where it leaves a choice open.
     """
-    try:
-        return _refuse_turning_too(_read(text, road_map, name), text, name)
-    except TranslationError as error:
-        lead = find_lead(text, name)
-        if lead is None:
-            raise
-        try:
-            rest = " " * lead.end + text[lead.end :]
-            read = _refuse_turning_too(_read(rest, road_map, name), rest, name)
-            assumed = check_lead(lead, text, name, read.program, road_map)
-        except TranslationError:
-            raise error from None
-        return replace(read, assumptions=(assumed, *read.assumptions))
-
-
-def _read(text: str, chosen_map: RoadMap, name: str) -> Translation:
-    """Translate by the grammar of clauses, by the facts alone where that fails; both have to agree."""
-    if _NESTED.search(text) or take_limits(text, name)[1]:
-        return _by_facts(text, chosen_map, name)
-    try:
-        read = _by_grammar(text, chosen_map, name)
-    except TranslationError as error:
-        try:
-            return _by_facts(text, chosen_map, name)
-        except TranslationError as second:
-            raise _joined(error, second) from None
-    _check_second_reading(read.program, text, chosen_map, name)
-    return read
-
-
-def _joined(first: TranslationError, second: TranslationError) -> TranslationError:
-    """Return the first refusal; where words are not known, with what is amiss even if they are stepped over."""
-    if "not understood" not in first.message or "word" not in first.message or second.message == first.message:
-        return first
-    where = f" ('{second.found}')" if second.found else ""
-    fix = f"{first.fix} - but even without them: {second.message}{where}"
-    return type(first)(first.message, place=first.place, found=first.found, expected=first.expected, fix=fix)
+    if nested := _NESTED.search(text):
+        span = Span(*nested.span())
+        raise TranslationError(
+            "keys that stand further in, under a heading, are not read",
+            place=Place(name, text, span),
+            found=span.excerpt(text).strip().splitlines()[0],
+            expected="sentences, or one line for each vehicle",
+            fix="say in sentences what the heading is about",
+        )
+    return _refuse_turning_too(_by_grammar(text, road_map, name), text, name)
 
 
 def _by_grammar(text: str, road_map: RoadMap, name: str) -> Translation:
     """Translate clause by clause; every word has to be understood."""
-    rest, purposes = take_purposes(text, name)
-    rest = without_short_names(in_sentences(parted(rest)))
+    rest = without_short_names(in_sentences(parted(text)))
     tokens = unfronted(reworded(related(spoken(noted(tokenise(rest, name))))))
     tokens, comments = without_commentary(tokens)
     tokens, titles = lay_out(tokens)
@@ -145,36 +105,7 @@ def _by_grammar(text: str, road_map: RoadMap, name: str) -> Translation:
     routes = choose_routes(facts, road_map, text, name)
     for stretch, span in skipped:
         _check_skipped(stretch, span, facts, routes, Place(name, text, span))
-    aside = _set_purposes_aside(purposes, facts, routes, text, name)
-    return _assembled(facts, routes, events, tokens, (*phrases.assumptions, *aside), road_map.name, text, name)
-
-
-def _by_facts(text: str, road_map: RoadMap, name: str) -> Translation:
-    """Translate by the facts alone that a free text tells."""
-    rest, purposes = take_purposes(text, name)
-    rest, limits = take_limits(in_sentences(parted(rest)), name)
-    gist = read_gist(rest, name, road_map)
-    named = names_in(text, name) if limits else {}
-    for limit in limits:
-        if owner_of_limit(limit, text, named) != HERO_ID:
-            raise refuse_limit(limit, "it is not one of the other vehicle", text, name)
-        event = Event("be", HERO_ID, limit.span, -1)
-        gist.facts.limits.append((limit, event))
-        gist.events.append(event)
-    _complete(gist.facts, text, name)
-    routes = choose_routes(gist.facts, road_map, text, name)
-    check_told(gist, routes, text, name)
-    if gist.title:
-        span = gist.title[0].span.union(gist.title[-1].span)
-        _check_skipped(gist.title, span, gist.facts, routes, Place(name, text, span))
-    assumed = (*gist.assumptions, *_set_purposes_aside(purposes, gist.facts, routes, text, name))
-    read = _assembled(gist.facts, routes, gist.events, gist.tokens, assumed, road_map.name, text, name)
-    basis = Basis.FACTS.value
-    readings = (
-        each if each.confidence < basis.value else replace(each, confidence=basis.value, basis=basis.meaning)
-        for each in read.readings
-    )
-    return replace(read, readings=tuple(readings), by_facts=True)
+    return _assembled(facts, routes, events, tokens, tuple(phrases.assumptions), road_map.name, text, name)
 
 
 def _refuse_turning_too(read: Translation, text: str, name: str) -> Translation:
@@ -190,31 +121,6 @@ def _refuse_turning_too(read: Translation, text: str, name: str) -> Translation:
             fix="say it of each: 'the hero turns right'",
         )
     return read
-
-
-def _set_purposes_aside(
-    purposes: tuple[Span, ...], facts: Facts, routes: Itineraries, text: str, name: str
-) -> tuple[str, ...]:
-    """Return what is assumed of sentences that tell what the test is for; refuse one that tells another test."""
-    for span in purposes:
-        check_purpose(span, text, name, routes, _deeds(facts))
-    said = (" ".join(span.excerpt(text).strip(" ,").split()) for span in purposes)
-    return tuple(f"'{words}' tells what the test is for; nothing in it is orchestrated" for words in said)
-
-
-# What no reading by grammar alone may overrule: there it is the speed of whoever was named first, or of another moment.
-_NEVER_READ = (WHOSE_SPEED, STOP_AND_SPEED)
-
-
-def _check_second_reading(program: Program, text: str, road_map: RoadMap, name: str) -> None:
-    """Refuse a text of which its facts alone say something else than its grammar: one of the readings is wrong."""
-    try:
-        other = _by_facts(text, road_map, name).program
-    except TranslationError as error:
-        if error.message in _NEVER_READ:
-            raise
-        return
-    refuse_two_ways(program, other, text, name, "one meaning by the grammar of its clauses and by its facts alone")
 
 
 def _assume_what_was_read(phrases: Phrases, skipped: list[tuple[list[Token], Span]]) -> None:
@@ -286,14 +192,7 @@ def _assembled(
     assumptions = tuple(dict.fromkeys((*assumed, *facts.assumptions, *routes.assumptions, *assembler.assumptions)))
     roles = read_structure(program).roles
     readings = (_reading(event, facts, routes, assembler, roles, text) for event in events)
-    return Translation(program, tuple(_rated(each, assumptions) for each in readings), assumptions)
-
-
-def _rated(reading: Reading, assumptions: tuple[str, ...]) -> Reading:
-    """Return the reading with how sure it is."""
-    route = re.search(r"the (ego|hero)'s route", reading.understood)
-    found = basis_of(reading.text, route.group(1) if route else None, route is not None, assumptions).value
-    return replace(reading, confidence=found.value, basis=found.meaning)
+    return Translation(program, tuple(readings), assumptions)
 
 
 def _deeds(facts: Facts) -> set[str]:

@@ -5,9 +5,9 @@ What enters: nothing. What leaves: the dataclasses that translators fill, and ro
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
-from scenewright.errors import Place, Span, TranslationError
+from scenewright.errors import Span
 from scenewright.program.printer import print_expression
 from scenewright.program.structure import Role
 from scenewright.program.types import Program
@@ -32,32 +32,21 @@ class Reading:
         Its meaning in plain words.
     constraint_ids
         The constraints that it gave; empty for clauses that decide a route.
-    confidence, basis
-        How sure the reading is, from 0 to 1, and what that means; see `confidence.Basis`.
     """
 
     span: Span
     text: str
     understood: str
     constraint_ids: tuple[str, ...]
-    confidence: float = 1.0
-    basis: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Translation:
-    """A program with the account of how it came from the description.
-
-    Attributes
-    ----------
-    by_facts
-        Whether its facts were picked out of a free text; not every word of that is accounted for.
-    """
+    """A program with the account of how it came from the description."""
 
     program: Program
     readings: tuple[Reading, ...]
     assumptions: tuple[str, ...]
-    by_facts: bool = field(default=False, kw_only=True)
 
 
 def explain(translation: Translation) -> list[tuple[str, str, str]]:
@@ -68,34 +57,5 @@ def explain(translation: Translation) -> list[tuple[str, str, str]]:
             print_expression(translation.program.constraint(identifier).formula)
             for identifier in reading.constraint_ids
         ]
-        understood = reading.understood
-        if reading.confidence < 1:
-            understood += f" [confidence {reading.confidence:g}: {reading.basis}]"
-        rows.append((reading.text, understood, "; ".join(formulas)))
+        rows.append((reading.text, reading.understood, "; ".join(formulas)))
     return rows
-
-
-def refuse_two_ways(program: Program, other: Program, text: str, name: str, expected: str) -> None:
-    """Refuse a text that two readers read in two ways: as `program`, and as `other`.
-
-    Raises
-    ------
-    TranslationError
-        With the first thing that only one of them says.
-    """
-    if [(each.route, each.sketch) for each in program.actors] != [(each.route, each.sketch) for each in other.actors]:
-        place, found = Place(name, text, Span(0, len(text))), "another route, or another order of what the hero does"
-    else:
-        formulas = [each.formula for each in other.constraints]
-        only = [each for each in program.constraints if each.formula not in formulas]
-        if not only and len(formulas) == len(program.constraints):
-            return
-        constraint = only[0] if only else other.constraints[-1]
-        place, found = Place(name, text, constraint.span), print_expression(constraint.formula)
-    raise TranslationError(
-        "this can be read in two ways",
-        place=place,
-        found=found,
-        expected=expected,
-        fix="say it in shorter sentences, each with the name of the vehicle it is about",
-    )
