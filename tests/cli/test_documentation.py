@@ -79,9 +79,9 @@ def test_programs_run(command: Command, text: str) -> None:
     assert command("run", text, "--quiet").exit_code == 0
 
 
-def test_example_policy_is_the_one_in_the_readme() -> None:
-    shown = blocks(ROOT / "README.md", "python")[0]
-    step = shown[shown.index("        ego = ") :].replace("8.0 - ", "self.keep_mps - ")
+def test_example_policy_is_the_one_in_the_documentation() -> None:
+    shown = blocks(ROOT / "docs" / "egos.md", "python")[0]
+    step = shown[shown.index("        ego = ") :]
     assert step in (ROOT / "examples" / "timid.py").read_text(encoding="utf-8")
 
 

@@ -366,7 +366,7 @@ class MeasureReader(VerbReader):
         both = measured.kind == "headway" or measured.of_pair
         if measured.actor is not None and measured.target is None and both and measured.kind != "ttc":
             measured.target = 1 - measured.actor  # "the ego's headway is 2 s"
-        if measured.kind == "ttc" and measured.actor is None and self.subject is None:
+        if measured.kind == "ttc" and measured.actor is None:
             measured.actor = EGO_ID  # "when the TTC is 3 s": there are only two vehicles
         if measured.actor is None:
             told = "speed" if measured.kind == "speed" else "distance" if isinstance(measured.target, str) else None
