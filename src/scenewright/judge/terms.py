@@ -13,23 +13,7 @@ import numpy as np
 
 from scenewright.judge.case import CannotJudge, Case, NotReached
 from scenewright.judge.tolerance import FloatArray, Values
-from scenewright.program.expressions import (
-    Arithmetic,
-    At,
-    Compare,
-    Derived,
-    Elapsed,
-    Knot,
-    Landmark,
-    Negate,
-    Node,
-    Number,
-    ParameterRef,
-    PieceRef,
-    State,
-    Term,
-    walk,
-)
+from scenewright.program import expressions as ex
 from scenewright.program.structure import KnotKey
 
 Span = tuple[float, float]
@@ -55,27 +39,27 @@ class Moments:
     now: Values | None = None
 
 
-def with_owners(compare: Compare) -> Compare:
+def with_owners(compare: ex.Compare) -> ex.Compare:
     """Give every landmark that names no actor the actor whose position it is compared with."""
-    owner = next((n.actor for n in walk(compare) if isinstance(n, State) and n.order == 0), None)
+    owner = next((n.actor for n in ex.walk(compare) if isinstance(n, ex.State) and n.order == 0), None)
     if owner is None:
         return compare
     return replace(compare, left=_owned(compare.left, owner), right=_owned(compare.right, owner))
 
 
-def _owned(term: Term, owner: int) -> Term:
+def _owned(term: ex.Term, owner: int) -> ex.Term:
     match term:
-        case Landmark(actor=None):
+        case ex.Landmark(actor=None):
             return replace(term, actor=owner)
-        case Arithmetic(left=left, right=right):
+        case ex.Arithmetic(left=left, right=right):
             return replace(term, left=_owned(left, owner), right=_owned(right, owner))
-        case Negate(operand=operand):
+        case ex.Negate(operand=operand):
             return replace(term, operand=_owned(operand, owner))
         case _:
             return term
 
 
-def sides(case: Case, compare: Compare, moments: Moments) -> tuple[Values, Values]:
+def sides(case: Case, compare: ex.Compare, moments: Moments) -> tuple[Values, Values]:
     """Return the values of both sides of a comparison.
 
     Positions of several actors are brought to the arc length of the first of them, where they share a lane.
@@ -86,17 +70,17 @@ def sides(case: Case, compare: Compare, moments: Moments) -> tuple[Values, Value
         If a landmark, a knot or a shared lane is missing.
     """
     owned = with_owners(compare)
-    frame = next((n.actor for n in walk(owned) if isinstance(n, State | Landmark) and _is_place(n)), None)
+    frame = next((n.actor for n in ex.walk(owned) if isinstance(n, ex.State | ex.Landmark) and _is_place(n)), None)
     shifts = {} if frame is None else _shifts(case, owned, frame)
     reader = _Reader(case, moments, shifts)
     return reader.value(owned.left), reader.value(owned.right)
 
 
-def _is_place(node: State | Landmark) -> bool:
-    return isinstance(node, Landmark) or node.order == 0
+def _is_place(node: ex.State | ex.Landmark) -> bool:
+    return isinstance(node, ex.Landmark) or node.order == 0
 
 
-def _shifts(case: Case, compare: Compare, frame: int) -> dict[int, float]:
+def _shifts(case: Case, compare: ex.Compare, frame: int) -> dict[int, float]:
     net: dict[int, float] = {}
     _count_places(compare.left, 1.0, net)
     _count_places(compare.right, -1.0, net)
@@ -109,17 +93,17 @@ def _shifts(case: Case, compare: Compare, frame: int) -> dict[int, float]:
     return shifts
 
 
-def _count_places(term: Node, sign: float, net: dict[int, float]) -> None:
+def _count_places(term: ex.Node, sign: float, net: dict[int, float]) -> None:
     """Add up how often each actor's places occur; ``A1x(t1) - A1.stop_line`` counts as none."""
     match term:
-        case State(actor=actor, order=0) | Landmark(actor=int() as actor):
+        case ex.State(actor=actor, order=0) | ex.Landmark(actor=int() as actor):
             net[actor] = net.get(actor, 0.0) + sign
-        case Negate(operand=operand):
+        case ex.Negate(operand=operand):
             _count_places(operand, -sign, net)
-        case Arithmetic(operator=("+" | "-") as operator, left=left, right=right):
+        case ex.Arithmetic(operator=("+" | "-") as operator, left=left, right=right):
             _count_places(left, sign, net)
             _count_places(right, sign if operator == "+" else -sign, net)
-        case Arithmetic(left=left, right=right):
+        case ex.Arithmetic(left=left, right=right):
             _count_places(left, np.pi, net)  # a product: nothing cancels
             _count_places(right, np.pi, net)
         case _:
@@ -132,25 +116,25 @@ class _Reader:
     moments: Moments
     shifts: Mapping[int, float]
 
-    def value(self, term: Term) -> Values:
+    def value(self, term: ex.Term) -> Values:
         match term:
-            case Number(value=value):
+            case ex.Number(value=value):
                 return float(value)
-            case ParameterRef(name=name):
+            case ex.ParameterRef(name=name):
                 return self._parameter(name)
-            case Landmark(name=name, actor=actor, other=other):
+            case ex.Landmark(name=name, actor=actor, other=other):
                 if actor is None:
                     raise CannotJudge(f"nothing says on whose route {name} is meant")
                 return self.case.landmark_m(name, actor, other) + self.shifts.get(actor, 0.0)
-            case Elapsed(actor=actor, knot=knot):
+            case ex.Elapsed(actor=actor, knot=knot):
                 return self._knot(actor, knot) - self.case.start_s
-            case State():
+            case ex.State():
                 return self._state(term)
-            case Derived():
+            case ex.Derived():
                 return self._derived(term)
-            case Negate(operand=operand):
+            case ex.Negate(operand=operand):
                 return -self.value(operand)
-            case Arithmetic(operator=operator, left=left, right=right):
+            case ex.Arithmetic(operator=operator, left=left, right=right):
                 return _combine(operator, self.value(left), self.value(right))
 
     def _parameter(self, name: str) -> float:
@@ -163,13 +147,13 @@ class _Reader:
             raise CannotJudge(f"nothing in the trace says when {self.case.name(actor)}'s {knot} was")
         return self.moments.knots[actor, knot]
 
-    def _time(self, actor: int, at: At) -> Values:
+    def _time(self, actor: int, at: ex.At) -> Values:
         match at:
-            case Knot(name=knot):
+            case ex.Knot(name=knot):
                 owner, time_s = actor, self._knot(actor, knot)
-            case Elapsed(actor=owner, knot=knot):
+            case ex.Elapsed(actor=owner, knot=knot):
                 time_s = self._knot(owner, knot)
-            case Number(value=value):
+            case ex.Number(value=value):
                 if float(value) > self.case.end_s - self.case.start_s + 1e-9:
                     raise CannotJudge(f"the run ended before {float(value):g} s")
                 return self.case.start_s + float(value)
@@ -181,9 +165,9 @@ class _Reader:
             raise NotReached(self.case.name(owner), owner, knot)
         return time_s
 
-    def _state(self, term: State) -> Values:
+    def _state(self, term: ex.State) -> Values:
         timeline = self.case.timelines[term.actor]
-        if isinstance(term.at, PieceRef) and term.order == 2:
+        if isinstance(term.at, ex.PieceRef) and term.order == 2:
             start, end = self._span(term.actor, term.at)
             return mean_acceleration(timeline.speed(np.array([start, end])), end - start)
         time_s = self._time(term.actor, term.at)
@@ -191,20 +175,20 @@ class _Reader:
             return timeline.position(time_s) + self.shifts.get(term.actor, 0.0)
         if term.order == 1:
             return timeline.speed(time_s)
-        if isinstance(term.at, Knot | Elapsed):
+        if isinstance(term.at, ex.Knot | ex.Elapsed):
             # An acceleration steps at a knot, and the one meant is that of the piece which begins there.
             later = np.searchsorted(timeline.time_s, time_s, side="right")
             time_s = timeline.time_s[np.minimum(later, len(timeline.time_s) - 1)]
         return timeline.acceleration(time_s)
 
-    def _span(self, actor: int, piece: PieceRef) -> Span:
+    def _span(self, actor: int, piece: ex.PieceRef) -> Span:
         return piece_span(self.case, self.moments, actor, piece)
 
-    def _derived(self, term: Derived) -> Values:
+    def _derived(self, term: ex.Derived) -> Values:
         time_s = self._time(term.actor, term.at)
         timeline = self.case.timelines[term.actor]
         speed = timeline.speed(time_s)
-        if isinstance(term.target, Landmark):
+        if isinstance(term.target, ex.Landmark):
             owner = term.actor if term.target.actor is None else term.target.actor
             place = self.case.landmark_m(term.target.name, owner, term.target.other)
             return _over(place - timeline.position(time_s), speed)
@@ -226,7 +210,7 @@ class _Reader:
         return ahead - self.case.timelines[actor].position(time_s)
 
 
-def piece_span(case: Case, moments: Moments, actor: int, piece: PieceRef) -> Span:
+def piece_span(case: Case, moments: Moments, actor: int, piece: ex.PieceRef) -> Span:
     """Return start and end (s) of a piece as measured.
 
     Raises

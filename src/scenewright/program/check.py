@@ -11,28 +11,8 @@ from difflib import get_close_matches
 from fractions import Fraction
 
 from scenewright.errors import Place, ProgramError, Span
+from scenewright.program import expressions as ex
 from scenewright.program.evaluate import landmark_owner
-from scenewright.program.expressions import (
-    LANDMARKS,
-    Arithmetic,
-    At,
-    Compare,
-    Derived,
-    Elapsed,
-    Formula,
-    Knot,
-    Landmark,
-    Logic,
-    Negate,
-    Node,
-    Number,
-    ParameterRef,
-    PieceRef,
-    State,
-    Temporal,
-    Term,
-    walk,
-)
 from scenewright.program.printer import print_expression
 from scenewright.program.types import EGO, Actor, Constraint, PieceKind, Program
 from scenewright.units import unit_of_name
@@ -43,7 +23,7 @@ _LENGTH, _TIME, _SPEED, _ACCELERATION = (1, 0), (0, 1), (1, -1), (1, -2)
 _OF_ORDER = (_LENGTH, _SPEED, _ACCELERATION)
 _OF_DIMENSION = {"length": _LENGTH, "time": _TIME, "speed": _SPEED, "acceleration": _ACCELERATION}
 _OF_DERIVED = {"gap": _LENGTH, "tta": _TIME, "ttc": _TIME, "headway": _TIME}
-_EXAMPLE_S = Number(Fraction("3.4"))
+_EXAMPLE_S = ex.Number(Fraction("3.4"))
 _NAMES = {
     _LENGTH: "a length (m)",
     _TIME: "a time (s)",
@@ -131,21 +111,21 @@ class _Checker:
 
     def check_constraint(self, constraint: Constraint) -> None:
         formula = constraint.formula
-        for node in walk(formula):
+        for node in ex.walk(formula):
             match node:
-                case State(actor=actor, at=at) | Derived(actor=actor, at=at):
+                case ex.State(actor=actor, at=at) | ex.Derived(actor=actor, at=at):
                     self._check_moment(self._actor(actor, node.span), at, node.span)
-                    if isinstance(node, Derived):
+                    if isinstance(node, ex.Derived):
                         self._check_target(node)
-                case Elapsed(actor=actor, knot=knot):
+                case ex.Elapsed(actor=actor, knot=knot):
                     self._check_knot(self._actor(actor, node.span), knot, node.span)
-                case ParameterRef(name=name) if name not in self.parameters:
+                case ex.ParameterRef(name=name) if name not in self.parameters:
                     raise self._error(f"parameter {name} is not declared", node.span)
-                case Landmark(name=name) if name not in LANDMARKS:
+                case ex.Landmark(name=name) if name not in ex.LANDMARKS:
                     raise self._error(
-                        f"'{name}' is not a landmark", node.span, found=name, expected=", ".join(LANDMARKS)
+                        f"'{name}' is not a landmark", node.span, found=name, expected=", ".join(ex.LANDMARKS)
                     )
-                case Landmark(actor=actor, other=other):
+                case ex.Landmark(actor=actor, other=other):
                     for named in (actor, other):
                         if named is not None:
                             self._actor(named, node.span)
@@ -159,7 +139,7 @@ class _Checker:
             raise self._error(f"there is no actor {actor_id}", span, found=f"A{actor_id}", expected=there_are)
         return self.actors[actor_id]
 
-    def _check_target(self, derived: Derived) -> None:
+    def _check_target(self, derived: ex.Derived) -> None:
         to_actor = isinstance(derived.target, int)
         if isinstance(derived.target, int):
             self._actor(derived.target, derived.span)
@@ -184,10 +164,10 @@ class _Checker:
                 fix=f"did you mean {near[0]}?" if near else f"add {knot} to the sketch of A{actor.id}",
             )
 
-    def _check_moment(self, actor: Actor, at: At, span: Span | None) -> None:
-        if isinstance(at, Knot):
+    def _check_moment(self, actor: Actor, at: ex.At, span: Span | None) -> None:
+        if isinstance(at, ex.Knot):
             self._check_knot(actor, at.name, span)
-        elif isinstance(at, PieceRef):
+        elif isinstance(at, ex.PieceRef):
             try:
                 actor.sketch.piece_index(at.name)
             except KeyError:
@@ -198,32 +178,32 @@ class _Checker:
                     expected=", ".join(actor.sketch.piece_names()),
                 ) from None
 
-    def _check_formula(self, formula: Formula, inside_temporal: bool) -> None:
+    def _check_formula(self, formula: ex.Formula, inside_temporal: bool) -> None:
         match formula:
-            case Compare(left=left, right=right):
+            case ex.Compare(left=left, right=right):
                 self._check_comparison(formula, left, right)
                 if not inside_temporal:
                     self._check_has_moments(formula)
-            case Logic(operands=operands):
+            case ex.Logic(operands=operands):
                 for operand in operands:
                     self._check_formula(operand, inside_temporal)
-            case Temporal(start=start, end=end, body=body):
+            case ex.Temporal(start=start, end=end, body=body):
                 for bound in (start, end):
                     self._expect(bound, _TIME, self._powers(bound), formula.span)
                     self._check_has_moments(bound)
                 self._check_formula(body, inside_temporal=True)
 
-    def _check_has_moments(self, expression: Node) -> None:
-        for node in walk(expression):
-            if isinstance(node, State | Derived) and node.at is None:
-                example = print_expression(replace(node, at=Knot("t1")))
+    def _check_has_moments(self, expression: ex.Node) -> None:
+        for node in ex.walk(expression):
+            if isinstance(node, ex.State | ex.Derived) and node.at is None:
+                example = print_expression(replace(node, at=ex.Knot("t1")))
                 raise self._error(
                     f"{print_expression(node)} has no moment",
                     node.span,
                     expected=f"a knot or a time, such as {example} or {print_expression(replace(node, at=_EXAMPLE_S))}",
                 )
 
-    def _check_comparison(self, compare: Compare, left: Term, right: Term) -> None:
+    def _check_comparison(self, compare: ex.Compare, left: ex.Term, right: ex.Term) -> None:
         left_powers, right_powers = self._powers(left), self._powers(right)
         if left_powers is not None and right_powers is not None and left_powers != right_powers:
             raise self._error(
@@ -233,8 +213,8 @@ class _Checker:
                 f"{print_expression(right)} is {_name(right_powers)}",
                 expected="the same kind of quantity on both sides",
             )
-        bare = [n for n in walk(compare) if isinstance(n, Landmark) and n.actor is None]
-        derived = {id(n.target) for n in walk(compare) if isinstance(n, Derived)}
+        bare = [n for n in ex.walk(compare) if isinstance(n, ex.Landmark) and n.actor is None]
+        derived = {id(n.target) for n in ex.walk(compare) if isinstance(n, ex.Derived)}
         loose = [n for n in bare if id(n) not in derived]
         if loose and landmark_owner(compare) is None:
             raise self._error(
@@ -244,33 +224,33 @@ class _Checker:
                 expected=f"the position of one actor, or a name with its actor such as A1.{loose[0].name}",
             )
 
-    def _expect(self, term: Term, wanted: Powers, found: Powers, span: Span | None) -> None:
+    def _expect(self, term: ex.Term, wanted: Powers, found: Powers, span: Span | None) -> None:
         if found is not None and found != wanted:
             raise self._error(f"{print_expression(term)} is {_name(found)}", term.span or span, expected=_name(wanted))
 
-    def _powers(self, term: Term) -> Powers:
+    def _powers(self, term: ex.Term) -> Powers:
         match term:
-            case Number(dimension=dimension):
+            case ex.Number(dimension=dimension):
                 return _OF_DIMENSION[dimension] if dimension else None
-            case ParameterRef(name=name):
+            case ex.ParameterRef(name=name):
                 unit = unit_of_name(name)
                 return _OF_DIMENSION[unit.dimension] if unit else None
-            case Landmark():
+            case ex.Landmark():
                 return _LENGTH
-            case Elapsed():
+            case ex.Elapsed():
                 return _TIME
-            case State(order=order):
+            case ex.State(order=order):
                 return _OF_ORDER[order]
-            case Derived(kind=kind):
+            case ex.Derived(kind=kind):
                 return _OF_DERIVED[kind]
-            case Negate(operand=operand):
+            case ex.Negate(operand=operand):
                 return self._powers(operand)
-            case Arithmetic(operator=operator, left=left, right=right):
+            case ex.Arithmetic(operator=operator, left=left, right=right):
                 return self._combined(term, operator, self._powers(left), self._powers(right))
             case _:
                 return None
 
-    def _combined(self, term: Arithmetic, operator: str, left: Powers, right: Powers) -> Powers:
+    def _combined(self, term: ex.Arithmetic, operator: str, left: Powers, right: Powers) -> Powers:
         if operator in "+-":
             if left is not None and right is not None and left != right:
                 raise self._error(

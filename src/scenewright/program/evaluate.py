@@ -9,26 +9,7 @@ from __future__ import annotations
 import math
 from typing import Protocol
 
-from scenewright.program.expressions import (
-    Arithmetic,
-    At,
-    Compare,
-    Derived,
-    Elapsed,
-    Formula,
-    Knot,
-    Landmark,
-    Logic,
-    Negate,
-    Number,
-    Order,
-    ParameterRef,
-    PieceRef,
-    State,
-    Temporal,
-    Term,
-    walk,
-)
+from scenewright.program import expressions as ex
 
 _TEMPORAL_STEP_S = 0.02
 _EDGE_S = 1e-7
@@ -37,11 +18,11 @@ _EDGE_S = 1e-7
 class World(Protocol):
     """What the values of a program's terms are taken from. Lengths in m, times in s."""
 
-    def state(self, actor: int, order: Order, time_s: float) -> float:
+    def state(self, actor: int, order: ex.Order, time_s: float) -> float:
         """Return position, speed or acceleration of `actor` at an instant."""
         ...
 
-    def state_on_piece(self, actor: int, order: Order, piece: str) -> float:
+    def state_on_piece(self, actor: int, order: ex.Order, piece: str) -> float:
         """Return the value that a state has all through a piece (its acceleration, the speed of a `go` or `stop`)."""
         ...
 
@@ -62,15 +43,15 @@ class World(Protocol):
         ...
 
 
-def landmark_owner(compare: Compare) -> int | None:
+def landmark_owner(compare: ex.Compare) -> int | None:
     """Return the one actor whose position `compare` speaks of, or None where there is none or more than one."""
-    owners = {node.actor for node in walk(compare) if isinstance(node, State) and node.order == 0}
+    owners = {node.actor for node in ex.walk(compare) if isinstance(node, ex.State) and node.order == 0}
     if not owners:
-        owners = {node.actor for node in walk(compare) if isinstance(node, State)}
+        owners = {node.actor for node in ex.walk(compare) if isinstance(node, ex.State)}
     return owners.pop() if len(owners) == 1 else None
 
 
-def difference(compare: Compare, world: World, now_s: float | None = None) -> float:
+def difference(compare: ex.Compare, world: World, now_s: float | None = None) -> float:
     """Return left minus right (SI), NaN-free: a comparison with an undefined value gives infinity."""
     owner = landmark_owner(compare)
     left = term_value(compare.left, world, owner, now_s)
@@ -80,24 +61,24 @@ def difference(compare: Compare, world: World, now_s: float | None = None) -> fl
     return left - right
 
 
-def violation(formula: Formula, world: World, now_s: float | None = None) -> float:
+def violation(formula: ex.Formula, world: World, now_s: float | None = None) -> float:
     """Return by how much `formula` is violated (SI of its comparison); zero or less where it holds."""
     match formula:
-        case Compare(operator="=="):
+        case ex.Compare(operator="=="):
             return abs(difference(formula, world, now_s))
-        case Compare(operator="<=" | "<"):
+        case ex.Compare(operator="<=" | "<"):
             return difference(formula, world, now_s)
-        case Compare():
+        case ex.Compare():
             return -difference(formula, world, now_s)
-        case Logic(operator="and", operands=operands):
+        case ex.Logic(operator="and", operands=operands):
             return max(violation(operand, world, now_s) for operand in operands)
-        case Logic(operator="or", operands=operands):
+        case ex.Logic(operator="or", operands=operands):
             return min(violation(operand, world, now_s) for operand in operands)
-        case Logic(operator="not", operands=operands):
+        case ex.Logic(operator="not", operands=operands):
             return -violation(operands[0], world, now_s)
-        case Logic(operands=(left, right)):
+        case ex.Logic(operands=(left, right)):
             return min(-violation(left, world, now_s), violation(right, world, now_s))
-        case Temporal(operator=operator, start=start, end=end, body=body):
+        case ex.Temporal(operator=operator, start=start, end=end, body=body):
             first, last = term_value(start, world, None, now_s), term_value(end, world, None, now_s)
             if not (math.isfinite(first) and math.isfinite(last)):
                 return math.inf  # an interval that never begins or ends was not kept to
@@ -122,36 +103,36 @@ def _instants(first_s: float, last_s: float) -> list[float]:
     return [begin + (end - begin) * i / (count - 1) for i in range(count)]
 
 
-def term_value(term: Term, world: World, owner: int | None = None, now_s: float | None = None) -> float:
+def term_value(term: ex.Term, world: World, owner: int | None = None, now_s: float | None = None) -> float:
     """Return the SI value of `term`.
 
     `owner` is the actor that bare landmarks belong to, `now_s` the moment inside a temporal operator.
     """
     match term:
-        case Number(value=value):
+        case ex.Number(value=value):
             return float(value)
-        case ParameterRef(name=name):
+        case ex.ParameterRef(name=name):
             return world.parameter(name)
-        case Landmark(name=name, actor=actor, other=other):
+        case ex.Landmark(name=name, actor=actor, other=other):
             holder = actor if actor is not None else owner
             if holder is None:
                 raise ValueError(f"landmark {name} belongs to no one")
             return world.landmark_m(holder, name, other)
-        case Elapsed(actor=actor, knot=knot):
+        case ex.Elapsed(actor=actor, knot=knot):
             return world.knot_time_s(actor, knot)
-        case State(actor=actor, order=order, at=PieceRef(name=piece)):
+        case ex.State(actor=actor, order=order, at=ex.PieceRef(name=piece)):
             return world.state_on_piece(actor, order, piece)
-        case State(actor=actor, order=order, at=at):
+        case ex.State(actor=actor, order=order, at=at):
             return world.state(actor, order, moment_s(at, actor, world, now_s))
-        case Derived():
+        case ex.Derived():
             return _derived(term, world, now_s)
-        case Negate(operand=operand):
+        case ex.Negate(operand=operand):
             return -term_value(operand, world, owner, now_s)
-        case Arithmetic(operator="-", left=State(order=0) as left, right=State(order=0) as right):
+        case ex.Arithmetic(operator="-", left=ex.State(order=0) as left, right=ex.State(order=0) as right):
             # Positions of two actors are compared on the lanes that they share.
             shift = world.offset_m(left.actor, right.actor) if left.actor != right.actor else 0.0
             return term_value(left, world, owner, now_s) - term_value(right, world, owner, now_s) - shift
-        case Arithmetic(operator=operator, left=left_term, right=right_term):
+        case ex.Arithmetic(operator=operator, left=left_term, right=right_term):
             left_value = term_value(left_term, world, owner, now_s)
             right_value = term_value(right_term, world, owner, now_s)
             return _apply(operator, left_value, right_value)
@@ -159,14 +140,14 @@ def term_value(term: Term, world: World, owner: int | None = None, now_s: float 
             raise TypeError(f"not a term: {term!r}")
 
 
-def moment_s(at: At, actor: int, world: World, now_s: float | None) -> float:
+def moment_s(at: ex.At, actor: int, world: World, now_s: float | None) -> float:
     """Return the time (s) that a moment stands for."""
     match at:
-        case Knot(name=name):
+        case ex.Knot(name=name):
             return world.knot_time_s(actor, name)
-        case Elapsed(actor=other, knot=knot):
+        case ex.Elapsed(actor=other, knot=knot):
             return world.knot_time_s(other, knot)
-        case Number(value=value):
+        case ex.Number(value=value):
             return float(value)
         case None if now_s is not None:
             return now_s
@@ -174,11 +155,11 @@ def moment_s(at: At, actor: int, world: World, now_s: float | None) -> float:
             raise ValueError("a state without a moment stands only inside always, never or eventually")
 
 
-def _derived(term: Derived, world: World, now_s: float | None) -> float:
+def _derived(term: ex.Derived, world: World, now_s: float | None) -> float:
     time_s = moment_s(term.at, term.actor, world, now_s)
     position = world.state(term.actor, 0, time_s)
     speed = world.state(term.actor, 1, time_s)
-    if isinstance(term.target, Landmark):
+    if isinstance(term.target, ex.Landmark):
         holder = term.target.actor if term.target.actor is not None else term.actor
         distance = world.landmark_m(holder, term.target.name, term.target.other) - position
         return _ratio(distance, speed)

@@ -5,25 +5,7 @@ What enters: a `Program` or one of its expressions. What leaves: text. It decide
 
 from __future__ import annotations
 
-from scenewright.program.expressions import (
-    ORDER_LETTERS,
-    Arithmetic,
-    At,
-    Compare,
-    Derived,
-    Elapsed,
-    Knot,
-    Landmark,
-    Logic,
-    Negate,
-    Node,
-    Number,
-    ParameterRef,
-    PieceRef,
-    State,
-    Temporal,
-    Term,
-)
+from scenewright.program import expressions as ex
 from scenewright.program.types import (
     Actor,
     Constraint,
@@ -54,36 +36,36 @@ def print_program(program: Program) -> str:
     return "\n".join(lines) + "\n"
 
 
-def print_expression(node: Node) -> str:
+def print_expression(node: ex.Node) -> str:
     """Return the text form of one formula or term."""
     match node:
-        case Number(value=value):
+        case ex.Number(value=value):
             return format_fraction(value)
-        case ParameterRef(name=name):
+        case ex.ParameterRef(name=name):
             return name
-        case Landmark(name=name, actor=actor, other=other):
+        case ex.Landmark(name=name, actor=actor, other=other):
             prefix = "" if actor is None else f"A{actor}."
             return f"{prefix}{name}" + ("" if other is None else f"(A{other})")
-        case Elapsed(actor=actor, knot=knot):
+        case ex.Elapsed(actor=actor, knot=knot):
             return f"A{actor}({knot})"
-        case State(actor=actor, order=order, at=at):
-            return f"A{actor}{ORDER_LETTERS[order]}" + ("" if at is None else f"({_moment(at)})")
-        case Derived(kind=kind, actor=actor, target=target, at=at):
+        case ex.State(actor=actor, order=order, at=at):
+            return f"A{actor}{ex.ORDER_LETTERS[order]}" + ("" if at is None else f"({_moment(at)})")
+        case ex.Derived(kind=kind, actor=actor, target=target, at=at):
             aim = f"A{target}" if isinstance(target, int) else print_expression(target)
             return f"{kind}(A{actor}, {aim}" + ("" if at is None else f", {_moment(at)}") + ")"
-        case Arithmetic(operator=operator, left=left, right=right):
+        case ex.Arithmetic(operator=operator, left=left, right=right):
             rank = _PRECEDENCE[operator]
             return f"{_wrap(left, rank)} {operator} {_wrap(right, rank + 1)}"
-        case Negate(operand=operand):
+        case ex.Negate(operand=operand):
             return f"-{_wrap(operand, _PRECEDENCE['neg'])}"
-        case Compare(operator=operator, left=left, right=right):
+        case ex.Compare(operator=operator, left=left, right=right):
             return f"{print_expression(left)} {operator} {print_expression(right)}"
-        case Logic(operator="not", operands=operands):
+        case ex.Logic(operator="not", operands=operands):
             return f"not {_wrap(operands[0], _PRECEDENCE['not'])}"
-        case Logic(operator=operator, operands=operands):
+        case ex.Logic(operator=operator, operands=operands):
             rank = _PRECEDENCE[operator]
             return f" {operator} ".join(_wrap(operand, rank + 1) for operand in operands)
-        case Temporal(operator=operator, start=start, end=end, body=body):
+        case ex.Temporal(operator=operator, start=start, end=end, body=body):
             return f"{operator}[{print_expression(start)}, {print_expression(end)}]({print_expression(body)})"
 
 
@@ -103,30 +85,30 @@ def print_route(route: RouteSpec) -> str:
             return f"from{origin}" + (f",{aim}" if aim else "")
 
 
-def _wrap(node: Node, at_least: int) -> str:
+def _wrap(node: ex.Node, at_least: int) -> str:
     text = print_expression(node)
     return text if _rank(node) >= at_least else f"({text})"
 
 
-def _rank(node: Node) -> int:
+def _rank(node: ex.Node) -> int:
     match node:
-        case Arithmetic(operator=operator):
+        case ex.Arithmetic(operator=operator):
             return _PRECEDENCE[operator]
-        case Negate():
+        case ex.Negate():
             return _PRECEDENCE["neg"]
-        case Compare():
+        case ex.Compare():
             return _PRECEDENCE["compare"]
-        case Logic(operator=operator):
+        case ex.Logic(operator=operator):
             return _PRECEDENCE[operator]
-        case Number(value=value) if value.denominator != 1 and "/" in format_fraction(value):
+        case ex.Number(value=value) if value.denominator != 1 and "/" in format_fraction(value):
             return _PRECEDENCE["/"]
         case _:
             return 9
 
 
-def _moment(at: At) -> str:
+def _moment(at: ex.At) -> str:
     match at:
-        case Knot(name=name) | PieceRef(name=name):
+        case ex.Knot(name=name) | ex.PieceRef(name=name):
             return name
         case None:
             return ""
@@ -161,4 +143,4 @@ def _escape(text: str) -> str:
     return text.replace("\\", "\\\\").replace('"', '\\"')
 
 
-__all__ = ["Term", "print_expression", "print_program", "print_route"]
+__all__ = ["print_expression", "print_program", "print_route"]

@@ -21,27 +21,8 @@ from scenewright.motion.algebra import (
     pin,
 )
 from scenewright.motion.sketched import ONE, Ratio
+from scenewright.program import expressions as ex
 from scenewright.program.evaluate import landmark_owner
-from scenewright.program.expressions import (
-    Arithmetic,
-    At,
-    Compare,
-    Derived,
-    Elapsed,
-    Formula,
-    Knot,
-    Landmark,
-    Logic,
-    Negate,
-    Node,
-    Number,
-    ParameterRef,
-    PieceRef,
-    State,
-    Temporal,
-    Term,
-    walk,
-)
 from scenewright.program.structure import Structure
 from scenewright.roads.grounding import Scene
 from scenewright.solve.views import MotionView, SketchedView
@@ -56,12 +37,12 @@ class NotYet(Exception):  # noqa: N818 - a signal between passes, no fault of an
     """A formula speaks of a moment that is not known in the motions given (the ego is not predicted to get there)."""
 
 
-def compared_dimension(formula: Node) -> str:
+def compared_dimension(formula: ex.Node) -> str:
     """Return the dimension of what a comparison compares, told from the first state or derived quantity in it."""
-    for node in walk(formula):
-        if isinstance(node, State):
+    for node in ex.walk(formula):
+        if isinstance(node, ex.State):
             return _OF_ORDER[node.order]
-        if isinstance(node, Derived):
+        if isinstance(node, ex.Derived):
             return _OF_DERIVED[node.kind]
     return "time"
 
@@ -92,7 +73,7 @@ class Lowering:
         self.parameters = parameters
         self._now: tuple[int, int] | None = None
 
-    def condition(self, formula: Formula, tolerance: Fraction = Fraction(0)) -> Condition:
+    def condition(self, formula: ex.Formula, tolerance: Fraction = Fraction(0)) -> Condition:
         """Return `formula` as a condition; equalities may be off by `tolerance` units of `TIGHT`.
 
         Raises
@@ -101,22 +82,22 @@ class Lowering:
             Where a moment in it is not known.
         """
         match formula:
-            case Compare():
+            case ex.Compare():
                 return self._compare(formula, tolerance)
-            case Logic(operator="and", operands=operands):
+            case ex.Logic(operator="and", operands=operands):
                 return conjunction([self.condition(operand, tolerance) for operand in operands])
-            case Logic(operator="or", operands=operands):
+            case ex.Logic(operator="or", operands=operands):
                 return disjunction([self.condition(operand, tolerance) for operand in operands])
-            case Logic(operator="not", operands=operands):
+            case ex.Logic(operator="not", operands=operands):
                 return negation(self.condition(operands[0]))
-            case Logic(operands=(left, right)):
+            case ex.Logic(operands=(left, right)):
                 return disjunction([negation(self.condition(left)), self.condition(right, tolerance)])
-            case Temporal():
+            case ex.Temporal():
                 return self._temporal(formula)
             case _:
                 raise TypeError(f"not a formula: {formula!r}")
 
-    def _compare(self, formula: Compare, tolerance: Fraction) -> Condition:
+    def _compare(self, formula: ex.Compare, tolerance: Fraction) -> Condition:
         owner = landmark_owner(formula)
         left_num, left_den = self._side(formula.left, owner)
         right_num, right_den = self._side(formula.right, owner)
@@ -134,52 +115,52 @@ class Lowering:
             return disjunction([negation(positive[1]), finite])
         return finite
 
-    def _side(self, term: Term, owner: int | None) -> Ratio:
+    def _side(self, term: ex.Term, owner: int | None) -> Ratio:
         """Return one side of a comparison; a quotient by a known negative number is written with a positive one."""
         numerator, denominator = self.term(term, owner)
         if not isinstance(denominator, Symbol) and denominator < 0 and not _may_be_endless(term):
             return -numerator, -denominator
         return numerator, denominator
 
-    def term(self, term: Term, owner: int | None) -> Ratio:
+    def term(self, term: ex.Term, owner: int | None) -> Ratio:
         """Return a term as numerator and denominator."""
         match term:
-            case Number(value=value):
+            case ex.Number(value=value):
                 return value, ONE
-            case ParameterRef(name=name):
+            case ex.ParameterRef(name=name):
                 return self.parameters[name], ONE
-            case Landmark(name=name, actor=actor, other=other):
+            case ex.Landmark(name=name, actor=actor, other=other):
                 holder = actor if actor is not None else owner
                 if holder is None:
                     raise ValueError(f"landmark {name} belongs to no one")
                 return pin(self.scene.landmark_m(holder, name, other)), ONE
-            case Elapsed(actor=actor, knot=knot):
+            case ex.Elapsed(actor=actor, knot=knot):
                 return _known(self.motions[actor].time(knot)), ONE
-            case State(actor=actor, order=order, at=PieceRef(name=name)):
+            case ex.State(actor=actor, order=order, at=ex.PieceRef(name=name)):
                 piece = self.scene.program.actor(actor).sketch.piece_index(name)
                 ratio = self.motions[actor].on_piece(piece, order)
                 if ratio is None:
                     raise NotYet
                 return ratio
-            case State(actor=actor, order=order, at=at):
+            case ex.State(actor=actor, order=order, at=at):
                 return self._state(actor, order, at, actor)
-            case Derived():
+            case ex.Derived():
                 return self._derived(term)
-            case Negate(operand=operand):
+            case ex.Negate(operand=operand):
                 numerator, denominator = self.term(operand, owner)
                 return -numerator, denominator
-            case Arithmetic():
+            case ex.Arithmetic():
                 return self._arithmetic(term, owner)
             case _:
                 raise TypeError(f"not a term: {term!r}")
 
-    def _state(self, actor: int, order: int, at: At, knot_owner: int) -> Ratio:
+    def _state(self, actor: int, order: int, at: ex.At, knot_owner: int) -> Ratio:
         """Return the state of `actor` at a moment; a bare knot in `at` is a knot of `knot_owner`."""
         motion = self.motions[actor]
         if at is None:
             return self._state_now(actor, order)
-        if isinstance(at, Knot | Elapsed):
-            named = (at.actor, at.knot) if isinstance(at, Elapsed) else (knot_owner, at.name)
+        if isinstance(at, ex.Knot | ex.Elapsed):
+            named = (at.actor, at.knot) if isinstance(at, ex.Elapsed) else (knot_owner, at.name)
             own = self.structure.same_moment(actor, named)
             if own is not None:
                 ratio = motion.at_knot(own, order)
@@ -188,20 +169,20 @@ class Lowering:
                 return ratio
         return _known(motion.at_time(self._moment(at, knot_owner), order)), ONE
 
-    def _moment(self, at: At, knot_owner: int) -> Value:
+    def _moment(self, at: ex.At, knot_owner: int) -> Value:
         match at:
-            case Knot(name=name):
+            case ex.Knot(name=name):
                 return _known(self.motions[knot_owner].time(name))
-            case Elapsed(actor=actor, knot=knot):
+            case ex.Elapsed(actor=actor, knot=knot):
                 return _known(self.motions[actor].time(knot))
-            case Number(value=value):
+            case ex.Number(value=value):
                 return value
             case _:
                 raise ValueError("a state without a moment stands only inside always, never or eventually")
 
-    def _derived(self, term: Derived) -> Ratio:
+    def _derived(self, term: ex.Derived) -> Ratio:
         position = self._state(term.actor, 0, term.at, term.actor)[0]
-        if isinstance(term.target, Landmark):
+        if isinstance(term.target, ex.Landmark):
             holder = term.target.actor if term.target.actor is not None else term.actor
             distance = pin(self.scene.landmark_m(holder, term.target.name, term.target.other)) - position
             return distance, self._state(term.actor, 1, term.at, term.actor)[0]
@@ -214,13 +195,13 @@ class Lowering:
             return gap, speed
         return gap, speed - self._state(term.target, 1, term.at, term.actor)[0]
 
-    def _arithmetic(self, term: Arithmetic, owner: int | None) -> Ratio:
+    def _arithmetic(self, term: ex.Arithmetic, owner: int | None) -> Ratio:
         left_num, left_den = self.term(term.left, owner)
         right_num, right_den = self.term(term.right, owner)
         if _are_positions(term) and term.operator == "-":
             left_state, right_state = term.left, term.right
-            assert isinstance(left_state, State)
-            assert isinstance(right_state, State)
+            assert isinstance(left_state, ex.State)
+            assert isinstance(right_state, ex.State)
             shift = pin(self.scene.offset_m(left_state.actor, right_state.actor))
             return left_num - right_num - shift, ONE
         match term.operator:
@@ -233,14 +214,14 @@ class Lowering:
             case _:
                 return left_num * right_den, left_den * right_num
 
-    def _temporal(self, formula: Temporal) -> Condition:
+    def _temporal(self, formula: ex.Temporal) -> Condition:
         """Lower a condition over an interval to the knots within it, between two knots of one sketched actor.
 
         Speed is linear and acceleration constant between knots, so a bound on either holds throughout where it holds at
         the ends of every stretch. Whatever else the body says is checked on the finished plan.
         """
         start, end = formula.start, formula.end
-        if not (isinstance(start, Elapsed) and isinstance(end, Elapsed) and start.actor == end.actor):
+        if not (isinstance(start, ex.Elapsed) and isinstance(end, ex.Elapsed) and start.actor == end.actor):
             raise NotYet
         view = self.motions[start.actor]
         if not isinstance(view, SketchedView) or start.knot not in view.knots or end.knot not in view.knots:
@@ -262,18 +243,18 @@ class Lowering:
         return view.motion.state_at_knot(self._now[1], order)
 
 
-def _are_positions(term: Arithmetic) -> bool:
+def _are_positions(term: ex.Arithmetic) -> bool:
     left, right = term.left, term.right
     return (
-        isinstance(left, State)
-        and isinstance(right, State)
+        isinstance(left, ex.State)
+        and isinstance(right, ex.State)
         and left.order == right.order == 0
         and left.actor != right.actor
     )
 
 
-def _may_be_endless(term: Term) -> bool:
-    return any(isinstance(node, Derived) and node.kind != "gap" for node in walk(term))
+def _may_be_endless(term: ex.Term) -> bool:
+    return any(isinstance(node, ex.Derived) and node.kind != "gap" for node in ex.walk(term))
 
 
 def _known(value: Value | None) -> Value:

@@ -10,21 +10,7 @@ from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import Any
 
-from scenewright.program.expressions import (
-    Arithmetic,
-    Compare,
-    Derived,
-    Elapsed,
-    Formula,
-    Knot,
-    Landmark,
-    Node,
-    Number,
-    PieceRef,
-    State,
-    Temporal,
-    walk,
-)
+from scenewright.program import expressions as ex
 from scenewright.program.structure import Role, knots_of, read_structure
 from scenewright.program.types import Program
 
@@ -99,24 +85,24 @@ def places(program: Program) -> dict[str, list[str]]:
     names = {actor.id: actor.name for actor in program.actors}
     found: dict[str, list[str]] = {name: [] for name in names.values()}
     for constraint in program.constraints:
-        nodes = list(walk(constraint.formula))
-        owners = {node.actor for node in nodes if isinstance(node, State | Derived)}
-        for mark in (node for node in nodes if isinstance(node, Landmark)):
+        nodes = list(ex.walk(constraint.formula))
+        owners = {node.actor for node in nodes if isinstance(node, ex.State | ex.Derived)}
+        for mark in (node for node in nodes if isinstance(node, ex.Landmark)):
             for actor in {mark.actor} if mark.actor is not None else owners:
                 if actor in names and mark.name not in found[names[actor]]:
                     found[names[actor]].append(mark.name)
     return found
 
 
-def _moments(formula: Formula, program: Program, knot_times: KnotTimes) -> Iterator[float]:
+def _moments(formula: ex.Formula, program: Program, knot_times: KnotTimes) -> Iterator[float]:
     names = {actor.id: actor.name for actor in program.actors}
     for actor, knot in knots_of(formula):
         time = _knot_time(names.get(actor), knot, knot_times)
         if time is not None:
             yield time
-    for node in walk(formula):
+    for node in ex.walk(formula):
         match node:
-            case State(actor=owner, at=PieceRef(name=piece)) if owner in names:
+            case ex.State(actor=owner, at=ex.PieceRef(name=piece)) if owner in names:
                 sketch = program.actor(owner).sketch
                 try:
                     begins = sketch.knots[sketch.piece_index(piece)]
@@ -125,9 +111,9 @@ def _moments(formula: Formula, program: Program, knot_times: KnotTimes) -> Itera
                 time = _knot_time(names[owner], begins, knot_times)
                 if time is not None:
                     yield time
-            case State(at=Number(value=value)) | Derived(at=Number(value=value)):
+            case ex.State(at=ex.Number(value=value)) | ex.Derived(at=ex.Number(value=value)):
                 yield float(value)
-            case Temporal(start=Number(value=value)):
+            case ex.Temporal(start=ex.Number(value=value)):
                 yield float(value)
             case _:
                 pass
@@ -138,34 +124,34 @@ def _knot_time(actor: str | None, knot: str, knot_times: KnotTimes) -> float | N
     return float(time) if isinstance(time, int | float) else None
 
 
-def _measures(formula: Formula, names: Mapping[int, str], landmarks: Landmarks) -> Iterator[Json]:
-    for node in walk(formula):
+def _measures(formula: ex.Formula, names: Mapping[int, str], landmarks: Landmarks) -> Iterator[Json]:
+    for node in ex.walk(formula):
         match node:
-            case Compare(left=left, right=right):
+            case ex.Compare(left=left, right=right):
                 yield from _distance(left, right, names, landmarks)
                 yield from _distance(right, left, names, landmarks)
-            case Derived(kind="tta", actor=actor, target=Landmark() as mark) if actor in names:
+            case ex.Derived(kind="tta", actor=actor, target=ex.Landmark() as mark) if actor in names:
                 s_m = _arc_length(mark, actor, names, landmarks)
                 if s_m is not None:
                     yield {"kind": "tta", "actor": names[actor], "name": mark.name, "s_m": s_m}
-            case Derived(actor=actor, target=int(target)) if {actor, target} <= set(names):
+            case ex.Derived(actor=actor, target=int(target)) if {actor, target} <= set(names):
                 yield {"kind": "gap", "actor": names[actor], "target": names[target]}
             case _:
                 pass
 
 
-def _distance(state: Node, place: Node, names: Mapping[int, str], landmarks: Landmarks) -> Iterator[Json]:
+def _distance(state: ex.Node, place: ex.Node, names: Mapping[int, str], landmarks: Landmarks) -> Iterator[Json]:
     """Yield the measure of ``A0x(t1) == stop_line - p``, where that is what is compared."""
-    if not isinstance(state, State) or state.order != 0 or state.actor not in names:
+    if not isinstance(state, ex.State) or state.order != 0 or state.actor not in names:
         return
-    if not isinstance(state.at, Knot | Elapsed) or not isinstance(place, Landmark | Arithmetic):
+    if not isinstance(state.at, ex.Knot | ex.Elapsed) or not isinstance(place, ex.Landmark | ex.Arithmetic):
         return
-    marks = [node for node in walk(place) if isinstance(node, Landmark)]
+    marks = [node for node in ex.walk(place) if isinstance(node, ex.Landmark)]
     if len(marks) == 1 and (s_m := _arc_length(marks[0], state.actor, names, landmarks)) is not None:
         yield {"kind": "landmark", "actor": names[state.actor], "name": marks[0].name, "s_m": s_m}
 
 
-def _arc_length(mark: Landmark, actor: int, names: Mapping[int, str], landmarks: Landmarks) -> float | None:
+def _arc_length(mark: ex.Landmark, actor: int, names: Mapping[int, str], landmarks: Landmarks) -> float | None:
     if mark.actor not in (None, actor):
         return None  # it lies on another actor's route: there is no stretch of this route to draw
     known = landmarks.get(names[actor], {})

@@ -19,8 +19,7 @@ _BROUGHT_IN = re.compile(
     re.I,
 )
 _KNOWN = frozenset(
-    ["UUT", "EUT", "DUT", "HAV", "ADS", "CAV", "AV", "OV", "SV", "POV", "NPC", "EGO", "VUT", "SUT", "GVT"]
-    + ["TTC", "TTA", "CP", "SL"]
+    ["UUT", "EUT", "DUT", "HAV", "ADS", "CAV", "AV", "OV", "SV", "POV", "NPC", "EGO", "VUT", "SUT", "GVT", "TTC", "TTA"]
 )
 
 
