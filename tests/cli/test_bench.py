@@ -9,7 +9,7 @@ import signal
 import subprocess
 import time
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,8 @@ import typer
 from test_help import examples_of
 
 from scenewright.cli.bench import app
-from scenewright.study.store import CaseLog, CaseRecord, read_results, write_settings
+from scenewright.study.lines import LineLog
+from scenewright.study.store import LINES_FILE, CaseRecord, read_results, write_settings
 from scenewright.trace.files import read_trace, write_trace
 from scenewright.trace.model import Trace
 
@@ -33,7 +34,7 @@ KEYS = [f"{row}-{ego}-0-scenewright" for row in (16, 17) for ego in ("constant",
 def done(command: Command) -> list[CaseRecord]:
     """Return the records of a small experiment in the folder `here`."""
     assert command(*HERE, 0).exit_code == 0
-    return read_results("here").records()
+    return read_results("here").records
 
 
 def lines_of(folder: str) -> int:
@@ -75,11 +76,11 @@ def test_killed_experiment_loses_nothing_and_counts_nothing_twice(process: Start
     assert all(gone(worker) for worker in workers), "workers outlive their experiment"
     with Path("here/cases.jsonl").open("ab") as file:
         file.write(b'{"case": "17-idm-0-sc')
-    before = {record.case: record for record in read_results("here").records()}
+    before = {record.case: record for record in read_results("here").records}
     assert 1 <= len(before) <= len(KEYS)
     assert not Path("here/cases.parquet").exists()
     assert command(*HERE, 0).exit_code == 0
-    after = read_results("here").records()
+    after = read_results("here").records
     assert [record.case for record in after] == KEYS
     assert all(before.get(record.case, record) == record for record in after), "what was done was not done again"
     assert not Path("here/cases.jsonl").exists()
@@ -94,19 +95,19 @@ def test_interrupted_experiment_says_how_to_go_on(process: Start, command: Comma
     assert "Traceback" not in err
     data = json.loads(out)
     assert (data["status"], data["exit_status"], data["cases"]) == ("interrupted", 130, len(KEYS))
-    assert read_results("here").cases.num_rows == data["done"] < len(KEYS)
+    assert len(read_results("here").records) == data["done"] < len(KEYS)
     assert f"to go on: {data['resume']}" in err
     words = shlex.split(data["resume"])
     assert words[0] == "scenewright"
     assert command(*words[1:]).exit_code == 0
-    assert [record.case for record in read_results("here").records()] == KEYS
+    assert [record.case for record in read_results("here").records] == KEYS
 
 
 def test_policy_that_ends_its_process_costs_its_own_cases_only(command: Command, policy: Callable[[str], str]) -> None:
     ego = policy("if observation.others: __import__('os')._exit(9)\nreturn 0.0")
     result = command("bench", "--rows", "16", "--egos", f"{ego},constant", "--draws", "1", "--out", "here")
     assert result.exit_code == 0
-    broken, sound = read_results("here").records()
+    broken, sound = read_results("here").records
     assert (broken.cause, broken.message) == ("error", "its process died (exit status 9)")
     assert sound.cause == "success"
     assert "error" in result.stdout
@@ -147,7 +148,7 @@ def test_replay_runs_a_case_again_and_shows_it(command: Command, done: list[Case
         assert data["run_directory"] == f"again/{record.case}"
         assert Path(data["page"]).is_file()
     assert "as recorded" in command("bench", "replay", "here", done[0].case).stdout
-    assert read_results("here").records() == done
+    assert read_results("here").records == done
 
 
 def test_every_success_is_one_again_when_judged_from_its_files(command: Command, done: list[CaseRecord]) -> None:
@@ -181,10 +182,11 @@ def test_diff_tells_what_turned_and_fails_where_asked(command: Command, done: li
     for folder, cause in (("good", "success"), ("bad", "missed")):
         Path(folder).mkdir()
         write_settings(Path(folder), settings)
-        log = CaseLog(Path(folder))
+        log = LineLog(Path(folder, LINES_FILE))
         for number in range(6):
             tight = cause == "success"
-            log.append(replace(done[0], case=f"x-{number}", cause=cause, first_cause=cause, best_tight=tight))
+            made = replace(done[0], case=f"x-{number}", cause=cause, first_cause=cause, best_tight=tight)
+            log.append(asdict(made))
         log.close()
     assert command("bench", "diff", "here", "here", "--fail-on-regression").exit_code == 0
     assert command("bench", "diff", "good", "bad").exit_code == 0

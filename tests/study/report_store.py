@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 
-from scenewright.study.store import CaseLog, CaseRecord, compact, write_settings
+from scenewright.study.lines import LineLog
+from scenewright.study.store import LINES_FILE, CaseRecord, compact, write_settings
 
 INTERACTIONS = ("Hero brakes", "Hero yields", "Hero does not yield", "Hero yields then goes")
 METHODS = ("scenewright", "open-loop", "trigger-action", "synchronise", "rejection", "follower")
@@ -59,7 +61,7 @@ def record(row: int, ego: str, draw: int, method: str, cause: str, random: np.ra
     best = {"success": 3, "loose only": 2}.get(cause, int(random.random() < 0.2)) if driven else 0
     finest = cause == "success" and random.random() < 0.6
     first = 1 if later else best
-    held = {level: rank >= 3 - best for rank, level in enumerate(LEVELS)}
+    held = {level: rank >= 4 - best for rank, level in enumerate(LEVELS)}
     held["fine"] = finest
     began = {level: held[level] and first == best for level in LEVELS} | ({"coarse": True} if first else {})
     off = float(random.exponential(0.05 if cause == "success" else 1.5)) if driven else None
@@ -121,9 +123,9 @@ def write_store(folder: Path, records: Sequence[CaseRecord]) -> Path:
         "finished": "2026-01-01T00:20:00+00:00",
     }
     write_settings(folder, settings)
-    log = CaseLog(folder)
+    log = LineLog(folder / LINES_FILE)
     for each in records:
-        log.append(each)
+        log.append(asdict(each))
     log.close()
     compact(folder)
     return folder

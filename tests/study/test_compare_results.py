@@ -12,8 +12,8 @@ from records import record
 
 from scenewright.study.causes import CAUSES, NOT_OURS, cause_across, cause_of_take
 from scenewright.study.compare import Comparison, compare, moved
-from scenewright.study.store import CaseRecord, Results, as_table
-from scenewright.study.summary import disagreements, failures, summary, tally_by
+from scenewright.study.store import CaseRecord, Results
+from scenewright.study.summary import Rate, disagreements, failures, percent, summary, tally_by
 
 RECORDS = [
     record(1, "idm", "success", "missed"),
@@ -28,24 +28,24 @@ RECORDS = [
 
 
 def results(records: list[CaseRecord], **settings: object) -> Results:
-    return Results(Path("x"), {"takes": 3, **settings}, as_table(records))
+    return Results(Path("x"), {"takes": 3, **settings}, tuple(records))
 
 
 def test_rates_leave_out_what_is_nobodys_fault_and_nothing_else() -> None:
     idm, noisy, everything = tally_by(RECORDS, lambda r: r.ego)
     assert (idm.cases, idm.rated) == (4, 3)
-    assert idm.rate("first", "tight") == pytest.approx(1 / 3)
-    assert idm.rate("best", "tight") == pytest.approx(2 / 3)
-    assert idm.rate("best", "loose") == 1.0
-    assert (noisy.cases, noisy.rated, noisy.rate("best", "coarse")) == (4, 2, 0.0)
-    assert noisy.rate_where_let == 0.0
+    assert idm.rate("first", "tight") == Rate(1, 3)
+    assert idm.rate("best", "tight") == Rate(2, 3)
+    assert idm.rate("best", "loose").value == 1.0
+    assert (noisy.cases, noisy.rated, noisy.rate("best", "coarse").value) == (4, 2, 0.0)
+    assert noisy.rate_where_let.value == 0.0
     assert (everything.cases, everything.rated) == (8, 5)
-    assert everything.rate_where_let == pytest.approx(2 / 4)
+    assert everything.rate_where_let == Rate(2, 4)
 
 
 def test_group_of_impossible_cases_has_no_rate() -> None:
     (only,) = tally_by([record(4, cause="proven infeasible")], lambda r: r.ego, total="")
-    assert (only.rated, only.rate("best", "tight"), only.rate_where_let) == (0, None, None)
+    assert (only.rated, only.rate("best", "tight").value, only.rate_where_let.value) == (0, None, None)
 
 
 def test_failures_are_ours_and_disagreements_are_all() -> None:
@@ -125,3 +125,11 @@ def test_table_is_one_that_others_can_query() -> None:
     table = results(RECORDS).table
     assert isinstance(table, pa.Table)
     assert sum(table.column("best_tight").to_pylist()) == 2
+
+
+def test_rates_say_one_hundred_percent_only_where_it_is() -> None:
+    assert percent(1439 / 1440) == "99.9 %"
+    assert percent(1 / 4000) == "0.1 %"
+    assert (str(Rate(0, 0)), Rate(0, 0).interval) == ("-", None)
+    low, high = Rate(97, 100).interval or (0.0, 0.0)
+    assert (round(low, 3), round(high, 3)) == (0.915, 0.990)  # as tables of Wilson's interval have it

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from scenewright.program.types import Parameter
-from scenewright.study.draws import RANGES, draw_parameters
+from scenewright.study.draws import draw_parameters
 
 NAMES = [
     "ego_distance_behind_stop_line_m",
@@ -24,16 +24,16 @@ NAMES = [
 seeds = st.tuples(st.integers(0, 10**6), st.integers(0, 100), st.integers(0, 100))
 
 
-def drawn(names: list[str], seed: tuple[int, ...], ranges: str = "everyday") -> dict[str, float]:
-    return draw_parameters([Parameter(name) for name in names], seed, RANGES[ranges])
+def drawn(names: list[str], seed: tuple[int, ...]) -> dict[str, float]:
+    return draw_parameters([Parameter(name) for name in names], seed)
 
 
-@given(seeds, st.sampled_from(sorted(RANGES)))
-def test_same_seed_same_values(seed: tuple[int, ...], ranges: str) -> None:
-    values = drawn(NAMES, seed, ranges)
-    assert values == drawn(NAMES, seed, ranges)
+@given(seeds)
+def test_same_seed_same_values(seed: tuple[int, ...]) -> None:
+    values = drawn(NAMES, seed)
+    assert values == drawn(NAMES, seed)
     assert list(values) == NAMES
-    assert values != drawn(NAMES, (seed[0] + 1, *seed[1:]), ranges)
+    assert values != drawn(NAMES, (seed[0] + 1, *seed[1:]))
 
 
 @given(seeds)
@@ -54,9 +54,9 @@ def test_everyday_values_are_everyday(seed: tuple[int, ...]) -> None:
         assert low - 0.005 <= values[name] <= high + 0.005, name
 
 
-@given(seeds, st.sampled_from(sorted(RANGES)))
-def test_ego_starts_before_its_trigger(seed: tuple[int, ...], ranges: str) -> None:
-    values = drawn(NAMES, seed, ranges)
+@given(seeds)
+def test_ego_starts_before_its_trigger(seed: tuple[int, ...]) -> None:
+    values = drawn(NAMES, seed)
     assert values["initial_ego_distance_behind_stop_line_m"] >= values["ego_distance_behind_stop_line_m"] + 14.99
     assert values["initial_ego_tta_behind_intersection_s"] >= values["ego_tta_behind_stop_line_s"] + 2.49
 
@@ -74,10 +74,3 @@ def test_values_are_in_the_unit_of_the_name(seed: tuple[int, ...]) -> None:
 def test_values_have_two_decimals_as_they_are_typed(seed: tuple[int, ...]) -> None:
     for value in drawn(NAMES, seed).values():
         assert len(str(value).partition(".")[2]) <= 2
-
-
-def test_wide_ranges_are_wider() -> None:
-    name = "hero_distance_behind_conflict_point_m"
-    spread = {ranges: [drawn([name], (k,), ranges)[name] for k in range(300)] for ranges in ("everyday", "wide")}
-    assert min(spread["wide"]) < min(spread["everyday"])
-    assert max(spread["wide"]) > max(spread["everyday"])

@@ -11,20 +11,21 @@ import pytest
 from typer.testing import CliRunner
 
 from scenewright.cli.app import app
+from scenewright.cli.bench_tables import outcome_data, outcome_tallies
 from scenewright.errors import InputError
-from scenewright.study.causes import CAUSES
+from scenewright.study.causes import CAUSES, INFEASIBLE
 from scenewright.study.evaluation import (
     Case,
     Description,
     Outcome,
-    Row,
+    in_order,
     make_cases,
     read_descriptions,
     run_case,
     run_cases,
-    tabulate,
     write_outcomes,
 )
+from scenewright.study.summary import Rate
 
 YIELDS = Description(
     "yields",
@@ -72,31 +73,31 @@ def test_cases_depend_on_their_seed_alone() -> None:
     assert [c.parameters for c in first] != [c.parameters for c in other]
 
 
-@pytest.mark.parametrize("mode", ["closed", "open"])
-def test_command_says_all_that_makes_the_case(mode: str) -> None:
+@pytest.mark.parametrize("takes", [1, 3])
+def test_command_says_all_that_makes_the_case(takes: int) -> None:
     text = "The hero's way: \"oncoming\", turns left; $HOME `ls` isn't a command."
-    case = Case(Description("x", text), "my folder/own.py:Ego:keep=7", 2, 9, {"a_m": 12.5, "b_s": 3.0}, mode)
+    case = Case(Description("x", text), "my folder/own.py:Ego:keep=7", 2, 9, {"a_m": 12.5, "b_s": 3.0}, takes)
     words = shlex.split(case.command())
     assert words[:3] == ["scenewright", "run", text]
     options = list(zip(words[3::2], words[4::2], strict=True))
     assert [value for name, value in options if name == "-p"] == ["a_m=12.5", "b_s=3.0"]
     assert dict(options)["--ego"] == case.ego
     assert dict(options)["--seed"] == "9"
-    assert dict(options).get("--mode", "closed") == mode
+    assert dict(options).get("--takes", "3") == str(takes)
 
 
 @pytest.mark.parametrize(
-    ("description", "ego", "parameters", "mode", "exit_code"),
+    ("description", "ego", "parameters", "exit_code"),
     [
-        (YIELDS, "noisy", FINE, "closed", 0),
-        (YIELDS, "stop-and-go", FINE, "open", 1),
-        (YIELDS, "idm", {"ego_gap_m": 30.0, "hero_gap_m": 5.0}, "closed", 3),
+        (YIELDS, "noisy", FINE, 0),
+        (GOES, "speeder", {}, 1),
+        (YIELDS, "idm", {"ego_gap_m": 30.0, "hero_gap_m": 5.0}, 3),
     ],
 )
 def test_command_runs_the_case_again(
-    description: Description, ego: str, parameters: dict[str, float], mode: str, exit_code: int, tmp_path: Path
+    description: Description, ego: str, parameters: dict[str, float], exit_code: int, tmp_path: Path
 ) -> None:
-    case = Case(description, ego, 0, 4, parameters, mode)
+    case = Case(description, ego, 0, 4, parameters, takes=1)
     counted = run_case(case)
     words = shlex.split(counted.command)
     again = CliRunner().invoke(app, [*words[1:], "--json", "--out", str(tmp_path / "run")])
@@ -164,24 +165,15 @@ def test_faults_are_errors_with_their_message(tmp_path: Path, monkeypatch: pytes
     assert on_the_way.simulated_s == pytest.approx(1.0, abs=0.05)
 
 
-def test_every_case_is_reported_as_it_is_done() -> None:
-    cases = make_cases([BRAKES], ["constant", "idm"], 1, 0)
-    done: list[Outcome] = []
-    outcomes = run_cases(cases, workers=1, done=done.append)
-    first = next(outcomes)
-    assert done == [first]
-    assert [first, *outcomes] == done
-    assert [o.ego for o in done] == ["constant", "idm"]
-
-
 def test_processes_change_nothing() -> None:
     cases = make_cases([BRAKES], ["constant", "noisy"], 2, 0)
-    alone, together = list(run_cases(cases, 1)), list(run_cases(cases, 2))
+    alone, together = (in_order(run_cases(cases, workers), cases) for workers in (0, 2))
 
     def told(outcomes: list[Outcome]) -> list[tuple[object, ...]]:
         return [(o.description, o.ego, o.draw, o.cause, o.simulated_s, o.command) for o in outcomes]
 
     assert told(alone) == told(together)
+    assert [(o.ego, o.draw) for o in alone] == [(c.ego, c.draw) for c in cases]
 
 
 def test_tables_count_by_what_is_asked_and_in_all() -> None:
@@ -192,23 +184,24 @@ def test_tables_count_by_what_is_asked_and_in_all() -> None:
         outcome("b", "noisy", "success"),
         outcome("b", "noisy", "ego left no room"),
     ]
-    by_ego = {row.name: row for row in tabulate(outcomes, "ego")}
+    tables = outcome_tallies(outcomes)
+    by_ego = {each.name: each for each in tables["ego"]}
     assert list(by_ego) == ["idm", "noisy", "all"]
-    assert by_ego["idm"].counts == {"success": 1, "proven infeasible": 1}
-    assert by_ego["noisy"].total == 3
-    by_description = {row.name: row.total for row in tabulate(outcomes, "description")}
-    assert by_description == {"a": 2, "b": 3, "all": 5}
-    everything = by_ego["all"]
-    assert everything.rate(("success",), ()) == pytest.approx(2 / 5)
-    assert everything.rate(("success",), ("proven infeasible",)) == pytest.approx(2 / 4)
-    assert everything.rate(("success",), ("proven infeasible", "ego left no room")) == pytest.approx(2 / 3)
-    assert everything.rate(("success", "missed"), ("proven infeasible",)) == pytest.approx(3 / 4)
+    assert by_ego["idm"].causes["best"] == {"success": 1, "proven infeasible": 1}
+    assert by_ego["noisy"].cases == 3
+    assert {each.name: each.cases for each in tables["description"]} == {"a": 2, "b": 3, "all": 5}
+    assert by_ego["all"].rate_without() == Rate(2, 5)
+    assert by_ego["all"].rate_without(INFEASIBLE) == Rate(2, 4)
+    data = outcome_data(by_ego["all"])
+    assert (data["name"], data["total"], data["success"], data["missed"]) == ("all", 5, 2, 1)
+    assert (data["tight"], data["tight_where_ego_let_it"]) == (2 / 4, pytest.approx(2 / 3))
 
 
 def test_share_of_nothing_is_none() -> None:
-    assert Row("x", Counter({"proven infeasible": 3})).rate(("success",), ("proven infeasible",)) is None
-    assert Row("x", Counter()).rate(("success",), ()) is None
-    assert tabulate([], "ego") == [Row("all", Counter())]
+    (nothing,) = outcome_tallies([])["ego"]
+    assert (nothing.cases, nothing.rate_without().value) == (0, None)
+    infeasible = outcome_tallies([outcome("a", "idm", "proven infeasible")])["ego"][-1]
+    assert infeasible.rate_without(INFEASIBLE).value is None
 
 
 def test_causes_have_their_place_in_tables() -> None:

@@ -16,9 +16,9 @@ from scenewright.errors import InputError, OutputError, PolicyError
 from scenewright.judge.files import judge_run_directory
 from scenewright.judge.tolerance import TIGHT
 from scenewright.solve.backends.z3_backend import Z3Backend
-from scenewright.study.cases import BenchCase, make_bench_cases, run_bench_case
+from scenewright.study.cases import BenchCase, run_bench_case
 from scenewright.study.experiment import FULL_EGOS, Experiment, Plan, Progress, preset
-from scenewright.study.rejudge import kept_runs, rejudge_one
+from scenewright.study.rejudge import differences, kept_runs
 from scenewright.study.remembering import Remembering
 from scenewright.study.store import CaseRecord, read_results
 
@@ -48,7 +48,7 @@ def small(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_every_combination_is_there_once_with_its_facts(small: Path) -> None:
     results = read_results(small)
-    records = results.records()
+    records = results.records
     assert [(r.row, r.ego) for r in records] == [(n, ego) for n in (17, 16) for ego in ("constant", "noisy")]
     assert {(r.row, r.interaction) for r in records} == {(17, "Hero does not yield"), (16, "Hero yields")}
     by_row = {r.row: (r.parameters, r.seed) for r in records}
@@ -60,7 +60,7 @@ def test_every_combination_is_there_once_with_its_facts(small: Path) -> None:
 
 def test_number_of_processes_changes_nothing(small: Path, tmp_path: Path) -> None:
     assert run(SMALL, tmp_path / "two", workers=2)
-    first, second = (read_results(folder).records() for folder in (small, tmp_path / "two"))
+    first, second = (read_results(folder).records for folder in (small, tmp_path / "two"))
     assert [told(r) for r in first] == [told(r) for r in second]
     for record in first:
         if record.directory is not None:
@@ -71,24 +71,24 @@ def test_number_of_processes_changes_nothing(small: Path, tmp_path: Path) -> Non
 def test_stopped_experiment_goes_on_and_counts_nothing_twice(small: Path, tmp_path: Path) -> None:
     folder = tmp_path / "stopped"
     assert not run(SMALL, folder, after=1)
-    kept = read_results(folder).records()
+    kept = read_results(folder).records
     assert len(kept) == 1
     assert "finished" not in read_results(folder).settings
     assert run(SMALL, folder)
-    records = read_results(folder).records()
+    records = read_results(folder).records
     assert kept[0] in records, "what was done is not done again: even its times are the same"
-    assert [told(r) for r in records] == [told(r) for r in read_results(small).records()]
+    assert [told(r) for r in records] == [told(r) for r in read_results(small).records]
     assert run(SMALL, folder), "all is done: nothing is run"
-    assert read_results(folder).records() == records
+    assert read_results(folder).records == records
 
 
-@pytest.mark.parametrize("change", [{"seed": 1}, {"rows": (17,)}, {"takes": 1}, {"keep": "none"}])
+@pytest.mark.parametrize("change", [{"seed": 1}, {"rows": (17,)}, {"takes": 1}, {"egos": ("noisy",)}])
 def test_other_settings_do_not_go_on(small: Path, change: dict[str, object]) -> None:
-    before = read_results(small).records()
+    before = read_results(small).records
     with pytest.raises(InputError, match=f"other {next(iter(change))}") as caught:
         run(replace(SMALL, **change), small)  # type: ignore[arg-type]
     assert "--out" in str(caught.value)
-    assert read_results(small).records() == before
+    assert read_results(small).records == before
 
 
 def test_folder_of_something_else_is_left_alone(tmp_path: Path) -> None:
@@ -106,7 +106,6 @@ def test_folder_of_something_else_is_left_alone(tmp_path: Path) -> None:
         ({"rows": (1, 81)}, InputError, "no row 81"),
         ({"egos": ("idm", "nobody")}, PolicyError, "nobody"),
         ({"methods": ("guessing",)}, InputError, "guessing"),
-        ({"keep": "some"}, InputError, "some"),
     ],
 )
 def test_what_does_not_exist_is_refused_before_anything_is_made(
@@ -122,8 +121,8 @@ def test_kept_runs_hold_what_a_judge_needs_and_nothing_of_this_machine(small: Pa
     kept = kept_runs(read_results(small))
     assert kept
     for each in kept:
-        assert judge_run_directory(each.directory).holds_at(TIGHT) == ("tight" in each.levels)
-        assert rejudge_one(each).differences == ()
+        assert judge_run_directory(each.directory).holds_at(TIGHT) == ("tight" in each.record.kept)
+        assert differences(each) == ()
         for name in ("manifest.json", "params.json", "program.scene", "verdict.json"):
             assert str(Path.home()) not in (each.directory / name).read_text(encoding="utf-8")
         assert (
@@ -135,20 +134,27 @@ def test_kept_runs_hold_what_a_judge_needs_and_nothing_of_this_machine(small: Pa
 
 def test_record_that_was_embellished_is_found_out(small: Path) -> None:
     kept = kept_runs(read_results(small))[0]
-    assert "fine" not in kept.levels or "tight" in kept.levels
-    other = () if kept.levels else ("tight", "loose", "coarse")
-    assert "as recorded" in rejudge_one(replace(kept, levels=other)).differences[0]
+    assert "fine" not in kept.record.kept or "tight" in kept.record.kept
+    other = [] if kept.record.kept else ["tight", "loose", "coarse"]
+    assert "as recorded" in differences(replace(kept, record=replace(kept.record, kept=other)))[0]
 
 
-def test_keep_decides_whose_runs_are_kept(tmp_path: Path) -> None:
+def test_runs_of_our_method_are_kept_and_those_of_rivals_are_not(tmp_path: Path) -> None:
     plan = replace(SMALL, rows=(16,), egos=("constant",), methods=("scenewright", "open-loop"))
-    for keep, count in {"none": 0, "ours": 1, "all": 2}.items():
-        assert run(replace(plan, keep=keep), tmp_path / keep)
-        assert len(kept_runs(read_results(tmp_path / keep))) == count
+    assert run(plan, tmp_path / "both")
+    results = read_results(tmp_path / "both")
+    assert [each.record.method for each in kept_runs(results)] == ["scenewright"]
+    assert [record.directory is None for record in results.records] == [False, True]
+
+
+def one_case(folder: Path, ego: str) -> BenchCase:
+    """Return the case of row 16; its run is not kept."""
+    (case,) = Plan((16,), (ego,), 1, ("scenewright",), takes=1).cases(folder)
+    return replace(case, keep=False)
 
 
 def test_command_of_a_case_runs_it_again(small: Path, tmp_path: Path) -> None:
-    record = next(r for r in read_results(small).records() if r.ego == "noisy")
+    record = next(r for r in read_results(small).records if r.ego == "noisy")
     words = shlex.split(record.command)
     assert words[:2] == ["scenewright", "run"]
     result = CliRunner().invoke(app, [*words[1:], "--out", str(tmp_path / "run"), "--quiet"])
@@ -166,7 +172,7 @@ def test_case_that_goes_wrong_is_recorded_with_what_it_said(tmp_path: Path) -> N
 
 
 def test_infeasible_case_carries_its_proof(tmp_path: Path) -> None:
-    (case,) = make_bench_cases([16], ["idm"], 1, ["scenewright"], 0, 1, tmp_path)
+    case = one_case(tmp_path, "idm")
     wanted = {name: 60.0 if name.startswith("end") else value for name, value in case.parameters}
     record = run_bench_case(replace(case, parameters=tuple(wanted.items())))
     assert (record.cause, record.first_cause, record.takes) == ("proven infeasible", "proven infeasible", 0)
@@ -175,7 +181,7 @@ def test_infeasible_case_carries_its_proof(tmp_path: Path) -> None:
 
 
 def test_solver_that_remembers_changes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (case,) = make_bench_cases([16], ["noisy"], 1, ["scenewright"], 0, 1, tmp_path)
+    case = one_case(tmp_path, "noisy")
     impossible = tuple((name, 60.0 if name.startswith("end") else value) for name, value in case.parameters)
     asked = [
         replace(case, method=method, parameters=parameters)

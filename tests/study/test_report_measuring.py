@@ -13,12 +13,11 @@ from scenewright.program.check import check_program
 from scenewright.program.text import parse_program
 from scenewright.solve.backends.z3_backend import Z3Backend
 from scenewright.solve.problem import Problem, Satisfiable, Unknown, Unsatisfiable
+from scenewright.study.causes import INFEASIBLE, NEVER_MET
 from scenewright.study.report import loops, measuring, precision, times
 from scenewright.study.report.extra_figures import draw_grid
 from scenewright.study.report.measuring import Bench, Job, Measured
-from scenewright.study.report.precision import Cell, GridSize, measure_grid, scene_text
-from scenewright.study.report.precision_tables import grid_table, precision_table
-from scenewright.study.report.style import LIGHT
+from scenewright.study.report.precision import Cell, GridSize, grid_table, measure_grid, precision_table, scene_text
 
 
 class Counting:
@@ -85,7 +84,7 @@ def test_the_grid_marks_infeasible_cells_by_their_proofs(grid: tuple[Cell, ...])
     for cell in grid:
         assert cell.infeasible == ("stop_place" in cell.proof and "hero_place" in cell.proof)
         assert not (cell.infeasible and (cell.met or cell.tight or cell.error_m is not None))
-    figure = draw_grid(grid, LIGHT)
+    figure = draw_grid(grid)
     hatched = [patch for axes in figure.axes for patch in axes.patches if patch.get_hatch()]
     assert len(hatched) == 4
 
@@ -148,9 +147,9 @@ def loop_record(scene: str, mode: str, draw: int, outcome: str) -> dict[str, Any
 def test_a_case_is_left_out_of_both_loops_or_of_none() -> None:
     scene = next(iter(loops.SCENES))
     records = [
-        loop_record(scene, "open", 0, "ego never met"), loop_record(scene, "closed", 0, "success"),
-        loop_record(scene, "open", 1, "infeasible"), loop_record(scene, "closed", 1, "infeasible"),
-        loop_record(scene, "open", 2, "success"), loop_record(scene, "closed", 2, "ego never met"),
+        loop_record(scene, "open", 0, NEVER_MET), loop_record(scene, "closed", 0, "success"),
+        loop_record(scene, "open", 1, INFEASIBLE), loop_record(scene, "closed", 1, INFEASIBLE),
+        loop_record(scene, "open", 2, "success"), loop_record(scene, "closed", 2, NEVER_MET),
     ]  # fmt: skip
     lines = {(line["scene"], line["mode"]): line for line in loops.loops_table(records).records()}
     for mode in loops.MODES:
@@ -197,30 +196,17 @@ def test_a_watched_run_is_the_run_itself() -> None:
     assert {"feasibility", "first plan", "re-solve"} <= {call["stage"] for call in backend.calls}
     assert all(call["constraints"] > 0 and call["ms"] > 0 for call in backend.calls)
     table = times.solver_table(backend.calls)
-    whole = [line["calls"] for line in table.records() if line["constraints"] == "all"]
-    assert sum(whole) == len(backend.calls)
-
-
-def test_translations_are_timed_by_length() -> None:
-    record = times.time_translation(
-        {
-            "row": 1,
-            "repeats": 2,
-            "description": "The ego drives westbound and is 80 m before the intersection. An oncoming hero turns left "
-            "into the driveway. When the ego is 30 m before the conflict point and the hero is 18 m before the "
-            "conflict point, the hero brakes to a stop 6 m before the conflict point.",
-        }
-    )
-    assert len(record["ms"]) == 2
-    refused = times.time_translation({"row": 2, "repeats": 2, "description": "Colourless green ideas."})
-    assert "ms" not in refused
-    assert refused["refused"]
-    lines = times.translations_table([record, refused]).records()
-    assert [(line["descriptions"], line["refused"]) for line in lines] == [(1, None), (1, 1)]
-    assert lines[-1]["p50_ms"] <= lines[-1]["p99_ms"] <= lines[-1]["max_ms"]
+    assert sum(line["calls"] for line in table.records()) == len(backend.calls)
+    assert list(dict.fromkeys(table.column("stage")))[:2] == ["feasibility", "first plan"]
 
 
 def test_percentiles_of_nothing_are_nothing() -> None:
-    line = times.ticks_table([], 0).records()[0]
+    line = times.ticks_table([]).records()[0]
     assert (line["ticks"], line["p50_ms"], line["late"]) == (0, None, 0)
     assert times.solver_table([]).rows == ()
+
+
+def test_ticks_are_told_by_percentiles_and_late_ones_counted() -> None:
+    line = times.ticks_table([float(ms) for ms in range(1, 101)] + [150.0]).records()[0]
+    assert (line["ticks"], line["late"], line["max_ms"]) == (101, 1, 150.0)
+    assert line["p50_ms"] <= line["p90_ms"] <= line["p99_ms"] <= line["max_ms"]

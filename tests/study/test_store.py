@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from dataclasses import asdict
 from pathlib import Path
 
 import pyarrow.parquet as pq
@@ -12,10 +13,11 @@ import pytest
 from records import record
 
 from scenewright.errors import InputError, OutputError
+from scenewright.study.lines import LineLog
 from scenewright.study.store import (
     LINES_FILE,
     PARQUET_FILE,
-    CaseLog,
+    CaseRecord,
     compact,
     locked,
     read_records,
@@ -43,19 +45,19 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def append(folder: Path, *records: object) -> None:
-    log = CaseLog(folder)
+def append(folder: Path, *records: CaseRecord) -> None:
+    log = LineLog(folder / LINES_FILE)
     for each in records:
-        log.append(each)  # type: ignore[arg-type]
+        log.append(asdict(each))
     log.close()
 
 
 def test_records_survive_lines_and_parquet(folder: Path) -> None:
     append(folder, FULL, record(2))
-    lines = read_results(folder).records()
+    lines = read_results(folder).records
     compact(folder)
     assert not (folder / LINES_FILE).exists()
-    assert read_results(folder).records() == lines
+    assert read_results(folder).records == lines
     assert lines[0] == FULL
 
 
@@ -63,7 +65,7 @@ def test_order_is_that_of_the_settings(folder: Path) -> None:
     append(folder, record(2, "noisy"), record(1, method="rejection"), record(1, "noisy"), record(1))
     compact(folder)
     order = ["01-idm-0-scenewright", "01-noisy-0-scenewright", "02-noisy-0-scenewright", "01-idm-0-rejection"]
-    assert [each.case for each in read_results(folder).records()] == order
+    assert [each.case for each in read_results(folder).records] == order
     assert pq.read_table(folder / PARQUET_FILE).column("case").to_pylist() == order
 
 
@@ -92,15 +94,15 @@ def test_killed_between_parquet_and_removing_lines_counts_once(folder: Path) -> 
     compact(folder)
     (folder / LINES_FILE).write_bytes(lines)
     append(folder, record(1, "noisy"))
-    assert read_results(folder).cases.num_rows == 3
+    assert len(read_results(folder).records) == 3
     compact(folder)
-    assert read_results(folder).cases.num_rows == 3
+    assert len(read_results(folder).records) == 3
 
 
 def test_columns_have_their_types_even_where_all_is_empty(folder: Path) -> None:
-    empty = read_results(folder).cases.schema
+    empty = read_results(folder).table.schema
     append(folder, FULL)
-    assert read_results(folder).cases.schema == empty
+    assert read_results(folder).table.schema == empty
     assert "double" in str(empty.field("solve_ms").type)
 
 

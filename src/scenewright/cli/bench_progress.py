@@ -1,4 +1,4 @@
-"""Signs of life of an experiment: a bar on a terminal, lines elsewhere; and Ctrl-C as a wish to stop.
+"""Signs of life of what takes long: a bar on a terminal, lines elsewhere; and Ctrl-C as a wish to stop.
 
 What enters: how far it is. What leaves: characters on stderr. Nothing is run here.
 """
@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import signal
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -17,8 +17,9 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.progress import TaskID
 
-    from scenewright.study.experiment import Progress
-
+T = TypeVar("T")
+# Called with the name of what is done, how much of it is done, how much there is, and what else is to be said.
+Show = Callable[[str, int, int, str], None]
 _SAY_EVERY_S = 30.0
 
 
@@ -43,78 +44,48 @@ def stoppable() -> Iterator[Callable[[], bool]]:
 
 
 @contextmanager
-def shown(console: Console) -> Iterator[Callable[[Progress], None]]:
-    """Show how far the experiment is: a bar on a terminal, a line now and then elsewhere."""
+def shown(console: Console) -> Iterator[Show]:
+    """Show how far things are: a bar each on a terminal; elsewhere a line for each as it begins, then now and then."""
     if not console.is_terminal:
         yield _lines(console)
         return
-    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
-    from rich.progress import Progress as Bar
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
     columns = (
+        TextColumn("{task.description}"),
         BarColumn(),
         MofNCompleteColumn(),
-        TextColumn("{task.fields[said]},"),
-        TimeElapsedColumn(),
-        TextColumn("gone,"),
+        TextColumn("{task.fields[note]}"),
         TimeRemainingColumn(),
-        TextColumn("to go"),
     )
-    with Bar(*columns, console=console) as bar:
-        task, rate = bar.add_task("cases", said=""), _rate()
+    with Progress(*columns, console=console) as bar:
+        tasks: dict[str, TaskID] = {}
 
-        def show(progress: Progress) -> None:
-            said = f"{rate(progress)}, {_successes(progress)}"
-            bar.update(task, total=progress.total, completed=progress.done, said=said)
+        def show(stage: str, done: int, total: int, note: str = "") -> None:
+            if stage not in tasks:
+                tasks[stage] = bar.add_task(stage, note="")
+            bar.update(tasks[stage], total=total, completed=done, note=note)
 
         yield show
 
 
-def _lines(console: Console) -> Callable[[Progress], None]:
-    said_at, rate = time.monotonic(), _rate()
+def _lines(console: Console) -> Show:
+    said_at: dict[str, float] = {}
 
-    def show(progress: Progress) -> None:
-        nonlocal said_at
-        pace = rate(progress)
-        if time.monotonic() - said_at >= _SAY_EVERY_S:
-            said_at = time.monotonic()
-            console.print(f"{progress.done} of {progress.total} cases, {pace}, {_successes(progress)}")
+    def show(stage: str, done: int, total: int, note: str = "") -> None:
+        if time.monotonic() - said_at.get(stage, float("-inf")) >= _SAY_EVERY_S:
+            said_at[stage] = time.monotonic()
+            console.print(f"{stage}: {done} of {total}" + (f", {note}" if note else ""))
 
     return show
 
 
-def _rate() -> Callable[[Progress], str]:
-    began = time.monotonic()
-    return lambda progress: f"{progress.new / max(time.monotonic() - began, 1e-6):.1f} a second"
-
-
-def _successes(progress: Progress) -> str:
-    errors = f", {progress.errors} errors" if progress.errors else ""
-    return f"{progress.successes} successes{errors}"
-
-
-@contextmanager
-def stages_shown(console: Console) -> Iterator[Callable[[str, int, int], None]]:
-    """Show the stages of a report: a bar each on a terminal, a line each elsewhere."""
-    if not console.is_terminal:
-        said: set[str] = set()
-
-        def tell(stage: str, _done: int, _total: int) -> None:
-            if stage not in said:
-                said.add(stage)
-                console.print(f"report: {stage}")
-
-        yield tell
-        return
-    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn
-    from rich.progress import Progress as Bar
-
-    with Bar(TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), console=console) as bar:
-        tasks: dict[str, TaskID] = {}
-
-        def show(stage: str, done: int, total: int) -> None:
-            if stage not in tasks:
-                tasks[stage] = bar.add_task(stage)
-            bar.update(tasks[stage], total=total, completed=done)
-
-        yield show
+def tracked(console: Console, stage: str, items: Iterable[T], total: int) -> list[T]:
+    """Return the items as a list, and show how many there are so far."""
+    found: list[T] = []
+    with shown(console) as show:
+        show(stage, 0, total, "")
+        for item in items:
+            found.append(item)
+            show(stage, len(found), total, "")
+    return found

@@ -1,145 +1,122 @@
 """What people read of an experiment: rates, causes, failures with the command that runs each again.
 
-What enters: results and comparisons. What leaves: lines on a console. Nothing is counted here.
+What enters: results, comparisons, outcomes. What leaves: lines on a console. Nothing is counted here.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from rich.text import Text
 
 from scenewright.cli.tables import table
-from scenewright.study.causes import CAUSES
-from scenewright.study.summary import Tally, disagreements, failures, tally_by
+from scenewright.study.causes import CAUSES, INFEASIBLE, NEVER_MET, NO_ROOM
+from scenewright.study.summary import TAKES, Tally, disagreements, failures, tally, tally_by
 
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
     from scenewright.study.compare import Comparison, Pair
+    from scenewright.study.evaluation import Outcome
     from scenewright.study.store import CaseRecord, Results
 
 _SHOWN = 12
-_CAUSES = {
-    "proven infeasible": "not\npossible",
-    "ego never met the condition": "never\nmet",
-    "ego left no room": "no\nroom",
-    "loose only": "loose\nonly",
-}
+_HEADINGS = {INFEASIBLE: "not\npossible", NEVER_MET: "never\nmet", NO_ROOM: "no\nroom", "loose only": "loose\nonly"}
 _WEAK = 0.85
-_RATES = (("tight\nfirst", "first", "tight"), ("tight\nbest", "best", "tight"))
-_LOOSE = (("loose\nfirst", "first", "loose"), ("loose\nbest", "best", "loose"))
+Cells = Mapping[str, Callable[[Tally], str]]
+_RATES = {f"{level}\n{which}": (which, level) for level in ("tight", "loose") for which in TAKES}
 
 
+def tally_table(by: str, tallies: Sequence[Tally], cells: Cells) -> Table:
+    """Return a table with a line a tally: its name, and what each of `cells` says of it."""
+    made = table(by, *cells, right=tuple(cells))
+    for each in tallies:
+        made.add_row(each.name, *(cell(each) for cell in cells.values()))
+    return made
+
+
+def _rate_cells() -> Cells:
+    """Return success rates, with what they are counted among."""
+
+    def rate(which: str, level: str) -> Callable[[Tally], str]:
+        return lambda each: str(each.rate(which, level))
+
+    return {
+        "cases": lambda each: str(each.cases),
+        _HEADINGS[INFEASIBLE]: lambda each: str(each.causes["best"][INFEASIBLE] or ""),
+        _HEADINGS[NEVER_MET]: lambda each: str(each.causes["best"][NEVER_MET] or ""),
+        "rated": lambda each: str(each.rated),
+        **{name: rate(*what) for name, what in _RATES.items()},
+        "ego\nlet it": lambda each: str(each.rate_where_let),
+    }
+
+
+def _cause_cells(tallies: Sequence[Tally]) -> Cells:
+    """Return how many cases fell under which cause in the best take; in brackets the first take where it differs."""
+
+    def count(cause: str) -> Callable[[Tally], str]:
+        def cell(each: Tally) -> str:
+            best, first = each.causes["best"][cause], each.causes["first"][cause]
+            return f"{best} ({first})" if best != first else str(best or "")
+
+        return cell
+
+    used = [cause for cause in CAUSES if any(each.causes[which][cause] for each in tallies for which in TAKES)]
+    return {_HEADINGS.get(cause, cause): count(cause) for cause in used}
+
+
+# -- an experiment --------------------------------------------------------------------------------------------------
 def print_summary(console: Console, results: Results) -> None:
     """Print the tables of an experiment."""
-    records = results.records()
-    methods = dict.fromkeys(record.method for record in records)
-    takes = results.settings.get("takes", 1)
-    console.print(f"{len(records)} cases; takes: the first, and the best of at most {takes}")
+    records = results.records
+    by_method = tally_by(records, lambda r: r.method, total="")
+    console.print(f"{len(records)} cases; takes: the first, and the best of at most {results.settings.get('takes', 1)}")
     console.print("rates leave out what is proven infeasible, and egos that never met the condition")
     console.print("ego let it: tight, best take, without the cases in which the ego left no room\n")
-    if len(methods) > 1:
-        console.print(rates("method", tally_by(records, lambda r: r.method, total="")))
-        console.print(causes("method", tally_by(records, lambda r: r.method, total="")))
-    lead = next(iter(methods), "")
-    own = [record for record in records if record.method == lead]
-    if len(methods) > 1:
+    lead = by_method[0].name if by_method else ""
+    if len(by_method) > 1:
+        console.print(tally_table("method", by_method, _rate_cells()))
+        console.print(tally_table("method", by_method, _cause_cells(by_method)))
         console.print(f"of {lead}:", style="bold")
-    console.print(rates("ego", tally_by(own, lambda r: r.ego)))
-    console.print(rates("hero, trigger", tally_by(own, lambda r: r.family.removeprefix("Hero "), total="")))
-    console.print(causes("ego", tally_by(own, lambda r: r.ego)))
+    own = [record for record in records if record.method == lead]
+    by_ego = tally_by(own, lambda r: r.ego)
+    by_family = tally_by(own, lambda r: r.family.removeprefix("Hero "), total="")
+    console.print(tally_table("ego", by_ego, _rate_cells()))
+    console.print(tally_table("hero, trigger", by_family, _rate_cells()))
+    console.print(tally_table("ego", by_ego, _cause_cells(by_ego)))
     _print_weak_rows(console, own)
-    _print_failures(console, own)
-    _print_disagreements(console, records)
+    missed = failures(own)
+    told = [(f"{each.cause} ({', '.join(each.failed_conditions) or each.message})", each) for each in missed]
+    _print_cases(console, "failures, each with what runs it again", told)
+    odd = disagreements(records)
+    if odd:
+        names = ", ".join(record.case for record in odd[:_SHOWN]) + (", ..." if len(odd) > _SHOWN else "")
+        console.print(f"judge and criteria disagree in {len(odd)} cases: {names}\n", soft_wrap=True)
     console.print(f"results  {results.directory}", soft_wrap=True)
     console.print(f"report   scenewright bench report {results.directory}", soft_wrap=True)
 
 
-def rates(by: str, tallies: Sequence[Tally]) -> Table:
-    """Return success rates, with what they are counted among."""
-    numbers = (
-        "cases",
-        "not\npossible",
-        "never\nmet",
-        "rated",
-        *(name for name, _, _ in (*_RATES, *_LOOSE)),
-        "ego\nlet it",
-    )
-    made = table(by, *numbers, right=numbers)
-    for tally in tallies:
-        best = tally.causes["best"]
-        made.add_row(
-            tally.name,
-            str(tally.cases),
-            str(best["proven infeasible"] or ""),
-            str(best["ego never met the condition"] or ""),
-            str(tally.rated),
-            *(percent(tally.rate(which, level)) for _, which, level in (*_RATES, *_LOOSE)),
-            percent(tally.rate_where_let),
-        )
-    return made
-
-
-def causes(by: str, tallies: Sequence[Tally]) -> Table:
-    """Return how many cases fell under which cause in the best take; in brackets the first take where it differs."""
-    used = [cause for cause in CAUSES if any(tally.causes[which][cause] for tally in tallies for which in tally.causes)]
-    columns = [_CAUSES.get(cause, cause) for cause in used]
-    made = table(by, *columns, right=columns)
-    for tally in tallies:
-        cells = []
-        for cause in used:
-            best, first = tally.causes["best"][cause], tally.causes["first"][cause]
-            cells.append(f"{best} ({first})" if best != first else str(best or ""))
-        made.add_row(tally.name, *cells)
-    return made
-
-
-def percent(share: float | None) -> str:
-    """Return a share as people read it; 100 % and 0 % only where they are exact.
-
-    >>> percent(0.9996), percent(1.0), percent(None)
-    ('99.9 %', '100 %', '-')
-    """
-    if share is None:
-        return "-"
-    if share in (0.0, 1.0):
-        return f"{100 * share:.0f} %"
-    return f"{min(99.9, max(0.1, 100 * share)):.1f} %"
-
-
 def _print_weak_rows(console: Console, records: Sequence[CaseRecord]) -> None:
-    weak = [
-        (share, tally)
-        for tally in tally_by(records, lambda r: str(r.row), total="")
-        if (share := tally.rate("best", "tight")) is not None and share < _WEAK
-    ]
-    if weak:
-        told = ", ".join(f"{tally.name} ({percent(share)})" for share, tally in sorted(weak, key=lambda each: each[0]))
+    rates = {each.name: each.rate("best") for each in tally_by(records, lambda r: str(r.row), total="")}
+    shares = {name: rate.value for name, rate in rates.items() if rate.value is not None and rate.value < _WEAK}
+    if shares:
+        told = ", ".join(f"{name} ({rates[name]})" for name in sorted(shares, key=lambda each: shares[each]))
         console.print(f"rows under {100 * _WEAK:.0f} %, best take: {told}\n")
 
 
-def _print_failures(console: Console, records: Sequence[CaseRecord]) -> None:
-    missed = failures(records)
-    if not missed:
+def _print_cases(console: Console, title: str, told: Sequence[tuple[str, CaseRecord]]) -> None:
+    """Print cases, each with what is to be said of it and the command that runs it again."""
+    if not told:
         return
-    console.print(f"failures: {len(missed)}, each with what runs it again", style="bold")
-    for record in missed[:_SHOWN]:
-        what = ", ".join(record.failed_conditions) or record.message
-        console.print(f"{record.case}: {record.cause} ({what})", soft_wrap=True)
+    console.print(f"{len(told)} {title}", style="bold")
+    for what, record in told[:_SHOWN]:
+        console.print(f"{record.case}: {what}", soft_wrap=True)
         console.print(f"  {record.command}", soft_wrap=True)
-    if len(missed) > _SHOWN:
-        console.print(f"... and {len(missed) - _SHOWN} more; --json lists all")
+    if len(told) > _SHOWN:
+        console.print(f"... and {len(told) - _SHOWN} more; --json lists all")
     console.print()
-
-
-def _print_disagreements(console: Console, records: Sequence[CaseRecord]) -> None:
-    odd = disagreements(records)
-    if odd:
-        told = ", ".join(record.case for record in odd[:_SHOWN]) + (", ..." if len(odd) > _SHOWN else "")
-        console.print(f"judge and criteria disagree in {len(odd)} cases: {told}\n", soft_wrap=True)
 
 
 # -- comparisons ----------------------------------------------------------------------------------------------------
@@ -150,21 +127,21 @@ def print_comparison(console: Console, comparison: Comparison) -> None:
     console.print(f"{len(comparison.pairs)} cases compared{_left_out(comparison)}\n")
     for by, key in GROUPS.items():
         pairs = comparison.tallies(key, total="all" if by == "method" else "")
-        shown = moved(pairs) if by == "row" else pairs
-        if shown and (by != "method" or len(pairs) > 1):
-            console.print(_then_now(by, shown))
-    _print_changes(console, "lost: successes that are none any more", comparison.lost)
-    _print_changes(console, "won: successes that were none", comparison.won)
-    _print_changes(console, "failed then and now, for another cause", comparison.other_cause)
-    if not (comparison.lost or comparison.won or comparison.other_cause):
+        changed = moved(pairs) if by == "row" else pairs
+        if changed and (by != "method" or len(pairs) > 1):
+            console.print(_then_now(by, changed))
+    lost, won = comparison.lost, comparison.won
+    _print_cases(console, "lost: successes that are none any more", [_turned(pair) for pair in lost])
+    _print_cases(console, "won: successes that were none", [_turned(pair) for pair in won])
+    other = [_turned(pair) for pair in comparison.other_cause]
+    _print_cases(console, "failed then and now, for another cause", other)
+    if comparison.regressed:
+        told = f"worse: {len(lost)} lost, {len(won)} won; chance {comparison.chance:.2g}"
+        console.print(told, style="bold red")
+    elif lost or won:
+        console.print(f"{len(lost)} lost, {len(won)} won")
+    elif not other:
         console.print("no case came out differently")
-    elif comparison.regressed:
-        console.print(
-            f"worse: {len(comparison.lost)} lost, {len(comparison.won)} won; chance {comparison.chance:.2g}",
-            style="bold red",
-        )
-    elif comparison.lost or comparison.won:
-        console.print(f"{len(comparison.lost)} lost, {len(comparison.won)} won")
 
 
 def _left_out(comparison: Comparison) -> str:
@@ -178,30 +155,57 @@ def _left_out(comparison: Comparison) -> str:
 
 
 def _then_now(by: str, pairs: Sequence[tuple[Tally, Tally]]) -> Table:
-    numbers = ("cases", *(name for name, _, _ in (*_RATES, *_LOOSE[:1])))
-    made = table(by, *numbers, right=numbers)
+    made = table(by, "cases", *_RATES, right=("cases", *_RATES))
     for then, now in pairs:
-        cells = [_change(then, now, which, level) for _, which, level in (*_RATES, *_LOOSE[:1])]
-        made.add_row(then.name, str(then.cases), *cells)
+        made.add_row(then.name, str(then.cases), *(_change(then, now, *what) for what in _RATES.values()))
     return made
 
 
 def _change(then: Tally, now: Tally, which: str, level: str) -> Text:
     before, after = then.rate(which, level), now.rate(which, level)
-    if before == after:
-        return Text(percent(after))
-    better = (after or 0.0) > (before or 0.0)
-    return Text(f"{percent(before)} -> {percent(after)}", style="green" if better else "red")
+    if before.value == after.value:
+        return Text(str(after))
+    better = (after.value or 0.0) > (before.value or 0.0)
+    return Text(f"{before} -> {after}", style="green" if better else "red")
 
 
-def _print_changes(console: Console, title: str, pairs: Sequence[Pair]) -> None:
-    if not pairs:
-        return
-    console.print(f"{len(pairs)} {title}", style="bold")
-    for then, now in pairs[:_SHOWN]:
-        failed = ", ".join((now if now.cause != "success" else then).failed_conditions)
-        console.print(f"{now.case}: {then.cause} -> {now.cause}" + (f" ({failed})" if failed else ""), soft_wrap=True)
-        console.print(f"  {now.command}", soft_wrap=True)
-    if len(pairs) > _SHOWN:
-        console.print(f"... and {len(pairs) - _SHOWN} more; --json lists all")
-    console.print()
+def _turned(pair: Pair) -> tuple[str, CaseRecord]:
+    then, now = pair
+    failed = ", ".join((now if now.cause != "success" else then).failed_conditions)
+    return f"{then.cause} -> {now.cause}" + (f" ({failed})" if failed else ""), now
+
+
+# -- descriptions ---------------------------------------------------------------------------------------------------
+def outcome_tallies(outcomes: Sequence[Outcome]) -> dict[str, list[Tally]]:
+    """Return what came of descriptions by ego, and by description."""
+    return {
+        "ego": tally_by(outcomes, lambda each: each.ego),
+        "description": tally_by(outcomes, lambda each: each.description),
+    }
+
+
+def outcome_data(each: Tally) -> dict[str, object]:
+    """Return one line of the tables of descriptions as plain data."""
+    return {
+        "name": each.name,
+        "total": each.cases,
+        **each.causes["best"],
+        "tight": each.rate_without(INFEASIBLE).value,
+        "tight_where_ego_let_it": each.rate_where_let.value,
+    }
+
+
+def print_outcomes(console: Console, outcomes: Sequence[Outcome]) -> None:
+    """Print the tables of descriptions, and every failure with its values."""
+    cases: Cells = {"cases": lambda each: str(each.cases)}
+    shares: Cells = {
+        "tight, of not\nproven infeasible": lambda each: str(each.rate_without(INFEASIBLE)),
+        "tight, where\nthe ego let it": lambda each: str(each.rate_where_let),
+    }
+    for by, tallies in outcome_tallies(outcomes).items():
+        console.print(tally_table(by, tallies, {**cases, **_cause_cells([tally(outcomes)]), **shares}))
+    for outcome in outcomes:
+        if outcome.cause not in ("success", INFEASIBLE):
+            what = ", ".join(outcome.failed_conditions) or outcome.message
+            console.print(f"{outcome.description}, {outcome.ego}, draw {outcome.draw}: {outcome.cause} ({what})")
+            console.print(f"  {outcome.command}", soft_wrap=True)

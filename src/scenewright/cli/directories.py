@@ -42,16 +42,21 @@ def claim(out: Path | None, source: str) -> Claim:
     if out is not None:
         _refuse_what_is_not_ours(out)
         return Claim(out, _make(out))
-    made = [] if RUNS.is_dir() else _make(RUNS)
+    return next_free(RUNS, slug(source))
+
+
+def next_free(parent: Path, name: str) -> Claim:
+    """Return a new folder NUMBER-NAME in `parent`, which is made where it is missing."""
+    made = [] if parent.is_dir() else _make(parent)
     try:
-        number = 1 + max((_number(path) for path in RUNS.iterdir()), default=0)
+        number = 1 + max((_number(path) for path in parent.iterdir()), default=0)
     except OSError as error:
-        raise _cannot_write(RUNS, error) from None
+        raise _cannot_write(parent, error) from None
     while True:
-        path = RUNS / f"{number:03d}-{slug(source)}"
+        path = parent / f"{number:03d}-{name}"
         try:
             path.mkdir()
-        except FileExistsError:  # another run was quicker
+        except FileExistsError:  # another one was quicker
             number += 1
             continue
         except OSError as error:

@@ -13,7 +13,6 @@ import shlex
 import shutil
 import time
 import zlib
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -21,12 +20,11 @@ from typing import TYPE_CHECKING, Any
 
 from scenewright.errors import InputError, ScenewrightError
 from scenewright.orchestrate import Request, Result, Take
-from scenewright.study.causes import cause_across, cause_of_take
+from scenewright.study.causes import INFEASIBLE, NO_ROOM, cause_across, cause_of_take
 from scenewright.study.remembering import Remembering
 from scenewright.study.store import PROGRAMS, RUNS, CaseRecord
 
 if TYPE_CHECKING:
-    from scenewright.judge.case import Case
     from scenewright.judge.verdict import Condition, Verdict
     from scenewright.program.types import Program
     from scenewright.solve.problem import Backend
@@ -103,38 +101,10 @@ def seed_of(row: int, draw: int, seed: int) -> int:
     return seed + 1000 * draw + row
 
 
-def make_bench_cases(
-    rows: Sequence[int],
-    egos: Sequence[str],
-    draws: int,
-    methods: Sequence[str],
-    seed: int,
-    takes: int,
-    folder: Path,
-    keep: Sequence[str] = (),
-) -> list[BenchCase]:
-    """Return every combination, all of one draw before the next; runs of methods in `keep` keep their files."""
-    from scenewright.study.benchmark import benchmark_row, draw_row
-
-    cases = []
-    for draw in range(draws):
-        for number in rows:
-            drawn = tuple(draw_row(benchmark_row(number), draw, seed).items())
-            own = seed_of(number, draw, seed)
-            cases += [
-                BenchCase(number, ego, draw, method, own, drawn, takes, folder, method in keep)
-                for ego in egos
-                for method in methods
-            ]
-    return cases
-
-
 def case_of_record(record: CaseRecord, takes: int, folder: Path) -> BenchCase:
     """Return the case that a record tells of."""
     parameters = tuple(json.loads(record.parameters).items())
-    return BenchCase(
-        record.row, record.ego, record.draw, record.method, record.seed, parameters, takes, folder, keep=False
-    )
+    return BenchCase(record.row, record.ego, record.draw, record.method, record.seed, parameters, takes, folder)
 
 
 def _as_file_name(name: str) -> str:
@@ -216,40 +186,39 @@ def record_of(case: BenchCase, row: BenchmarkRow, result: Result) -> CaseRecord:
         if run.fault is not None:
             return replace(record, message=run.fault.message)
     if result.status == "infeasible":
-        return _infeasible(record, _clashes(result.feasibility))
+        cause, proof = INFEASIBLE, _clashes(result.feasibility)
+        return replace(record, cause=cause, first_cause=cause, proof=proof)
     if not result.takes or result.verdict is None:
         tried = result.attempt.reason if result.attempt is not None else ""
         return replace(record, cause="gave up", first_cause="gave up", message=tried)
     return _with_takes(record, row, result)
 
 
-def _infeasible(record: CaseRecord, proof: str | None) -> CaseRecord:
-    cause = "proven infeasible"
-    return replace(record, status="infeasible", cause=cause, first_cause=cause, proof=proof)
-
-
 def _with_takes(record: CaseRecord, row: BenchmarkRow, result: Result) -> CaseRecord:
+    from scenewright.judge.tolerance import LEVELS
+
     takes = [judge_take(row, result, take) for take in result.takes]
-    kept, first = takes[min(result.take, len(takes)) - 1], takes[0]
-    verdict = kept.take.verdict
-    ego_error, hero_error = _trigger_errors(result.scene.program, verdict)
+    number = min(result.take, len(takes)) - 1
+    kept, held = takes[number], [take.levels for take in takes]
+    conditions, criteria = kept.failed
+    ego_error, hero_error = _trigger_errors(result.scene.program, kept.verdict)
     cause = cause_across([take.cause for take in takes])
-    hindsight = kept.take.hindsight if cause == "ego left no room" else None
-    levels: dict[str, Any] = {f"first_{level}": level in first.levels for level in first.judged}
-    levels |= {f"best_{level}": any(level in take.levels for take in takes) for level in first.judged}
+    hindsight = result.takes[number].hindsight if cause == NO_ROOM else None
+    levels: dict[str, Any] = {f"first_{level}": level in held[0] for level in LEVELS}
+    levels |= {f"best_{level}": any(level in each for each in held) for level in LEVELS}
     return replace(
         record,
         cause=cause,
-        first_cause=first.cause,
+        first_cause=takes[0].cause,
         **levels,
-        kept=list(kept.levels),
+        kept=list(held[number]),
         criteria_disagree=any(take.disagrees for take in takes),
-        failed_conditions=list(kept.failed),
+        failed_conditions=[each.id for each in conditions] + [f"criterion {each.id}" for each in criteria],
         proof=_clashes(hindsight),
-        trigger_met=_trigger_met(verdict),
+        trigger_met=_trigger_met(kept.verdict),
         ego_trigger_error=ego_error,
         hero_trigger_error=hero_error,
-        first_collision=_collided(first.take.verdict),
+        first_collision=_collided(takes[0].verdict),
     )
 
 
@@ -259,67 +228,74 @@ def _clashes(proof: Any) -> str | None:
 
 # -- judging --------------------------------------------------------------------------------------------------------
 @dataclass(frozen=True, slots=True)
-class JudgedTake:
-    """A take with what judge and criteria say of it, by level of tolerance."""
+class Judged:
+    """What judge and criteria say of one drive."""
 
-    take: Take
-    judged: dict[str, bool]
-    measured: dict[str, bool]
-    failed: tuple[str, ...]
+    verdict: Verdict
+    criteria: tuple[Criterion, ...]
+    no_room: bool = False
 
     @property
     def levels(self) -> tuple[str, ...]:
         """Where both hold, finest first."""
-        return tuple(level for level, holds in self.judged.items() if holds and self.measured[level])
+        from scenewright.judge.tolerance import LEVELS
+        from scenewright.study.benchmark import criteria_hold
+
+        return tuple(
+            level
+            for level, tolerance in LEVELS.items()
+            if self.verdict.holds_at(tolerance) and criteria_hold(self.criteria, tolerance)
+        )
 
     @property
     def disagrees(self) -> bool:
         """Whether judge and criteria differ at the tight tolerance."""
-        return self.judged["tight"] != self.measured["tight"]
+        from scenewright.judge.tolerance import TIGHT
+        from scenewright.study.benchmark import criteria_hold
+
+        return self.verdict.holds_at(TIGHT) != criteria_hold(self.criteria, TIGHT)
+
+    @property
+    def failed(self) -> tuple[list[Condition], list[Criterion]]:
+        """What does not hold at the tight tolerance."""
+        from scenewright.judge.tolerance import TIGHT
+
+        conditions = [condition for condition in self.verdict.conditions if not condition.holds_at(TIGHT)]
+        return conditions, [criterion for criterion in self.criteria if not criterion.holds_at(TIGHT)]
 
     @property
     def cause(self) -> str:
-        """Under which cause the take is counted."""
+        """Under which cause the drive is counted."""
+        levels = self.levels
         return cause_of_take(
-            tight="tight" in self.levels,
-            loose="loose" in self.levels,
-            never_met=bool(self.take.verdict.facts.get("ego_never_met_condition")),
-            no_room=self.take.hindsight is not None,
+            tight="tight" in levels,
+            loose="loose" in levels,
+            never_met=bool(self.verdict.facts.get("ego_never_met_condition")),
+            no_room=self.no_room,
         )
 
 
-def judge_take(row: BenchmarkRow, result: Result, take: Take) -> JudgedTake:
+def judge_take(row: BenchmarkRow, result: Result, take: Take) -> Judged:
     """Hold the row's criteria against a take, beside the verdict that it has."""
-    from scenewright.judge.tolerance import LEVELS, TIGHT
-    from scenewright.study.benchmark import criteria_hold, criteria_of
+    from scenewright.study.benchmark import criteria_of
 
-    trace = take.trace
-    if trace is None:
+    if take.trace is None:
         raise InputError("a take cannot be held against the row's criteria: it has no trace")
     parameters_si = {name: float(value) for name, value in result.scene.parameters.items()}
-    criteria: tuple[Criterion, ...] = criteria_of(row, parameters_si, trace, result.scene.road_map)
-    failed = [condition.id for condition in take.verdict.conditions if not condition.holds_at(TIGHT)]
-    failed += [f"criterion {criterion.id}" for criterion in criteria if not criterion.holds_at(TIGHT)]
-    return JudgedTake(
-        take,
-        {level: take.verdict.holds_at(tolerance) for level, tolerance in LEVELS.items()},
-        {level: criteria_hold(criteria, tolerance) for level, tolerance in LEVELS.items()},
-        tuple(failed),
-    )
+    criteria = criteria_of(row, parameters_si, take.trace, result.scene.road_map)
+    return Judged(take.verdict, criteria, take.hindsight is not None)
 
 
-def judge_again(row: BenchmarkRow, stored: Case, verdict: Verdict) -> tuple[str, ...]:
-    """Return the levels at which judge and criteria hold for a run that was read back from its files."""
-    from scenewright.judge.tolerance import LEVELS
+def judge_kept(row: int, directory: Path) -> Judged:
+    """Judge a run again, from its files alone; raises `ScenewrightError` where they cannot be read."""
+    from scenewright.judge.files import read_case
+    from scenewright.judge.judgement import judge
     from scenewright.roads.load import load_map
-    from scenewright.study.benchmark import criteria_hold, criteria_of
+    from scenewright.study.benchmark import benchmark_row, criteria_of
 
-    criteria = criteria_of(row, stored.parameters, stored.trace, load_map(row.program.map_name))
-    return tuple(
-        level
-        for level, tolerance in LEVELS.items()
-        if verdict.holds_at(tolerance) and criteria_hold(criteria, tolerance)
-    )
+    case, asked = read_case(directory), benchmark_row(row)
+    road_map = load_map(asked.program.map_name)
+    return Judged(judge(case), criteria_of(asked, case.parameters, case.trace, road_map))
 
 
 def _trigger_met(verdict: Verdict) -> bool:

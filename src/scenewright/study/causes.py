@@ -11,23 +11,26 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from scenewright.orchestrate import Result
 
+INFEASIBLE = "proven infeasible"
+NEVER_MET = "ego never met the condition"
+NO_ROOM = "ego left no room"
 # In the order in which tables show them: what was asked for, then the text's and the ego's doing, then ours.
 CAUSES = (
     "success",
     "loose only",
-    "proven infeasible",
-    "ego never met the condition",
-    "ego left no room",
+    INFEASIBLE,
+    NEVER_MET,
+    NO_ROOM,
     "missed",
     "gave up",
     "error",
 )
 # What no orchestrator can be blamed for: rates leave these out of what they count among.
-NOT_OURS = ("proven infeasible", "ego never met the condition")
+NOT_OURS = (INFEASIBLE, NEVER_MET)
 # What the ego denied by the way it drove; evidence about one drive, so rates state it beside the first.
-EGO_DENIED = ("ego never met the condition", "ego left no room")
+EGO_DENIED = (NEVER_MET, NO_ROOM)
 # Of several takes a case is counted under the first of these: our own misses before what the ego denied.
-_ACROSS_TAKES = ("success", "loose only", "missed", "ego left no room", "ego never met the condition")
+_ACROSS_TAKES = ("success", "loose only", "missed", NO_ROOM, NEVER_MET)
 
 
 def cause_of(result: Result) -> str:
@@ -35,7 +38,7 @@ def cause_of(result: Result) -> str:
     from scenewright.judge.tolerance import LOOSE, TIGHT
 
     if result.status == "infeasible":
-        return "proven infeasible"
+        return INFEASIBLE
     if result.verdict is None:
         return "gave up"
     return cause_of_take(
@@ -51,9 +54,9 @@ def cause_of_take(*, tight: bool, loose: bool, never_met: bool, no_room: bool) -
     if tight:
         return "success"
     if never_met:
-        return "ego never met the condition"
+        return NEVER_MET
     if no_room:
-        return "ego left no room"
+        return NO_ROOM
     return "loose only" if loose else "missed"
 
 

@@ -100,8 +100,8 @@ GROUPS: dict[str, Callable[[CaseRecord], str]] = {
 
 def compare(then: Results, now: Results) -> Comparison:
     """Compare two sets of results."""
-    before = {record.case: record for record in then.records()}
-    after = {record.case: record for record in now.records()}
+    before = {record.case: record for record in then.records}
+    after = {record.case: record for record in now.records}
     both = [key for key in before if key in after]
     alike = [key for key in both if _drawn_alike(before[key], after[key])]
     return Comparison(

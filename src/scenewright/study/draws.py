@@ -7,7 +7,6 @@ that cannot happen is for the solver to prove.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,7 +14,7 @@ from scenewright.program.types import Parameter
 
 # (low, high) in SI by dimension and words of the name; the first whose words all occur counts.
 # On a 50 km/h road an ego is some 2 to 6 s away when something begins that it is to react to.
-_EVERYDAY: tuple[tuple[str, tuple[str, ...], float, float], ...] = (
+_RANGES: tuple[tuple[str, tuple[str, ...], float, float], ...] = (
     ("length", ("initial", "ego", "stop_line"), 45.0, 90.0),
     ("length", ("initial", "ego"), 90.0, 150.0),
     ("length", ("initial",), 20.0, 35.0),
@@ -30,45 +29,11 @@ _EVERYDAY: tuple[tuple[str, tuple[str, ...], float, float], ...] = (
     ("speed", (), 4.0, 10.0),
     ("acceleration", (), 1.5, 6.0),
 )
-# Closer: many of these leave an ego that has the right of way no time to give it up.
-_DEMANDING: tuple[tuple[str, tuple[str, ...], float, float], ...] = (
-    ("length", ("initial", "ego"), 40.0, 80.0),
-    ("length", ("initial",), 20.0, 35.0),
-    ("length", ("end",), 4.0, 7.0),
-    ("length", ("ego", "hero"), 10.0, 25.0),
-    ("length", ("ego",), 10.0, 40.0),
-    ("length", (), 8.0, 30.0),
-    ("time", ("initial",), 7.0, 10.0),
-    ("time", ("ego",), 2.5, 5.0),
-    ("time", (), 1.0, 3.0),
-    ("speed", (), 4.0, 10.0),
-    ("acceleration", (), 1.5, 6.0),
-)
-_WIDE: tuple[tuple[str, tuple[str, ...], float, float], ...] = (
-    ("length", ("initial",), 30.0, 90.0),
-    ("length", ("end",), 3.0, 15.0),
-    ("length", (), 3.0, 60.0),
-    ("time", ("initial",), 6.0, 10.0),
-    ("time", (), 0.5, 5.0),
-    ("speed", (), 3.0, 14.0),
-    ("acceleration", (), 1.0, 7.0),
-)
 # An ego starts this much before its trigger, or the draw says nothing about orchestration.
 _LEAD = {"length": 15.0, "time": 2.5}
 
 
-@dataclass(frozen=True, slots=True)
-class Ranges:
-    """Which ranges to draw from."""
-
-    name: str
-    rows: tuple[tuple[str, tuple[str, ...], float, float], ...]
-
-
-RANGES = {r.name: r for r in (Ranges("everyday", _EVERYDAY), Ranges("demanding", _DEMANDING), Ranges("wide", _WIDE))}
-
-
-def draw_parameters(parameters: Sequence[Parameter], seed: Sequence[int], ranges: Ranges) -> dict[str, float]:
+def draw_parameters(parameters: Sequence[Parameter], seed: Sequence[int]) -> dict[str, float]:
     """Return a value for each parameter, in the unit of its name, rounded to two decimals.
 
     Parameters
@@ -78,14 +43,13 @@ def draw_parameters(parameters: Sequence[Parameter], seed: Sequence[int], ranges
 
     Examples
     --------
-    >>> draw_parameters([Parameter("ego_tta_s")], (1, 2), RANGES["everyday"]) == draw_parameters(
-    ...     [Parameter("ego_tta_s")], (1, 2), RANGES["everyday"])
+    >>> draw_parameters([Parameter("ego_tta_s")], (1, 2)) == draw_parameters([Parameter("ego_tta_s")], (1, 2))
     True
     """
     generator = np.random.default_rng(list(seed))
     values: dict[str, float] = {}
     for parameter in parameters:
-        low, high = _range_of(parameter, ranges)
+        low, high = _range_of(parameter)
         values[parameter.name] = float(generator.uniform(low, high))
     for parameter in parameters:
         if "initial" in parameter.name and "ego" in parameter.name:
@@ -93,8 +57,8 @@ def draw_parameters(parameters: Sequence[Parameter], seed: Sequence[int], ranges
     return {p.name: round(values[p.name] / float(p.unit.si_factor), 2) for p in parameters}
 
 
-def _range_of(parameter: Parameter, ranges: Ranges) -> tuple[float, float]:
-    for dimension, words, low, high in ranges.rows:
+def _range_of(parameter: Parameter) -> tuple[float, float]:
+    for dimension, words, low, high in _RANGES:
         if dimension == parameter.unit.dimension and all(word in parameter.name for word in words):
             return low, high
     raise KeyError(parameter.name)

@@ -1,6 +1,6 @@
-"""Runs descriptions against egos with drawn parameters, and counts what came of it: how often, and why not.
+"""Runs descriptions against egos with drawn parameters, and says under which cause each of them falls.
 
-What enters: descriptions, egos, a number of draws, a seed. What leaves: one `Outcome` a case and tables over them.
+What enters: descriptions, egos, a number of draws, a seed. What leaves: one `Outcome` a case, for `summary` to count.
 Every case is a whole run through `orchestrate`, judged as a user's run is; nothing is left out.
 """
 
@@ -8,15 +8,14 @@ from __future__ import annotations
 
 import json
 import shlex
-from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from scenewright.errors import InputError, Place, ScenewrightError
-from scenewright.orchestrate import Mode, Request, Result, orchestrate
+from scenewright.orchestrate import Request, Result, orchestrate
 from scenewright.study.causes import cause_of
-from scenewright.study.draws import RANGES, draw_parameters
+from scenewright.study.draws import draw_parameters
 from scenewright.study.workers import Crash, each_done
 from scenewright.translate.sources import read_scenario
 
@@ -38,7 +37,6 @@ class Case:
     draw: int
     seed: int
     parameters: dict[str, float]
-    mode: str = "closed"
     takes: int = 3
 
     def command(self) -> str:
@@ -47,14 +45,13 @@ class Case:
         for name, value in self.parameters.items():
             words += ["-p", f"{name}={value}"]
         words += ["--ego", self.ego, "--seed", str(self.seed)]
-        words += [] if self.mode == "closed" else ["--mode", self.mode]
         words += [] if self.takes == 3 else ["--takes", str(self.takes)]
         return shlex.join(words)
 
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What came of a case."""
+    """What came of a case; tallies count it as they count records of the benchmark."""
 
     description: str
     ego: str
@@ -67,6 +64,20 @@ class Outcome:
     message: str = ""
     parameters: dict[str, float] = field(default_factory=dict)
     take: int = 1
+
+    @property
+    def first_cause(self) -> str:
+        """The cause: of several takes the one that was kept counts."""
+        return self.cause
+
+    @property
+    def criteria_disagree(self) -> bool:
+        """No: but for the judge there is nobody to disagree."""
+        return False
+
+    def holds(self, which: str, level: str) -> bool:
+        """Whether it is a success; whether it is one at other levels than the tight one is not kept."""
+        return level == "tight" and self.cause == "success"
 
 
 def read_descriptions(path: Path) -> list[Description]:
@@ -107,47 +118,27 @@ def _described_in(file: Path) -> Description:
 
 
 def make_cases(
-    descriptions: Sequence[Description],
-    egos: Sequence[str],
-    draws: int,
-    seed: int,
-    ranges: str = "everyday",
-    mode: str = "closed",
-    takes: int = 3,
+    descriptions: Sequence[Description], egos: Sequence[str], draws: int, seed: int, takes: int = 3
 ) -> list[Case]:
     """Return every combination; a draw is the same for all egos."""
     cases = []
     for number, description in enumerate(descriptions):
         program, _ = read_scenario(description.text)
         for draw in range(draws):
-            parameters = draw_parameters(program.parameters, (seed, number, draw), RANGES[ranges])
-            cases += [Case(description, ego, draw, seed + draw, parameters, mode, takes) for ego in egos]
+            parameters = draw_parameters(program.parameters, (seed, number, draw))
+            cases += [Case(description, ego, draw, seed + draw, parameters, takes) for ego in egos]
     return cases
 
 
-def run_cases(cases: Sequence[Case], workers: int, done: Callable[[Outcome], None] | None = None) -> Iterator[Outcome]:
-    """Run the cases and yield their outcomes in order, on `workers` processes (1: in this one)."""
-    ended: dict[int, Outcome] = {}
-    awaited = 0
-    for (number, case), result in each_done(_run_numbered, list(enumerate(cases)), workers if workers > 1 else 0):
-        outcome = _outcome(case, "error", message=result.message) if isinstance(result, Crash) else result
-        if done is not None:
-            done(outcome)
-        ended[number] = outcome
-        while awaited in ended:
-            yield ended.pop(awaited)
-            awaited += 1
-
-
-def _run_numbered(numbered: tuple[int, Case]) -> Outcome:
-    return run_case(numbered[1])
+def run_cases(cases: Sequence[Case], workers: int) -> Iterator[Outcome]:
+    """Run the cases on `workers` processes (0: in this one), and yield their outcomes as each is done."""
+    for case, result in each_done(run_case, cases, workers):
+        yield _outcome(case, "error", message=result.message) if isinstance(result, Crash) else result
 
 
 def run_case(case: Case) -> Outcome:
     """Run one case and say what came of it."""
-    text = case.description.text
-    mode: Mode = "open" if case.mode == "open" else "closed"
-    request = Request(text, case.parameters, ego=case.ego, seed=case.seed, mode=mode, takes=case.takes)
+    request = Request(case.description.text, case.parameters, ego=case.ego, seed=case.seed, takes=case.takes)
     try:
         result = orchestrate(request)
     except ScenewrightError as error:
@@ -165,19 +156,15 @@ def run_case(case: Case) -> Outcome:
 def _outcome(
     case: Case, cause: str, failed: tuple[str, ...] = (), result: Result | None = None, message: str = ""
 ) -> Outcome:
-    seconds: tuple[float, ...] = ()
-    simulated = 0.0
-    if result is not None and result.run is not None:
-        seconds = tuple(record.wall_s for record in result.run.replans if record.backend)
-        simulated = result.run.trace.duration_s
+    run = result.run if result is not None else None
     return Outcome(
         case.description.id,
         case.ego,
         case.draw,
         cause,
         failed,
-        seconds,
-        simulated,
+        tuple(record.wall_s for record in run.replans if record.backend) if run is not None else (),
+        run.trace.duration_s if run is not None else 0.0,
         case.command(),
         message,
         case.parameters,
@@ -185,31 +172,10 @@ def _outcome(
     )
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
-    """One line of a table: how many cases fell under which cause."""
-
-    name: str
-    counts: Counter[str]
-
-    @property
-    def total(self) -> int:
-        """Number of cases."""
-        return sum(self.counts.values())
-
-    def rate(self, causes: Sequence[str], without: Sequence[str]) -> float | None:
-        """Return the share of `causes` among all cases but those `without`; None where none are left."""
-        left = self.total - sum(self.counts[cause] for cause in without)
-        return sum(self.counts[cause] for cause in causes) / left if left else None
-
-
-def tabulate(outcomes: Sequence[Outcome], by: str) -> list[Row]:
-    """Return one row a value of the outcome's attribute `by`, and one for all."""
-    groups: dict[str, Counter[str]] = {}
-    for outcome in outcomes:
-        groups.setdefault(getattr(outcome, by), Counter())[outcome.cause] += 1
-    rows = [Row(name, counts) for name, counts in groups.items()]
-    return [*rows, Row("all", Counter(outcome.cause for outcome in outcomes))]
+def in_order(outcomes: Iterable[Outcome], cases: Sequence[Case]) -> list[Outcome]:
+    """Return outcomes in the order of their cases."""
+    places = {(case.description.id, case.ego, case.draw): place for place, case in enumerate(cases)}
+    return sorted(outcomes, key=lambda each: places[each.description, each.ego, each.draw])
 
 
 def write_outcomes(outcomes: Sequence[Outcome], path: Path) -> None:

@@ -10,7 +10,8 @@ import os
 import platform
 import subprocess
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from contextlib import suppress
+from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -18,12 +19,13 @@ from typing import Any
 
 import scenewright
 from scenewright.errors import InputError, OutputError, Place
-from scenewright.study.cases import OURS, BenchCase, blank_record, make_bench_cases, program_file, run_bench_case
+from scenewright.study.cases import OURS, BenchCase, blank_record, program_file, run_bench_case, seed_of
+from scenewright.study.lines import LineLog
 from scenewright.study.store import (
+    LINES_FILE,
     PROGRAMS,
     SCHEMA_VERSION,
     SETTINGS_FILE,
-    CaseLog,
     CaseRecord,
     compact,
     locked,
@@ -34,15 +36,12 @@ from scenewright.study.store import (
 from scenewright.study.workers import Crash, each_done
 
 FULL_EGOS = ("constant", "idm", "dawdler", "staller", "stop-and-go", "noisy")
-KEEP = ("all", "ours", "none")
-_PACKAGES = ("z3-solver", "numpy", "scipy", "pyarrow")
-# What makes two experiments the same: with these equal, so are their cases and what comes of them.
-_ASKED = ("seed", "rows", "egos", "draws", "methods", "takes", "keep")
+_PACKAGES = ("z3-solver", "numpy", "scipy", "pyarrow", "matplotlib")
 
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What to run: every combination of rows, egos, draws and methods.
+    """What to run: every combination of rows, egos, draws and methods; with it the same, so is what comes of it.
 
     Raises
     ------
@@ -56,7 +55,6 @@ class Plan:
     methods: tuple[str, ...]
     seed: int = 0
     takes: int = 3
-    keep: str = "ours"
 
     def check(self) -> None:
         """Make sure that all there is to run exists."""
@@ -80,27 +78,26 @@ class Plan:
                 raise InputError(
                     "there is no such method", found=method, expected=", ".join(METHODS), fix=f"--methods {OURS}"
                 )
-        if self.keep not in KEEP:
-            raise InputError("there is no such way to keep runs", found=self.keep, expected=", ".join(KEEP))
 
     def cases(self, folder: Path) -> list[BenchCase]:
-        """Return all cases, in the order in which they are run."""
-        kept = {"all": self.methods, "ours": (OURS,), "none": ()}[self.keep]
-        return make_bench_cases(
-            self.rows, self.egos, self.draws, self.methods, self.seed, self.takes, folder, keep=kept
-        )
+        """Return all cases, all of one draw before the next; runs of our method keep their files."""
+        from scenewright.study.benchmark import benchmark_row, draw_row
+
+        cases = []
+        for draw in range(self.draws):
+            for row in self.rows:
+                drawn = tuple(draw_row(benchmark_row(row), draw, self.seed).items())
+                own = seed_of(row, draw, self.seed)
+                cases += [
+                    BenchCase(row, ego, draw, method, own, drawn, self.takes, folder, method == OURS)
+                    for ego in self.egos
+                    for method in self.methods
+                ]
+        return cases
 
     def as_dict(self) -> dict[str, Any]:
-        """Return the plan as plain data."""
-        return {
-            "seed": self.seed,
-            "rows": list(self.rows),
-            "egos": list(self.egos),
-            "draws": self.draws,
-            "methods": list(self.methods),
-            "takes": self.takes,
-            "keep": self.keep,
-        }
+        """Return the plan as plain data, as JSON has it."""
+        return {name: list(value) if isinstance(value, tuple) else value for name, value in asdict(self).items()}
 
 
 # One row in four: every interaction, both kinds of trigger, and heroes from every side.
@@ -185,11 +182,11 @@ class Experiment:
     def _run_cases(
         self, left: Sequence[BenchCase], workers: int, shown: Callable[[Progress], None], stop: Callable[[], bool]
     ) -> None:
-        log, progress = CaseLog(self.folder), self.progress
+        log, progress = LineLog(self.folder / LINES_FILE), self.progress
         try:
             for case, outcome in each_done(run_bench_case, left, workers, stop):
                 record = _crashed(case, outcome) if isinstance(outcome, Crash) else outcome
-                log.append(record)
+                log.append(asdict(record))
                 progress.done += 1
                 progress.new += 1
                 progress.successes += record.best_tight
@@ -201,11 +198,18 @@ class Experiment:
     def _settle(self, workers: int) -> dict[str, Any]:
         """Write the settings of a new experiment, or make sure that these are the ones to go on with."""
         if not (self.folder / SETTINGS_FILE).exists():
-            settings = self._settings(workers)
-            write_settings(self.folder, settings)
-            return settings
+            new = {
+                "schema_version": SCHEMA_VERSION,
+                "command": self.command,
+                **self.plan.as_dict(),
+                **circumstances(),
+                "workers": workers,
+                "started": _now(),
+            }
+            write_settings(self.folder, new)
+            return new
         settings, asked = read_settings(self.folder), self.plan.as_dict()
-        for name in _ASKED:
+        for name in asked:
             if settings.get(name) != asked[name]:
                 raise InputError(
                     f"the folder holds an experiment with other {name}",
@@ -214,24 +218,11 @@ class Experiment:
                     expected=f"{settings.get(name)}, to go on with it",
                     fix="give the same options as then, or another folder with --out DIR",
                 )
-        now = revision()
-        if "finished" not in settings and (settings["version"], settings["revision"]) != (scenewright.__version__, now):
-            settings.setdefault("resumed_with", []).append({"version": scenewright.__version__, "revision": now})
+        now = {"version": scenewright.__version__, "revision": revision()}
+        if "finished" not in settings and any(settings[name] != value for name, value in now.items()):
+            settings.setdefault("resumed_with", []).append(now)
             write_settings(self.folder, settings)
         return settings
-
-    def _settings(self, workers: int) -> dict[str, Any]:
-        return {
-            "schema_version": SCHEMA_VERSION,
-            "command": self.command,
-            **self.plan.as_dict(),
-            "version": scenewright.__version__,
-            "revision": revision(),
-            "packages": _versions(),
-            "machine": machine(),
-            "workers": workers,
-            "started": _now(),
-        }
 
     def _write_programs(self) -> None:
         from scenewright.study.benchmark import benchmark_row
@@ -267,13 +258,18 @@ def _prepare(folder: Path) -> None:
 
 
 # -- circumstances --------------------------------------------------------------------------------------------------
-def machine() -> dict[str, Any]:
-    """Return what times depend on: processor, number of cores, system, interpreter."""
+def circumstances() -> dict[str, Any]:
+    """Return what results and times depend on: versions, revision, processor, system."""
     return {
-        "cpu": _cpu(),
-        "cores": os.cpu_count(),
-        "system": platform.platform(),
-        "python": platform.python_version(),
+        "version": scenewright.__version__,
+        "revision": revision(),
+        "packages": _versions(),
+        "machine": {
+            "cpu": _cpu(),
+            "cores": os.cpu_count(),
+            "system": platform.platform(),
+            "python": platform.python_version(),
+        },
     }
 
 
@@ -293,12 +289,8 @@ def revision() -> str | None:
         tracked = subprocess.run([*git, "ls-files", "--error-unmatch", "__init__.py"], capture_output=True, check=False)
         if tracked.returncode != 0:
             return None
-        found = subprocess.run(
-            [*git, "describe", "--always", "--dirty", "--abbrev=12", "--exclude=*"],
-            capture_output=True,
-            check=False,
-            text=True,
-        )
+        described = [*git, "describe", "--always", "--dirty", "--abbrev=12", "--exclude=*"]
+        found = subprocess.run(described, capture_output=True, check=False, text=True)
     except OSError:
         return None
     return found.stdout.strip() or None
@@ -307,10 +299,8 @@ def revision() -> str | None:
 def _versions() -> dict[str, str]:
     found = {}
     for name in _PACKAGES:
-        try:
+        with suppress(PackageNotFoundError):
             found[name] = version(name)
-        except PackageNotFoundError:
-            continue
     return found
 
 

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from scenewright.errors import InputError, OutputError, Place
+from scenewright.study.lines import read_lines
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -120,16 +121,12 @@ class Results:
 
     directory: Path
     settings: dict[str, Any]
-    cases: pa.Table
+    records: tuple[CaseRecord, ...]
 
     @property
     def table(self) -> pa.Table:
-        """The cases as an Arrow table, which DuckDB, polars and pandas query as it is."""
-        return self.cases
-
-    def records(self) -> list[CaseRecord]:
-        """Return the cases as records."""
-        return [CaseRecord(**row) for row in self.cases.to_pylist()]
+        """The records as an Arrow table, which DuckDB, polars and pandas query as it is."""
+        return as_table(self.records)
 
 
 def read_results(directory: Path | str) -> Results:
@@ -142,7 +139,7 @@ def read_results(directory: Path | str) -> Results:
     """
     folder = Path(directory)
     settings = read_settings(folder)
-    return Results(folder, settings, as_table(sorted(read_records(folder).values(), key=_order_of(settings))))
+    return Results(folder, settings, tuple(sorted(read_records(folder).values(), key=_order_of(settings))))
 
 
 def _order_of(settings: Mapping[str, Any]) -> Callable[[CaseRecord], tuple[int, ...]]:
@@ -205,10 +202,7 @@ def _from_parquet(path: Path) -> Iterator[CaseRecord]:
 
 
 def _from_lines(path: Path) -> Iterator[CaseRecord]:
-    if not path.exists():
-        return
-    lines = path.read_bytes().split(b"\n")[:-1]  # what stands after the last line break was torn off by a kill
-    for number, line in enumerate(lines, start=1):
+    for number, line in enumerate(read_lines(path), start=1):
         try:
             yield CaseRecord(**json.loads(line))
         except (ValueError, TypeError) as error:
@@ -216,33 +210,12 @@ def _from_lines(path: Path) -> Iterator[CaseRecord]:
             raise InputError("this is not the record of a case", place=place, found=str(error)) from None
 
 
-class CaseLog:
-    """Appends records to `cases.jsonl`, each in one write, so that a kill can tear the last line only."""
-
-    def __init__(self, folder: Path) -> None:
-        self._path = folder / LINES_FILE
-        self._file = os.open(self._path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
-        text = self._path.read_bytes()
-        os.truncate(self._file, text.rfind(b"\n") + 1)
-
-    def append(self, record: CaseRecord) -> None:
-        """Write one record; it is with the system when this returns."""
-        line = (json.dumps(asdict(record), ensure_ascii=False, allow_nan=False) + "\n").encode()
-        if os.write(self._file, line) != len(line):
-            raise OutputError("a case could not be recorded whole", place=Place(str(self._path)), fix="make room")
-
-    def close(self) -> None:
-        """Close the file."""
-        os.close(self._file)
-
-
 def compact(folder: Path) -> None:
     """Put all records into `cases.parquet` in one step, and drop the lines that it then holds."""
     import pyarrow.parquet as pq
 
-    records = read_results(folder).records()
     temporary = folder / f".{PARQUET_FILE}.part"
-    pq.write_table(as_table(records), temporary, compression="zstd")
+    pq.write_table(read_results(folder).table, temporary, compression="zstd")
     os.replace(temporary, folder / PARQUET_FILE)
     (folder / LINES_FILE).unlink(missing_ok=True)
 

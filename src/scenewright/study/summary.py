@@ -1,21 +1,91 @@
-"""Counts records of an experiment: rates for the first take and for the best of all, causes, disagreements.
+"""Counts what came of cases: rates for the first take and for the best of all, causes, disagreements.
 
-What enters: records. What leaves: a `Tally` a group, and plain data. Every rate says what it was counted among: proven
-infeasible cases and cases whose ego never met the condition are left out and shown beside it, never hidden.
+What enters: records of cases, or anything else that says its cause. What leaves: a `Tally` a group, and plain data. One
+rule for command and report: proven infeasible cases and cases whose ego never met the condition are left out of rates
+and shown beside them, never hidden.
 """
 
 from __future__ import annotations
 
+import math
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from itertools import chain
+from typing import Any, Protocol, TypeVar
 
-from scenewright.study.causes import EGO_DENIED, NOT_OURS
+from scenewright.study.causes import EGO_DENIED, INFEASIBLE, NOT_OURS
 from scenewright.study.store import CaseRecord
 
 LEVEL_NAMES = ("fine", "tight", "loose", "coarse")
 TAKES = ("first", "best")
+
+
+class Counted(Protocol):
+    """What a tally asks of a case."""
+
+    @property
+    def cause(self) -> str:
+        """Of `causes.CAUSES`, within all takes."""
+
+    @property
+    def first_cause(self) -> str:
+        """The same for the first take alone."""
+
+    @property
+    def criteria_disagree(self) -> bool:
+        """Whether judge and criteria differ."""
+
+    def holds(self, which: str, level: str) -> bool:
+        """Whether it is a success at a level of tolerance: `which` is ``first`` or ``best``."""
+
+
+C = TypeVar("C", bound=Counted)
+K = TypeVar("K", bound=Hashable)
+
+
+@dataclass(frozen=True, slots=True)
+class Rate:
+    """So many successes out of so many cases."""
+
+    successes: int
+    total: int
+
+    @property
+    def value(self) -> float | None:
+        """The share, 0 to 1; None where there are no cases."""
+        return self.successes / self.total if self.total else None
+
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """Wilson's interval for the share, 95 %; None where there are no cases.
+
+        Examples
+        --------
+        >>> [round(bound, 3) for bound in Rate(10, 10).interval]
+        [0.722, 1.0]
+        """
+        if not self.total:
+            return None
+        z, share = 1.959964, self.successes / self.total
+        scale = 1.0 + z * z / self.total
+        middle = (share + z * z / (2 * self.total)) / scale
+        half = z * math.sqrt(share * (1 - share) / self.total + z * z / (4 * self.total**2)) / scale
+        return max(0.0, middle - half), min(1.0, middle + half)
+
+    def __str__(self) -> str:
+        return "-" if self.value is None else percent(self.value)
+
+
+def percent(share: float) -> str:
+    """Return a share as people read it; 100 % and 0 % only where they are exact.
+
+    >>> percent(0.9996), percent(1.0), percent(0.974)
+    ('99.9 %', '100 %', '97.4 %')
+    """
+    if share in (0.0, 1.0):
+        return f"{100 * share:.0f} %"
+    return f"{min(99.9, max(0.1, 100 * share)):.1f} %"
 
 
 @dataclass(slots=True)
@@ -36,29 +106,32 @@ class Tally:
     hits: Counter[tuple[str, str]] = field(default_factory=Counter)
     disagreements: int = 0
 
-    def add(self, record: CaseRecord) -> None:
+    def add(self, case: Counted) -> None:
         """Count one more case."""
         self.cases += 1
-        self.disagreements += record.criteria_disagree
-        self.causes["first"][record.first_cause] += 1
-        self.causes["best"][record.cause] += 1
-        if record.cause not in NOT_OURS:
-            self.hits.update((which, level) for which in TAKES for level in LEVEL_NAMES if record.holds(which, level))
+        self.disagreements += case.criteria_disagree
+        self.causes["first"][case.first_cause] += 1
+        self.causes["best"][case.cause] += 1
+        if case.cause not in NOT_OURS:
+            self.hits.update((which, level) for which in TAKES for level in LEVEL_NAMES if case.holds(which, level))
 
     @property
     def rated(self) -> int:
         """Among how many cases rates count, those of the first take and those of all alike."""
         return self._without(NOT_OURS)
 
-    def rate(self, which: str, level: str) -> float | None:
-        """Return the share of successes; None where there is nothing to count among."""
-        return self.hits[which, level] / self.rated if self.rated else None
+    def rate(self, which: str, level: str = "tight") -> Rate:
+        """Return the successes of the first or the best take at a level of tolerance, among those that count."""
+        return Rate(self.hits[which, level], self.rated)
+
+    def rate_without(self, *causes: str) -> Rate:
+        """Return the tight successes, best take, among the cases that fell under none of these causes."""
+        return Rate(self.hits["best", "tight"], self._without(causes))
 
     @property
-    def rate_where_let(self) -> float | None:
-        """Return the share of tight successes, best take, among the cases in which the ego left room for one."""
-        among = self._without(("proven infeasible", *EGO_DENIED))
-        return self.hits["best", "tight"] / among if among else None
+    def rate_where_let(self) -> Rate:
+        """The tight successes, best take, among the cases in which the ego left room for one."""
+        return self.rate_without(INFEASIBLE, *EGO_DENIED)
 
     def _without(self, causes: Sequence[str]) -> int:
         return self.cases - sum(self.causes["best"][cause] for cause in causes)
@@ -71,25 +144,37 @@ class Tally:
             "rated": self.rated,
             **{
                 which: {
-                    **{level: self.rate(which, level) for level in LEVEL_NAMES},
+                    **{level: self.rate(which, level).value for level in LEVEL_NAMES},
                     "causes": dict(self.causes[which]),
                 }
                 for which in TAKES
             },
-            "tight_where_ego_left_room": self.rate_where_let,
+            "tight_where_ego_left_room": self.rate_where_let.value,
             "disagreements": self.disagreements,
         }
 
 
-def tally_by(records: Iterable[CaseRecord], key: Callable[[CaseRecord], str], total: str = "all") -> list[Tally]:
+def tally(cases: Iterable[Counted], name: str = "all") -> Tally:
+    """Return the tally of all cases together."""
+    made = Tally(name)
+    for case in cases:
+        made.add(case)
+    return made
+
+
+def tally_by(cases: Iterable[C], key: Callable[[C], str], total: str = "all") -> list[Tally]:
     """Return a tally for each value of `key`, in order of first appearance, and one for all (no `total`: none)."""
-    groups: dict[str, Tally] = {}
-    everything = Tally(total)
-    for record in records:
-        name = key(record)
-        groups.setdefault(name, Tally(name)).add(record)
-        everything.add(record)
-    return [*groups.values(), everything] if total else list(groups.values())
+    groups = grouped(cases, key)
+    tallies = [tally(group, name) for name, group in groups.items()]
+    return [*tallies, tally(chain(*groups.values()), total)] if total else tallies
+
+
+def grouped(cases: Iterable[C], key: Callable[[C], K]) -> dict[K, list[C]]:
+    """Return the cases by key, in order of first appearance."""
+    groups: dict[K, list[C]] = {}
+    for case in cases:
+        groups.setdefault(key(case), []).append(case)
+    return groups
 
 
 def failures(records: Iterable[CaseRecord]) -> list[CaseRecord]:
@@ -104,33 +189,24 @@ def disagreements(records: Iterable[CaseRecord]) -> list[CaseRecord]:
 
 def summary(records: Sequence[CaseRecord]) -> dict[str, Any]:
     """Return all tables of a set of results as plain data: by method, and for each method by ego, family and row."""
-    methods = dict.fromkeys(record.method for record in records)
+    keys: dict[str, Callable[[CaseRecord], str]] = {
+        "by_ego": lambda record: record.ego,
+        "by_family": lambda record: record.family,
+        "by_row": lambda record: str(record.row),
+    }
+    own = grouped(records, lambda record: record.method)
     return {
         "cases": len(records),
-        "by_method": [tally.as_dict() for tally in tally_by(records, lambda r: r.method, total="")],
+        "by_method": [tally(some, method).as_dict() for method, some in own.items()],
         "methods": {
-            method: {
-                "by_ego": _plain(own, lambda r: r.ego),
-                "by_family": _plain(own, lambda r: r.family),
-                "by_row": _plain(own, lambda r: str(r.row)),
-            }
-            for method in methods
-            for own in [[record for record in records if record.method == method]]
+            method: {name: [each.as_dict() for each in tally_by(some, key)] for name, key in keys.items()}
+            for method, some in own.items()
         },
         "failures": [_told(record) for record in failures(records)],
         "disagreements": [_told(record) for record in disagreements(records)],
     }
 
 
-def _plain(records: Sequence[CaseRecord], key: Callable[[CaseRecord], str]) -> list[dict[str, Any]]:
-    return [tally.as_dict() for tally in tally_by(records, key)]
-
-
 def _told(record: CaseRecord) -> dict[str, Any]:
-    return {
-        "case": record.case,
-        "cause": record.cause,
-        "failed_conditions": record.failed_conditions,
-        "message": record.message,
-        "command": record.command,
-    }
+    names = ("case", "cause", "failed_conditions", "message", "command")
+    return {name: getattr(record, name) for name in names}

@@ -51,14 +51,14 @@ class Timing:
         return self.tick_ms[min(len(self.tick_ms) - 1, int(len(self.tick_ms) * percent / 100.0))]
 
 
-def time_resolves(seeds: Sequence[int], replan_hz: float = 10.0) -> Timing:
+def time_resolves(seeds: Sequence[int]) -> Timing:
     """Run every scenario against every ego with every seed, and time the re-solves."""
     asked: list[float] = []
     busiest, runs, ticks = 0.0, 0, 0
     for seed in seeds:
         for ego in EGOS:
             for text in SCENARIOS:
-                result: Result = orchestrate(Request(text, ego=ego, seed=seed, replan_hz=replan_hz))
+                result: Result = orchestrate(Request(text, ego=ego, seed=seed))
                 if result.run is None:
                     continue
                 runs += 1

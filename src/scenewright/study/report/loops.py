@@ -10,10 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scenewright.study.report.counting import Rate
+from scenewright.study.causes import NOT_OURS, cause_of
 from scenewright.study.report.measuring import Bench, Job, Measured
 from scenewright.study.report.precision import scene_text
-from scenewright.study.report.tables import Column, Table, Value
+from scenewright.study.report.tables import Table, Value
+from scenewright.study.summary import Rate
 
 SCENES = {
     "lead_turns_off": "lead turns into\nthe driveway",
@@ -23,7 +24,6 @@ SCENES = {
 }
 MODES = ("open", "closed")
 REACTIVE_EGOS = ("idm", "dawdler", "noisy", "delayed", "stop-and-go", "staller")
-_NOT_COUNTED = ("infeasible", "ego never met")
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,14 +77,9 @@ def run_loop(job: Job) -> Measured:
 
     request = Request(job["program"], job["parameters"], ego=job["ego"], seed=job["seed"], mode=job["mode"], takes=1)
     result = orchestrate(request)
-    if result.status == "infeasible":
-        return {"outcome": "infeasible", "tight": False, "loose": False}
-    if result.verdict is None:
-        return {"outcome": "gave up", "tight": False, "loose": False}
-    tight, loose = result.verdict.holds_at(TIGHT), result.verdict.holds_at(LOOSE)
-    never = bool(result.verdict.facts.get("ego_never_met_condition"))
-    outcome = "success" if tight else "ego never met" if never else "loose only" if loose else "missed"
-    return {"outcome": outcome, "tight": tight, "loose": loose}
+    verdict = result.verdict
+    tight, loose = (verdict is not None and verdict.holds_at(tolerance) for tolerance in (TIGHT, LOOSE))
+    return {"outcome": cause_of(result), "tight": tight, "loose": loose}
 
 
 def loops_table(records: Sequence[Measured]) -> Table:
@@ -92,7 +87,7 @@ def loops_table(records: Sequence[Measured]) -> Table:
 
     A case is left out where it is infeasible or the ego never met its side, in both modes or not at all.
     """
-    denied = [_case(r) for r in records if r.get("outcome") in _NOT_COUNTED]
+    denied = [_case(r) for r in records if r.get("outcome") in NOT_OURS]
     left_out = {case for case in denied if denied.count(case) == len(MODES)}
     rows: list[tuple[Value, ...]] = []
     for scene in (*SCENES, "all"):
@@ -102,14 +97,14 @@ def loops_table(records: Sequence[Measured]) -> Table:
             tight = Rate(sum(bool(r.get("tight")) for r in over), len(over))
             loose = Rate(sum(bool(r.get("loose")) for r in over), len(over))
             rows.append((scene, mode, len(own), len(over), tight, loose))
-    columns = (
-        Column("scene", "scenario"),
-        Column("mode", "loop"),
-        Column("cases", "cases", "count"),
-        Column("counted", "counted", "count"),
-        Column("tight", "tight, first take", "rate"),
-        Column("loose", "loose, first take", "rate"),
-    )
+    columns = {
+        "scene": "scenario",
+        "mode": "loop",
+        "cases": "cases",
+        "counted": "counted",
+        "tight": "tight, first take",
+        "loose": "loose, first take",
+    }
     return Table("loops", "Open against closed loop, four scenarios", columns, tuple(rows))
 
 

@@ -8,16 +8,16 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
-from importlib.resources import files
-from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
 
+import scenewright
 from scenewright.errors import OutputError, Place
+from scenewright.study.lines import LineLog, read_lines
 from scenewright.study.workers import Crash, each_done
 
 FOLDER = "extras"
@@ -25,9 +25,6 @@ Job = Mapping[str, Any]
 Measured = dict[str, Any]
 # Called with the name of a stage, how much of it is done, and how much there is.
 Progress = Callable[[str, int, int], None]
-# What these hold changes no measurement, but for the modules of this package that make them.
-_OF_NO_EFFECT = ("cli", "studio", "study/report", "study/store.py", "study/compare.py", "study/experiment.py")
-_MEASURING = tuple(f"study/report/{name}.py" for name in ("precision", "loops", "times"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,19 +50,24 @@ class Bench:
 
         A job that raises leaves a record whose ``error`` says what; it is done again next time.
         """
-        kept = _Kept(self.folder / FOLDER / f"{name}.jsonl")
-        found = {key: kept.records[key] for key in map(_key, jobs) if key in kept.records}
+        path = self.folder / FOLDER / f"{name}.jsonl"
+        kept = _kept(path)
+        found = {key: kept[key] for key in map(_key, jobs) if key in kept}
         left = [job for job in jobs if _key(job) not in found]
-        self._tell(name, len(found), len(jobs))
-        # Started processes cost seconds; a handful of jobs is done sooner without.
-        workers = 0 if timed or len(left) < 2 * self.workers else self.workers
-        for job, record in each_done(work, left, workers):
-            if isinstance(record, Crash):
-                found[_key(job)] = {**job, "error": record.message}
-            else:
-                found[_key(job)] = {**job, **record}
-                kept.append(_key(job), found[_key(job)])
+        log = _opened(path)
+        try:
             self._tell(name, len(found), len(jobs))
+            # Started processes cost seconds; a handful of jobs is done sooner without.
+            workers = 0 if timed or len(left) < 2 * self.workers else self.workers
+            for job, record in each_done(work, left, workers):
+                if isinstance(record, Crash):
+                    found[_key(job)] = {**job, "error": record.message}
+                else:
+                    found[_key(job)] = {**job, **record}
+                    log.append({"code": code_digest(), "key": _key(job), "record": found[_key(job)]})
+                self._tell(name, len(found), len(jobs))
+        finally:
+            log.close()
         return [found[_key(job)] for job in jobs]
 
     def _tell(self, name: str, done: int, total: int) -> None:
@@ -77,58 +79,31 @@ def _key(job: Job) -> str:
     return json.dumps(job, sort_keys=True, ensure_ascii=False)
 
 
-class _Kept:
-    """A file of records, one a line; those that other code has measured are forgotten."""
-
-    def __init__(self, path: Path) -> None:
-        self._path = path
-        self.records: dict[str, Measured] = {}
-        if path.exists():
-            for line in path.read_bytes().split(b"\n")[:-1]:  # what follows the last line break was torn by a kill
-                self._take(line)
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            # Written anew, so that a torn line and what has become invalid are gone before the next is appended.
-            temporary = path.with_suffix(".part")
-            temporary.write_text("".join(self._line(*item) for item in self.records.items()), encoding="utf-8")
-            os.replace(temporary, path)
-        except OSError as error:
-            raise OutputError(
-                "measurements cannot be kept", place=Place(str(path)), found=error.strerror or str(error)
-            ) from None
-
-    def _take(self, line: bytes) -> None:
-        try:
+def _kept(path: Path) -> dict[str, Measured]:
+    """Return what this code has measured before, by key; what other code has measured counts no more."""
+    records: dict[str, Measured] = {}
+    for line in read_lines(path):
+        with suppress(ValueError, KeyError, TypeError):  # measured again
             entry = json.loads(line)
             if entry["code"] == code_digest():
-                self.records[entry["key"]] = entry["record"]
-        except (ValueError, KeyError, TypeError):
-            return  # measured again
+                records[entry["key"]] = entry["record"]
+    return records
 
-    def append(self, key: str, record: Measured) -> None:
-        """Keep one more record."""
-        self.records[key] = record
-        with self._path.open("a", encoding="utf-8") as file:
-            file.write(self._line(key, record))
 
-    @staticmethod
-    def _line(key: str, record: Measured) -> str:
-        entry = {"code": code_digest(), "key": key, "record": record}
-        return json.dumps(entry, ensure_ascii=False, allow_nan=False) + "\n"
+def _opened(path: Path) -> LineLog:
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        return LineLog(path)
+    except OSError as error:
+        found = error.strerror or str(error)
+        raise OutputError("measurements cannot be kept", place=Place(str(path)), found=found) from None
 
 
 @cache
 def code_digest() -> str:
-    """Return a digest of all code and data of this package that measurements depend on."""
-    digest = hashlib.sha256()
-
-    def add(place: Traversable, name: str) -> None:
-        if place.is_dir():
-            if not place.name.startswith("__"):
-                for each in sorted(place.iterdir(), key=lambda entry: entry.name):
-                    add(each, f"{name}/{each.name}" if name else each.name)
-        elif name in _MEASURING or not name.startswith(_OF_NO_EFFECT):
-            digest.update(name.encode() + b"\0" + place.read_bytes() + b"\0")
-
-    add(files("scenewright"), "")
+    """Return a digest of all code and data of this package."""
+    digest, package = hashlib.sha256(), Path(scenewright.__file__).parent
+    for path in sorted(package.rglob("*")):
+        if path.is_file() and "__pycache__" not in path.parts:
+            digest.update(path.relative_to(package).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()[:16]

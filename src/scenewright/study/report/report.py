@@ -1,27 +1,27 @@
 """Writes the report of an experiment: measurements of its own, tables, figures, and a page that shows them all.
 
-What enters: the folder of an experiment's results. What leaves: a folder with `index.html`, `figures/` and `tables/`.
-What the report measures itself is kept beside the results and not measured twice. Results are not changed.
+What enters: the folder of an experiment's results. What leaves: its folder `report` with `index.html`, `figures/` and
+`tables/`. Results are not changed.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from scenewright.errors import InputError, OutputError, Place
-from scenewright.study.report import loops, precision, times
-from scenewright.study.report.contents import Extras, Material, Section, sections_of
-from scenewright.study.report.measuring import Bench, Progress
-from scenewright.study.report.page import Drawn, render_page
-from scenewright.study.report.provenance import of_experiment, of_report
-from scenewright.study.report.records import methods_of
-from scenewright.study.report.style import DARK, LIGHT, render_png, require_matplotlib
+from scenewright.study.cases import OURS
+from scenewright.study.report import extra_figures, figures, loops, outcomes, precision, times
+from scenewright.study.report.measuring import Bench, Measured, Progress
+from scenewright.study.report.page import Plot, Section, render_page
+from scenewright.study.report.style import render_png, require_matplotlib
 from scenewright.study.report.tables import write_table
-from scenewright.study.store import Results, read_results
+from scenewright.study.rivals import METHODS
+from scenewright.study.store import CaseRecord, Results, read_results
 
-PAGE_FILE = "index.html"
-FIGURES, TABLES = "figures", "tables"
+FOLDER = "report"
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,79 +37,181 @@ QUICK = Sizes(precision.QUICK, loops.QUICK, times.QUICK)
 FULL = Sizes(precision.FULL, loops.FULL, times.FULL)
 
 
-def write(results_dir: Path, out_dir: Path, sizes: Sizes, progress: Progress | None, workers: int) -> Path:
-    """Write the report; see `scenewright.study.report.write_report`."""
+@dataclass(frozen=True, slots=True)
+class Extras:
+    """What the report measured itself: precision grid, open against closed loop, calls of the solver."""
+
+    cells: tuple[precision.Cell, ...] = ()
+    loops: Sequence[Measured] = ()
+    calls: Sequence[Measured] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Material:
+    """All that sections are made from."""
+
+    records: Sequence[CaseRecord]
+    settings: dict[str, Any]
+    folder: Path
+    extras: Extras
+
+    @property
+    def own(self) -> list[CaseRecord]:
+        """The cases of our method."""
+        return [record for record in self.records if record.method == OURS]
+
+
+def write_report(results_dir: Path, *, quick: bool, progress: Progress | None = None, workers: int = 0) -> Path:
+    """Write the report of the results in `results_dir`, and return its page.
+
+    What the report measures itself is kept in the folder `extras` of the results, gone on with after a kill, and done
+    again only when the code has changed.
+
+    Parameters
+    ----------
+    quick
+        Measure little: a grid of 4 by 4 cells, few egos and draws.
+    progress
+        Called with the name of a stage, how much of it is done, and how much there is.
+    workers
+        Processes for what the report runs itself; 0 for this one. Times are always measured in this one.
+
+    Raises
+    ------
+    MissingExtraError
+        Where matplotlib is not installed; nothing is measured then.
+    InputError
+        Where `results_dir` holds no results, or no case yet.
+    OutputError
+        Where something cannot be written.
+    """
     require_matplotlib()
     results = read_results(results_dir)
-    if not results.cases.num_rows:
+    if not results.records:
         raise InputError(
             "there are no cases in these results yet",
             place=Place(str(results_dir)),
             expected="at least one case",
             fix="go on with the experiment: the command is in settings.json",
         )
-    records = sorted(results.records(), key=lambda r: (r.row, r.ego, r.draw, r.method))
-    extras = measure_extras(Bench(results_dir, workers, progress), results, sizes)
-    material = Material(
-        records,
-        results.settings,
-        results_dir,
-        of_experiment(results.settings),
-        of_report(results_dir, results.settings),
-        extras,
-    )
-    return compose(material, out_dir, progress)
+    extras = measure_extras(Bench(results_dir, workers, progress), results, QUICK if quick else FULL)
+    return compose(Material(results.records, results.settings, results_dir, extras), results_dir / FOLDER, progress)
 
 
 def measure_extras(bench: Bench, results: Results, sizes: Sizes) -> Extras:
-    """Measure what the experiment does not: precision grid, open against closed loop, times."""
+    """Measure what the experiment does not."""
     seed = int(results.settings.get("seed", 0))
-    methods = methods_of(results.records())
+    methods = tuple(dict.fromkeys(record.method for record in results.records))
     return Extras(
         precision.measure_grid(bench, methods, sizes.grid, seed),
         loops.measure_loops(bench, sizes.loops, seed),
-        times.measure_translations(bench, sizes.times),
         times.measure_solver(bench, sizes.times, seed),
     )
 
 
 def compose(material: Material, out_dir: Path, progress: Progress | None = None) -> Path:
     """Write tables, figures and the page, and return the page."""
-    sections = sections_of(material)
-    page = out_dir / PAGE_FILE
+    sections, page = sections_of(material), out_dir / "index.html"
+    plots = [plot for section in sections for plot in section.plots]
+    about = {"Comment": str(material.settings.get("command", ""))}
+    pngs = {}
     try:
-        for name in (FIGURES, TABLES):
+        for name in ("figures", "tables"):
             (out_dir / name).mkdir(parents=True, exist_ok=True)
-        for section in sections:
-            for shown in section.tables:
-                write_table(shown.table, out_dir / TABLES, shown.source.as_dict())
-        drawn = _draw(sections, out_dir / FIGURES, progress)
-        page.write_text(render_page(material, sections, drawn), encoding="utf-8", newline="\n")
+        for table in [table for section in sections for table in section.files]:
+            write_table(table, out_dir / "tables")
+        for number, plot in enumerate(plots, start=1):
+            pngs[plot.name] = render_png(plot.draw, {"Title": plot.name, "Description": plot.caption, **about})
+            (out_dir / "figures" / f"{plot.name}.png").write_bytes(pngs[plot.name])
+            if progress is not None:
+                progress("figures", number, len(plots))
+        text = render_page(material.settings, len(material.records), sections, pngs)
+        page.write_text(text, encoding="utf-8", newline="\n")
     except OSError as error:
         raise OutputError(
             "the report cannot be written",
             place=Place(str(error.filename or out_dir)),
             found=error.strerror or str(error),
-            fix="make room, or choose another folder with --out DIR",
+            fix="make room, or remove what is in the way",
         ) from None
     return page
 
 
-def _draw(sections: tuple[Section, ...], folder: Path, progress: Progress | None) -> dict[str, Drawn]:
-    """Draw every figure in both themes; files hold the light one, the page shows the one that suits the reader."""
-    plots = [plot for section in sections for plot in section.plots]
-    drawn = {}
-    for number, plot in enumerate(plots, start=1):
-        source = plot.source
-        about = {
-            "Title": plot.name,
-            "Description": f"{plot.caption} {plot.cases}, seed {source.seed}; {source.versions}; {source.machine}",
-            "Comment": source.command,
-        }
-        light, dark = (render_png(plot.draw, theme, about) for theme in (LIGHT, DARK))
-        (folder / f"{plot.name}.png").write_bytes(light)
-        (folder / f"{plot.name}_dark.png").write_bytes(dark)
-        drawn[plot.name] = Drawn(light, dark)
-        if progress is not None:
-            progress("figures", number, len(plots))
-    return drawn
+# -- sections -------------------------------------------------------------------------------------------------------
+def sections_of(material: Material) -> tuple[Section, ...]:
+    """Return the sections in the order in which the page shows them."""
+    records, own, folder = material.records, material.own, material.folder
+    aims = outcomes.aims_table(own, loops.loops_table(material.extras.loops))
+    names = [name for name in METHODS if any(record.method.partition(":")[0] == name for record in records)]
+    methods = "; ".join(f"{name}: {METHODS[name]}" for name in names)
+    return (
+        Section("aims", "Aims and what was measured", (aims,)),
+        Section("methods", "By method, over the same cases", (outcomes.methods_table(records),), text=f"{methods}."),
+        *_rates(records, own),
+        Section("takes", "By take", (outcomes.takes_table(own),)),
+        Section("failures", "Every remaining failure of ours", (outcomes.failures_table(own, folder),)),
+        *_measured(material.extras, own),
+        Section("infeasible", "Proven infeasible", (outcomes.proofs_table(records),)),
+    )
+
+
+def _rates(records: Sequence[CaseRecord], own: Sequence[CaseRecord]) -> tuple[Section, ...]:
+    family = {"interaction": "interaction", "trigger": "trigger"}
+    families = outcomes.rates_table("families", records, (*family, "method"))
+    egos = outcomes.rates_table("egos", records, ("ego", "method"))
+    rows = outcomes.rates_table("rows", own, ("row", *family))
+    told = {
+        "families": "Success at tight tolerance. Solid: first take; pale: best of N; line: first take, loose.",
+        "egos": "Success at tight tolerance, over the cases counted; a dash where none is.",
+        "rows": "Every case of our method: rows of the benchmark across, egos down, one stripe a draw.",
+        "tolerance": "At each level the judge's conditions and the row's criteria must all hold.",
+    }
+    plots = (
+        Plot("families", told["families"], lambda: figures.draw_families(records), families),
+        Plot("egos", told["egos"], lambda: figures.draw_egos(records), egos),
+        Plot("rows", told["rows"], lambda: figures.draw_rows(own), rows),
+        Plot(
+            "tolerance", told["tolerance"], lambda: figures.draw_tolerance(records), outcomes.tolerance_table(records)
+        ),
+    )
+    titles = ("By family and kind of trigger", "By ego", "By row of the benchmark", "Over tolerance")
+    return tuple(Section(plot.name, title, (), (plot,)) for title, plot in zip(titles, plots, strict=True))
+
+
+def _measured(extras: Extras, own: Sequence[CaseRecord]) -> tuple[Section, ...]:
+    both, cells, calls = loops.loops_table(extras.loops), extras.cells, extras.calls
+    grid = Plot(
+        "precision",
+        f"Error of the worse side at the trigger (m). Cross: not met within {precision.MET_M:g} m. Ring: the ego never "
+        "came there. Hatched: proven infeasible.",
+        lambda: extra_figures.draw_grid(cells),
+        precision.grid_table(cells),
+    )
+    pairs = Plot(
+        "loops",
+        "Success at tight tolerance, first take; thin lines are 95 % intervals. A case is left out where it is "
+        "infeasible or the ego never met its side in both loops.",
+        lambda: extra_figures.draw_loops(both),
+        both,
+    )
+    over = Plot(
+        "solver_times",
+        "Time of one solver call over the number of constraints.",
+        lambda: extra_figures.draw_solver(calls),
+    )
+    ticks = times.ticks_table([ms for record in own for ms in record.solve_ms])
+    grid_text = (
+        f"An oncoming hero that wants to turn into the driveway brakes to a stop {precision.STOP_M:g} m before the "
+        f"conflict point while the ego ({precision.EGO}), {precision.INITIAL_EGO_M:g} m before it at first, goes "
+        "straight on. Both distances at the trigger are varied; one take each."
+    )
+    loops_text = (
+        "Four scenarios between an ego on the road and a hero that turns, with drawn parameters, once in each loop. "
+        "Over the benchmark, open-loop above is the same."
+    )
+    times_text = "Times compare within one machine. A call builds the text, solves and reads back."
+    return (
+        Section("precision", "Precision grid", (precision.precision_table(cells),), (grid,), grid_text),
+        Section("loops", "Open against closed loop", (), (pairs,), loops_text),
+        Section("times", "Times", (times.solver_table(calls), ticks), (over,), times_text),
+    )

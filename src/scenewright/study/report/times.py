@@ -1,6 +1,6 @@
-"""Times: of translating the benchmark's descriptions, and of the solver by number of constraints and answer.
+"""Times: of the solver by number of constraints and answer, and of whole re-plans.
 
-What enters: how many rows and egos to take. What leaves: one record a translation and a solver call, and tables of
+What enters: how many rows and egos to take. What leaves: one record a solver call, and tables of
 percentiles. Everything runs in this process, one thing at a time; times compare within one machine only.
 """
 
@@ -15,86 +15,28 @@ import numpy as np
 
 from scenewright.solve.problem import Backend, Problem, Result, Satisfiable, Unsatisfiable
 from scenewright.study.report.measuring import Bench, Job, Measured
-from scenewright.study.report.tables import Column, Table, Value
+from scenewright.study.report.tables import Table
 
 PERCENTILES = (50, 90, 99)
 # What the orchestrator calls the stages in which it asks the solver; what is asked while it simulates are re-solves.
 STAGES = {"check": "feasibility", "plan": "first plan", "simulate": "re-solve", "hindsight": "hindsight"}
-_BIN = 10
+TICK_MS = 100.0  # between two re-plans
+_COLUMNS = {**{f"p{percent}_ms": f"p{percent} (ms)" for percent in PERCENTILES}, "max_ms": "max (ms)"}
 
 
 @dataclass(frozen=True, slots=True)
 class TimesSize:
-    """Every `row_step`-th row of the benchmark, these egos, so many readings of each description."""
+    """Every `row_step`-th row of the benchmark, these egos."""
 
     row_step: int
     egos: tuple[str, ...]
-    repeats: int
 
 
 # Interactions alternate with period 4 over the rows: an odd step meets all of them.
-QUICK = TimesSize(9, ("noisy",), 1)
-FULL = TimesSize(3, ("idm", "noisy"), 3)
+QUICK = TimesSize(9, ("noisy",))
+FULL = TimesSize(3, ("idm", "noisy"))
 
 
-# -- translation ----------------------------------------------------------------------------------------------------
-def measure_translations(bench: Bench, size: TimesSize) -> list[Measured]:
-    """Translate every description of every `row_step`-th row."""
-    from scenewright.study.benchmark import benchmark_rows
-
-    jobs = [
-        {"row": row.id, "description": text, "repeats": size.repeats}
-        for row in benchmark_rows()[:: size.row_step]
-        for text in row.descriptions
-    ]
-    return bench.measure("translations", time_translation, jobs, timed=True)
-
-
-def time_translation(job: Job) -> Measured:
-    """Translate one description and return the times; one warm-up before, so that imports are not counted.
-
-    A description that the translator refuses has its reason in place of times.
-    """
-    from scenewright.errors import ScenewrightError
-    from scenewright.translate.sources import read_scenario
-
-    text = job["description"]
-    try:
-        read_scenario(text)
-    except ScenewrightError as error:
-        return {"words": len(text.split()), "refused": error.message}
-    times = []
-    for _ in range(job["repeats"]):
-        started = time.perf_counter()
-        read_scenario(text)
-        times.append(1000.0 * (time.perf_counter() - started))
-    return {"words": len(text.split()), "ms": times}
-
-
-def translations_table(records: Sequence[Measured]) -> Table:
-    """Return percentiles over all readings, by length of the description and for all."""
-    done = [record for record in records if "ms" in record]
-    groups = {
-        "up to 50 words": [r for r in done if r["words"] <= 50],
-        "51 to 80 words": [r for r in done if 50 < r["words"] <= 80],
-        "more than 80 words": [r for r in done if r["words"] > 80],
-        "all": done,
-    }
-    rows = []
-    for name, own in groups.items():
-        if own or name == "all":
-            readings = [ms for record in own for ms in record["ms"]]
-            rows.append((name, len(own), len(records) - len(done) if name == "all" else None, *_percentiles(readings)))
-    columns = (
-        Column("length", "descriptions of"),
-        Column("descriptions", "descriptions", "count"),
-        Column("refused", "refused", "count"),
-        *_columns(),
-    )
-    return Table("translation_times", "Time to translate one description, offline translator", columns, tuple(rows))
-
-
-# -- solver ---------------------------------------------------------------------------------------------------------
 @dataclass(slots=True)
 class RecordingBackend:
     """A solver that asks another, and notes how large each problem was, how long it took and what the answer was."""
@@ -159,41 +101,23 @@ def time_solver(job: Job) -> Measured:
 
 
 def solver_table(calls: Sequence[Measured]) -> Table:
-    """Return percentiles of solver time by stage, answer and number of constraints."""
-    rows: list[tuple[Value, ...]] = []
-    for stage in STAGES.values():
-        for answer in sorted({call["answer"] for call in calls if call["stage"] == stage}):
-            own = [call for call in calls if (call["stage"], call["answer"]) == (stage, answer)]
-            for low in sorted({bin_of(call["constraints"]) for call in own}):
-                times = [call["ms"] for call in own if bin_of(call["constraints"]) == low]
-                rows.append((stage, answer, f"{low} to {low + _BIN - 1}", len(times), *_percentiles(times)))
-            rows.append((stage, answer, "all", len(own), *_percentiles([call["ms"] for call in own])))
-    columns = (
-        Column("stage", "asked for"),
-        Column("answer", "answer"),
-        Column("constraints", "constraints"),
-        Column("calls", "calls", "count"),
-        *_columns(),
-    )
-    return Table("solver_times", "Time of one solver call by number of constraints", columns, tuple(rows))
+    """Return percentiles of solver time by what was asked for and the answer."""
+    rank = {stage: place for place, stage in enumerate(STAGES.values())}
+    kinds = sorted({(call["stage"], call["answer"]) for call in calls}, key=lambda kind: (rank.get(kind[0], 9), kind))
+    rows = []
+    for kind in kinds:
+        times = [call["ms"] for call in calls if (call["stage"], call["answer"]) == kind]
+        rows.append((*kind, len(times), *_percentiles(times)))
+    columns = {"stage": "asked for", "answer": "answer", "calls": "calls", **_COLUMNS}
+    return Table("solver_times", "Time of one solver call by answer", columns, tuple(rows))
 
 
-def bin_of(constraints: int) -> int:
-    """Return the lower edge of the bin that a number of constraints falls into."""
-    return constraints // _BIN * _BIN
-
-
-def ticks_table(times_ms: Sequence[float], ticks_over_100_ms: int) -> Table:
+def ticks_table(times_ms: Sequence[float]) -> Table:
     """Return percentiles of whole re-plans as they occurred in the experiment."""
-    row = (len(times_ms), *_percentiles(times_ms), ticks_over_100_ms)
-    columns = (Column("ticks", "ticks", "count"), *_columns(), Column("late", "over 100 ms", "count"))
+    late = sum(ms > TICK_MS for ms in times_ms)
+    columns = {"ticks": "ticks", **_COLUMNS, "late": f"over {TICK_MS:g} ms"}
     title = "Time of one re-plan in the experiment, everything counted, ours"
-    return Table("tick_times", title, columns, (row,))
-
-
-def _columns() -> tuple[Column, ...]:
-    names = [(f"p{percent}_ms", f"p{percent} (ms)") for percent in PERCENTILES]
-    return tuple(Column(name, heading, "number") for name, heading in (*names, ("max_ms", "max (ms)")))
+    return Table("tick_times", title, columns, ((len(times_ms), *_percentiles(times_ms), late),))
 
 
 def _percentiles(times: Sequence[float]) -> tuple[Any, ...]:
