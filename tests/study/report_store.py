@@ -64,7 +64,6 @@ def record(row: int, ego: str, draw: int, method: str, cause: str, random: np.ra
     held = {level: rank >= 4 - best for rank, level in enumerate(LEVELS)}
     held["fine"] = finest
     began = {level: held[level] and first == best for level in LEVELS} | ({"coarse": True} if first else {})
-    off = float(random.exponential(0.05 if cause == "success" else 1.5)) if driven else None
     return CaseRecord(
         case=key,
         row=row,
@@ -93,9 +92,6 @@ def record(row: int, ego: str, draw: int, method: str, cause: str, random: np.ra
         proof="c3: A1x(t1) == conflict_point - p\nhero: accelerates and brakes within its limits"
         if cause == "proven infeasible"
         else None,
-        trigger_met=best > 0,
-        ego_trigger_error=off,
-        hero_trigger_error=None if off is None else -0.5 * off,
         simulated_s=12.0 if driven else 0.0,
         wall_s=float(random.uniform(0.05, 0.6)),
         solve_ms=[float(value) for value in random.lognormal(1.8, 0.5, 20)] if method == "scenewright" else [],

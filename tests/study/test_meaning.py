@@ -7,7 +7,7 @@ import pytest
 from scenarios import EXAMPLE_TABLE, Example
 from scenewright.program.text import parse_program
 from scenewright.solve.backends.z3_backend import Z3Backend
-from scenewright.study.meaning import consistent, differences
+from scenewright.study.meaning import differences
 
 TEXT = """
 parameters:
@@ -97,8 +97,3 @@ def test_a_change_of_meaning_is_told(old: str, new: str, word: str) -> None:
 def test_a_number_and_a_parameter_of_that_value_are_the_same() -> None:
     given = TEXT.replace("- hero_tta_s", "- hero_tta_s = 3")
     assert differences(parse_program(given), parse_program(TEXT.replace("== hero_tta_s", "== 3")), BACKEND) == []
-
-
-def test_what_contradicts_itself_is_told_apart() -> None:
-    assert consistent(parse_program(TEXT), BACKEND)
-    assert not consistent(parse_program(TEXT + "A1v(t2) == 3\n"), BACKEND)

@@ -8,6 +8,7 @@ import sys
 from dataclasses import asdict
 from pathlib import Path
 
+import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from records import record
@@ -33,7 +34,6 @@ FULL = record(
     kept=["coarse"],
     failed_conditions=["c3", "criterion order"],
     proof="c3: ü",
-    ego_trigger_error=-0.25,
     solve_ms=[1.5, 2.0],
     directory="runs/x",
 )
@@ -104,6 +104,17 @@ def test_columns_have_their_types_even_where_all_is_empty(folder: Path) -> None:
     append(folder, FULL)
     assert read_results(folder).table.schema == empty
     assert "double" in str(empty.field("solve_ms").type)
+
+
+def test_what_earlier_versions_kept_besides_is_no_hindrance(folder: Path) -> None:
+    log = LineLog(folder / LINES_FILE)
+    log.append({**asdict(record(1)), "trigger_met": True, "ego_trigger_error": 0.1})
+    log.close()
+    assert read_results(folder).records == (record(1),)
+    rows = [{**asdict(record(1)), "first_collision": False}]
+    pq.write_table(pa.Table.from_pylist(rows), folder / PARQUET_FILE)
+    (folder / LINES_FILE).unlink()
+    assert read_results(folder).records == (record(1),)
 
 
 def test_what_is_no_result_folder_is_told(tmp_path: Path) -> None:

@@ -8,11 +8,9 @@ from __future__ import annotations
 from itertools import combinations
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from scenewright.cli.console import print_json, stdout
 from scenewright.cli.faults import told
-from scenewright.cli.options import AsJson, complete_map
+from scenewright.cli.options import AsJson, argument, complete_map
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -24,11 +22,8 @@ _PLACES = {"stop_line": "stop line", "junction_start": "begins", "junction_end":
 
 MapArgument = Annotated[
     str | None,
-    typer.Argument(
-        metavar="[NAME|FILE]",
-        help="A shipped map or an OpenDRIVE file; all shipped maps where nothing is named.",
-        autocompletion=complete_map,
-        show_default=False,
+    argument(
+        "[NAME|FILE]", "A shipped map or an OpenDRIVE file; all shipped maps where nothing is named.", complete_map
     ),
 ]
 

@@ -6,9 +6,9 @@ names that completion offers.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 
@@ -91,23 +91,19 @@ def _paths(incomplete: str, suffixes: tuple[str, ...]) -> list[str]:
 
 
 # -- arguments and options ------------------------------------------------------------------------------------------
-Source = Annotated[
-    str,
-    typer.Argument(
-        metavar='"TEXT"|FILE',
-        help="A description in quotes, or a file: a description (.txt) or a program (.scene).",
-        autocompletion=complete_source,
-        show_default=False,
-    ),
-]
+def argument(metavar: str, help: str, complete: Callable[[str], Sequence[Any]]) -> Any:
+    """Return an argument that the shell completes."""
+    return typer.Argument(metavar=metavar, help=help, autocompletion=complete, show_default=False)
+
+
+SOURCE = argument(
+    '"TEXT"|FILE',
+    "A description in quotes, or a file: a description (.txt) or a program (.scene).",
+    complete_source,
+)
+Source = Annotated[str, SOURCE]
 RunDirectory = Annotated[
-    Path,
-    typer.Argument(
-        metavar="DIR",
-        help="A run directory, as `scenewright run` leaves it.",
-        autocompletion=complete_run_directory,
-        show_default=False,
-    ),
+    Path, argument("DIR", "A run directory, as `scenewright run` leaves it.", complete_run_directory)
 ]
 Parameters = Annotated[
     list[str] | None,
@@ -119,34 +115,19 @@ Parameters = Annotated[
         show_default=False,
     ),
 ]
+_MAP_HELP = "A shipped map or an OpenDRIVE file. Default: the program's own; t_intersection for a description."
 MapName = Annotated[
     str | None,
-    typer.Option(
-        "--map",
-        metavar="NAME|FILE",
-        help="A shipped map or an OpenDRIVE file. Default: the program's own; t_intersection for a description.",
-        autocompletion=complete_map,
-        show_default=False,
-    ),
+    typer.Option("--map", metavar="NAME|FILE", help=_MAP_HELP, autocompletion=complete_map, show_default=False),
 ]
-Ego = Annotated[
-    str,
-    typer.Option(
-        "--ego",
-        metavar="NAME[:k=v,...]",
-        help="The driving policy under test: a built-in one, or module:Class for your own.",
-        autocompletion=complete_ego,
-    ),
-]
+_EGO_HELP = "The driving policy under test: a built-in one, or module:Class for your own."
+Ego = Annotated[str, typer.Option("--ego", metavar="NAME[:k=v,...]", help=_EGO_HELP, autocompletion=complete_ego)]
+_TRANSLATOR_HELP = (
+    "What turns a description into a program: offline, openai:NAME, anthropic:NAME, google:NAME, "
+    "openai-compatible:NAME (with --base-url), or files:DIR."
+)
 Translator = Annotated[
-    str,
-    typer.Option(
-        "--translator",
-        metavar="NAME",
-        help="What turns a description into a program: offline, openai:NAME, anthropic:NAME, google:NAME, "
-        "openai-compatible:NAME (with --base-url), or files:DIR.",
-        autocompletion=complete_translator,
-    ),
+    str, typer.Option("--translator", metavar="NAME", help=_TRANSLATOR_HELP, autocompletion=complete_translator)
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout and nothing else there.")]
 ModeOption = Annotated[

@@ -17,18 +17,9 @@ import typer
 
 from scenewright.cli.console import print_json, stderr, stdout
 from scenewright.cli.faults import told
-from scenewright.cli.options import (
-    AsJson,
-    Ego,
-    MapName,
-    Parameters,
-    Source,
-    Translator,
-    complete_source,
-    parameters_of,
-)
+from scenewright.cli.options import SOURCE, AsJson, MapName, Translator
 from scenewright.cli.running import carry_out, result_data, tell_no_plan
-from scenewright.cli.translators import impossibility, with_translator
+from scenewright.cli.translators import Asked, impossibility, with_asked, with_translator
 from scenewright.errors import InputError, OutputError, Place, ScenewrightError
 from scenewright.translate.model.settings import TranslatorSettings
 
@@ -51,15 +42,7 @@ PlanFile = Annotated[
 
 @with_translator
 def translate(
-    source: Annotated[
-        str | None,
-        typer.Argument(
-            metavar='"TEXT"|FILE',
-            help="A description in quotes, or a file: a description (.txt) or a program (.scene).",
-            autocompletion=complete_source,
-            show_default=False,
-        ),
-    ] = None,
+    source: Annotated[str | None, SOURCE] = None,
     map_name: MapName = None,
     translator: Translator = "offline",
     out: ProgramFile = None,
@@ -177,23 +160,14 @@ def _tell_translation(console: Console, sentences: tuple[str, ...], translation:
         console.print(f"\n{who}: {translation.tokens()}", soft_wrap=True)
 
 
-@with_translator
-def check(
-    source: Source,
-    parameter: Parameters = None,
-    map_name: MapName = None,
-    ego: Ego = "idm",
-    translator: Translator = "offline",
-    as_json: AsJson = False,
-    *,
-    settings: TranslatorSettings,
-) -> None:
+@with_asked
+def check(asked: Asked, as_json: AsJson = False) -> None:
     """Say whether a scenario can happen at all, and if not, what clashes and what would help."""
     with told(as_json):
         from scenewright.cli import tables
-        from scenewright.orchestrate import EXIT_STATUS, Request
+        from scenewright.orchestrate import EXIT_STATUS
 
-        request = Request(source, parameters_of(parameter), map_name, ego, translator=translator, translation=settings)
+        request = asked.request()
         result = carry_out(request, until="check", quiet=as_json)
         status = EXIT_STATUS[result.status]
         if as_json:
@@ -209,25 +183,14 @@ def check(
         raise typer.Exit(status)
 
 
-@with_translator
-def solve(
-    source: Source,
-    parameter: Parameters = None,
-    map_name: MapName = None,
-    ego: Ego = "idm",
-    translator: Translator = "offline",
-    out: PlanFile = None,
-    as_json: AsJson = False,
-    *,
-    settings: TranslatorSettings,
-) -> None:
+@with_asked
+def solve(asked: Asked, out: PlanFile = None, as_json: AsJson = False) -> None:
     """Plan the scenario for an ego that keeps its speed, and print the plan; nothing is driven."""
     with told(as_json):
         from scenewright.cli import tables
-        from scenewright.orchestrate import EXIT_STATUS, Request
+        from scenewright.orchestrate import EXIT_STATUS
 
-        values = parameters_of(parameter)
-        request = Request(source, values, map_name, ego, mode="open", translator=translator, translation=settings)
+        request = asked.request(mode="open")
         result = carry_out(request, until="plan", quiet=as_json)
         status = EXIT_STATUS[result.status]
         plan = result.attempt.plan if result.attempt is not None else None

@@ -9,6 +9,7 @@ import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout, suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -17,20 +18,9 @@ import typer
 from scenewright.cli.console import print_json, stderr, stdout
 from scenewright.cli.directories import claim
 from scenewright.cli.faults import error_data, tell, told
-from scenewright.cli.options import (
-    AsJson,
-    Ego,
-    MapName,
-    ModeOption,
-    Parameters,
-    Source,
-    ToleranceOption,
-    Translator,
-    parameters_of,
-)
-from scenewright.cli.translators import with_translator
+from scenewright.cli.options import AsJson, ModeOption, ToleranceOption
+from scenewright.cli.translators import Asked, with_asked
 from scenewright.errors import PolicyError
-from scenewright.translate.model.settings import TranslatorSettings
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -51,16 +41,12 @@ _SAYS = {
 _UNBROKEN = ("judge", "write")
 
 
-@with_translator
+@with_asked
 def run(
-    source: Source,
-    parameter: Parameters = None,
-    map_name: MapName = None,
-    ego: Ego = "idm",
+    asked: Asked,
     mode: ModeOption = "closed",
     tolerance: ToleranceOption = "tight",
     seed: Annotated[int, typer.Option("--seed", min=0, help="Makes random choices of the ego repeatable.")] = 0,
-    translator: Translator = "offline",
     out: Annotated[
         Path | None,
         typer.Option(
@@ -83,31 +69,20 @@ def run(
     as_json: AsJson = False,
     quiet: Annotated[bool, typer.Option("--quiet", help="Print nothing but where the run is.")] = False,
     open_page: Annotated[bool, typer.Option("--open", help="Open the run's page in the browser afterwards.")] = False,
-    *,
-    settings: TranslatorSettings,
 ) -> None:
     """Make what a description says happen around a driving policy, and judge whether it did."""
     with told(as_json):
-        from scenewright.orchestrate import Request
-
-        values = parameters_of(parameter)
-        folder = claim(out, source)
-        request = Request(
-            source,
-            values,
-            map_name,
-            ego,
-            mode,
-            tolerance,
-            seed,
-            translator,
-            folder.path,
-            replan_hz,
-            budget_ms / 1000,
-            predictor,
-            takes,
-            settings,
+        request = asked.request(
+            mode=mode,
+            tolerance=tolerance,
+            seed=seed,
+            replan_hz=replan_hz,
+            budget_s=budget_ms / 1000,
+            predictor=predictor,
+            takes=takes,
         )
+        folder = claim(out, asked.source)
+        request = replace(request, out=folder.path)
         try:
             result = carry_out(request, quiet=quiet or as_json)
         finally:

@@ -1,7 +1,7 @@
 """The options of every command that may translate a description, and what a model translator gets from above.
 
-What enters: words from a command line. What leaves: `TranslatorSettings` with the means to ask the user, to ask the
-solver and to compare meanings, none of which the translator imports itself.
+What enters: words from a command line. What leaves: what is `Asked`, and `TranslatorSettings` with the means to ask the
+user, to ask the solver and to compare meanings, none of which the translator imports itself.
 """
 
 from __future__ import annotations
@@ -10,11 +10,13 @@ import functools
 import inspect
 import sys
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
+from scenewright.cli.options import Ego, MapName, Parameters, Source, Translator, parameters_of
 from scenewright.translate.model.settings import (
     DEFAULT_MAX_TOKENS,
     DEFAULT_REPAIRS,
@@ -24,103 +26,72 @@ from scenewright.translate.model.settings import (
 )
 
 if TYPE_CHECKING:
+    from scenewright.orchestrate import Request
     from scenewright.program.types import Program
 
 _PANEL = "Translation"
+T = TypeVar("T")
 
 
-def with_translator(command: Callable[..., None]) -> Callable[..., None]:
-    """Give `command` the options below; it gets what they say as `settings`."""
-    own = inspect.signature(command, eval_str=True).parameters
-    options = inspect.signature(_settings, eval_str=True).parameters
+def _given(name: str, made: Callable[..., Any]) -> Callable[[Callable[..., T]], Callable[..., T]]:
+    """Return what gives a command the options of `made`: the command gets what these say as `name`."""
+    options = inspect.signature(made, eval_str=True).parameters
 
-    @functools.wraps(command)
-    def wrapped(**values: Any) -> None:
-        chosen = {name: values.pop(name) for name in options}
-        command(**values, settings=_settings(**chosen))
+    def give(command: Callable[..., T]) -> Callable[..., T]:
+        own = inspect.signature(command, eval_str=True).parameters
 
-    parameters = [each for each in (*own.values(), *options.values()) if each.name != "settings"]
-    keyword = [each.replace(kind=inspect.Parameter.KEYWORD_ONLY) for each in parameters]
-    wrapped.__signature__ = inspect.Signature(keyword)  # type: ignore[attr-defined]
-    wrapped.__annotations__ = {each.name: each.annotation for each in parameters}
-    return wrapped
+        @functools.wraps(command)
+        def wrapped(**values: Any) -> T:
+            chosen = {each: values.pop(each) for each in options}
+            return command(**values, **{name: made(**chosen)})
+
+        parameters = [each for each in (*options.values(), *own.values()) if each.name != name]
+        keyword = [each.replace(kind=inspect.Parameter.KEYWORD_ONLY) for each in parameters]
+        wrapped.__signature__ = inspect.Signature(keyword)  # type: ignore[attr-defined]
+        wrapped.__annotations__ = {each.name: each.annotation for each in parameters}
+        return wrapped
+
+    return give
+
+
+_option = functools.partial(typer.Option, rich_help_panel=_PANEL)
 
 
 def _settings(
-    strict: Annotated[
-        bool,
-        typer.Option("--strict", help="Refuse a description that leaves something open.", rich_help_panel=_PANEL),
-    ] = False,
-    ask: Annotated[
-        bool, typer.Option("--ask", help="Ask on the terminal about what is left open.", rich_help_panel=_PANEL)
-    ] = False,
+    strict: Annotated[bool, _option("--strict", help="Refuse a description that leaves something open.")] = False,
+    ask: Annotated[bool, _option("--ask", help="Ask on the terminal about what is left open.")] = False,
     base_url: Annotated[
         str | None,
-        typer.Option(
+        _option(
             "--base-url",
             metavar="URL",
             help="Address of an OpenAI-compatible server. Default: SCENEWRIGHT_BASE_URL.",
             show_default=False,
-            rich_help_panel=_PANEL,
         ),
     ] = None,
     repairs: Annotated[
-        int,
-        typer.Option(
-            min=0, max=20, help="How often a reply that does not hold goes back to the model.", rich_help_panel=_PANEL
-        ),
+        int, _option(min=0, max=20, help="How often a reply that does not hold goes back to the model.")
     ] = DEFAULT_REPAIRS,
     timeout_s: Annotated[
         float,
-        typer.Option(
-            "--timeout",
-            metavar="SECONDS",
-            min=0.1,
-            max=3600.0,
-            help="How long one reply of a model may take.",
-            rich_help_panel=_PANEL,
-        ),
+        _option("--timeout", metavar="SECONDS", min=0.1, max=3600.0, help="How long one reply of a model may take."),
     ] = DEFAULT_TIMEOUT_S,
     max_tokens: Annotated[
-        int,
-        typer.Option(
-            "--max-tokens",
-            min=100,
-            max=1_000_000,
-            help="What one reply of a model may hold, its thinking included.",
-            rich_help_panel=_PANEL,
-        ),
+        int, _option(min=100, max=1_000_000, help="What one reply of a model may hold, its thinking included.")
     ] = DEFAULT_MAX_TOKENS,
     reply_wait_s: Annotated[
         float,
-        typer.Option(
-            "--reply-wait",
-            metavar="SECONDS",
-            min=0.0,
-            max=1e6,
-            help="How long to wait for a reply file of files:DIR.",
-            rich_help_panel=_PANEL,
+        _option(
+            "--reply-wait", metavar="SECONDS", min=0.0, max=1e6, help="How long to wait for a reply file of files:DIR."
         ),
     ] = 0.0,
     record: Annotated[
         Path | None,
-        typer.Option(
-            "--record",
-            metavar="DIR",
-            help="Keep every exchange with the model.",
-            show_default=False,
-            rich_help_panel=_PANEL,
-        ),
+        _option("--record", metavar="DIR", help="Keep every exchange with the model.", show_default=False),
     ] = None,
     replay: Annotated[
         Path | None,
-        typer.Option(
-            "--replay",
-            metavar="DIR",
-            help="Take replies from kept exchanges; ask nobody.",
-            show_default=False,
-            rich_help_panel=_PANEL,
-        ),
+        _option("--replay", metavar="DIR", help="Take replies from kept exchanges; ask nobody.", show_default=False),
     ] = None,
 ) -> TranslatorSettings:
     """Return the settings that these options say."""
@@ -140,6 +111,46 @@ def _settings(
         compare=differences_in_meaning,
         say=_say if sys.stderr.isatty() else None,
     )
+
+
+with_translator = _given("settings", _settings)
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What a command is to carry out, as it was typed."""
+
+    source: str
+    parameter: list[str] | None
+    map_name: str | None
+    ego: str
+    translator: str
+    settings: TranslatorSettings
+
+    def request(self, **more: Any) -> Request:
+        """Return the request, with what a command adds to it; raises `ParameterError` where a value is none."""
+        from scenewright.orchestrate import Request
+
+        values = parameters_of(self.parameter)
+        return Request(
+            self.source, values, self.map_name, self.ego, translator=self.translator, translation=self.settings, **more
+        )
+
+
+@with_translator
+def _asked(
+    source: Source,
+    parameter: Parameters = None,
+    map_name: MapName = None,
+    ego: Ego = "idm",
+    translator: Translator = "offline",
+    *,
+    settings: TranslatorSettings,
+) -> Asked:
+    return Asked(source, parameter, map_name, ego, translator, settings)
+
+
+with_asked = _given("asked", _asked)
 
 
 def impossibility(program: Program, map_name: str | None, ego: str = "idm") -> str | None:

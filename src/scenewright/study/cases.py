@@ -7,7 +7,6 @@ judge's word and that of the row's own criteria. Nothing is scheduled here, and 
 from __future__ import annotations
 
 import json
-import math
 import re
 import shlex
 import shutil
@@ -26,7 +25,6 @@ from scenewright.study.store import PROGRAMS, RUNS, CaseRecord
 
 if TYPE_CHECKING:
     from scenewright.judge.verdict import Condition, Verdict
-    from scenewright.program.types import Program
     from scenewright.solve.problem import Backend
     from scenewright.study.benchmark import BenchmarkRow, Criterion
 
@@ -201,7 +199,6 @@ def _with_takes(record: CaseRecord, row: BenchmarkRow, result: Result) -> CaseRe
     number = min(result.take, len(takes)) - 1
     kept, held = takes[number], [take.levels for take in takes]
     conditions, criteria = kept.failed
-    ego_error, hero_error = _trigger_errors(result.scene.program, kept.verdict)
     cause = cause_across([take.cause for take in takes])
     hindsight = result.takes[number].hindsight if cause == NO_ROOM else None
     levels: dict[str, Any] = {f"first_{level}": level in held[0] for level in LEVELS}
@@ -215,10 +212,6 @@ def _with_takes(record: CaseRecord, row: BenchmarkRow, result: Result) -> CaseRe
         criteria_disagree=any(take.disagrees for take in takes),
         failed_conditions=[each.id for each in conditions] + [f"criterion {each.id}" for each in criteria],
         proof=_clashes(hindsight),
-        trigger_met=_trigger_met(kept.verdict),
-        ego_trigger_error=ego_error,
-        hero_trigger_error=hero_error,
-        first_collision=_collided(takes[0].verdict),
     )
 
 
@@ -296,38 +289,6 @@ def judge_kept(row: int, directory: Path) -> Judged:
     case, asked = read_case(directory), benchmark_row(row)
     road_map = load_map(asked.program.map_name)
     return Judged(judge(case), criteria_of(asked, case.parameters, case.trace, road_map))
-
-
-def _trigger_met(verdict: Verdict) -> bool:
-    from scenewright.judge.tolerance import LEVELS
-
-    return all(c.holds_at(LEVELS["coarse"]) for c in verdict.conditions if c.kind == "trigger")
-
-
-def _trigger_errors(program: Program, verdict: Verdict) -> tuple[float | None, float | None]:
-    """Return the errors of the ego's and the hero's side of the trigger; of a joint condition for both."""
-    found: dict[bool, float] = {}
-    for condition in verdict.conditions:
-        if condition.kind == "trigger" and condition.error is not None and math.isfinite(condition.error):
-            for actor in _actors_of(program, condition):
-                found.setdefault(actor == program.ego.id, condition.error)
-    return found.get(True), found.get(False)
-
-
-def _actors_of(program: Program, condition: Condition) -> set[int]:
-    from scenewright.program.expressions import Derived, State, walk
-
-    try:
-        formula = program.constraint(condition.id).formula
-    except KeyError:
-        return set()
-    nodes = [node for node in walk(formula) if isinstance(node, State | Derived)]
-    targets = {node.target for node in nodes if isinstance(node, Derived) and isinstance(node.target, int)}
-    return {node.actor for node in nodes} | targets
-
-
-def _collided(verdict: Verdict) -> bool:
-    return any(pair["collision_time_s"] is not None for pair in verdict.facts["pairs"].values())
 
 
 # -- keeping --------------------------------------------------------------------------------------------------------

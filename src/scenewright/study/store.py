@@ -56,8 +56,6 @@ class CaseRecord:
         Of the kept take at the tight tolerance: ids of the judge's conditions, and of criteria as ``criterion ID``.
     proof
         The clashing constraints, where it is proven infeasible or the ego left no room.
-    ego_trigger_error, hero_trigger_error
-        Signed, in m or s as the trigger is stated; for a joint condition both are the same.
     solve_ms
         Ticks at which the solver was asked, everything counted.
     directory
@@ -95,10 +93,6 @@ class CaseRecord:
     criteria_disagree: bool = False
     failed_conditions: list[str] = field(default_factory=list)
     proof: str | None = None
-    trigger_met: bool = False
-    ego_trigger_error: float | None = None
-    hero_trigger_error: float | None = None
-    first_collision: bool = False
     simulated_s: float = 0.0
     wall_s: float = 0.0
     solve_ms: list[float] = field(default_factory=list)
@@ -193,18 +187,22 @@ def _from_parquet(path: Path) -> Iterator[CaseRecord]:
     import pyarrow.parquet as pq
 
     try:
-        rows = pq.read_table(path).to_pylist()
-        yield from [CaseRecord(**row) for row in rows]
+        yield from [_record(row) for row in pq.read_table(path).to_pylist()]
     except (pa.ArrowInvalid, OSError, TypeError) as error:
         raise InputError(
             "the results cannot be read", place=Place(str(path)), found=str(error).split("\n")[0]
         ) from None
 
 
+def _record(row: Mapping[str, Any]) -> CaseRecord:
+    """Return a record; what earlier versions kept besides is left out."""
+    return CaseRecord(**{name: value for name, value in row.items() if name in CaseRecord.__slots__})
+
+
 def _from_lines(path: Path) -> Iterator[CaseRecord]:
     for number, line in enumerate(read_lines(path), start=1):
         try:
-            yield CaseRecord(**json.loads(line))
+            yield _record(json.loads(line))
         except (ValueError, TypeError) as error:
             place = Place(str(path), line=number)
             raise InputError("this is not the record of a case", place=place, found=str(error)) from None
@@ -254,7 +252,6 @@ def as_table(records: Iterable[CaseRecord]) -> pa.Table:
         "int": pa.int64(),
         "bool": pa.bool_(),
         "float": pa.float64(),
-        "float | None": pa.float64(),
         "list[str]": pa.list_(pa.string()),
         "list[float]": pa.list_(pa.float64()),
     }
