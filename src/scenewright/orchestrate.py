@@ -147,14 +147,11 @@ def orchestrate(
         Where the input is wrong; every subclass says what and how to mend it.
     """
     stages = Stages(report)
-    world, translation = set_up(request, stages, backend)
-    with stages("check"):
-        feasibility = world.choose_and_check()
-    result = Result("infeasible", world.scene, translation, feasibility, timings_s=stages.seconds)
-    if feasibility.answer == "infeasible":
+    world, result, answer = begin(request, stages, backend)
+    if answer == "infeasible":
         return result
     if until == "check":
-        result.status = "success" if feasibility.answer == "feasible" else "gave up"
+        result.status = "success" if answer == "feasible" else "gave up"
         return result
     with stages("plan"):
         planned = first_plan(world, world.predictor)
@@ -170,6 +167,15 @@ def orchestrate(
             write_result(request.out, request, result, world, stages.seconds)
         result.run_directory = request.out
     return result
+
+
+def begin(request: Request, stages: Stages, backend: Backend | None = None) -> tuple[World, Result, str]:
+    """Set everything up and ask whether it can happen; return world, answer, and the result for one that cannot."""
+    world, translation = set_up(request, stages, backend)
+    with stages("check"):
+        feasibility = world.choose_and_check()
+    result = Result("infeasible", world.scene, translation, feasibility, timings_s=stages.seconds)
+    return world, result, feasibility.answer
 
 
 def _drive(
@@ -282,9 +288,14 @@ def judge_run(request: Request, result: Result, world: World, stages: Stages, hi
 
 
 def write_result(
-    directory: Path, request: Request, result: Result, world: World, timings_s: Mapping[str, float]
+    directory: Path,
+    request: Request,
+    result: Result,
+    world: World,
+    timings_s: Mapping[str, float],
+    page: bool = True,
 ) -> None:
-    """Write the run directory."""
+    """Write the run directory, with its page or without."""
     from scenewright.judge.files import write_verdict
     from scenewright.simulate.record import Circumstances, write_run
     from scenewright.studio.page import write_page
@@ -309,7 +320,8 @@ def write_result(
     )
     write_run(directory, world.scene, result.run, world.limits, circumstances)
     write_verdict(result.verdict, directory / "verdict.json")
-    write_page(directory)
+    if page:
+        write_page(directory)
 
 
 def case_of(scene: Scene, run: Run, limits: Mapping[int, Limits]) -> Case:

@@ -17,7 +17,7 @@ from scenewright.study.causes import INFEASIBLE, NEVER_MET
 from scenewright.study.report import loops, measuring, precision, times
 from scenewright.study.report.extra_figures import draw_grid
 from scenewright.study.report.measuring import Bench, Job, Measured
-from scenewright.study.report.precision import Cell, GridSize, grid_table, measure_grid, precision_table, scene_text
+from scenewright.study.report.precision import Cell, grid_table, measure_grid, precision_table, scene_text
 
 
 class Counting:
@@ -74,7 +74,7 @@ def test_what_raises_is_told_and_tried_again(tmp_path: Path) -> None:
 @pytest.fixture(scope="module")
 def grid(tmp_path_factory: pytest.TempPathFactory) -> tuple[Cell, ...]:
     bench = Bench(tmp_path_factory.mktemp("grid"))
-    return measure_grid(bench, ("scenewright", "open-loop"), GridSize((12.0, 30.0), (4.0, 20.0)), seed=0)
+    return measure_grid(bench, ("scenewright", "open-loop"), ((12.0, 30.0), (4.0, 20.0)), seed=0)
 
 
 def test_the_grid_marks_infeasible_cells_by_their_proofs(grid: tuple[Cell, ...]) -> None:
@@ -115,7 +115,7 @@ def test_the_grids_tables_tell_every_cell(grid: tuple[Cell, ...]) -> None:
 
 
 def test_a_method_that_cannot_run_leaves_cells_that_say_so(tmp_path: Path) -> None:
-    cells = measure_grid(Bench(tmp_path), ("no-such-method",), GridSize((30.0,), (20.0,)), seed=0)
+    cells = measure_grid(Bench(tmp_path), ("no-such-method",), ((30.0,), (20.0,)), seed=0)
     assert "no such method" in cells[0].fault
     assert not cells[0].met
     assert precision_table(cells).records()[0]["no_run"] == 1
@@ -129,7 +129,7 @@ def test_the_reports_scenarios_are_sound(name: str) -> None:
 
 
 def test_loops_run_the_same_cases_in_both_modes(tmp_path: Path) -> None:
-    records = loops.measure_loops(Bench(tmp_path), loops.LoopsSize(("noisy",), 1), seed=3)
+    records = loops.measure_loops(Bench(tmp_path), ("noisy",), 1, seed=3)
     assert len(records) == 8
     pairs = {mode: [(r["scene"], r["parameters"]) for r in records if r["mode"] == mode] for mode in loops.MODES}
     assert pairs["open"] == pairs["closed"]

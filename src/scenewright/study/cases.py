@@ -297,21 +297,18 @@ def keep_run(directory: Path, request: Request, result: Result, page: bool = Fal
 
     The manifest names a shipped map by its name alone, so that results say nothing of the machine they came from.
     """
-    from scenewright.judge.files import VERDICT_FILE, write_verdict
-    from scenewright.simulate.record import write_run
-    from scenewright.solve.limits import limits_on
+    from scenewright.orchestrate import write_result
+    from scenewright.simulate.loop import Rates
+    from scenewright.simulate.world import World
 
-    assert result.run is not None
-    assert result.verdict is not None
     part = directory.with_name(f".{directory.name}.part")
     shutil.rmtree(part, ignore_errors=True)
     part.mkdir(parents=True)
-    scene = result.scene
-    limits = {actor: limits_on(route, scene.road_map) for actor, route in scene.routes.items()}
-    write_run(part, scene, result.run, limits, _circumstances(request, result))
-    write_verdict(result.verdict, part / VERDICT_FILE)
+    rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
+    world = World(result.scene, request.ego, request.seed, rates)
+    write_result(part, request, result, world, result.timings_s, page=False)
     manifest = json.loads((part / "manifest.json").read_text(encoding="utf-8"))
-    manifest["map"]["file"] = scene.road_map.name
+    manifest["map"]["file"] = result.scene.road_map.name
     (part / "manifest.json").write_text(json.dumps(manifest, ensure_ascii=False) + "\n", encoding="utf-8")
     if page:
         from scenewright.studio.page import write_page
@@ -319,26 +316,3 @@ def keep_run(directory: Path, request: Request, result: Result, page: bool = Fal
         write_page(part)
     shutil.rmtree(directory, ignore_errors=True)
     part.rename(directory)
-
-
-def _circumstances(request: Request, result: Result) -> Any:
-    from scenewright.drive.loading import load_policy
-    from scenewright.simulate.loop import Rates
-    from scenewright.simulate.record import Circumstances
-
-    policy = load_policy(request.ego)
-    given = frozenset(request.parameters)
-    return Circumstances(
-        policy.name,
-        policy.options,
-        request.mode,
-        request.tolerance,
-        request.seed,
-        "none",
-        Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz),
-        frozenset(p.name for p in result.scene.program.parameters if p.name not in given and p.value is None),
-        given,
-        result.timings_s,
-        (),
-        result.take,
-    )

@@ -6,7 +6,6 @@ What enters: egos, a number of draws, a seed. What leaves: one record a run, and
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -26,19 +25,7 @@ MODES = ("open", "closed")
 REACTIVE_EGOS = ("idm", "dawdler", "noisy", "delayed", "stop-and-go", "staller")
 
 
-@dataclass(frozen=True, slots=True)
-class LoopsSize:
-    """How much to run."""
-
-    egos: tuple[str, ...]
-    draws: int
-
-
-QUICK = LoopsSize(("idm", "dawdler", "noisy"), 2)
-FULL = LoopsSize(REACTIVE_EGOS, 6)
-
-
-def measure_loops(bench: Bench, size: LoopsSize, seed: int) -> list[Measured]:
+def measure_loops(bench: Bench, egos: Sequence[str], draws: int, seed: int) -> list[Measured]:
     """Run every scenario, ego and draw in open and in closed loop."""
     jobs = [
         {
@@ -51,8 +38,8 @@ def measure_loops(bench: Bench, size: LoopsSize, seed: int) -> list[Measured]:
             "parameters": _drawn(scene, seed, draw),
         }
         for scene in SCENES
-        for draw in range(size.draws)
-        for ego in size.egos
+        for draw in range(draws)
+        for ego in egos
         for mode in MODES
     ]
     return bench.measure("loops", run_loop, jobs)

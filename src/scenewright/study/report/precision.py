@@ -27,17 +27,10 @@ STOP_M = 6.0
 EGO = "stop-and-go"
 
 
-@dataclass(frozen=True, slots=True)
-class GridSize:
-    """The distances (m) of both sides at the trigger."""
-
-    ego_m: tuple[float, ...]
-    hero_m: tuple[float, ...]
-
-
-QUICK = GridSize((5.0, 15.0, 30.0, 60.0), (4.0, 12.0, 25.0, 60.0))
-_FULL = (3.0, 7.0, 11.0, 16.0, 22.0, 29.0, 37.0, 47.0, 60.0)
-FULL = GridSize(_FULL, _FULL)
+# The distances of ego and hero at the trigger.
+Grid = tuple[tuple[float, ...], tuple[float, ...]]
+QUICK: Grid = ((5.0, 15.0, 30.0, 60.0), (4.0, 12.0, 25.0, 60.0))
+FULL: Grid = ((3.0, 7.0, 11.0, 16.0, 22.0, 29.0, 37.0, 47.0, 60.0),) * 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,12 +71,12 @@ class Cell:
         return self.error_m is not None and self.error_m <= error_m
 
 
-def measure_grid(bench: Bench, methods: Sequence[str], size: GridSize, seed: int) -> tuple[Cell, ...]:
+def measure_grid(bench: Bench, methods: Sequence[str], grid_m: Grid, seed: int) -> tuple[Cell, ...]:
     """Run the scenario for every cell and method, first take only."""
     jobs = [
         {"method": method, "ego_m": x, "hero_m": y, "ego": EGO, "seed": seed, "program": scene_text("precision")}
-        for x in size.ego_m
-        for y in size.hero_m
+        for x in grid_m[0]
+        for y in grid_m[1]
         for method in methods
     ]
     return tuple(_cell(record) for record in bench.measure("precision", run_cell, jobs))

@@ -25,19 +25,6 @@ FOLDER = "report"
 
 
 @dataclass(frozen=True, slots=True)
-class Sizes:
-    """How much the report measures itself."""
-
-    grid: precision.GridSize
-    loops: loops.LoopsSize
-    times: times.TimesSize
-
-
-QUICK = Sizes(precision.QUICK, loops.QUICK, times.QUICK)
-FULL = Sizes(precision.FULL, loops.FULL, times.FULL)
-
-
-@dataclass(frozen=True, slots=True)
 class Extras:
     """What the report measured itself: precision grid, open against closed loop, calls of the solver."""
 
@@ -94,18 +81,19 @@ def write_report(results_dir: Path, *, quick: bool, progress: Progress | None = 
             expected="at least one case",
             fix="go on with the experiment: the command is in settings.json",
         )
-    extras = measure_extras(Bench(results_dir, workers, progress), results, QUICK if quick else FULL)
+    extras = measure_extras(Bench(results_dir, workers, progress), results, quick)
     return compose(Material(results.records, results.settings, results_dir, extras), results_dir / FOLDER, progress)
 
 
-def measure_extras(bench: Bench, results: Results, sizes: Sizes) -> Extras:
+def measure_extras(bench: Bench, results: Results, quick: bool) -> Extras:
     """Measure what the experiment does not."""
     seed = int(results.settings.get("seed", 0))
     methods = tuple(dict.fromkeys(record.method for record in results.records))
+    egos = ("idm", "dawdler", "noisy") if quick else loops.REACTIVE_EGOS
     return Extras(
-        precision.measure_grid(bench, methods, sizes.grid, seed),
-        loops.measure_loops(bench, sizes.loops, seed),
-        times.measure_solver(bench, sizes.times, seed),
+        precision.measure_grid(bench, methods, precision.QUICK if quick else precision.FULL, seed),
+        loops.measure_loops(bench, egos, 2 if quick else 6, seed),
+        times.measure_solver(bench, ("noisy",) if quick else ("idm", "noisy"), 9 if quick else 3, seed),
     )
 
 

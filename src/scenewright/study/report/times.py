@@ -1,6 +1,6 @@
 """Times: of the solver by number of constraints and answer, and of whole re-plans.
 
-What enters: how many rows and egos to take. What leaves: one record a solver call, and tables of
+What enters: which rows and egos to take. What leaves: one record a solver call, and tables of
 percentiles. Everything runs in this process, one thing at a time; times compare within one machine only.
 """
 
@@ -22,19 +22,6 @@ PERCENTILES = (50, 90, 99)
 STAGES = {"check": "feasibility", "plan": "first plan", "simulate": "re-solve", "hindsight": "hindsight"}
 TICK_MS = 100.0  # between two re-plans
 _COLUMNS = {**{f"p{percent}_ms": f"p{percent} (ms)" for percent in PERCENTILES}, "max_ms": "max (ms)"}
-
-
-@dataclass(frozen=True, slots=True)
-class TimesSize:
-    """Every `row_step`-th row of the benchmark, these egos."""
-
-    row_step: int
-    egos: tuple[str, ...]
-
-
-# Interactions alternate with period 4 over the rows: an odd step meets all of them.
-QUICK = TimesSize(9, ("noisy",))
-FULL = TimesSize(3, ("idm", "noisy"))
 
 
 @dataclass(slots=True)
@@ -70,8 +57,11 @@ class RecordingBackend:
         self.stage = stage
 
 
-def measure_solver(bench: Bench, size: TimesSize, seed: int) -> list[Measured]:
-    """Orchestrate every `row_step`-th row with each ego, and return what the solver was asked, call by call."""
+def measure_solver(bench: Bench, egos: Sequence[str], row_step: int, seed: int) -> list[Measured]:
+    """Orchestrate every `row_step`-th row with each ego, and return what the solver was asked, call by call.
+
+    Interactions alternate with period 4 over the rows: an odd step meets all of them.
+    """
     from scenewright.study.benchmark import benchmark_rows, draw_row
 
     jobs = [
@@ -82,8 +72,8 @@ def measure_solver(bench: Bench, size: TimesSize, seed: int) -> list[Measured]:
             "ego": ego,
             "seed": seed,
         }
-        for row in benchmark_rows()[:: size.row_step]
-        for ego in size.egos
+        for row in benchmark_rows()[::row_step]
+        for ego in egos
     ]
     records = bench.measure("solver", time_solver, jobs, timed=True)
     return [{"row": r["row"], "ego": r["ego"], **call} for r in records for call in r.get("calls", ())]

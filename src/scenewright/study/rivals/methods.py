@@ -19,9 +19,9 @@ from scenewright.orchestrate import (
     Request,
     Result,
     Stages,
+    begin,
     judge_run,
     orchestrate,
-    set_up,
     write_result,
 )
 from scenewright.simulate.beginning import first_plan
@@ -95,11 +95,8 @@ def _staged(
 ) -> Result:
     stages = Stages(None)
     request = replace(request, mode="closed")
-    world, translation = set_up(request, stages, backend)
-    with stages("check"):
-        feasibility = world.choose_and_check()
-    result = Result("infeasible", world.scene, translation, feasibility, timings_s=stages.seconds)
-    if feasibility.answer == "infeasible":
+    world, result, answer = begin(request, stages, backend)
+    if answer == "infeasible":
         return result
     with stages("plan"):
         planned = first_plan(world, world.predictor)

@@ -1,13 +1,12 @@
 """First states sampled until a run succeeds: what sampling scenario languages do.
 
-What enters: scripts, ranges that an author would give, a seed. What leaves: scripts with other first states, one after
-another. It drives nothing; each sample is a whole trigger-action run, judged like any other.
+What enters: scripts, a seed. What leaves: scripts with other first states, one after another. It drives nothing; each
+sample is a whole trigger-action run, judged like any other.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,45 +15,23 @@ from scenewright.solve.limits import MOVING_MPS
 from scenewright.study.rivals.script import Script
 
 _START_MARGIN_M = 3.0
-
-
-@dataclass(frozen=True, slots=True)
-class Ranges:
-    """What an author leaves open, and within what: both uniform.
-
-    Attributes
-    ----------
-    speed_shares
-        Speed, in shares of the speed that a driver would choose on the way to the junction.
-    way_shares
-        Way to the hero's place, in shares of what it covers at that speed until the trigger is due.
-    """
-
-    speed_shares: tuple[float, float] = (0.5, 1.1)
-    way_shares: tuple[float, float] = (0.7, 1.3)
+# What an author leaves open, both uniform: speed, in shares of what a driver would choose on the way to the junction;
+# way to the hero's place, in shares of what it covers at that speed until the trigger is due.
+_SPEED_SHARES, _WAY_SHARES = (0.5, 1.1), (0.7, 1.3)
 
 
 def sampled_scripts(
-    conditions: tuple[LinearCondition, ...],
-    scripts: Mapping[int, Script],
-    generator: np.random.Generator,
-    ranges: Ranges | None = None,
+    conditions: tuple[LinearCondition, ...], scripts: Mapping[int, Script], generator: np.random.Generator
 ) -> Iterator[dict[int, Script]]:
     """Yield scripts with sampled first states, without end; what the program says of a first state is kept."""
-    ranges = ranges or Ranges()
     while True:
-        yield {hero: _sampled(conditions, script, generator, ranges) for hero, script in scripts.items()}
+        yield {hero: _sampled(conditions, script, generator) for hero, script in scripts.items()}
 
 
-def _sampled(
-    conditions: tuple[LinearCondition, ...],
-    script: Script,
-    generator: np.random.Generator,
-    ranges: Ranges,
-) -> Script:
+def _sampled(conditions: tuple[LinearCondition, ...], script: Script, generator: np.random.Generator) -> Script:
     hero, limits = script.hero, script.limits
-    speed = limits.natural_approach_speed_mps * float(generator.uniform(*ranges.speed_shares))
-    share = float(generator.uniform(*ranges.way_shares))
+    speed = limits.natural_approach_speed_mps * float(generator.uniform(*_SPEED_SHARES))
+    share = float(generator.uniform(*_WAY_SHARES))
     initial = [
         c.weights[hero.id] + (c.constant,)
         for c in conditions
