@@ -6,7 +6,6 @@ line of grouping), so that its columns of cases add up to the store's.
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable, Hashable, Sequence
 from pathlib import Path
@@ -171,13 +170,12 @@ def failures_table(own: Sequence[CaseRecord], folder: Path) -> Table:
     """
     failed = [record for record in own if record.cause not in ("success", INFEASIBLE)]
     failed.sort(key=lambda r: (CAUSES.index(r.cause) if r.cause in CAUSES else len(CAUSES), r.row, r.ego, r.draw))
-    rows = tuple((r.cause, *_where(r), r.takes, evidence(r, folder), _values(r), r.command) for r in failed)
+    rows = tuple((r.cause, *_where(r), r.takes, evidence(r, folder), r.command) for r in failed)
     columns = {
         "cause": "cause",
         **_WHERE,
         "takes": "takes",
         "evidence": "measured",
-        "parameters": "parameters",
         "command": "run it again",
     }
     none = "Every case of our method succeeded or is proven infeasible."
@@ -189,20 +187,16 @@ def proofs_table(records: Sequence[CaseRecord]) -> Table:
     proven = [record for record in records if record.cause == INFEASIBLE]
     key: Callable[[CaseRecord], Hashable] = lambda record: (record.row, record.ego, record.draw)  # noqa: E731
     rows = tuple(
-        (*_where(first), next((r.proof for r in same if r.proof), ""), _values(first), first.command)
+        (*_where(first), next((r.proof for r in same if r.proof), ""), first.command)
         for same in grouped(proven, key).values()
         for first in same[:1]
     )
-    columns = {**_WHERE, "proof": "what clashes", "parameters": "parameters", "command": "run it again"}
+    columns = {**_WHERE, "proof": "what clashes", "command": "run it again"}
     return Table("infeasible", "Draws proven infeasible", columns, rows, "No draw is proven infeasible.")
 
 
 def _where(record: CaseRecord) -> tuple[int, str, str, str, int]:
     return record.row, record.interaction, record.trigger, record.ego, record.draw
-
-
-def _values(record: CaseRecord) -> str:
-    return " ".join(f"{name}={value:g}" for name, value in json.loads(record.parameters or "{}").items())
 
 
 def evidence(record: CaseRecord, folder: Path) -> str:
