@@ -15,7 +15,8 @@ from scenewright.translate.offline import translate_offline
 
 CASES = tomllib.loads(Path(__file__).with_name("paraphrases.toml").read_text(encoding="utf-8"))["case"]
 BESIDE_NAMES = (
-    ", which is on its way,", ", whose driver is attentive,", ", still under way,", ", by now,", ", having seen nothing,",
+    ", which is on its way,", ", whose driver is attentive,", ", still under way,", ", by now,",
+    ", having seen nothing,",
     ", unaware of this,", " (still under way)", ", which goes straight on,", ", which is not braking,", " (no turn)",
 )  # fmt: skip
 NAME = re.compile(
