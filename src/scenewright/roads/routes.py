@@ -1,7 +1,8 @@
 """Routes: ways through a map along its lanes, with headings, a turn, and landmarks as arc lengths.
 
 What enters: a `RoadMap`. What leaves: `Route` objects, always in the same order, and a search among them. A route
-passes one junction, from the very beginning of its approach arm to the end of its exit arm. U-turns are left out.
+passes one junction, from the very beginning of its approach arm to the end of its exit arm. U-turns are left out. On a
+closed road a route goes around once, and ends a little before it is where it began.
 """
 
 from __future__ import annotations
@@ -17,10 +18,13 @@ import numpy as np
 from scenewright.errors import MapError
 from scenewright.roads.model import Lane, LaneKind, RoadMap
 from scenewright.roads.path import Path, wrap_rad
-from scenewright.roads.polyline import FloatArray, Turn, turn_of, turned_rad
+from scenewright.roads.polyline import FloatArray, Turn, polyline_arc_lengths, turn_of, turned_rad
+
+Ends = tuple[float, float]  # something at the beginning of a line, and something at its end
 
 _CARDINALS = "ENWS"  # counter-clockwise from the x axis
 _U_TURN_FROM_RAD = np.radians(150.0)
+_CLOSING_GAP_M = 10.0  # left between the two ends of a route around a closed road, so that places on it are unique
 _ORIGINS = {"road": "from the road", "driveway": "from the driveway"}
 
 
@@ -31,12 +35,15 @@ class Route:
     Attributes
     ----------
     lanes, lane_starts_m
-        Lane ids in driving order, and the arc length on `path` at which each begins.
+        Lane ids in driving order, and the arc length on `path` at which each begins; the first one's is negative where
+        a route around a closed road begins within a lane (which then is its last lane, too).
     headings
         Cardinal letters of the directions of travel before and after a turn, ``("S", "W")``; one letter where straight.
     landmarks
         Arc lengths in metres: ``route_end`` always; with a junction also ``junction_start``, ``junction_end``,
         ``turn_start``, ``turn_end`` and ``stop_line`` (the map's, else where the junction begins).
+    junction_id
+        The junction that it passes, if any.
     """
 
     lanes: tuple[str, ...]
@@ -47,6 +54,7 @@ class Route:
     origin_kind: LaneKind
     destination_kind: LaneKind
     landmarks: Mapping[str, float] = field(repr=False)
+    junction_id: str | None = None
 
     def __str__(self) -> str:
         return f"{', '.join(self.headings)}: {_ORIGINS[self.origin_kind]}, {self.turn}"
@@ -54,7 +62,7 @@ class Route:
 
 @lru_cache(maxsize=32)
 def all_routes(road_map: RoadMap) -> tuple[Route, ...]:
-    """Return all routes through one junction, and those along roads that meet no junction.
+    """Return all routes through one junction, those along roads that meet no junction, and those around closed roads.
 
     The order follows the order of the lanes in the map's file, and is the same every time.
 
@@ -71,8 +79,10 @@ def all_routes(road_map: RoadMap) -> tuple[Route, ...]:
             continue
         if all(lanes[name].junction_id != lane.junction_id for name in lane.predecessors):
             chains += _junction_chains(lanes, lane)
-    routes = [_route(lanes, _with_arms(lanes, chain), chain) for chain in chains]
-    routes += [_route(lanes, chain, ()) for chain in _through_chains(lanes)]
+    routes = [_route(lanes, *_with_arms(lanes, chain), chain) for chain in chains]
+    through = _through_chains(lanes)
+    through += _rings(lanes, {name for chain in (*chains, *through) for name in chain})
+    routes += [_route(lanes, chain, _left_out_m(lanes, chain), ()) for chain in through]
     return tuple(route for route in routes if route is not None)
 
 
@@ -183,10 +193,38 @@ def _junction_chains(lanes: Mapping[str, Lane], entry: Lane) -> list[tuple[str, 
     return done
 
 
-def _with_arms(lanes: Mapping[str, Lane], chain: tuple[str, ...]) -> tuple[str, ...]:
-    before = _follow(lanes, chain[0], lambda lane: lane.predecessors)
+def _with_arms(lanes: Mapping[str, Lane], chain: tuple[str, ...]) -> tuple[tuple[str, ...], Ends]:
+    """Return the lanes of a way through a junction with both its arms, and what the route leaves out at its ends (m).
+
+    Where the exit leads back to the approach, the lanes that are both are parted in the middle.
+    """
+    before = _follow(lanes, chain[0], lambda lane: lane.predecessors)[::-1]
     after = _follow(lanes, chain[-1], lambda lane: lane.successors)
-    return (*reversed(before), *chain, *after)
+    both = [name for name in after if name in before]
+    if not both:
+        whole = (*before, *chain, *after)
+        return whole, _left_out_m(lanes, whole)
+    half_m = 0.5 * sum(lanes[name].length_m for name in both)
+    for name in both:
+        if half_m <= lanes[name].length_m:
+            break
+        half_m -= lanes[name].length_m
+    gap_m = 0.5 * _gap_m(lanes[name])
+    parted = (*before[before.index(name) :], *chain, *after[: after.index(name) + 1])
+    return parted, (half_m + gap_m, lanes[name].length_m - half_m + gap_m)
+
+
+def _left_out_m(lanes: Mapping[str, Lane], chain: tuple[str, ...]) -> Ends:
+    """Return what a route along lanes leaves out at its ends (m): something where it would run into itself."""
+    first, last = lanes[chain[0]], lanes[chain[-1]]
+    is_ring = first.id in last.successors
+    begins_beside = not is_ring and any(name in chain for name in first.predecessors)
+    ends_beside = is_ring or any(name in chain for name in last.successors)
+    return _gap_m(first) * begins_beside, _gap_m(last) * ends_beside
+
+
+def _gap_m(lane: Lane) -> float:
+    return min(_CLOSING_GAP_M, 0.5 * lane.length_m)
 
 
 def _follow(lanes: Mapping[str, Lane], start: str, step: Callable[[Lane], tuple[str, ...]]) -> list[str]:
@@ -211,14 +249,41 @@ def _through_chains(lanes: Mapping[str, Lane]) -> list[tuple[str, ...]]:
     return chains
 
 
-def _route(lanes: Mapping[str, Lane], chain: tuple[str, ...], inside: tuple[str, ...]) -> Route | None:
+def _rings(lanes: Mapping[str, Lane], taken: set[str]) -> list[tuple[str, ...]]:
+    """Return once around each closed road that no chain in `taken` leads along, from its first lane in the file."""
+    rings, seen = [], set(taken)
+    for lane in lanes.values():
+        if lane.junction_id is None and lane.id not in seen:
+            ring = _around(lanes, lane.id)
+            rings += [ring] if ring else []
+            seen |= set(ring)
+    return rings
+
+
+def _around(lanes: Mapping[str, Lane], start: str) -> tuple[str, ...]:
+    """Return the fewest lanes that lead from a lane back to itself outside junctions; none where none do."""
+    ways: list[tuple[str, ...]] = [(start,)]
+    seen = {start}
+    for way in ways:
+        for name in lanes[way[-1]].successors:
+            if name == start:
+                return way
+            if lanes[name].junction_id is None and name not in seen:
+                seen.add(name)
+                ways.append((*way, name))
+    return ()
+
+
+def _route(
+    lanes: Mapping[str, Lane], chain: tuple[str, ...], left_out_m: Ends, inside: tuple[str, ...]
+) -> Route | None:
     points = _joined([lanes[name] for name in (inside or chain)])
     turned = turned_rad(points) if inside else 0.0
     if abs(turned) > _U_TURN_FROM_RAD:
         return None
     turn: Turn = turn_of(points) if inside else "straight"
-    path = Path.from_points(_joined([lanes[name] for name in chain]))
-    starts = _lane_starts_m(lanes, chain, path)
+    path = Path.from_points(_cut(_joined([lanes[name] for name in chain]), left_out_m))
+    starts = _lane_starts_m(lanes, chain, path, 0.0 - left_out_m[0])
     first, last = lanes[chain[0]], lanes[chain[-1]]
     landmarks = {"route_end": path.length_m}
     at = first.start_heading_rad
@@ -234,6 +299,7 @@ def _route(lanes: Mapping[str, Lane], chain: tuple[str, ...], inside: tuple[str,
         origin_kind=first.kind,
         destination_kind=last.kind,
         landmarks=landmarks,
+        junction_id=lanes[inside[0]].junction_id if inside else None,
     )
 
 
@@ -243,8 +309,19 @@ def _joined(lanes: list[Lane]) -> FloatArray:
     return np.vstack([*pieces, lanes[-1].centerline_xy])
 
 
-def _lane_starts_m(lanes: Mapping[str, Lane], chain: tuple[str, ...], path: Path) -> tuple[float, ...]:
-    starts = [0.0]
+def _cut(points: FloatArray, left_out_m: Ends) -> FloatArray:
+    """Return a line without so much of its beginning and of its end."""
+    if not any(left_out_m):
+        return points
+    along_m = polyline_arc_lengths(points)
+    first_m, last_m = left_out_m[0], float(along_m[-1]) - left_out_m[1]
+    kept = along_m[(along_m > first_m) & (along_m < last_m)]
+    at_m = np.concatenate([[first_m], kept, [last_m]])
+    return np.column_stack([np.interp(at_m, along_m, points[:, axis]) for axis in (0, 1)])
+
+
+def _lane_starts_m(lanes: Mapping[str, Lane], chain: tuple[str, ...], path: Path, first_m: float) -> tuple[float, ...]:
+    starts = [first_m]
     for before, name in pairwise(chain):
         x, y = lanes[name].centerline_xy[0].tolist()
         starts.append(path.to_frenet(x, y, near_s_m=starts[-1] + lanes[before].length_m)[0])
