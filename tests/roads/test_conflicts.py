@@ -10,7 +10,7 @@ from shapely import affinity
 from shapely.geometry import LineString, Point, box
 
 from scenewright.roads import Conflict, RoadMap, Route, all_routes, find_conflict, find_route, shared_offset_m
-from scenewright.roads.conflicts import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
+from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 
 from .conftest import any_map
 

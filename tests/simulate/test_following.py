@@ -7,7 +7,7 @@ from followers import CRUISE_MPS, idm
 from stories import HERO, driven
 
 from scenewright.motion.profile import Profile, chain
-from scenewright.roads.conflicts import VEHICLE_LENGTH_M
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.simulate.following import Leader, foresee_follower
 from scenewright.simulate.prediction import ConstantAcceleration
 

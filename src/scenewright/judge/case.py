@@ -17,7 +17,10 @@ from scenewright.errors import InputError
 from scenewright.judge.timeline import Timeline
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.types import EGO, Program
+from scenewright.roads.bodies import Body as Box
 from scenewright.trace.model import COLUMNS, ActorTrace, FloatArray, Trace
+
+__all__ = ["Box", "CannotJudge", "Case", "Limits", "NotReached", "PathLike"]
 
 
 class CannotJudge(Exception):  # noqa: N818 - a reason that ends in a failed condition, not an error of the user
@@ -37,14 +40,6 @@ class PathLike(Protocol):
 
     def poses(self, s_m: FloatArray, /) -> FloatArray:
         """Return x (m), y (m) and heading (rad) at arc lengths, shape (N, 3)."""
-
-
-@dataclass(frozen=True, slots=True)
-class Box:
-    """A vehicle's outline."""
-
-    length_m: float = 4.5
-    width_m: float = 1.9
 
 
 @dataclass(frozen=True, slots=True)

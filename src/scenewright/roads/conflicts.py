@@ -1,6 +1,7 @@
-"""Where two routes meet: cross, merge or follow, and over which stretches two vehicles could touch there.
+"""Where two routes meet: cross, merge or part, and over which stretches two vehicles could touch there.
 
-What enters: two routes on one map. What leaves: a `Conflict`, or None. Time and speed play no part here.
+What enters: two routes on one map. What leaves: every `Conflict` of theirs, and the one that counts where one is asked
+for. Time and speed play no part here.
 """
 
 from __future__ import annotations
@@ -10,40 +11,37 @@ from functools import lru_cache
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
-from scenewright.roads.path import Path
-from scenewright.roads.polyline import FloatArray
+from scenewright.roads.bodies import CAR, Body
+from scenewright.roads.intersections import Place, intersections
 from scenewright.roads.routes import Route
+from scenewright.roads.zones import Zone, touching
 
-VEHICLE_LENGTH_M = 4.5
-VEHICLE_WIDTH_M = 2.0
-_SAMPLE_M = 1.0
-_ZONE_STEP_M = 0.1
-_ZONE_REACH_M = 60.0
+Kind = Literal["crossing", "merging", "following"]
 
-Zone = tuple[float, float]
+_APART_M = 0.5  # lines that never get further from each other between two places meet there once
+_LOOK_M = 0.5
 
 
 @dataclass(frozen=True, slots=True)
 class Conflict:
-    """The place where two routes meet.
+    """A place where two routes meet.
 
     Attributes
     ----------
     kind
-        ``"crossing"``: the centre lines intersect. ``"merging"``: different starts, one end; the place is where the two
-        become one. ``"following"``: one start; the place is where they part, or for equal routes where the junction
-        begins (without a junction, where the route ends).
+        ``"crossing"``: the centre lines intersect. ``"merging"``: they come from different lanes; the place is where
+        the two become one. ``"following"``: they drive on one lane up to the place, where they part; for routes that
+        never part it is where the junction begins (without a junction, where the shorter one ends).
     s_a_m, s_b_m
         Arc lengths of the place on each route.
     zone_a_m, zone_b_m
         Arc lengths ``(low, high)`` of a vehicle's centre between which it could touch some vehicle on the other route
-        around this place, for boxes of 4.5 m by 2.0 m. On a stretch that both share vehicles can touch everywhere:
-        there the zone reaches one vehicle length beyond the place, after which one simply follows the other.
+        around this place. On a stretch that both share vehicles can touch everywhere: there the zone reaches one
+        vehicle length beyond the place, after which one simply follows the other.
     """
 
-    kind: Literal["crossing", "merging", "following"]
+    kind: Kind
     s_a_m: float
     s_b_m: float
     x_m: float
@@ -56,9 +54,53 @@ class Conflict:
         return Conflict(self.kind, self.s_b_m, self.s_a_m, self.x_m, self.y_m, self.zone_b_m, self.zone_a_m)
 
 
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """Lanes in a row that two routes both take: where the stretch begins and ends, ``(s_a_m, s_b_m)``.
+
+    `together` says that both routes begin with it; `goes_on` that both leave it before they end.
+    """
+
+    begin: Place
+    end: Place
+    together: bool
+    goes_on: bool
+
+    def beside(self, place: Place) -> Place:
+        """Return the pair of arc lengths in the stretch, at one point of the map, that is nearest along the first."""
+        along_m = min(max(place[0] - self.begin[0], 0.0), self.end[0] - self.begin[0])
+        return self.begin[0] + along_m, self.begin[1] + along_m
+
+
 @lru_cache(maxsize=1024)
+def conflicts(route_a: Route, route_b: Route, body_a: Body = CAR, body_b: Body = CAR) -> tuple[Conflict, ...]:
+    """Return every place where two routes meet, those first to which the two together have the shortest way.
+
+    Examples
+    --------
+    >>> from scenewright.roads import load_map, find_route
+    >>> t = load_map("t_intersection")
+    >>> [each.kind for each in conflicts(find_route(t, headings=("S", "E")), find_route(t, headings=("W",)))]
+    ['crossing']
+    """
+    if route_b.lanes < route_a.lanes:  # the same numbers seen from either, whatever the search rounds to
+        return tuple(conflict.swapped() for conflict in conflicts(route_b, route_a, body_b, body_a))
+    stretches = shared_stretches(route_a, route_b)
+    places: list[tuple[Place, Kind]] = []
+    for stretch in stretches:
+        if not stretch.together:
+            places.append((stretch.begin, "merging"))
+        if stretch.together or stretch.goes_on:
+            places.append((_followed_to(route_a, route_b, stretch), "following"))
+    places += [(place, "crossing") for place in _crossings(route_a, route_b, stretches)]
+    places.sort(key=lambda each: sum(each[0]))
+    return tuple(_conflict(route_a, route_b, kind, place, (body_a, body_b)) for place, kind in places)
+
+
 def find_conflict(route_a: Route, route_b: Route) -> Conflict | None:
-    """Return where two routes meet, None where they do not.
+    """Return the conflict that counts, None where two routes never meet.
+
+    It is the first one in a junction that both pass, its beginning and end included; else the first of all.
 
     Examples
     --------
@@ -67,16 +109,9 @@ def find_conflict(route_a: Route, route_b: Route) -> Conflict | None:
     >>> find_conflict(find_route(t, headings=("S", "E")), find_route(t, headings=("W",))).kind
     'crossing'
     """
-    if route_a.lanes == route_b.lanes:
-        s_m = route_a.landmarks.get("junction_start", route_a.path.length_m)
-        zone = (max(0.0, s_m - VEHICLE_LENGTH_M), min(route_a.path.length_m, s_m + VEHICLE_LENGTH_M))
-        return _at("following", route_a, s_m, s_m, zone, zone)
-    if route_a.lanes[0] == route_b.lanes[0]:
-        return _parting(route_a, route_b)
-    shared = _first_shared(route_a, route_b)
-    if shared is not None:
-        return _merging(route_a, route_b, *shared)
-    return _crossing(route_a, route_b)
+    found = conflicts(route_a, route_b)
+    inside = (each for each in found if _in_one_junction(route_a, route_b, each))
+    return next(inside, found[0] if found else None)
 
 
 def shared_offset_m(route_a: Route, route_b: Route) -> float | None:
@@ -85,143 +120,92 @@ def shared_offset_m(route_a: Route, route_b: Route) -> float | None:
     Returns
     -------
     float or None
-        0 for routes with the same first lane; None where they share no lane.
+        0 for routes with the same first lane; None where they share no lane. Where they share several stretches it is
+        that of the first.
     """
-    if route_a.lanes[0] == route_b.lanes[0]:
-        return 0.0
-    shared = _first_shared(route_a, route_b)
-    return None if shared is None else shared[0] - shared[1]
+    stretches = shared_stretches(route_a, route_b)
+    return stretches[0].begin[0] - stretches[0].begin[1] if stretches else None
 
 
-def _first_shared(route_a: Route, route_b: Route) -> tuple[float, float] | None:
-    """Return the arc lengths at which the first shared lane begins."""
-    for name, start_m in zip(route_a.lanes, route_a.lane_starts_m, strict=True):
-        if name in route_b.lanes:
-            return start_m, route_b.lane_starts_m[route_b.lanes.index(name)]
-    return None
+def shared_stretches(route_a: Route, route_b: Route) -> tuple[Stretch, ...]:
+    """Return the stretches of lanes that both routes take, in the order of `conflicts`."""
+    same = {(i, j) for i, name in enumerate(route_a.lanes) for j, other in enumerate(route_b.lanes) if name == other}
+    found = []
+    for i, j in same:
+        if (i - 1, j - 1) not in same:
+            count = 1
+            while (i + count, j + count) in same:
+                count += 1
+            stretch = _stretch(route_a, route_b, i, j, count)
+            if stretch is not None:
+                found.append(stretch)
+    return tuple(sorted(found, key=lambda stretch: sum(stretch.begin)))
 
 
-def _at(
-    kind: Literal["crossing", "merging", "following"], route: Route, s_a: float, s_b: float, zone_a: Zone, zone_b: Zone
-) -> Conflict:
-    x, y, _ = route.path.pose(s_a)
-    return Conflict(kind, s_a, s_b, x, y, zone_a, zone_b)
-
-
-def _parting(route_a: Route, route_b: Route) -> Conflict:
-    same = 0
-    while same < min(len(route_a.lanes), len(route_b.lanes)) and route_a.lanes[same] == route_b.lanes[same]:
-        same += 1
-    s_a, s_b = (
-        route.lane_starts_m[same] if same < len(route.lanes) else route.path.length_m for route in (route_a, route_b)
-    )
-    zone_a, zone_b = _touching(route_a.path, route_b.path, s_a, s_b, back_m=VEHICLE_LENGTH_M, ahead_m=_ZONE_REACH_M)
-    return _at("following", route_a, s_a, s_b, zone_a, zone_b)
-
-
-def _merging(route_a: Route, route_b: Route, s_a: float, s_b: float) -> Conflict:
-    zone_a, zone_b = _touching(route_a.path, route_b.path, s_a, s_b, back_m=_ZONE_REACH_M, ahead_m=VEHICLE_LENGTH_M)
-    return _at("merging", route_a, s_a, s_b, zone_a, zone_b)
-
-
-def _crossing(route_a: Route, route_b: Route) -> Conflict | None:
-    place = _intersection(route_a.path, route_b.path)
-    if place is None:
-        return None
-    zone_a, zone_b = _touching(route_a.path, route_b.path, *place, back_m=_ZONE_REACH_M, ahead_m=_ZONE_REACH_M)
-    return _at("crossing", route_a, *place, zone_a, zone_b)
-
-
-def _samples(path: Path) -> FloatArray:
-    return np.linspace(0.0, path.length_m, max(2, int(np.ceil(path.length_m / _SAMPLE_M)) + 1))
-
-
-def _intersection(path_a: Path, path_b: Path) -> tuple[float, float] | None:
-    """Return the arc lengths of the first intersection along a: on chords, then on the curves by Newton's method."""
-    s_a, s_b = _samples(path_a), _samples(path_b)
-    points_a, points_b = path_a.poses(s_a)[:, :2], path_b.poses(s_b)[:, :2]
-    step_a, step_b = np.diff(points_a, axis=0)[:, None, :], np.diff(points_b, axis=0)[None, :, :]
-    between = points_b[None, :-1, :] - points_a[:-1, None, :]
-    cross = step_a[..., 0] * step_b[..., 1] - step_a[..., 1] * step_b[..., 0]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        t = (between[..., 0] * step_b[..., 1] - between[..., 1] * step_b[..., 0]) / cross
-        u = (between[..., 0] * step_a[..., 1] - between[..., 1] * step_a[..., 0]) / cross
-        hits = np.argwhere((t >= 0.0) & (t <= 1.0) & (u >= 0.0) & (u <= 1.0))
-    if not len(hits):
-        return None
-    i, j = hits[0].tolist()
-    a = float(s_a[i] + t[i, j] * (s_a[i + 1] - s_a[i]))
-    b = float(s_b[j] + u[i, j] * (s_b[j + 1] - s_b[j]))
-    return _polished(path_a, path_b, a, b)
-
-
-def _polished(path_a: Path, path_b: Path, a: float, b: float) -> tuple[float, float]:
-    for _ in range(20):
-        xa, ya, ha = path_a.pose(a)
-        xb, yb, hb = path_b.pose(b)
-        determinant = np.sin(ha - hb)
-        if abs(determinant) < 1e-6:
-            break
-        dx, dy = xb - xa, yb - ya
-        step_a = float((-dx * np.sin(hb) + dy * np.cos(hb)) / determinant)
-        step_b = float((-dx * np.sin(ha) + dy * np.cos(ha)) / determinant)
-        a, b = a + step_a, b + step_b
-        if abs(step_a) + abs(step_b) < 1e-9:
-            break
-    return a, b
-
-
-def _touching(
-    path_a: Path, path_b: Path, s_a: float, s_b: float, *, back_m: float, ahead_m: float
-) -> tuple[Zone, Zone]:
-    """Return the stretches around a place over which two vehicles, one on each path, could touch.
-
-    Both stretches stay within the path and within `back_m` before and `ahead_m` behind the place. They are rounded
-    outwards to the sampling step.
-    """
-    along = [
-        np.arange(max(0.0, s - back_m), min(path.length_m, s + ahead_m) + 0.5 * _ZONE_STEP_M, _ZONE_STEP_M)
-        for path, s in ((path_a, s_a), (path_b, s_b))
+def _stretch(route_a: Route, route_b: Route, i: int, j: int, count: int) -> Stretch | None:
+    start_a, start_b = route_a.lane_starts_m[i], route_b.lane_starts_m[j]
+    # On a closed road a route may begin and end within a lane: what it does not drive there is not shared.
+    skipped_m = max(0.0, -start_a, -start_b)
+    ends = [
+        route.lane_starts_m[k] if k < len(route.lanes) else route.path.length_m
+        for route, k in ((route_a, i + count), (route_b, j + count))
     ]
-    poses = [path.poses(s) for path, s in zip((path_a, path_b), along, strict=True)]
-    touch = _boxes_touch(*poses)
-    touched_a: NDArray[np.bool_] = np.any(touch, axis=1)
-    touched_b: NDArray[np.bool_] = np.any(touch, axis=0)
-    return _stretch(touched_a, along[0], s_a), _stretch(touched_b, along[1], s_b)
+    excess_m = (ends[0] - start_a) - (ends[1] - start_b)
+    if abs(excess_m) > _APART_M:
+        ends = [ends[0] - max(0.0, excess_m), ends[1] + min(0.0, excess_m)]
+    begin = (start_a + skipped_m, start_b + skipped_m)
+    if ends[0] <= begin[0] or ends[1] <= begin[1]:
+        return None
+    goes_on = i + count < len(route_a.lanes) and j + count < len(route_b.lanes)
+    return Stretch(begin, (ends[0], ends[1]), together=begin == (0.0, 0.0), goes_on=goes_on)
 
 
-def _stretch(touched: NDArray[np.bool_], along_m: FloatArray, s_m: float) -> Zone:
-    """Return the unbroken touched stretch around `s_m`."""
-    middle = int(np.argmin(np.abs(along_m - s_m)))
-    low = high = middle
-    while low > 0 and touched[low - 1]:
-        low -= 1
-    while high < len(along_m) - 1 and touched[high + 1]:
-        high += 1
-    step = _ZONE_STEP_M
-    return max(float(along_m[0]), float(along_m[low]) - step), min(float(along_m[-1]), float(along_m[high]) + step)
+def _followed_to(route_a: Route, route_b: Route, stretch: Stretch) -> Place:
+    if route_a.lanes != route_b.lanes:
+        return stretch.end
+    s_m = route_a.landmarks.get("junction_start", route_a.path.length_m)
+    return s_m, s_m
 
 
-def _boxes_touch(poses_a: FloatArray, poses_b: FloatArray) -> NDArray[np.bool_]:
-    """Return whether the boxes of every pair of poses overlap (separating axes of both boxes), shape (A, B)."""
-    half_length, half_width = 0.5 * VEHICLE_LENGTH_M, 0.5 * VEHICLE_WIDTH_M
-    dx = poses_b[None, :, 0] - poses_a[:, None, 0]
-    dy = poses_b[None, :, 1] - poses_a[:, None, 1]
-    # Most pairs are far apart; only rows and columns with a near pair need the full test.
-    near = dx * dx + dy * dy <= 4.0 * (half_length**2 + half_width**2)
-    touch = np.zeros(near.shape, dtype=bool)
-    rows, columns = np.flatnonzero(near.any(axis=1)), np.flatnonzero(near.any(axis=0))
-    if not len(rows):
-        return touch
-    pairs = np.ix_(rows, columns)
-    dx, dy, poses_a, poses_b = dx[pairs], dy[pairs], poses_a[rows], poses_b[columns]
-    turned = poses_b[None, :, 2] - poses_a[:, None, 2]
-    cos, sin = np.abs(np.cos(turned)), np.abs(np.sin(turned))
-    reach_along = half_length + half_length * cos + half_width * sin
-    reach_across = half_width + half_length * sin + half_width * cos
-    overlap = np.ones(dx.shape, dtype=bool)
-    for heading in (poses_a[:, None, 2], poses_b[None, :, 2]):
-        overlap &= np.abs(dx * np.cos(heading) + dy * np.sin(heading)) <= reach_along
-        overlap &= np.abs(-dx * np.sin(heading) + dy * np.cos(heading)) <= reach_across
-    touch[pairs] = overlap
-    return touch
+def _crossings(route_a: Route, route_b: Route, stretches: tuple[Stretch, ...]) -> list[Place]:
+    """Return the intersections of the lines that are not part of a shared stretch, nor of one another."""
+    if route_a.lanes == route_b.lanes:
+        return []
+    kept: list[Place] = []
+    for place in intersections(route_a.path, route_b.path):
+        known = [*(stretch.beside(place) for stretch in stretches), *kept[-1:]]
+        if not any(_one_meeting(route_a, route_b, place, other) for other in known):
+            kept.append(place)
+    return kept
+
+
+def _one_meeting(route_a: Route, route_b: Route, one: Place, other: Place) -> bool:
+    """Whether the lines stay beside each other all the way between two places where they meet."""
+    along_m = max(abs(one[0] - other[0]), abs(one[1] - other[1]))
+    if along_m <= _APART_M:
+        return True
+    share = np.linspace(0.0, 1.0, 2 + int(along_m / _LOOK_M))[:, None]
+    for step in range(0, len(share), 64):  # most leave each other at once
+        between = np.asarray(one) + share[step : step + 64] * (np.asarray(other) - np.asarray(one))
+        gaps = route_a.path.poses(between[:, 0])[:, :2] - route_b.path.poses(between[:, 1])[:, :2]
+        if np.max(np.hypot(gaps[:, 0], gaps[:, 1])) > _APART_M:
+            return False
+    return True
+
+
+def _conflict(route_a: Route, route_b: Route, kind: Kind, place: Place, bodies: tuple[Body, Body]) -> Conflict:
+    x_m, y_m, _ = route_a.path.pose(place[0])
+    paths, length_m = (route_a.path, route_b.path), 0.5 * (bodies[0].length_m + bodies[1].length_m)
+    back_m = length_m if kind == "following" else np.inf
+    ahead_m = length_m if kind == "merging" or route_a.lanes == route_b.lanes else np.inf
+    zone_a, zone_b = touching(paths, place, bodies, back_m=back_m, ahead_m=ahead_m)
+    return Conflict(kind, *place, x_m, y_m, zone_a, zone_b)
+
+
+def _in_one_junction(route_a: Route, route_b: Route, conflict: Conflict) -> bool:
+    if route_a.junction_id is None or route_a.junction_id != route_b.junction_id:
+        return False
+    return all(
+        route.landmarks["junction_start"] <= s_m <= route.landmarks["junction_end"]
+        for route, s_m in ((route_a, conflict.s_a_m), (route_b, conflict.s_b_m))
+    )

@@ -32,8 +32,6 @@ from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route, find_route
 from scenewright.units import decimal_fraction
 
-VEHICLE_LENGTH_M = 4.5
-VEHICLE_WIDTH_M = 1.9
 _CONFLICT_NAMES = ("conflict_point", "intersection", "turn")
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from scenewright.drive.speeds import following_accel
 from scenewright.motion.profile import Profile, chain
-from scenewright.roads.conflicts import VEHICLE_LENGTH_M
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.simulate.prediction import EgoSample
 
 _HEADWAY_S, _STANDSTILL_M, _ACCEL_MPSS, _BRAKE_MPSS = 1.3, 2.0, 1.5, 2.0

@@ -14,7 +14,8 @@ import numpy as np
 from scenewright.drive.protocol import VehicleState
 from scenewright.errors import PolicyError
 from scenewright.program.types import EGO
-from scenewright.roads.grounding import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, Scene
+from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
+from scenewright.roads.grounding import Scene
 from scenewright.simulate.heroes import HeroDriver
 from scenewright.simulate.replanner import Replan
 from scenewright.simulate.vehicles import EgoVehicle

@@ -20,8 +20,9 @@ from typing import Any
 from scenewright import __version__
 from scenewright.errors import OutputError, Place
 from scenewright.program.printer import print_program
+from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.conflicts import shared_offset_m
-from scenewright.roads.grounding import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, Scene
+from scenewright.roads.grounding import Scene
 from scenewright.roads.model import RoadMap
 from scenewright.simulate.loop import Rates, Run
 from scenewright.solve.limits import Limits

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.protocol import EgoMotion, EgoStart, Observation, VehicleState
-from scenewright.roads.grounding import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
+from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route
 from scenewright.solve.limits import DEFAULT_SPEED_LIMIT_MPS

@@ -13,7 +13,7 @@ from scenewright.motion.profile import Profile
 from scenewright.program.expressions import Derived, Node, walk
 from scenewright.program.structure import Role, Structure
 from scenewright.program.types import EGO, Actor
-from scenewright.roads.conflicts import VEHICLE_LENGTH_M
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition, hero_side
 

@@ -16,7 +16,7 @@ from scenewright.motion.sketched import SketchedMotion
 from scenewright.program.expressions import Compare, Elapsed, Formula, PieceRef, State, walk
 from scenewright.program.structure import KnotKey, Role, Structure, actors_of, knots_of
 from scenewright.program.types import EGO, Actor, Constraint, PieceKind
-from scenewright.roads.conflicts import VEHICLE_LENGTH_M
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition, hero_side
 from scenewright.solve.clearance import APART_M, Clearance, out_of_way_mps

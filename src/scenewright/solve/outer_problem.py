@@ -16,7 +16,8 @@ from scenewright.motion.profile import Profile
 from scenewright.motion.sketched import SketchedMotion
 from scenewright.program.structure import Structure, actors_of
 from scenewright.program.types import EGO, Actor, PieceKind
-from scenewright.roads.grounding import VEHICLE_LENGTH_M, Scene
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
+from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import MOVING_MPS, STANDSTILL_MIN_S, Limits
 from scenewright.solve.lowering import Lowering, NotYet
 from scenewright.solve.problem import Problem

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from scenewright.errors import InputError, Place, ProgramError
 from scenewright.program.types import Program
+from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.studio.program_data import clauses, condition_times, places, triggers
 from scenewright.studio.replans_data import read_replans
 from scenewright.studio.scene_data import SceneGeometry, scene_geometry
@@ -27,7 +28,7 @@ Json = dict[str, Any]
 
 MAX_SAMPLES = 2000  # per actor
 _MAX_SAMPLES_IN_ALL = 12_000  # what keeps the page of a run with many actors under a megabyte
-_DEFAULT_SIZE_M = (4.5, 1.9)
+_DEFAULT_SIZE_M = (VEHICLE_LENGTH_M, VEHICLE_WIDTH_M)
 
 
 def collect(run_dir: Path) -> Json:

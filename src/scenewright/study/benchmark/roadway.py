@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.roads import Route
+from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.trace.model import ActorTrace, Trace
 
 FloatArray = NDArray[np.float64]
 
-LENGTH_M, WIDTH_M = 4.5, 1.9
 MAX_OFFSET_M = 1.0
 MAX_ANGLE_RAD = 0.5
 MAX_BACK_M = 0.05
@@ -60,7 +60,7 @@ def first_overlap_s(trace: Trace, until_s: float) -> float | None:
     instants = instants[instants <= until_s]
     centres = {name: _poses(trace.actors[name], instants) for name in ("ego", "hero")}
     apart = np.hypot(*(centres["ego"][:, :2] - centres["hero"][:, :2]).T)
-    near = np.flatnonzero(apart < np.hypot(LENGTH_M, WIDTH_M))
+    near = np.flatnonzero(apart < np.hypot(VEHICLE_LENGTH_M, VEHICLE_WIDTH_M))
     if not len(near):
         return None
     ego, hero = (shapely.polygons(_corners(centres[name][near])) for name in ("ego", "hero"))
@@ -74,7 +74,7 @@ def _poses(states: ActorTrace, instants: FloatArray) -> FloatArray:
 
 
 def _corners(poses: FloatArray) -> FloatArray:
-    half = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]]) * (0.5 * LENGTH_M, 0.5 * WIDTH_M)
+    half = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]]) * (0.5 * VEHICLE_LENGTH_M, 0.5 * VEHICLE_WIDTH_M)
     cos, sin = np.cos(poses[:, 2]), np.sin(poses[:, 2])
     turn = np.stack([np.stack([cos, -sin], -1), np.stack([sin, cos], -1)], -2)
     corners: FloatArray = poses[:, None, :2] + np.einsum("nij,kj->nki", turn, half)
