@@ -12,6 +12,7 @@ from scenewright.judge.files import judge_run_directory
 from scenewright.judge.tolerance import LOOSE, TIGHT
 from scenewright.orchestrate import EXIT_STATUS, Request, Result, orchestrate
 from scenewright.program.printer import print_program
+from scenewright.program.resolve import resolve
 from scenewright.program.text import parse_program
 from scenewright.trace.files import read_trace
 from scenewright.translate.sources import is_program, read_scenario
@@ -149,7 +150,8 @@ def test_parameters_say_where_they_come_from(written: tuple[Result, Path]) -> No
 def test_written_program_is_the_one_that_was_run(written: tuple[Result, Path]) -> None:
     result, out = written
     text = (out / "program.scene").read_text(encoding="utf-8")
-    assert parse_program(text, "program.scene") == result.scene.program
+    assert resolve(parse_program(text, "program.scene")) == result.scene.program
+    assert "A0x(t1) == conflict_point" in text, "as it was written, not as it was resolved"
 
 
 def test_written_run_is_judged_as_it_was(written: tuple[Result, Path]) -> None:

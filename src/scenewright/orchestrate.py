@@ -335,7 +335,7 @@ def case_of(scene: Scene, run: Run, limits: Mapping[int, Limits]) -> Case:
     return case.Case(
         program=scene.program,
         parameters={name: float(value) for name, value in scene.parameters.items()},
-        landmarks={actor.name: scene.landmarks_m[actor.id] for actor in actors},
+        landmarks={actor.name: scene.named_landmarks_m(actor.id) for actor in actors},
         shared_offset_m={(a.name, b.name): shared_offset_m(scene.routes[a.id], scene.routes[b.id]) for a, b in pairs},
         trace=run.trace,
         vehicles={actor.name: case.Box(VEHICLE_LENGTH_M, VEHICLE_WIDTH_M) for actor in actors},

@@ -42,7 +42,7 @@ def judged(play: Play, formula: str) -> Condition:
         ("A1v(go) <= 11.5", False, True),
         ("A1v(dec) <= 12", True, True),
         ("A0v(t1) < A1v(t1)", True, True),
-        ("A0x(t1) - stop_line == A1x(t1) - A1.conflict_point + 22", True, True),
+        ("A0x(t1) - A0.stop_line == A1x(t1) - A1.conflict_point + 22", True, True),
         ("headway(A0, A1, t1) >= 0 s or A1v(t1) >= 11", True, True),
         ("A1v(t1) >= 13.6 or A1v(t2) == 0", True, True),
         ("A1v(t1) >= 12.6 or A1v(t1) >= 13.6", False, True),

@@ -10,13 +10,14 @@ import pytest
 
 from scenewright.program.evaluate import violation
 from scenewright.program.expressions import Formula, Order
+from scenewright.program.resolve import resolve
 from scenewright.program.text import parse_program
 
 HEAD = "Actor 0:\n- W\n- [t0, go, t1]\nActor 1:\n- W\n- [t0, go, t1]\nConstraints:\n"
 
 
 def formula(text: str) -> Formula:
-    (constraint,) = parse_program(f"{HEAD}{text}\n").constraints
+    (constraint,) = resolve(parse_program(f"{HEAD}{text}\n")).constraints
     return constraint.formula
 
 
@@ -60,19 +61,24 @@ class Straight:
         ("A0x(t1) >= 23", 3.0),
         ("A0x(t1) < p_m", 13.0),
         ("A0x(t1) == stop_line - 30", 0.0),
-        ("A0x(t1) == A1.stop_line - 130", 0.0),
+        ("A0x(t1) == A1.stop_line - 30", 0.0),
         ("A1v(A0(t1)) == 4", 0.0),
         ("A1v(1.5) == 4.5", 0.0),
         ("A1a(go) == -1", 0.0),
         ("A1(t1) == A0(t1) + 1", 0.0),
         ("A1x(0) - A0x(0) == 20", 0.0),
         ("A0x(0) - A1x(0) == -20", 0.0),
+        ("A1x(0) == A0x(0) + 20", 0.0),
+        ("A1x(0) - 15 >= A0x(0)", -5.0),
+        ("A1x(0) - 15 - A0x(0) <= 6", -1.0),
+        ("(A1x(0) - A0x(0)) / A0v(0) == 2", 0.0),
+        ("A1x(0) - A1.stop_line == A0x(0) - A0.stop_line + 20", 0.0),
         ("gap(A0, A1, 0) == 20", 0.0),
         ("gap(A1, A0, 0) == -20", 0.0),
         ("headway(A0, A1, 0) == 2", 0.0),
         ("ttc(A0, A1, 0) == 5", 0.0),
         ("tta(A0, stop_line, t1) == 3", 0.0),
-        ("tta(A0, A1.stop_line, t1) == 13", 0.0),
+        ("tta(A0, A1.stop_line, t1) == 3", 0.0),
         ("ttc(A1, A0, 0) == 5", math.inf),
         ("-A0v(0) * 2 / 4 == -5", 0.0),
         ("A0v(0) + A1v(0) - 1 == 15", 0.0),

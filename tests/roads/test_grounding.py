@@ -113,12 +113,24 @@ def test_routes_that_never_meet_have_no_conflict_point(name: str) -> None:
 
 
 def test_a_landmark_on_another_actors_route_is_looked_up_there() -> None:
-    assert crossing("A1x(t0) == A0.stop_line - 5").landmark_m(0, "stop_line") == 300.0
+    scene = scene_of(example("W, N", "t0, go, t1", "A1x(t0) == A0.stop_line - 5"))
+    assert scene.landmark_m(0, "stop_line") == 300.0
     with pytest.raises(MapError, match="ego's route has no conflict point"):
         scene_of(example("E", "t0, go, t1", "tta(A1, A0.conflict_point, t0) == 3"))
 
 
-@pytest.mark.parametrize("line", ["gap(A0, A1, t1) == 12", "A1x(t1) - A0x(t1) == 12", "ttc(A0, A1, t1) < 2"])
+@pytest.mark.parametrize(
+    "line",
+    [
+        "gap(A0, A1, t1) == 12",
+        "A1x(t1) - A0x(t1) == 12",
+        "ttc(A0, A1, t1) < 2",
+        "A1x(t1) == A0x(t1) + 20",
+        "A1x(t1) - 5 >= A0x(t1)",
+        "A1x(t0) == A0.stop_line - 5",
+        "tta(A1, A0.stop_line, t1) == 3",
+    ],
+)
 def test_a_gap_needs_a_lane_that_both_use(line: str) -> None:
     with pytest.raises(MapError, match="their routes share no lane") as caught:
         crossing(line)

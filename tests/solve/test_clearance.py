@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scenarios import BRAKES, YIELDS, example, limits_of, read_structure
 from scenewright.motion.profile import Profile, chain
 from scenewright.program.text import parse_program
-from scenewright.roads.conflicts import VEHICLE_LENGTH_M
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.solve.arrival import linear_conditions

@@ -15,8 +15,9 @@ import numpy as np
 
 from scenewright.errors import InputError
 from scenewright.judge.timeline import Timeline
+from scenewright.program.resolve import resolve, usual_partner
 from scenewright.program.structure import Structure, read_structure
-from scenewright.program.types import EGO, Program
+from scenewright.program.types import Program
 from scenewright.roads.bodies import Body as Box
 from scenewright.trace.model import COLUMNS, ActorTrace, FloatArray, Trace
 
@@ -59,12 +60,12 @@ class Case:
     Parameters
     ----------
     program
-        What was asked for.
+        What was asked for; what it leaves to be understood is resolved here as it is for the planner.
     parameters
         Value of every parameter, in SI units.
     landmarks
-        By actor name: arc length (m) of each landmark on that actor's route. With more than two actors a conflict
-        point may be keyed by the other's name too, ``"conflict_point(hero2)"``.
+        By actor name: arc length (m) of each landmark on that actor's route. Conflict points with others than the ego
+        and, on the ego's route, than the first hero have the other's name beside them: ``"conflict_point(hero2)"``.
     shared_offset_m
         By pair of actor names (a, b): what to add to b's arc length to compare it with a's; None where they share no
         lane.
@@ -94,6 +95,7 @@ class Case:
     paths: Mapping[str, PathLike] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "program", resolve(self.program))
         absent = [actor.name for actor in self.program.actors if actor.name not in self.trace.actors]
         if absent:
             raise InputError(
@@ -153,17 +155,15 @@ class Case:
             If the route has no such landmark.
         """
         known = self.landmarks.get(self.name(actor_id), {})
-        keys = [name]
-        if other is not None:
-            keys.insert(0, f"{name}({self.name(other)})")
-            if len(self.program.actors) > 2 and EGO not in (actor_id, other):
-                keys.pop()  # a conflict point without a name beside it is the one with the ego
-        if name == "turn":
-            keys.append("intersection")
-        for key in keys:
-            if key in known:
+        names = (name, "intersection") if name == "turn" else (name,)
+        for key in names:
+            if other is not None and (with_other := f"{key}({self.name(other)})") in known:
+                return float(known[with_other])
+            # A conflict point without a name beside it is the one with the usual partner.
+            if key in known and other in (None, usual_partner(self.program, actor_id)):
                 return float(known[key])
-        raise CannotJudge(f"the route of {self.name(actor_id)} has no landmark {keys[0]}")
+        with_whom = "" if other is None else f" with {self.name(other)}"
+        raise CannotJudge(f"the route of {self.name(actor_id)} has no landmark {name}{with_whom}")
 
     def offset_m(self, actor_id: int, other: int) -> float | None:
         """Return what to add to `other`'s arc length to compare it with the actor's; None where they share no lane."""

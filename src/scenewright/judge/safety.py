@@ -17,7 +17,6 @@ from scenewright.judge.case import CannotJudge, Case
 from scenewright.judge.instants import first_crossing
 from scenewright.judge.knots import Measured
 from scenewright.judge.verdict import Condition, bounded
-from scenewright.program.types import EGO
 
 _SUB_STEPS = 5  # the samples, and four instants between each two
 
@@ -80,8 +79,6 @@ def _post_encroachment_s(case: Case, a: int, b: int) -> float | None:
 
     The zone is where one's box can be while the other's width covers the conflict point.
     """
-    if len(case.program.actors) > 2 and EGO not in (a, b):
-        return None  # only conflict points with the ego are named without doubt
     try:
         first, second = sorted((_stay(case, a, b), _stay(case, b, a)))
     except (CannotJudge, TypeError):

@@ -7,7 +7,7 @@ written apart from the planner's evaluator on purpose: a mistake there must not 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -39,82 +39,22 @@ class Moments:
     now: Values | None = None
 
 
-def with_owners(compare: ex.Compare) -> ex.Compare:
-    """Give every landmark that names no actor the actor whose position it is compared with."""
-    owner = next((n.actor for n in ex.walk(compare) if isinstance(n, ex.State) and n.order == 0), None)
-    if owner is None:
-        return compare
-    return replace(compare, left=_owned(compare.left, owner), right=_owned(compare.right, owner))
-
-
-def _owned(term: ex.Term, owner: int) -> ex.Term:
-    match term:
-        case ex.Landmark(actor=None):
-            return replace(term, actor=owner)
-        case ex.Arithmetic(left=left, right=right):
-            return replace(term, left=_owned(left, owner), right=_owned(right, owner))
-        case ex.Negate(operand=operand):
-            return replace(term, operand=_owned(operand, owner))
-        case _:
-            return term
-
-
 def sides(case: Case, compare: ex.Compare, moments: Moments) -> tuple[Values, Values]:
     """Return the values of both sides of a comparison.
-
-    Positions of several actors are brought to the arc length of the first of them, where they share a lane.
 
     Raises
     ------
     CannotJudge
         If a landmark, a knot or a shared lane is missing.
     """
-    owned = with_owners(compare)
-    frame = next((n.actor for n in ex.walk(owned) if isinstance(n, ex.State | ex.Landmark) and _is_place(n)), None)
-    shifts = {} if frame is None else _shifts(case, owned, frame)
-    reader = _Reader(case, moments, shifts)
-    return reader.value(owned.left), reader.value(owned.right)
-
-
-def _is_place(node: ex.State | ex.Landmark) -> bool:
-    return isinstance(node, ex.Landmark) or node.order == 0
-
-
-def _shifts(case: Case, compare: ex.Compare, frame: int) -> dict[int, float]:
-    net: dict[int, float] = {}
-    _count_places(compare.left, 1.0, net)
-    _count_places(compare.right, -1.0, net)
-    shifts = {}
-    for actor, count in net.items():
-        offset = case.offset_m(frame, actor)
-        if offset is None and count != 0:
-            raise CannotJudge(f"{case.name(frame)} and {case.name(actor)} share no lane on which to compare positions")
-        shifts[actor] = 0.0 if offset is None else offset  # a difference on one route is the same in any frame
-    return shifts
-
-
-def _count_places(term: ex.Node, sign: float, net: dict[int, float]) -> None:
-    """Add up how often each actor's places occur; ``A1x(t1) - A1.stop_line`` counts as none."""
-    match term:
-        case ex.State(actor=actor, order=0) | ex.Landmark(actor=int() as actor):
-            net[actor] = net.get(actor, 0.0) + sign
-        case ex.Negate(operand=operand):
-            _count_places(operand, -sign, net)
-        case ex.Arithmetic(operator=("+" | "-") as operator, left=left, right=right):
-            _count_places(left, sign, net)
-            _count_places(right, sign if operator == "+" else -sign, net)
-        case ex.Arithmetic(left=left, right=right):
-            _count_places(left, np.pi, net)  # a product: nothing cancels
-            _count_places(right, np.pi, net)
-        case _:
-            pass
+    reader = _Reader(case, moments)
+    return reader.value(compare.left), reader.value(compare.right)
 
 
 @dataclass(frozen=True, slots=True)
 class _Reader:
     case: Case
     moments: Moments
-    shifts: Mapping[int, float]
 
     def value(self, term: ex.Term) -> Values:
         match term:
@@ -122,10 +62,8 @@ class _Reader:
                 return float(value)
             case ex.ParameterRef(name=name):
                 return self._parameter(name)
-            case ex.Landmark(name=name, actor=actor, other=other):
-                if actor is None:
-                    raise CannotJudge(f"nothing says on whose route {name} is meant")
-                return self.case.landmark_m(name, actor, other) + self.shifts.get(actor, 0.0)
+            case ex.Landmark():
+                return self._place(term)
             case ex.Elapsed(actor=actor, knot=knot):
                 return self._knot(actor, knot) - self.case.start_s
             case ex.State():
@@ -172,7 +110,7 @@ class _Reader:
             return mean_acceleration(timeline.speed(np.array([start, end])), end - start)
         time_s = self._time(term.actor, term.at)
         if term.order == 0:
-            return timeline.position(time_s) + self.shifts.get(term.actor, 0.0)
+            return timeline.position(time_s) + (0.0 if term.frame is None else self._offset(term.frame, term.actor))
         if term.order == 1:
             return timeline.speed(time_s)
         if isinstance(term.at, ex.Knot | ex.Elapsed):
@@ -189,9 +127,7 @@ class _Reader:
         timeline = self.case.timelines[term.actor]
         speed = timeline.speed(time_s)
         if isinstance(term.target, ex.Landmark):
-            owner = term.actor if term.target.actor is None else term.target.actor
-            place = self.case.landmark_m(term.target.name, owner, term.target.other)
-            return _over(place - timeline.position(time_s), speed)
+            return _over(self._place(term.target) - timeline.position(time_s), speed)
         gap = self._gap(term.actor, term.target, time_s)
         if term.kind == "gap":
             return gap
@@ -201,13 +137,21 @@ class _Reader:
         return _over(np.abs(gap), np.maximum(closing, 0.0))
 
     def _gap(self, actor: int, other: int, time_s: Values) -> FloatArray:
+        ahead: FloatArray = self.case.timelines[other].position(time_s) + self._offset(actor, other)
+        return ahead - self.case.timelines[actor].position(time_s)
+
+    def _place(self, mark: ex.Landmark) -> float:
+        if mark.actor is None:
+            raise CannotJudge(f"nothing says on whose route {mark.name} is meant")
+        place = self.case.landmark_m(mark.name, mark.actor, mark.other)
+        return place + (0.0 if mark.frame is None else self._offset(mark.frame, mark.actor))
+
+    def _offset(self, actor: int, other: int) -> float:
         offset = self.case.offset_m(actor, other)
         if offset is None:
-            raise CannotJudge(
-                f"{self.case.name(actor)} and {self.case.name(other)} share no lane on which to measure a gap"
-            )
-        ahead: FloatArray = self.case.timelines[other].position(time_s) + offset
-        return ahead - self.case.timelines[actor].position(time_s)
+            names = f"{self.case.name(actor)} and {self.case.name(other)}"
+            raise CannotJudge(f"{names} share no lane on which to compare their places")
+        return offset
 
 
 def piece_span(case: Case, moments: Moments, actor: int, piece: ex.PieceRef) -> Span:

@@ -1,7 +1,7 @@
 """Evaluates terms and formulas of a program on given motions: the independent check of every solution.
 
-What enters: an expression and a `World` that knows states, knots, landmarks and parameters. What leaves: numbers, and
-for formulas the margin by which they hold. It shares no code with the lowering to solver formulas.
+What enters: a resolved expression (see `resolve`) and a `World` that knows states, knots, landmarks, parameters. What
+leaves: numbers, and for formulas the margin by which they hold. It shares no code with the lowering to solver formulas.
 """
 
 from __future__ import annotations
@@ -53,9 +53,8 @@ def landmark_owner(compare: ex.Compare) -> int | None:
 
 def difference(compare: ex.Compare, world: World, now_s: float | None = None) -> float:
     """Return left minus right (SI), NaN-free: a comparison with an undefined value gives infinity."""
-    owner = landmark_owner(compare)
-    left = term_value(compare.left, world, owner, now_s)
-    right = term_value(compare.right, world, owner, now_s)
+    left = term_value(compare.left, world, now_s)
+    right = term_value(compare.right, world, now_s)
     if math.isinf(left) and math.isinf(right) and left == right:
         return 0.0
     return left - right
@@ -79,7 +78,7 @@ def violation(formula: ex.Formula, world: World, now_s: float | None = None) -> 
         case ex.Logic(operands=(left, right)):
             return min(-violation(left, world, now_s), violation(right, world, now_s))
         case ex.Temporal(operator=operator, start=start, end=end, body=body):
-            first, last = term_value(start, world, None, now_s), term_value(end, world, None, now_s)
+            first, last = term_value(start, world, now_s), term_value(end, world, now_s)
             if not (math.isfinite(first) and math.isfinite(last)):
                 return math.inf  # an interval that never begins or ends was not kept to
             values = [violation(body, world, time_s) for time_s in _instants(first, last)]
@@ -103,39 +102,27 @@ def _instants(first_s: float, last_s: float) -> list[float]:
     return [begin + (end - begin) * i / (count - 1) for i in range(count)]
 
 
-def term_value(term: ex.Term, world: World, owner: int | None = None, now_s: float | None = None) -> float:
-    """Return the SI value of `term`.
-
-    `owner` is the actor that bare landmarks belong to, `now_s` the moment inside a temporal operator.
-    """
+def term_value(term: ex.Term, world: World, now_s: float | None = None) -> float:
+    """Return the SI value of `term`; `now_s` is the moment inside a temporal operator."""
     match term:
         case ex.Number(value=value):
             return float(value)
         case ex.ParameterRef(name=name):
             return world.parameter(name)
-        case ex.Landmark(name=name, actor=actor, other=other):
-            holder = actor if actor is not None else owner
-            if holder is None:
-                raise ValueError(f"landmark {name} belongs to no one")
-            return world.landmark_m(holder, name, other)
+        case ex.Landmark():
+            return _landmark_m(term, world)
         case ex.Elapsed(actor=actor, knot=knot):
             return world.knot_time_s(actor, knot)
         case ex.State(actor=actor, order=order, at=ex.PieceRef(name=piece)):
             return world.state_on_piece(actor, order, piece)
         case ex.State(actor=actor, order=order, at=at):
-            return world.state(actor, order, moment_s(at, actor, world, now_s))
+            return world.state(actor, order, moment_s(at, actor, world, now_s)) + _shift_m(term, world)
         case ex.Derived():
             return _derived(term, world, now_s)
         case ex.Negate(operand=operand):
-            return -term_value(operand, world, owner, now_s)
-        case ex.Arithmetic(operator="-", left=ex.State(order=0) as left, right=ex.State(order=0) as right):
-            # Positions of two actors are compared on the lanes that they share.
-            shift = world.offset_m(left.actor, right.actor) if left.actor != right.actor else 0.0
-            return term_value(left, world, owner, now_s) - term_value(right, world, owner, now_s) - shift
+            return -term_value(operand, world, now_s)
         case ex.Arithmetic(operator=operator, left=left_term, right=right_term):
-            left_value = term_value(left_term, world, owner, now_s)
-            right_value = term_value(right_term, world, owner, now_s)
-            return _apply(operator, left_value, right_value)
+            return _apply(operator, term_value(left_term, world, now_s), term_value(right_term, world, now_s))
         case _:
             raise TypeError(f"not a term: {term!r}")
 
@@ -160,15 +147,26 @@ def _derived(term: ex.Derived, world: World, now_s: float | None) -> float:
     position = world.state(term.actor, 0, time_s)
     speed = world.state(term.actor, 1, time_s)
     if isinstance(term.target, ex.Landmark):
-        holder = term.target.actor if term.target.actor is not None else term.actor
-        distance = world.landmark_m(holder, term.target.name, term.target.other) - position
-        return _ratio(distance, speed)
+        return _ratio(_landmark_m(term.target, world) - position, speed)
     gap = world.state(term.target, 0, time_s) + world.offset_m(term.actor, term.target) - position
     if term.kind == "gap":
         return gap
     if term.kind == "headway":
         return _ratio(gap, speed)
     return _ratio(gap, speed - world.state(term.target, 1, time_s))
+
+
+def _landmark_m(mark: ex.Landmark, world: World) -> float:
+    if mark.actor is None:
+        raise ValueError(f"landmark {mark.name} belongs to no one")
+    return world.landmark_m(mark.actor, mark.name, mark.other) + _shift_m(mark, world)
+
+
+def _shift_m(place: ex.State | ex.Landmark, world: World) -> float:
+    """Return what brings a place to the route that it is meant along."""
+    if place.frame is None or place.actor is None:
+        return 0.0
+    return world.offset_m(place.frame, place.actor)
 
 
 def _ratio(numerator: float, denominator: float) -> float:

@@ -28,6 +28,7 @@ LANDMARKS = (
     "junction_end",
     "route_end",
 )
+CONFLICT_LANDMARKS = ("conflict_point", "intersection", "turn")
 
 
 def _span() -> Span | None:
@@ -56,13 +57,16 @@ class Landmark:
     """A named arc length (m) on an actor's route.
 
     `actor` None means the actor whose position it is compared with; `other` names the second actor of a conflict point
-    where there are more than two.
+    where there are more than two. Resolving fills in both; `written` is then what the user wrote, and is printed.
+    With a `frame` the place is meant along the route of that actor instead, on the lanes that both drive on.
     """
 
     name: str
     actor: int | None = None
     other: int | None = None
     span: Span | None = _span()
+    frame: int | None = None
+    written: str | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,12 +99,16 @@ At = Knot | PieceRef | Elapsed | Number | None
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """Position (order 0, m), speed (1, m/s) or acceleration (2, m/s^2) of an actor along its route."""
+    """Position (order 0, m), speed (1, m/s) or acceleration (2, m/s^2) of an actor along its route.
+
+    With a `frame` the position is meant along the route of that actor instead, on the lanes that both drive on.
+    """
 
     actor: int
     order: Order
     at: At
     span: Span | None = _span()
+    frame: int | None = None
 
 
 DerivedKind = Literal["gap", "tta", "ttc", "headway"]

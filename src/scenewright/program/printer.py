@@ -43,6 +43,8 @@ def print_expression(node: ex.Node) -> str:
             return format_fraction(value)
         case ex.ParameterRef(name=name):
             return name
+        case ex.Landmark(written=str() as written):
+            return written
         case ex.Landmark(name=name, actor=actor, other=other):
             prefix = "" if actor is None else f"A{actor}."
             return f"{prefix}{name}" + ("" if other is None else f"(A{other})")

@@ -13,9 +13,8 @@ from difflib import get_close_matches
 from fractions import Fraction
 
 from scenewright.errors import MapError, ParameterError, Place
-from scenewright.program.evaluate import landmark_owner
 from scenewright.program.expressions import (
-    Arithmetic,
+    CONFLICT_LANDMARKS,
     Compare,
     Derived,
     Landmark,
@@ -26,13 +25,12 @@ from scenewright.program.expressions import (
     State,
     walk,
 )
-from scenewright.program.types import EGO, Actor, HeadingsRoute, LanesRoute, Parameter, Program
+from scenewright.program.resolve import resolve, usual_partner
+from scenewright.program.types import Actor, HeadingsRoute, LanesRoute, Parameter, Program
 from scenewright.roads.conflicts import Conflict, find_conflict, shared_offset_m
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route, find_route
 from scenewright.units import decimal_fraction
-
-_CONFLICT_NAMES = ("conflict_point", "intersection", "turn")
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,11 +39,13 @@ class Scene:
 
     Attributes
     ----------
+    program
+        With every landmark's actor and partner, and the frame of every comparison (see `program.resolve`).
     routes
         By actor id.
     landmarks_m
-        Arc lengths by actor id and name; conflict names are those with the actor's partner (the ego, or for the ego the
-        first hero).
+        Arc lengths by actor id and name; conflict names are those with the actor's usual partner (the ego, or for the
+        ego the first hero).
     parameters
         SI values by name; an open parameter is absent.
     """
@@ -59,15 +59,21 @@ class Scene:
 
     def landmark_m(self, actor: int, name: str, other: int | None = None) -> float:
         """Return a landmark's arc length (m) on the route of `actor`; raises MapError where there is none."""
-        if other is not None and name in _CONFLICT_NAMES:
-            conflict = find_conflict(self.routes[actor], self.routes[other])
-            if conflict is None:
-                raise _no_conflict(self.program, actor, other)
-            return conflict.s_a_m
-        try:
-            return self.landmarks_m[actor][name]
-        except KeyError:
-            raise _no_landmark(self.program, actor, name, self.landmarks_m[actor]) from None
+        known = self.landmarks_m[actor]
+        if other is not None and name in CONFLICT_LANDMARKS:
+            known = _meeting_places(self.routes[actor], self.routes[other])
+        if name not in known:
+            raise _no_landmark(self.program, actor, name, other, self.landmarks_m[actor])
+        return known[name]
+
+    def named_landmarks_m(self, actor: int) -> dict[str, float]:
+        """Return the landmarks of `actor`; those with others than its usual partner as ``turn(hero2)``."""
+        places = dict(self.landmarks_m[actor])
+        for other in self.program.actors:
+            if other.id not in (actor, usual_partner(self.program, actor)):
+                met = _meeting_places(self.routes[actor], self.routes[other.id])
+                places |= {f"{name}({other.name})": s_m for name, s_m in met.items()}
+        return places
 
     def offset_m(self, actor: int, other: int) -> float:
         """Return what to add to the arc length of `other` to compare it with that of `actor`.
@@ -109,6 +115,7 @@ def ground(program: Program, road_map: RoadMap, values: Mapping[str, float | str
     ParameterError
         For an unknown parameter, one that is not a finite number, or one out of its range.
     """
+    program = resolve(program)
     routes = {actor.id: _route(actor, road_map) for actor in program.actors}
     parameters = parameter_values(program, values or {})
     parameters, notes = _signed_decelerations(program, parameters)
@@ -183,33 +190,29 @@ def _route(actor: Actor, road_map: RoadMap) -> Route:
 
 
 def _landmarks(program: Program, actor: Actor, routes: Mapping[int, Route]) -> dict[str, float]:
-    landmarks = dict(routes[actor.id].landmarks)
-    others = [hero.id for hero in program.heroes] if actor.is_ego else [EGO]
-    conflict = find_conflict(routes[actor.id], routes[others[0]]) if others and others[0] in routes else None
+    partner = usual_partner(program, actor.id)
+    met = _meeting_places(routes[actor.id], routes[partner]) if partner is not None and partner in routes else {}
+    return {**routes[actor.id].landmarks, **met}
+
+
+def _meeting_places(route: Route, other: Route) -> dict[str, float]:
+    """Return the landmarks that depend on another route: the conflict; without one, where the junction begins."""
+    conflict = find_conflict(route, other)
     if conflict is not None:
-        for name in _CONFLICT_NAMES:
-            landmarks[name] = conflict.s_a_m
-    elif "junction_start" in landmarks:
-        landmarks["intersection"] = landmarks["turn"] = landmarks["junction_start"]
-    return landmarks
+        return dict.fromkeys(CONFLICT_LANDMARKS, conflict.s_a_m)
+    if "junction_start" in route.landmarks:
+        return dict.fromkeys(("intersection", "turn"), route.landmarks["junction_start"])
+    return {}
 
 
 def _check_node(scene: Scene, node: Node) -> None:
-    if not isinstance(node, Compare):
-        return
-    owner = landmark_owner(node)
-    aims = {id(part.target): part.actor for part in walk(node) if isinstance(part, Derived)}
-    for part in walk(node):
-        if isinstance(part, Landmark):
-            holder = part.actor if part.actor is not None else aims.get(id(part), owner)
-            if holder is not None:
-                scene.landmark_m(holder, part.name, part.other)
-        elif isinstance(part, Derived) and isinstance(part.target, int):
-            scene.offset_m(part.actor, part.target)
-        elif isinstance(part, Arithmetic) and isinstance(part.left, State) and isinstance(part.right, State):
-            both_positions = part.left.order == part.right.order == 0
-            if both_positions and part.operator == "-":
-                scene.offset_m(part.left.actor, part.right.actor)
+    """Look up whatever `node` needs of the map; raises MapError where it is not to be had."""
+    if isinstance(node, Landmark) and node.actor is not None:
+        scene.landmark_m(node.actor, node.name, node.other)
+    if isinstance(node, State | Landmark) and node.frame is not None and node.actor is not None:
+        scene.offset_m(node.frame, node.actor)
+    if isinstance(node, Derived) and isinstance(node.target, int):
+        scene.offset_m(node.actor, node.target)
 
 
 def _signed_decelerations(
@@ -235,18 +238,15 @@ def _signed_decelerations(
     return result, tuple(notes)
 
 
-def _no_landmark(program: Program, actor: int, name: str, there_are: Mapping[str, float]) -> MapError:
+def _no_landmark(
+    program: Program, actor: int, name: str, other: int | None, there_are: Mapping[str, float]
+) -> MapError:
+    meets = other is not None and name in CONFLICT_LANDMARKS
+    why = f": it never meets that of {program.actor(other).name}" if meets and other is not None else ""
     return MapError(
-        f"{program.actor(actor).name}'s route has no {name.replace('_', ' ')}",
+        f"{program.actor(actor).name}'s route has no {name.replace('_', ' ')}{why}",
         place=Place(program.map_name),
         found=name,
         expected=", ".join(sorted(there_are)),
-        fix="choose one of these landmarks, or routes that meet"
-        if "conflict" in name
-        else "choose one of these landmarks",
+        fix="choose one of these landmarks, or routes that meet" if meets else "choose one of these landmarks",
     )
-
-
-def _no_conflict(program: Program, actor: int, other: int) -> MapError:
-    a, b = program.actor(actor).name, program.actor(other).name
-    return MapError(f"the routes of {a} and {b} never meet: there is no conflict point", place=Place(program.map_name))

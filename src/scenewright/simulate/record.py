@@ -139,7 +139,7 @@ def _manifest(scene: Scene, run: Run, limits: Mapping[int, Limits], circumstance
         "ego": {"name": circumstances.ego_name, "options": dict(circumstances.ego_options)},
         "map": _map(scene.road_map),
         "routes": {actor.name: _route(scene, actor.id) for actor in program.actors},
-        "landmarks": {actor.name: dict(scene.landmarks_m[actor.id]) for actor in program.actors},
+        "landmarks": {actor.name: scene.named_landmarks_m(actor.id) for actor in program.actors},
         "vehicles": {
             actor.name: {"length_m": VEHICLE_LENGTH_M, "width_m": VEHICLE_WIDTH_M} for actor in program.actors
         },

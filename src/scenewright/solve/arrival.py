@@ -15,7 +15,6 @@ from fractions import Fraction
 from scenewright.motion.algebra import Symbol, Value
 from scenewright.motion.profile import Profile, Segment
 from scenewright.motion.sketched import ONE, Ratio
-from scenewright.program.evaluate import landmark_owner
 from scenewright.program.expressions import Compare, Elapsed
 from scenewright.program.structure import KnotKey, Structure, actors_of, knots_of
 from scenewright.program.types import EGO
@@ -156,9 +155,8 @@ def _probe(
     motions = {actor: _Probe(*state) for actor, state in states.items()}
     lowering = Lowering(scene, structure, motions, scene.parameters)
     try:
-        owner = landmark_owner(formula)
-        left_num, left_den = lowering.term(formula.left, owner)
-        right_num, right_den = lowering.term(formula.right, owner)
+        left_num, left_den = lowering.term(formula.left)
+        right_num, right_den = lowering.term(formula.right)
         value = left_num * right_den - right_num * left_den
     except (NotYet, KeyError):
         return None

@@ -346,7 +346,7 @@ class HeroProblem:
             case Compare(
                 operator="<" | "<=", left=Elapsed(actor=hero) as left, right=Elapsed(actor=other) as right
             ) if hero != EGO and other == EGO and margin_s:
-                first, second = lowering.term(left, None)[0], lowering.term(right, None)[0]
+                first, second = lowering.term(left)[0], lowering.term(right)[0]
                 return compare("<=", first + pin(margin_s), second)
             case _:
                 return lowering.condition(formula, tolerance)

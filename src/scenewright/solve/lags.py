@@ -77,7 +77,7 @@ def _off(
     clocks = {actor: _Clock({knot: times_s[actor, knot] for who, knot in keys if who == actor}) for actor, _ in keys}
     lowering = Lowering(scene, structure, clocks, scene.parameters)
     try:
-        (left, left_under), (right, right_under) = lowering.term(formula.left, None), lowering.term(formula.right, None)
+        (left, left_under), (right, right_under) = lowering.term(formula.left), lowering.term(formula.right)
     except (NotYet, KeyError):
         return None
     value = left * right_under - right * left_under

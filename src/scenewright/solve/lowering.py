@@ -22,7 +22,6 @@ from scenewright.motion.algebra import (
 )
 from scenewright.motion.sketched import ONE, Ratio
 from scenewright.program import expressions as ex
-from scenewright.program.evaluate import landmark_owner
 from scenewright.program.structure import Structure
 from scenewright.roads.grounding import Scene
 from scenewright.solve.views import MotionView, SketchedView
@@ -98,9 +97,8 @@ class Lowering:
                 raise TypeError(f"not a formula: {formula!r}")
 
     def _compare(self, formula: ex.Compare, tolerance: Fraction) -> Condition:
-        owner = landmark_owner(formula)
-        left_num, left_den = self._side(formula.left, owner)
-        right_num, right_den = self._side(formula.right, owner)
+        left_num, left_den = self._side(formula.left)
+        right_num, right_den = self._side(formula.right)
         left, right = left_num * right_den, right_num * left_den
         positive = [compare(">", den, Fraction(0)) for den in (left_den, right_den)]
         if formula.operator == "==" and tolerance:
@@ -115,25 +113,22 @@ class Lowering:
             return disjunction([negation(positive[1]), finite])
         return finite
 
-    def _side(self, term: ex.Term, owner: int | None) -> Ratio:
+    def _side(self, term: ex.Term) -> Ratio:
         """Return one side of a comparison; a quotient by a known negative number is written with a positive one."""
-        numerator, denominator = self.term(term, owner)
+        numerator, denominator = self.term(term)
         if not isinstance(denominator, Symbol) and denominator < 0 and not _may_be_endless(term):
             return -numerator, -denominator
         return numerator, denominator
 
-    def term(self, term: ex.Term, owner: int | None) -> Ratio:
+    def term(self, term: ex.Term) -> Ratio:
         """Return a term as numerator and denominator."""
         match term:
             case ex.Number(value=value):
                 return value, ONE
             case ex.ParameterRef(name=name):
                 return self.parameters[name], ONE
-            case ex.Landmark(name=name, actor=actor, other=other):
-                holder = actor if actor is not None else owner
-                if holder is None:
-                    raise ValueError(f"landmark {name} belongs to no one")
-                return pin(self.scene.landmark_m(holder, name, other)), ONE
+            case ex.Landmark():
+                return self._landmark(term), ONE
             case ex.Elapsed(actor=actor, knot=knot):
                 return _known(self.motions[actor].time(knot)), ONE
             case ex.State(actor=actor, order=order, at=ex.PieceRef(name=name)):
@@ -143,14 +138,15 @@ class Lowering:
                     raise NotYet
                 return ratio
             case ex.State(actor=actor, order=order, at=at):
-                return self._state(actor, order, at, actor)
+                numerator, denominator = self._state(actor, order, at, actor)
+                return numerator + self._shift(term) * denominator, denominator
             case ex.Derived():
                 return self._derived(term)
             case ex.Negate(operand=operand):
-                numerator, denominator = self.term(operand, owner)
+                numerator, denominator = self.term(operand)
                 return -numerator, denominator
             case ex.Arithmetic():
-                return self._arithmetic(term, owner)
+                return self._arithmetic(term)
             case _:
                 raise TypeError(f"not a term: {term!r}")
 
@@ -183,8 +179,7 @@ class Lowering:
     def _derived(self, term: ex.Derived) -> Ratio:
         position = self._state(term.actor, 0, term.at, term.actor)[0]
         if isinstance(term.target, ex.Landmark):
-            holder = term.target.actor if term.target.actor is not None else term.actor
-            distance = pin(self.scene.landmark_m(holder, term.target.name, term.target.other)) - position
+            distance = self._landmark(term.target) - position
             return distance, self._state(term.actor, 1, term.at, term.actor)[0]
         offset = pin(self.scene.offset_m(term.actor, term.target))
         gap = self._state(term.target, 0, term.at, term.actor)[0] + offset - position
@@ -195,15 +190,20 @@ class Lowering:
             return gap, speed
         return gap, speed - self._state(term.target, 1, term.at, term.actor)[0]
 
-    def _arithmetic(self, term: ex.Arithmetic, owner: int | None) -> Ratio:
-        left_num, left_den = self.term(term.left, owner)
-        right_num, right_den = self.term(term.right, owner)
-        if _are_positions(term) and term.operator == "-":
-            left_state, right_state = term.left, term.right
-            assert isinstance(left_state, ex.State)
-            assert isinstance(right_state, ex.State)
-            shift = pin(self.scene.offset_m(left_state.actor, right_state.actor))
-            return left_num - right_num - shift, ONE
+    def _landmark(self, mark: ex.Landmark) -> Fraction:
+        if mark.actor is None:
+            raise ValueError(f"landmark {mark.name} belongs to no one")
+        return pin(self.scene.landmark_m(mark.actor, mark.name, mark.other)) + self._shift(mark)
+
+    def _shift(self, place: ex.State | ex.Landmark) -> Fraction:
+        """Return what brings a place to the route that it is meant along."""
+        if place.frame is None or place.actor is None:
+            return Fraction(0)
+        return pin(self.scene.offset_m(place.frame, place.actor))
+
+    def _arithmetic(self, term: ex.Arithmetic) -> Ratio:
+        left_num, left_den = self.term(term.left)
+        right_num, right_den = self.term(term.right)
         match term.operator:
             case "+":
                 return left_num * right_den + right_num * left_den, left_den * right_den
@@ -241,16 +241,6 @@ class Lowering:
         if self._now is None or self._now[0] != actor or not isinstance(view, SketchedView):
             raise NotYet
         return view.motion.state_at_knot(self._now[1], order)
-
-
-def _are_positions(term: ex.Arithmetic) -> bool:
-    left, right = term.left, term.right
-    return (
-        isinstance(left, ex.State)
-        and isinstance(right, ex.State)
-        and left.order == right.order == 0
-        and left.actor != right.actor
-    )
 
 
 def _may_be_endless(term: ex.Term) -> bool:

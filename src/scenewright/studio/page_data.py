@@ -115,6 +115,7 @@ def _text(path: Path) -> str | None:
 
 
 def _program(run_dir: Path, missing: list[str]) -> Program | None:
+    from scenewright.program.resolve import resolve
     from scenewright.program.text import parse_program
 
     text = _text(run_dir / "program.scene")
@@ -122,7 +123,7 @@ def _program(run_dir: Path, missing: list[str]) -> Program | None:
         missing.append("program.scene is missing: triggers and the clauses of the description cannot be marked")
         return None
     try:
-        return parse_program(text, "program.scene")
+        return resolve(parse_program(text, "program.scene"))
     except ProgramError as error:
         missing.append(f"program.scene cannot be read ({error.message}): triggers and clauses cannot be marked")
         return None

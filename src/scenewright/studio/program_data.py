@@ -1,18 +1,19 @@
 """What the page needs of a program: clauses of the description, the moment each condition is about, the triggers.
 
-What enters: a `Program`, the times at which knots were really passed, the landmarks. What leaves: plain data for the
-page. It judges nothing: required and measured values come from the verdict.
+What enters: a resolved `Program`, the times at which knots were really passed, the landmarks. What leaves: plain data
+for the page. It judges nothing: required and measured values come from the verdict.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
 from scenewright.program import expressions as ex
 from scenewright.program.structure import Role, knots_of, read_structure
-from scenewright.program.types import Program
+from scenewright.program.types import EGO, Program
 
 Json = dict[str, Any]
 KnotTimes = Mapping[str, Mapping[str, float]]
@@ -85,13 +86,16 @@ def places(program: Program) -> dict[str, list[str]]:
     names = {actor.id: actor.name for actor in program.actors}
     found: dict[str, list[str]] = {name: [] for name in names.values()}
     for constraint in program.constraints:
-        nodes = list(ex.walk(constraint.formula))
-        owners = {node.actor for node in nodes if isinstance(node, ex.State | ex.Derived)}
-        for mark in (node for node in nodes if isinstance(node, ex.Landmark)):
-            for actor in {mark.actor} if mark.actor is not None else owners:
-                if actor in names and mark.name not in found[names[actor]]:
-                    found[names[actor]].append(mark.name)
+        for mark in (node for node in ex.walk(constraint.formula) if isinstance(node, ex.Landmark)):
+            if mark.actor in names and (name := _name(mark, names)) not in found[names[mark.actor]]:
+                found[names[mark.actor]].append(name)
     return found
+
+
+def _name(mark: ex.Landmark, names: Mapping[int, str]) -> str:
+    """Return what the manifest calls a landmark: a conflict with another than the usual partner has its name beside."""
+    usual = min((actor for actor in names if actor != EGO), default=None) if mark.actor == EGO else EGO
+    return mark.name if mark.other in (None, usual) else f"{mark.name}({names.get(mark.other)})"
 
 
 def _moments(formula: ex.Formula, program: Program, knot_times: KnotTimes) -> Iterator[float]:
@@ -156,5 +160,6 @@ def _arc_length(mark: ex.Landmark, actor: int, names: Mapping[int, str], landmar
         return None  # it lies on another actor's route: there is no stretch of this route to draw
     known = landmarks.get(names[actor], {})
     # In a program `turn` means the same place as `intersection`.
-    place = known.get(mark.name, known.get("intersection") if mark.name == "turn" else None)
+    aliases = (mark, replace(mark, name="intersection")) if mark.name == "turn" else (mark,)
+    place = next((known[name] for name in (_name(alias, names) for alias in aliases) if name in known), None)
     return float(place) if isinstance(place, int | float) else None
