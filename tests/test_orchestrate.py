@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,7 @@ from scenewright.orchestrate import EXIT_STATUS, Request, Result, orchestrate
 from scenewright.program.printer import print_program
 from scenewright.program.resolve import resolve
 from scenewright.program.text import parse_program
+from scenewright.roads import find_conflict
 from scenewright.trace.files import read_trace
 from scenewright.translate.sources import is_program, read_scenario
 
@@ -196,3 +198,85 @@ def test_nothing_is_written_where_nothing_is_asked_for(tmp_path: Path, monkeypat
     result = orchestrate(Request(SENTENCE, FINE))
     assert (result.status, result.run_directory) == ("success", None)
     assert list(tmp_path.iterdir()) == []
+
+
+# -- planner and judge read one program -----------------------------------------------------------------------------
+THREE = """scenario "three"
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2, go, t3]
+
+Actor 1 (hero):
+- E, N
+- [t0, go, t1, dec, t2]
+
+Actor 2 (other):
+- S, W
+- [t0, go, t1, dec, t2]
+
+Constraints:
+A0(t1) == A2(t1)
+A0x(t1) == conflict_point - 60
+A2x(t1) == stop_line - 12
+A2x(t2) == stop_line - 2
+A2v(t2) == 0
+A0(t2) == A1(t1)
+A0x(t2) == conflict_point - 20
+A1x(t1) == conflict_point - 15
+A1x(t2) == conflict_point - 5
+A1v(t2) == 0
+"""
+MERGING = """scenario "merging"
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (hero):
+- S, W
+- [t0, go, t1, go, t2]
+
+Constraints:
+A0(t1) == A1(t1)
+A0x(t1) == conflict_point + 10
+"""
+
+
+def test_with_three_actors_planner_and_judge_mean_the_same_conflict_points(tmp_path: Path) -> None:
+    result = orchestrate(Request(THREE, ego="constant", out=tmp_path, budget_s=30.0))
+    assert result.status == "success"
+    assert result.attempt is not None
+    assert result.attempt.plan is not None
+    routes, ego = result.scene.routes, result.attempt.plan.profiles[0]
+    for knot, other, short_m in (("t1", 2, 60.0), ("t2", 1, 20.0)):
+        conflict = find_conflict(routes[0], routes[other])
+        assert conflict is not None
+        assert ego.state(ego.knot_times_s[knot])[0] == pytest.approx(conflict.s_a_m - short_m, abs=0.05)
+    again = judge_run_directory(tmp_path)
+    assert again.holds_at(TIGHT)
+    assert result.verdict is not None
+    assert again.as_dict() == result.verdict.as_dict()
+    marks = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))["landmarks"]["ego"]
+    assert marks["conflict_point(other)"] - marks["conflict_point"] > 5.0
+
+
+@pytest.mark.parametrize("line", ["A1x(t1) == A0x(t1) + 20", "A1x(t1) - A0x(t1) == 20", "A1x(t1) - 20 == A0x(t1)"])
+def test_places_on_merging_routes_are_compared_along_the_lane_in_common(line: str, tmp_path: Path) -> None:
+    result = orchestrate(Request(MERGING + line, ego="constant", out=tmp_path, budget_s=30.0))
+    assert result.status == "success"
+    assert result.run is not None
+    moment = next(c.measured for c in result.verdict.conditions if c.id == "c1") if result.verdict else None
+    assert moment is not None
+    ego, hero = (result.run.trace.actors[name] for name in ("ego", "hero"))
+    at = [int(abs(states.time_s - moment).argmin()) for states in (ego, hero)]
+    apart_m = math.dist((ego.x_m[at[0]], ego.y_m[at[0]]), (hero.x_m[at[1]], hero.y_m[at[1]]))
+    assert apart_m == pytest.approx(20.0, abs=0.5)
+    assert judge_run_directory(tmp_path).holds_at(TIGHT)
+
+
+def test_routes_that_share_a_road_and_cross_in_the_junction_meet_there(shared_dir: Path) -> None:
+    cases = shared_dir / "cases"
+    text = (cases / "loop.txt").read_text(encoding="utf-8")
+    result = orchestrate(Request(text, map_name=str(cases / "loop.xodr"), budget_s=30.0))
+    assert result.status == "success"
+    assert result.scene.landmark_m(0, "conflict_point") == pytest.approx(118.25, abs=0.01)
+    assert result.scene.landmark_m(1, "conflict_point") == pytest.approx(392.74, abs=0.01)

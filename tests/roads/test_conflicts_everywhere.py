@@ -1,0 +1,133 @@
+"""Every conflict of every pair of routes, on all maps at hand, against lane centre lines and boxes in shapely."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+
+from scenewright.errors import MapError
+from scenewright.roads import RoadMap, Route, all_routes, find_conflict, load_map
+from scenewright.roads.bodies import CAR, Body
+from scenewright.roads.conflicts import Conflict, conflicts, shared_stretches
+
+from .conftest import FOREIGN, any_map
+
+ONE_PLACE_M = 1.0
+SOURCES = ["t_intersection", *sorted(path.relative_to(FOREIGN).as_posix() for path in FOREIGN.rglob("*.xodr"))]
+TRUCK = Body(10.0, 2.5)
+
+
+@pytest.fixture(params=SOURCES)
+def every_map(request: pytest.FixtureRequest) -> RoadMap:
+    source = request.param if "/" not in request.param else FOREIGN / request.param
+    try:
+        return load_map(source)
+    except MapError as error:
+        pytest.skip(f"{request.param} is refused: {error.message}")
+
+
+@pytest.fixture
+def loop(shared_dir: Path) -> tuple[Route, Route]:
+    """Return two routes that share a road and cross where they pass the junction: into the loop, and out of it."""
+    first, second = all_routes(load_map(shared_dir / "cases" / "loop.xodr"))
+    return first, second
+
+
+def centre_lines(road_map: RoadMap, route: Route, but: set[str]) -> shapely.Geometry:
+    return shapely.union_all([shapely.LineString(road_map.lanes[n].centerline_xy) for n in route.lanes if n not in but])
+
+
+def crossings_of(road_map: RoadMap, a: Route, b: Route) -> list[shapely.Point]:
+    """Return where the lines cross, but for lanes that both take and where they still lie beside each other there."""
+    both = set(a.lanes) & set(b.lanes)
+    line_a, line_b = centre_lines(road_map, a, set()), centre_lines(road_map, b, set())
+    met = centre_lines(road_map, a, both).intersection(line_b) | line_a.intersection(centre_lines(road_map, b, both))
+    points = [shapely.Point(*xy) for xy in shapely.get_coordinates(met)]
+    if not both or not points:
+        return points
+    shared = shapely.union_all([shapely.LineString(road_map.lanes[name].centerline_xy) for name in both])
+    beside = shapely.get_parts(shapely.line_merge(line_a.intersection(line_b.buffer(0.5))))
+    one = [part for part in beside if part.distance(shared) < ONE_PLACE_M]
+    return [point for point in points if all(point.distance(part) > ONE_PLACE_M for part in (shared, *one))]
+
+
+def test_crossings_are_all_those_of_the_centre_lines(every_map: RoadMap) -> None:
+    for a, b in combinations(all_routes(every_map), 2):
+        found = [shapely.Point(each.x_m, each.y_m) for each in conflicts(a, b) if each.kind == "crossing"]
+        wanted = crossings_of(every_map, a, b)
+        for points, others in ((found, wanted), (wanted, found)):
+            assert all(any(point.distance(other) < ONE_PLACE_M for other in others) for point in points), (a, b)
+
+
+def test_lanes_that_both_take_begin_in_a_merge_and_end_in_a_parting(every_map: RoadMap) -> None:
+    for a, b in combinations(all_routes(every_map), 2):
+        kinds = [each.kind for each in conflicts(a, b)]
+        stretches = shared_stretches(a, b)
+        assert bool(stretches) == bool(set(a.lanes) & set(b.lanes))
+        assert kinds.count("merging") == sum(not stretch.together for stretch in stretches)
+        assert kinds.count("following") == sum(stretch.together or stretch.goes_on for stretch in stretches)
+
+
+def test_from_the_other_route_they_are_the_same_in_the_same_order(every_map: RoadMap) -> None:
+    for a, b in combinations(all_routes(every_map), 2):
+        found = conflicts(a, b, CAR, TRUCK)
+        assert conflicts(b, a, TRUCK, CAR) == tuple(conflict.swapped() for conflict in found)
+        ways = [conflict.s_a_m + conflict.s_b_m for conflict in found]
+        assert ways == sorted(ways)
+
+
+def bodies_at(route: Route, s_m: np.ndarray, body: Body) -> np.ndarray:  # type: ignore[type-arg]
+    x, y, heading = route.path.poses(s_m).T
+    along, across = (0.5 * body.length_m * np.array([1, 1, -1, -1]), 0.5 * body.width_m * np.array([1, -1, -1, 1]))
+    cos, sin = np.cos(heading)[:, None], np.sin(heading)[:, None]
+    corners = np.stack([x[:, None] + along * cos - across * sin, y[:, None] + along * sin + across * cos], axis=2)
+    return shapely.polygons(corners)
+
+
+def touched(route: Route, s_m: np.ndarray, body: Body, others: np.ndarray) -> np.ndarray:  # type: ignore[type-arg]
+    return shapely.intersects(bodies_at(route, s_m, body)[:, None], others[None, :]).any(axis=1)
+
+
+@pytest.mark.parametrize("bodies", [(CAR, CAR), (TRUCK, CAR)], ids=["cars", "truck and car"])
+def test_a_zone_is_where_boxes_touch_and_nowhere_else(road_map: RoadMap, bodies: tuple[Body, Body]) -> None:
+    for a, b in combinations(all_routes(road_map), 2):
+        for conflict in conflicts(a, b, *bodies):
+            check_zone(a, b, conflict, bodies)
+            check_zone(b, a, conflict.swapped(), bodies[::-1])
+
+
+def check_zone(a: Route, b: Route, conflict: Conflict, bodies: tuple[Body, Body]) -> None:
+    low, high = conflict.zone_a_m
+    others = bodies_at(b, np.arange(conflict.zone_b_m[0], conflict.zone_b_m[1], 0.05), bodies[1])
+    inside = np.linspace(low + 0.15, high - 0.15, 25)
+    assert touched(a, inside, bodies[0], others).all(), (a, b, conflict)
+    length_m = 0.5 * (bodies[0].length_m + bodies[1].length_m)
+    outside = []
+    if conflict.kind != "following" and low > 0.0:
+        outside.append(low - 0.05)
+    if conflict.kind != "merging" and high < a.path.length_m:
+        outside.append(high + 0.05)
+    assert not outside or not touched(a, np.array(outside), bodies[0], others).any(), (a, b, conflict)
+    if conflict.kind == "following":
+        assert low == pytest.approx(max(0.0, conflict.s_a_m - length_m), abs=0.11)
+    if conflict.kind == "merging":
+        assert high == pytest.approx(min(a.path.length_m, conflict.s_a_m + length_m), abs=0.11)
+
+
+def test_the_crossing_in_the_junction_counts_before_a_road_in_common(loop: tuple[Route, Route]) -> None:
+    into, out = loop
+    assert [each.kind for each in conflicts(into, out)] == ["merging", "crossing"]
+    counts = find_conflict(into, out)
+    assert counts is not None
+    assert counts.kind == "crossing"
+    assert (counts.s_a_m, counts.s_b_m) == pytest.approx((118.25, 392.74), abs=0.01)
+    assert find_conflict(out, into) == counts.swapped()
+
+
+def test_lanes_side_by_side_never_meet() -> None:
+    first, *others = all_routes(any_map("alks/alks_road_different_curvatures"))
+    assert [conflicts(first, other) for other in others] == [()] * len(others)
