@@ -216,7 +216,7 @@ Actor 2 (other):
 
 Constraints:
 A0(t1) == A2(t1)
-A0x(t1) == conflict_point - 60
+A0x(t1) == A0.conflict_point(A2) - 60
 A2x(t1) == stop_line - 12
 A2x(t2) == stop_line - 2
 A2v(t2) == 0

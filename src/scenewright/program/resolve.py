@@ -14,7 +14,6 @@ from fractions import Fraction
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import landmark_owner
 from scenewright.program.printer import print_expression
-from scenewright.program.structure import Structure, actors_of, knots_of, read_structure
 from scenewright.program.types import EGO, Program
 
 _PRODUCT = Fraction(355, 113)  # how often what stands in a product counts: no sum cancels it by accident
@@ -31,10 +30,9 @@ def resolve(program: Program) -> Program:
     >>> formula.right.left.actor, formula.right.left.other
     (0, 1)
     """
-    structure = read_structure(program)
+    resolver = _Resolver(program)
     constraints = []
     for constraint in program.constraints:
-        resolver = _Resolver(program, structure, constraint.formula)
         formula = resolver.formula(constraint.formula)
         constraints.append(constraint if formula == constraint.formula else replace(constraint, formula=formula))
     return replace(program, constraints=tuple(constraints))
@@ -49,11 +47,9 @@ def usual_partner(program: Program, actor: int) -> int | None:
 
 @dataclass(frozen=True, slots=True)
 class _Resolver:
-    """Resolves the parts of one constraint, `whole`."""
+    """Resolves the parts of constraints."""
 
     program: Program
-    structure: Structure
-    whole: ex.Formula
 
     def formula(self, formula: ex.Formula) -> ex.Formula:
         match formula:
@@ -66,47 +62,32 @@ class _Resolver:
 
     def _compare(self, compare: ex.Compare) -> ex.Compare:
         owner = landmark_owner(compare)
-        partner = self._ego_partner(compare)
-        left, right = (self._owned(side, owner, partner) for side in (compare.left, compare.right))
+        left, right = (self._owned(side, owner) for side in (compare.left, compare.right))
         frame, foreign = _frame(left, right)
         return replace(compare, left=_framed(left, frame, foreign), right=_framed(right, frame, foreign))
 
-    def _ego_partner(self, compare: ex.Compare) -> int | None:
-        """Return with whom the ego's conflict point is where the comparison does not say so.
-
-        It is the hero that the comparison speaks of, or that is at one moment with a knot that it speaks of, or that
-        the whole constraint speaks of; the first of them, and where there are none the first hero.
-        """
-        spoken = set(knots_of(compare))
-        at_once = {actor for instant in self.structure.instants if spoken & instant for actor, _ in instant}
-        for actors in (actors_of(compare), at_once, actors_of(self.whole)):
-            heroes = [hero.id for hero in self.program.heroes if hero.id in actors]
-            if heroes:
-                return heroes[0]
-        return usual_partner(self.program, EGO)
-
-    def _owned(self, term: ex.Term, owner: int | None, partner: int | None) -> ex.Term:
+    def _owned(self, term: ex.Term, owner: int | None) -> ex.Term:
         match term:
             case ex.Landmark():
-                return self._landmark(term, owner, partner)
+                return self._landmark(term, owner)
             case ex.Derived(target=ex.Landmark() as target):
-                owned = self._landmark(target, term.actor, partner)
+                owned = self._landmark(target, term.actor)
                 return replace(term, target=owned if owned.actor == term.actor else replace(owned, frame=term.actor))
             case ex.Arithmetic(left=left, right=right):
-                owned_left, owned_right = (self._owned(side, owner, partner) for side in (left, right))
+                owned_left, owned_right = (self._owned(side, owner) for side in (left, right))
                 return replace(term, left=owned_left, right=owned_right)
             case ex.Negate(operand=operand):
-                return replace(term, operand=self._owned(operand, owner, partner))
+                return replace(term, operand=self._owned(operand, owner))
             case _:
                 return term
 
-    def _landmark(self, mark: ex.Landmark, owner: int | None, partner: int | None) -> ex.Landmark:
+    def _landmark(self, mark: ex.Landmark, owner: int | None) -> ex.Landmark:
         actor = mark.actor if mark.actor is not None else owner
         if actor is None:
             return mark  # nobody's: the checker refuses it, and so does whoever asks for its value
         other = mark.other
         if other is None and mark.name in ex.CONFLICT_LANDMARKS:
-            other = partner if actor == EGO else usual_partner(self.program, actor)
+            other = usual_partner(self.program, actor)
         if (actor, other) == (mark.actor, mark.other):
             return mark
         return replace(mark, actor=actor, other=other, written=print_expression(mark))
