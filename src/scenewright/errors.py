@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+_LONGEST_PART = 2_000  # characters of one part of a message
+
 
 def _within_word(pair: str) -> bool:
     """Whether two characters next to each other belong to one word."""
@@ -81,6 +83,14 @@ class Place:
         return f"    {shown}\n    {' ' * (column - 1 - first)}{'^' * min(width, 120)}"
 
 
+def _in_short(said: str) -> str:
+    """Return what was said, without its middle where it is too long for a message: whatever was found may be quoted."""
+    if len(said) <= _LONGEST_PART:
+        return said
+    kept = _LONGEST_PART // 2
+    return f"{said[:kept]} ... ({len(said) - 2 * kept:,} characters more) ... {said[-kept:]}"
+
+
 class ScenewrightError(Exception):
     """Root of all errors that a user can cause or mend.
 
@@ -105,11 +115,11 @@ class ScenewrightError(Exception):
         expected: str | None = None,
         fix: str | None = None,
     ) -> None:
-        super().__init__(message)
-        self.message = message
+        super().__init__(_in_short(message))
+        self.message = _in_short(message)
         self.place = place
-        self.found = found
-        self.expected = expected
+        self.found = _in_short(found) if found else found
+        self.expected = _in_short(expected) if expected else expected
         self.fix = fix
 
     def __str__(self) -> str:

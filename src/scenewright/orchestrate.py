@@ -16,6 +16,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from scenewright.program.check import check_values
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
@@ -257,6 +258,7 @@ def set_up(request: Request, stages: Stages, backend: Backend | None = None) -> 
         program, translation = read_scenario(request.source, request.translator, request.map_name, request.translation)
     with stages("ground"):
         scene = ground(program, load_map(request.map_name or program.map_name), request.parameters)
+        check_values(program, scene.parameters, name=program.name)
     rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
     world = World(scene, request.ego, request.seed, rates, request.predictor, request.budget_s, backend)
     return world, translation

@@ -62,6 +62,14 @@ _NAME_SUFFIXES: tuple[tuple[str, str], ...] = (
     ("_s", "s"),
 )
 
+# Of a number as it is written, above and below the line of a fraction, and of its value in SI units. No scenario has
+# more, and exact arithmetic stays quick.
+DIGITS = 40
+LARGEST_EXPONENT = 30
+_LARGEST_FLOAT_EXPONENT = 400
+LARGEST_SI = Fraction(10**9)
+SMALLEST_SI = 1 / LARGEST_SI  # other than zero
+
 # What a parameter may be at all, by dimension (SI). Wide on purpose: a value outside is a typing mistake.
 PLAUSIBLE_RANGE: dict[Dimension, tuple[Fraction, Fraction]] = {
     "length": (Fraction(0), Fraction(1000)),
@@ -86,14 +94,39 @@ def unit_of_name(name: str) -> Unit | None:
 def decimal_fraction(value: float | int | str | Fraction) -> Fraction:
     """Return the rational that the shortest decimal form of `value` stands for.
 
+    Raises
+    ------
+    ValueError
+        For what is no decimal number, or one of more digits than any quantity has, or beyond every float: its exact
+        value could fill the memory.
+
+    Examples
+    --------
     >>> decimal_fraction(0.1)
     Fraction(1, 10)
     """
-    return value if isinstance(value, Fraction) else Fraction(str(value))
+    if isinstance(value, Fraction):
+        return value
+    mantissa, _, exponent = str(value).strip().lower().partition("e")
+    if len(mantissa) > DIGITS + 2 or len(exponent) > 5 or abs(int(exponent or 0)) > _LARGEST_FLOAT_EXPONENT:
+        raise ValueError(f"a number of at most {DIGITS} digits")
+    return Fraction(str(value))
+
+
+def is_size_of_a_scenario(value: Fraction) -> bool:
+    """Whether a number (SI) is neither so large, so small nor so long that no scenario has it."""
+    is_short = max(abs(value.numerator), value.denominator) < 10**DIGITS
+    return is_short and (not value or SMALLEST_SI <= abs(value) <= LARGEST_SI)
+
+
+def size_of_a_scenario() -> str:
+    """Return what `is_size_of_a_scenario` asks for, in words."""
+    sizes = f"{float(SMALLEST_SI):g} to {float(LARGEST_SI):g}"
+    return f"0, or a size from {sizes} in SI units, in at most {DIGITS} digits"
 
 
 def format_fraction(value: Fraction) -> str:
-    """Return `value` as a decimal where it has a finite one, else as ``p/q``; `Fraction` reads both back exactly."""
+    """Return `value` as a decimal where it has a short one, else as ``p/q``; `Fraction` reads both back exactly."""
     denominator = value.denominator
     twos = fives = 0
     while denominator % 2 == 0:
@@ -105,6 +138,8 @@ def format_fraction(value: Fraction) -> str:
     if denominator != 1:
         return f"{value.numerator}/{value.denominator}"
     digits = max(twos, fives)
+    if digits > DIGITS:
+        return f"{value.numerator}/{value.denominator}"
     if digits == 0:
         return str(value.numerator)
     scaled = abs(value.numerator) * 10**digits // value.denominator

@@ -6,6 +6,7 @@ names that completion offers.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -13,7 +14,9 @@ from typing import Annotated, Any, Literal
 import typer
 
 from scenewright.errors import ParameterError
+from scenewright.units import decimal_fraction
 
+_NUMBER = re.compile(r"[-+]?[\d_]*\.?[\d_]+(e[-+]?\d+)?", re.IGNORECASE)
 Mode = Literal["closed", "open"]
 Tolerance = Literal["tight", "loose"]
 
@@ -40,8 +43,25 @@ def parameters_of(items: Sequence[str] | None) -> dict[str, str]:
             raise ParameterError(
                 f"parameter {name} is given twice", found=f"{values[name]} and {value}", fix="give it once"
             )
-        values[name] = value
+        values[name] = _within_reason(name, value)
     return values
+
+
+def _within_reason(name: str, value: str) -> str:
+    """Return a value as it was typed; what is a number, but an endless one, is refused before it is worked out."""
+    try:
+        decimal_fraction(value)
+    except ValueError as error:
+        if _NUMBER.fullmatch(value):
+            raise ParameterError(
+                f"no scenario has a number of the size of parameter {name}",
+                found=value,
+                expected=str(error),
+                fix=f"-p {name}=12.5",
+            ) from None
+    except ZeroDivisionError:
+        raise ParameterError(f"parameter {name} is divided by zero", found=value, fix=f"-p {name}=12.5") from None
+    return value
 
 
 # -- completion -----------------------------------------------------------------------------------------------------

@@ -13,9 +13,11 @@ from fractions import Fraction
 from scenewright.errors import Place, ProgramError, Span
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import landmark_owner
+from scenewright.program.limits import check_depth, check_size
+from scenewright.program.magnitudes import NoNumberError, Values, check_numbers
 from scenewright.program.printer import print_expression
 from scenewright.program.types import EGO, Actor, Constraint, PieceKind, Program
-from scenewright.units import unit_of_name
+from scenewright.units import is_size_of_a_scenario, size_of_a_scenario, unit_of_name
 
 # A dimension as exponents of metre and second; None is a bare number, which goes with anything.
 Powers = tuple[int, int] | None
@@ -43,6 +45,13 @@ def check_constraint(program: Program, constraint: Constraint, text: str | None 
     _Checker(program, text, name).check_constraint(constraint)
 
 
+def check_values(program: Program, values: Values, text: str | None = None, name: str = "program") -> None:
+    """Raise `ProgramError` where a constraint is no number with these `values` (SI) of parameters, as `x_m / 0` is."""
+    checker = _Checker(program, text, name)
+    for constraint in program.constraints:
+        checker.check_numbers(constraint, values)
+
+
 class _Checker:
     def __init__(self, program: Program, text: str | None, name: str) -> None:
         self.program = program
@@ -52,6 +61,7 @@ class _Checker:
         self.parameters = {parameter.name: parameter for parameter in program.parameters}
 
     def check(self) -> None:
+        check_size(self.program, self.name)
         self._check_actors()
         self._check_parameters()
         seen: set[str] = set()
@@ -106,11 +116,19 @@ class _Checker:
                     expected="a name that ends in _m, _s, _mps or _mpss (or _ft, _mph, _kmph)",
                 )
             low, high = parameter.bounds()
+            for value in (parameter.value, low, high):
+                if value is not None and not is_size_of_a_scenario(value * parameter.unit.si_factor):
+                    raise self._error(
+                        f"no scenario has a number of the size of {parameter.name}",
+                        parameter.span,
+                        expected=size_of_a_scenario(),
+                    )
             if low > high:
                 raise self._error(f"the range of {parameter.name} is empty", parameter.span, found=f"[{low}, {high}]")
 
     def check_constraint(self, constraint: Constraint) -> None:
         formula = constraint.formula
+        check_depth(formula, Place(self.name, self.text, constraint.span))
         for node in ex.walk(formula):
             match node:
                 case ex.State(actor=actor, at=at) | ex.Derived(actor=actor, at=at):
@@ -132,6 +150,15 @@ class _Checker:
                 case _:
                     pass
         self._check_formula(formula, inside_temporal=False)
+        self.check_numbers(constraint, {})
+
+    def check_numbers(self, constraint: Constraint, values: Values) -> None:
+        try:
+            check_numbers(constraint.formula, values)
+        except NoNumberError as fault:
+            raise self._error(
+                fault.message, fault.term.span or constraint.span, found=fault.found, expected=fault.expected
+            ) from None
 
     def _actor(self, actor_id: int, span: Span | None) -> Actor:
         if actor_id not in self.actors:
@@ -187,6 +214,14 @@ class _Checker:
             case ex.Logic(operands=operands):
                 for operand in operands:
                     self._check_formula(operand, inside_temporal)
+            case ex.Temporal() if inside_temporal:
+                raise self._error(
+                    "one temporal operator stands inside another",
+                    formula.span,
+                    found=print_expression(formula),
+                    expected="always, never or eventually side by side: each has an interval of its own",
+                    fix="join them with 'and', or write two constraints",
+                )
             case ex.Temporal(start=start, end=end, body=body):
                 for bound in (start, end):
                     self._expect(bound, _TIME, self._powers(bound), formula.span)

@@ -12,6 +12,7 @@ from typing import Protocol
 from scenewright.program import expressions as ex
 
 _TEMPORAL_STEP_S = 0.02
+_MOST_INSTANTS = 20_000  # of an interval; a longer one is looked at more coarsely
 _EDGE_S = 1e-7
 
 
@@ -98,7 +99,7 @@ def _instants(first_s: float, last_s: float) -> list[float]:
     if last_s <= first_s + 2 * _EDGE_S:
         return [first_s]
     begin, end = first_s + _EDGE_S, last_s - _EDGE_S
-    count = max(2, math.ceil((end - begin) / _TEMPORAL_STEP_S) + 1)
+    count = min(max(2, math.ceil((end - begin) / _TEMPORAL_STEP_S) + 1), _MOST_INSTANTS)
     return [begin + (end - begin) * i / (count - 1) for i in range(count)]
 
 

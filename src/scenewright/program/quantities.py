@@ -292,9 +292,19 @@ def eventually(start: Operand, end: Operand, body: Condition) -> Condition:
 
 def exact(value: object) -> Fraction:
     """Return the rational that a Python number prints as; raises ProgramError for anything else."""
-    if isinstance(value, bool) or not isinstance(value, Real | Decimal) or not math.isfinite(value):
+    if isinstance(value, bool) or not isinstance(value, Real | Decimal) or not _is_finite(value):
         raise ProgramError("this is not a number", found=repr(value), expected="a finite number")
-    return value if isinstance(value, Fraction) else decimal_fraction(str(value))
+    try:
+        return value if isinstance(value, Fraction) else decimal_fraction(str(value))
+    except ValueError as error:
+        raise ProgramError("no scenario has a number of this size", expected=str(error), fix="round it") from None
+
+
+def _is_finite(value: Real | Decimal) -> bool:
+    try:
+        return math.isfinite(value)
+    except OverflowError:  # a whole number or a fraction beyond every float: large, but finite
+        return True
 
 
 def _term(value: object) -> Term:

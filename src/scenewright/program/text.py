@@ -38,6 +38,7 @@ from scenewright.program.expressions import (
     Term,
     walk,
 )
+from scenewright.program.limits import check_depth, check_text
 from scenewright.program.syntax_errors import syntax_error
 from scenewright.program.types import (
     DEFAULT_MAP,
@@ -74,7 +75,7 @@ def parse_program(text: str, name: str = "program") -> Program:
     Raises
     ------
     ProgramError
-        Where the text is not a program.
+        Where the text is not a program, or is larger than one may be (see `limits`).
 
     Examples
     --------
@@ -89,6 +90,7 @@ def parse_program(text: str, name: str = "program") -> Program:
             expected="actors, then constraints",
             fix="see 'scenewright translate --help' for an example",
         )
+    check_text(text, name)
     if "\n" not in text[len(text.rstrip()) :]:
         text += "\n"
     try:
@@ -170,7 +172,12 @@ class _Builder(Transformer[Token, Any]):
             return Fraction(number)
         if not Fraction(divisor):
             span = Span(cast(int, divisor.start_pos), cast(int, divisor.end_pos))
-            raise ProgramError("a number is divided by zero", place=self._place(span), found=f"{number}/{divisor}")
+            raise ProgramError(
+                "a number is divided by zero",
+                place=self._place(span),
+                found=f"{number}/{divisor}",
+                expected="a divisor that is not zero",
+            )
         return Fraction(number) / Fraction(divisor)
 
     def unit(self, meta: Meta, items: list[Any]) -> str:
@@ -228,6 +235,7 @@ class _Builder(Transformer[Token, Any]):
         label, formula, start, end = items[:4]
         source = Span(int(start), int(end)) if start is not None else None
         span = formula.span or self._span(meta)
+        check_depth(formula, self._place(span))
         return (str(label)[:-1] if label else None, formula, source, span)
 
     def implication(self, meta: Meta, items: list[Any]) -> Formula:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from scenewright.errors import InputError, Place, TranslationError
 from scenewright.program.check import check_program
+from scenewright.program.limits import TEXT_CHARACTERS, check_description
 from scenewright.program.text import parse_program
 from scenewright.program.types import DEFAULT_MAP, Program
 from scenewright.roads.load import load_map
@@ -62,6 +63,7 @@ def read_scenario(
         program = parse_program(text, name)
         check_program(program, text, name)
         return program, None
+    check_description(text, name)
     if model is None:
         translation = _offline(text, load_map(map_name) if map_name else None, name, settings)
     else:
@@ -126,14 +128,36 @@ def text_of(source: str) -> tuple[str, str]:
     except (OSError, ValueError):  # too long or too odd for a file name: a description
         is_file = False
     if is_file:
-        try:
-            return path.read_text(encoding="utf-8"), path.name
-        except (OSError, UnicodeDecodeError) as error:
-            raise InputError("the file cannot be read as text", place=Place(source), found=str(error)) from None
+        return _read_text(path), path.name
     if looks_like_file:
         fix = "give the path of a file, or the description itself in quotes"
         raise InputError("there is no such file", place=Place(source), fix=fix)
     return source, "description"
+
+
+def _read_text(path: Path) -> str:
+    """Read a file of text, whatever it is: no more of it than a text may hold."""
+    most = 4 * TEXT_CHARACTERS  # a character takes up to four bytes
+    try:
+        with path.open("rb") as file:
+            read = file.read(most + 1)
+        if len(read) > most:
+            raise InputError(
+                "the file is too large for a description or a program",
+                place=Place(str(path)),
+                found=f"more than {most:,} bytes",
+                expected=f"a text of at most {TEXT_CHARACTERS:,} characters",
+                fix="give the file that holds the text",
+            )
+        return read.decode("utf-8-sig")  # some editors begin a file with a mark of their own
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(
+            "the file cannot be read as text",
+            place=Place(str(path)),
+            found=str(error),
+            expected="a text in UTF-8",
+            fix="save the file as text in UTF-8",
+        ) from None
 
 
 def _offline(text: str, road_map: RoadMap | None, name: str, settings: TranslatorSettings) -> Translation:
