@@ -5,7 +5,7 @@ What enters: an ``.xodr`` file. What leaves: a `RoadMap`. Elevation, superelevat
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
@@ -13,12 +13,21 @@ from typing import Literal
 import numpy as np
 
 from scenewright.errors import MapError, Place
+from scenewright.roads.defects import Defects
 from scenewright.roads.model import Lane, RoadMap
-from scenewright.roads.opendrive_lanes import driving_lanes, lane_id, runs_along
+from scenewright.roads.opendrive_lanes import DRIVING_TYPES, SHORTEST_M, driving_lanes, lane_id, runs_along
 from scenewright.roads.opendrive_records import ConnectionRecord, OpenDriveRecord, RoadRecord
 from scenewright.roads.opendrive_xml import read_opendrive
 
 End = Literal["start", "end"]
+
+_Arcs = dict[tuple[str, str], None]  # lane ids (before, after), in the order of the file
+
+_NO_ROAD = "roads end where they are linked to roads that are not in the file"
+_NO_CONNECTION = "connections of junctions with roads that are not in the file are left out"
+_NO_LANE = "links to lanes that are not in the file are left out"
+_NO_MEETING = "lanes are linked in the file, but do not meet, and are not joined"
+_TOO_SHORT = f"lanes shorter than {100 * SHORTEST_M:g} cm are passed over, and what lies before and behind is joined"
 
 _WIDEST_GAP_M = 1.0
 _WIDEST_BEND_RAD = np.radians(60.0)
@@ -38,6 +47,11 @@ class _Port:
         return lane_id(self.road.id, self.section, self.number)
 
     @property
+    def is_in_file(self) -> bool:
+        """Whether there is such a lane, whatever it is for."""
+        return any(lane.number == self.number for lane in self.road.sections[self.section].lanes)
+
+    @property
     def lets_out(self) -> bool:
         """Whether traffic leaves the lane here."""
         return runs_along(self.road, self.number) == (self.end == "end")
@@ -51,8 +65,10 @@ def load_opendrive(source: Path) -> RoadMap:
     MapError
         If the file is missing, broken, contradicts itself or has no driving lane.
     """
-    record = read_opendrive(source)
-    lanes = {lane.id: lane for road in record.roads for lane in driving_lanes(road, source.name)}
+    defects = Defects()
+    record = read_opendrive(source, defects)
+    sampled = [lane for road in record.roads for lane in driving_lanes(road, source.name)]
+    lanes = {lane.id: lane for lane in sampled if lane.length_m >= SHORTEST_M}
     if not lanes:
         raise MapError(
             "the map has no driving lanes",
@@ -61,39 +77,88 @@ def load_opendrive(source: Path) -> RoadMap:
             expected='at least one <lane type="driving">',
             fix="check the lanes' types in the tool that wrote the map",
         )
-    notes: list[str] = []
-    arcs = _directed_arcs(record, lanes, source.name, notes)
+    short = _short_lanes(record) | {lane.id for lane in sampled if lane.id not in lanes}
+    for name in sorted(short):
+        defects.add(_TOO_SHORT, name)
+    arcs = _directed_arcs(record, lanes.keys() | short, defects)
+    arcs = _that_meet(_passed_over(arcs, short), lanes, defects)
+    after: dict[str, list[str]] = {name: [] for name in lanes}
+    before: dict[str, list[str]] = {name: [] for name in lanes}
+    for one, other in arcs:
+        after[one].append(other)
+        before[other].append(one)
     linked = {
-        lane.id: replace(
-            lane,
-            successors=tuple(after for before, after in arcs if before == lane.id),
-            predecessors=tuple(before for before, after in arcs if after == lane.id),
-        )
-        for lane in lanes.values()
+        name: _without_strangers(replace(lane, successors=tuple(after[name]), predecessors=tuple(before[name])), lanes)
+        for name, lane in lanes.items()
     }
-    return RoadMap(source.stem, source, _with_inherited_limits(linked), tuple(notes))
+    return RoadMap(source.stem, source, _with_inherited_limits(linked), defects.notes())
 
 
-def _directed_arcs(
-    record: OpenDriveRecord, lanes: dict[str, Lane], map_name: str, notes: list[str]
-) -> list[tuple[str, str]]:
+def _short_lanes(record: OpenDriveRecord) -> set[str]:
+    """Return the ids of the driving lanes in sections that have next to no length."""
+    return {
+        lane_id(road.id, index, lane.number)
+        for road in record.roads
+        for index, section in enumerate(road.sections)
+        if section.end_m - section.start_m < SHORTEST_M
+        for lane in section.lanes
+        if lane.type in DRIVING_TYPES
+    }
+
+
+def _without_strangers(lane: Lane, lanes: dict[str, Lane]) -> Lane:
+    """Return a lane without neighbours that are no lanes of the map: those that had no length."""
+    left, right = (name if name in lanes else None for name in (lane.left_neighbor, lane.right_neighbor))
+    return replace(lane, left_neighbor=left, right_neighbor=right)
+
+
+def _directed_arcs(record: OpenDriveRecord, known: Set[str], defects: Defects) -> _Arcs:
     """Turn every stated touch of two lane ends into (before, after); files state some touches twice."""
     roads = {road.id: road for road in record.roads}
-    arcs: dict[tuple[str, str], None] = {}
-    touches = [*_section_touches(record), *_road_touches(record, roads, map_name)]
-    touches += _junction_touches(record, roads, map_name)
+    arcs: _Arcs = {}
+    touches = [*_section_touches(record), *_road_touches(record, roads, defects)]
+    touches += _junction_touches(record, roads, defects)
     for one, other in touches:
-        if one.lane_id not in lanes or other.lane_id not in lanes or one.lets_out == other.lets_out:
+        if one.lane_id not in known and other.lane_id not in known:
             continue
-        before, after = (one, other) if one.lets_out else (other, one)
-        if (before.lane_id, after.lane_id) in arcs:
-            continue
-        fault = _misfit(lanes[before.lane_id], lanes[after.lane_id])
-        if fault:
-            notes.append(f"lanes {before.lane_id} and {after.lane_id} are linked in the file but {fault}: not joined")
-        else:
+        if not (one.is_in_file and other.is_in_file):
+            defects.add(_NO_LANE, f"{one.lane_id} to {other.lane_id}")
+        elif one.lane_id in known and other.lane_id in known and one.lets_out != other.lets_out:
+            before, after = (one, other) if one.lets_out else (other, one)
             arcs[before.lane_id, after.lane_id] = None
-    return list(arcs)
+    return arcs
+
+
+def _passed_over(arcs: _Arcs, short: set[str]) -> _Arcs:
+    """Join what lies before and behind lanes that are too short to be lanes, several in a row as well."""
+    after: dict[str, list[str]] = {}
+    for one, other in arcs:
+        after.setdefault(one, []).append(other)
+    result: _Arcs = {}
+    for one, other in arcs:
+        if one in short:
+            continue
+        waiting, seen = [other], {other}
+        while waiting:
+            name = waiting.pop()
+            if name not in short:
+                result[one, name] = None
+                continue
+            new = [each for each in reversed(after.get(name, [])) if each not in seen]
+            seen.update(new)
+            waiting += new
+    return result
+
+
+def _that_meet(arcs: _Arcs, lanes: dict[str, Lane], defects: Defects) -> _Arcs:
+    result: _Arcs = {}
+    for before, after in arcs:
+        fault = _misfit(lanes[before], lanes[after])
+        if fault:
+            defects.add(_NO_MEETING, f"{before} and {after} {fault}")
+        else:
+            result[before, after] = None
+    return result
 
 
 def _misfit(before: Lane, after: Lane) -> str | None:
@@ -118,7 +183,7 @@ def _section_touches(record: OpenDriveRecord) -> Iterator[tuple[_Port, _Port]]:
 
 
 def _road_touches(
-    record: OpenDriveRecord, roads: dict[str, RoadRecord], map_name: str
+    record: OpenDriveRecord, roads: dict[str, RoadRecord], defects: Defects
 ) -> Iterator[tuple[_Port, _Port]]:
     for road in record.roads:
         ends: tuple[End, End] = ("start", "end")
@@ -128,7 +193,8 @@ def _road_touches(
                 continue
             other = roads.get(link.element_id)
             if other is None:
-                raise _no_such_road(map_name, link.line, f"road {road.id!r} is linked to", link.element_id, roads)
+                defects.add(_NO_ROAD, f"road {road.id} to road {link.element_id}")
+                continue
             contact: End = "end" if link.contact == "end" else "start"
             section = 0 if end == "start" else len(road.sections) - 1
             for lane in road.sections[section].lanes:
@@ -138,15 +204,14 @@ def _road_touches(
 
 
 def _junction_touches(
-    record: OpenDriveRecord, roads: dict[str, RoadRecord], map_name: str
+    record: OpenDriveRecord, roads: dict[str, RoadRecord], defects: Defects
 ) -> Iterator[tuple[_Port, _Port]]:
     for connection in record.connections:
-        ends = []
-        for road_id in (connection.incoming_road, connection.connecting_road):
-            if road_id not in roads:
-                raise _no_such_road(map_name, connection.line, "the junction connects", road_id, roads)
-            ends.append(roads[road_id])
-        incoming, connecting = ends
+        incoming, connecting = (roads.get(name) for name in (connection.incoming_road, connection.connecting_road))
+        if incoming is None or connecting is None:
+            roads_named = f"{connection.incoming_road} to {connection.connecting_road}"
+            defects.add(_NO_CONNECTION, f"{roads_named} in junction {connection.junction_id}")
+            continue
         contact: End = "end" if connection.contact == "end" else "start"
         for end in _ends_at_junction(incoming, connection):
             for number_in, number_connecting in connection.lane_links:
@@ -163,16 +228,6 @@ def _ends_at_junction(road: RoadRecord, connection: ConnectionRecord) -> Iterato
 
 def _port_at(road: RoadRecord, number: int, end: End) -> _Port:
     return _Port(road, 0 if end == "start" else len(road.sections) - 1, number, end)
-
-
-def _no_such_road(map_name: str, line: int, what: str, road_id: str, roads: dict[str, RoadRecord]) -> MapError:
-    return MapError(
-        f"{what} a road that does not exist",
-        place=Place(map_name, line=line),
-        found=f"road id {road_id!r}",
-        expected="one of " + ", ".join(list(roads)[:12]) + (", ..." if len(roads) > 12 else ""),
-        fix="correct the id or add the road",
-    )
 
 
 def _with_inherited_limits(lanes: dict[str, Lane]) -> dict[str, Lane]:

@@ -23,6 +23,9 @@ _DRIVEWAY_NAME = re.compile(r"drive\s?way|parking|car\s?park|service", re.IGNORE
 _STEP_CURVED_M = 0.5
 _STEP_STRAIGHT_M = 2.0
 _NARROWEST_M = 0.5
+# What is shorter has no direction to speak of; traffic passes over it (`opendrive` joins what lies before and behind).
+SHORTEST_M = 0.01
+_LARGEST_COORDINATE_M = 1e9
 
 
 def lane_id(road_id: str, section: int, number: int) -> str:
@@ -36,16 +39,16 @@ def runs_along(road: RoadRecord, number: int) -> bool:
 
 
 def driving_lanes(road: RoadRecord, map_name: str) -> list[Lane]:
-    """Sample all driving lanes of a road.
+    """Sample all driving lanes of a road, but those of sections too short to drive in.
 
     Raises
     ------
     MapError
-        If a driving lane has no width.
+        If a driving lane has no width, or lies nowhere on earth.
     """
     if not any(record.type in DRIVING_TYPES for section in road.sections for record in section.lanes):
         return []
-    if not road.geometries:
+    if not road.geometries and road.length_m >= SHORTEST_M:
         raise MapError(
             f"road {road.id!r} has driving lanes but no reference line",
             place=Place(map_name, line=road.line),
@@ -54,13 +57,24 @@ def driving_lanes(road: RoadRecord, map_name: str) -> list[Lane]:
             fix="export the map with its geometry",
         )
     return [
-        lane for index, section in enumerate(road.sections) for lane in _section_lanes(road, index, section, map_name)
+        lane
+        for index, section in enumerate(road.sections)
+        if section.end_m - section.start_m >= SHORTEST_M
+        for lane in _section_lanes(road, index, section, map_name)
     ]
 
 
 def _section_lanes(road: RoadRecord, index: int, section: SectionRecord, map_name: str) -> list[Lane]:
     s_m = _sample_points(road, section)
     poses = poses_along(road.geometries, s_m)
+    if not np.all(np.abs(poses) <= _LARGEST_COORDINATE_M):
+        raise MapError(
+            f"the reference line of road {road.id!r} leaves the earth",
+            place=Place(map_name, line=road.line),
+            found=f"a place further than {_LARGEST_COORDINATE_M:g} m from the origin",
+            expected="a road of a length and a curvature that can be driven",
+            fix="correct the road's <planView> or export the map again",
+        )
     offset = evaluate_cubics(road.lane_offsets, s_m)
     lanes: dict[int, Lane] = {}
     for side in (1, -1):

@@ -11,9 +11,10 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from lxml import etree
 
 from scenewright.errors import MapError, Place
+from scenewright.roads.defects import Defects
+from scenewright.roads.opendrive_file import Element, parse_opendrive
 from scenewright.roads.opendrive_records import (
     ConnectionRecord,
     Cubic,
@@ -27,8 +28,11 @@ from scenewright.roads.opendrive_records import (
 )
 from scenewright.roads.reference_line import Geometry, Shape
 
-Element = etree._Element
-
+# No place on earth is further from another, and no road is longer: beyond lies a mistake, or an attack on memory.
+_LARGEST_NUMBER = 1e9
+_LONGEST_ROAD_M = 1e5
+_SHORTEST_PIECE_M = 1e-6  # rates of change along anything shorter would overflow
+_LONGEST_LANES_M = 1e7
 _SPEED_UNITS_MPS = {"m/s": 1.0, "km/h": 1.0 / 3.6, "kmh": 1.0 / 3.6, "kph": 1.0 / 3.6, "mph": 0.44704}
 _SHAPE_ATTRIBUTES: dict[Shape, tuple[str, ...]] = {
     "line": (),
@@ -40,58 +44,26 @@ _SHAPE_ATTRIBUTES: dict[Shape, tuple[str, ...]] = {
 _STOP_LINE_SIGNAL = "294"  # German road-marking catalogue, the one OpenDRIVE exporters use
 
 
-def read_opendrive(source: Path) -> OpenDriveRecord:
+def read_opendrive(source: Path, defects: Defects) -> OpenDriveRecord:
     """Read a file.
 
     Parameters
     ----------
     source
         Path of an ``.xodr`` file.
+    defects
+        Takes what is mended or left out on the way.
 
     Raises
     ------
     MapError
         If the file is missing, is not XML, is not OpenDRIVE, or contradicts itself.
     """
-    return _FileReader(source.name).read(_parse_xml(source))
+    return _FileReader(source.name, defects).read(parse_opendrive(source))
 
 
-def _parse_xml(source: Path) -> Element:
-    place = Place(source.name)
-    parser = etree.XMLParser(resolve_entities=False, no_network=True, remove_comments=True, remove_pis=True)
-    try:
-        text = source.read_bytes()
-    except OSError as fault:
-        raise MapError(
-            "the map file cannot be read",
-            place=Place(str(source)),
-            found=fault.strerror or str(fault),
-            expected="a readable OpenDRIVE file",
-            fix="check the path; `scenewright maps` lists the maps that come with Scenewright",
-        ) from fault
-    try:
-        root = etree.fromstring(text, parser)
-    except etree.XMLSyntaxError as fault:
-        raise MapError(
-            "the map file is not well-formed XML",
-            place=Place(source.name, line=fault.lineno or None),
-            found=(fault.msg or "an empty file").split(" (")[0],
-            expected="an OpenDRIVE file: XML with the root element <OpenDRIVE>",
-            fix="export the map again, or give a file that ends in .xodr",
-        ) from fault
-    name = etree.QName(root).localname
-    if name != "OpenDRIVE":
-        raise MapError(
-            "the map file is XML, but not OpenDRIVE",
-            place=Place(place.name, line=root.sourceline),
-            found=f"root element <{name}>",
-            expected="root element <OpenDRIVE>",
-            fix="convert the map to OpenDRIVE (.xodr) first",
-        )
-    for element in root.iter():
-        if isinstance(element.tag, str):  # files of version 1.8 may carry a namespace; the names stay the same
-            element.tag = etree.QName(element).localname
-    return root
+def _length_tolerance_m(road_length: float) -> float:
+    return max(0.1, 0.001 * road_length)
 
 
 def _tag(at: Element) -> str:
@@ -101,8 +73,9 @@ def _tag(at: Element) -> str:
 class _FileReader:
     """Holds the file's name for messages; every method turns one kind of element into its record."""
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, defects: Defects) -> None:
         self.name = name
+        self.defects = defects
 
     def fault(self, message: str, at: Element, *, found: str, expected: str, fix: str) -> MapError:
         return MapError(message, place=Place(self.name, line=at.sourceline), found=found, expected=expected, fix=fix)
@@ -127,12 +100,13 @@ class _FileReader:
             value = float(text)
         except ValueError:
             value = math.nan
-        if not math.isfinite(value):
+        if not abs(value) <= _LARGEST_NUMBER:
+            finite = math.isfinite(value)
             raise self.fault(
-                f"{attribute} of <{_tag(at)}> is not a number",
+                f"{attribute} of <{_tag(at)}> is " + ("larger than any map" if finite else "not a number"),
                 at,
                 found=repr(text),
-                expected="a finite number",
+                expected=f"a number up to {_LARGEST_NUMBER:g} in size" if finite else "a finite number",
                 fix="correct the value or export the map again",
             )
         return value
@@ -151,12 +125,12 @@ class _FileReader:
 
     def length(self, at: Element) -> float:
         value = self.number(at, "length")
-        if value <= 0.0:
+        if not 0.0 <= value <= _LONGEST_ROAD_M:
             raise self.fault(
-                f"<{_tag(at)}> has no length",
+                f"<{_tag(at)}> has no length" if value < 0.0 else f"<{_tag(at)}> is longer than any road",
                 at,
                 found=f"length {value:g} m",
-                expected="a length above 0 m",
+                expected=f"a length from 0 to {_LONGEST_ROAD_M:g} m",
                 fix=f"remove this <{_tag(at)}> or correct its length",
             )
         return value
@@ -194,6 +168,15 @@ class _FileReader:
                     fix="rename one of them and the links to it",
                 )
             seen[record.id] = record.line
+        lanes_m = sum(len(s.lanes) * (s.end_m - s.start_m) for record in roads for s in record.sections)
+        if lanes_m > _LONGEST_LANES_M:
+            raise self.fault(
+                "the map has more lanes than can be read",
+                root,
+                found=f"{lanes_m / 1000:,.0f} km of lanes",
+                expected=f"at most {_LONGEST_LANES_M / 1000:,.0f} km",
+                fix="cut out the part of the map that the scenario is about",
+            )
         connections = [
             self.connection(junction, connection)
             for junction in root.findall("junction")
@@ -214,7 +197,7 @@ class _FileReader:
             right_hand=at.get("rule", "RHT") != "LHT",
             geometries=self.plan_view(at, length),
             lane_offsets=self.cubics(lanes, "laneOffset", "s"),
-            sections=self.sections(lanes, length),
+            sections=self.sections(lanes, length, self.text(at, "id")),
             types=self.types(at),
             predecessor=None if link is None else self.road_link(link.find("predecessor")),
             successor=None if link is None else self.road_link(link.find("successor")),
@@ -224,12 +207,12 @@ class _FileReader:
         )
 
     def plan_view(self, road: Element, road_length: float) -> tuple[Geometry, ...]:
-        pieces = sorted(
-            (self.geometry(piece) for piece in self.child(road, "planView").findall("geometry")),
-            key=lambda piece: piece.s_m,
-        )
+        read = [self.geometry(piece) for piece in self.child(road, "planView").findall("geometry")]
+        pieces = sorted((piece for piece in read if piece.length_m > _SHORTEST_PIECE_M), key=lambda piece: piece.s_m)
+        if len(pieces) < len(read):
+            self.defects.add("pieces of a reference line that have no length are left out", f"road {road.get('id')}")
         total = sum(piece.length_m for piece in pieces)
-        if abs(total - road_length) > max(0.1, 0.001 * road_length):
+        if abs(total - road_length) > _length_tolerance_m(road_length):
             raise self.fault(
                 "the road's length and the length of its reference line differ",
                 road,
@@ -276,24 +259,27 @@ class _FileReader:
         ]
         return tuple(sorted(found, key=lambda cubic: cubic.start_m))
 
-    def sections(self, lanes: Element, road_length: float) -> tuple[SectionRecord, ...]:
+    def sections(self, lanes: Element, road_length: float, road_id: str) -> tuple[SectionRecord, ...]:
         elements = lanes.findall("laneSection")
         if not elements:
             self.child(lanes, "laneSection")
-        starts = [self.number(element, "s") for element in elements]
-        ends = [*starts[1:], road_length]
-        for element, start, end in zip(elements, starts, ends, strict=True):
-            if not end > start:
-                raise self.fault(
-                    "the lane section has no length",
-                    element,
-                    found=f"it starts at s = {start:g} m and ends at s = {end:g} m",
-                    expected="sections in order of s, all inside the road",
-                    fix="remove the section or correct its s",
-                )
+        starts = [max(0.0, self.number(element, "s")) for element in elements]
+        if starts != sorted(starts):
+            self.defects.add("lane sections are read in order of s", f"road {road_id}")
+        order = sorted(range(len(starts)), key=starts.__getitem__)
+        beyond = starts[order[-1]] - road_length
+        if beyond > _length_tolerance_m(road_length):
+            raise self.fault(
+                "the lane section has no length",
+                elements[order[-1]],
+                found=f"it starts at s = {starts[order[-1]]:g} m, the road ends at {road_length:g} m",
+                expected="sections that start inside the road",
+                fix="remove the section or correct its s",
+            )
+        ends = [*(starts[i] for i in order[1:]), max(road_length, starts[order[-1]])]
         return tuple(
-            SectionRecord(start, end, self.lanes(element), element.sourceline or 0)
-            for element, start, end in zip(elements, starts, ends, strict=True)
+            SectionRecord(starts[i], end, self.lanes(elements[i]), elements[i].sourceline or 0)
+            for i, end in zip(order, ends, strict=True)
         )
 
     def lanes(self, section: Element) -> tuple[LaneRecord, ...]:

@@ -78,12 +78,19 @@ def _spiral(geometry: Geometry, along_m: FloatArray) -> _Local:
     def heading(t: FloatArray) -> FloatArray:
         return start * t + 0.5 * rate * t * t
 
-    # Fresnel integrals by Gauss quadrature on short panels: exact to rounding, without scipy's start-up.
-    panels = max(1, int(np.ceil(geometry.length_m / 2.0)))
-    fraction = (np.arange(panels)[:, None] + 0.5 * (_GAUSS_NODES + 1.0)[None, :]).ravel() / panels
-    weight = np.tile(_GAUSS_WEIGHTS, panels) * 0.5 / panels
-    angles = heading(along_m[:, None] * fraction[None, :])
-    return along_m * (np.cos(angles) @ weight), along_m * (np.sin(angles) @ weight), heading(along_m)
+    def integrals(begin: FloatArray, end_m: FloatArray) -> FloatArray:
+        """Return the ways in x and y over many short stretches, shape (N, 2)."""
+        half = 0.5 * (end_m - begin)
+        angles = heading(begin[:, None] + half[:, None] * (_GAUSS_NODES + 1.0)[None, :])
+        return half[:, None] * np.column_stack([np.cos(angles) @ _GAUSS_WEIGHTS, np.sin(angles) @ _GAUSS_WEIGHTS])
+
+    # Fresnel integrals by Gauss quadrature on short panels: exact to rounding, without scipy's start-up. The whole
+    # panels before a place are summed up once.
+    edges = np.linspace(0.0, geometry.length_m, max(1, int(np.ceil(geometry.length_m / 2.0))) + 1)
+    before = np.vstack([np.zeros((1, 2)), np.cumsum(integrals(edges[:-1], edges[1:]), axis=0)])
+    panel = np.clip(np.searchsorted(edges, along_m, side="right") - 1, 0, len(edges) - 2)
+    ways = before[panel] + integrals(edges[panel], along_m)
+    return ways[:, 0], ways[:, 1], heading(along_m)
 
 
 def _poly3(geometry: Geometry, along_m: FloatArray) -> _Local:
