@@ -179,8 +179,8 @@ class OutputError(ScenewrightError):
 class MissingExtraError(ScenewrightError):
     """An optional part is not installed; the message names the pip command."""
 
-    def __init__(self, part: str, extra: str) -> None:
-        super().__init__(f"{part} is not installed", fix=f'pip install "scenewright[{extra}]"')
+    def __init__(self, part: str, extra: str, package: str = "scenewright") -> None:
+        super().__init__(f"{part} is not installed", fix=f'pip install "{package}[{extra}]"')
 
 
 class SolverError(ScenewrightError):

@@ -122,3 +122,21 @@ def test_a_fault_of_ours_is_one_line_and_status_seventy(command: Command, monkey
     assert "Traceback" in command("--debug", "maps").stderr
     data = json.loads(command("maps", "--json").stdout)
     assert (data["status"], data["exit_status"]) == ("error", 70)
+
+
+@pytest.mark.parametrize("words", [("maps",), ("run",), ("check",), ("solve",)])
+def test_what_was_mended_on_a_map_is_told(command: Command, folder: Path, words: tuple[str, ...]) -> None:
+    """A road of the map was cut away: it loads, and whoever uses it hears of it in one line."""
+    from scenewright.roads import load_map
+
+    text = load_map("t_intersection").source.read_text(encoding="utf-8")
+    cut = text.replace('incomingRoad="2"', 'incomingRoad="77"', 1)
+    assert cut != text
+    (folder / "cut.xodr").write_text(cut, encoding="utf-8")
+    where = ("cut.xodr",) if words == ("maps",) else (SENTENCE, "--map", "cut.xodr")
+    result = command(*words, *where)
+    assert result.exit_code in (0, 1), result.stderr
+    told = " ".join((result.stdout + result.stderr).split())
+    assert told.count("connections of junctions with roads that are not in the file are left out: 77 to") == 1
+    data = json.loads(command(*words, *where, "--json").stdout)
+    assert any("77 to" in note for note in data["notes"])

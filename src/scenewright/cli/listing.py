@@ -147,7 +147,7 @@ def _show(console: Console, described: dict[str, Any]) -> None:
     console.print(made)
     _rest(console, len(described["lanes"]), "lanes")
     for note in described["notes"]:
-        console.print(f"note: {note}")
+        console.print(f"note: {note}", soft_wrap=True, markup=False)
 
 
 def _named(route: dict[str, Any]) -> str:

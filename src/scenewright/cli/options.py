@@ -71,10 +71,11 @@ def complete_source(incomplete: str) -> list[str]:
 
 
 def complete_map(incomplete: str) -> list[str]:
-    """Offer the shipped maps, and OpenDRIVE files."""
+    """Offer the shipped maps, and files that can be read."""
     from scenewright.roads.load import shipped_maps
+    from scenewright.roads.readers import endings
 
-    return [name for name in shipped_maps() if name.startswith(incomplete)] + _paths(incomplete, (".xodr",))
+    return [name for name in shipped_maps() if name.startswith(incomplete)] + _paths(incomplete, endings())
 
 
 def complete_ego(incomplete: str) -> list[tuple[str, str]]:

@@ -18,7 +18,7 @@ import typer
 from scenewright.cli.console import print_json, stderr, stdout
 from scenewright.cli.faults import told
 from scenewright.cli.options import SOURCE, AsJson, MapName, Translator
-from scenewright.cli.running import carry_out, result_data, tell_no_plan
+from scenewright.cli.running import carry_out, result_data, tell_map_notes, tell_no_plan
 from scenewright.cli.translators import Asked, impossibility, with_asked, with_translator
 from scenewright.errors import InputError, OutputError, Place, ScenewrightError
 from scenewright.translate.model.settings import TranslatorSettings
@@ -180,6 +180,7 @@ def check(asked: Asked, as_json: AsJson = False) -> None:
             if result.status == "success":
                 stdout().print("\nNothing speaks against it: no limit of motion or of the map rules it out.")
             tell_no_plan(stdout(), result)
+            tell_map_notes(stdout(), result)
         raise typer.Exit(status)
 
 
@@ -205,6 +206,7 @@ def solve(asked: Asked, out: PlanFile = None, as_json: AsJson = False) -> None:
             stdout().print(tables.knots(result.scene, plan))
         if not as_json:
             tell_no_plan(stderr(), result)
+            tell_map_notes(stderr(), result)
         raise typer.Exit(status)
 
 

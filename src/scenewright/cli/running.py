@@ -176,6 +176,7 @@ def _tell(request: Request, result: Result, as_json: bool, quiet: bool) -> int:
         report_run(stdout(), request, result)
     if result.run is None and not as_json:
         tell_no_plan(stderr(), result)
+        tell_map_notes(stderr(), result)
     if fault is not None:
         tell(fault)
     if result.status == "interrupted":
@@ -199,6 +200,7 @@ def result_data(request: Request, result: Result, status: int) -> dict[str, obje
         "tolerance": request.tolerance,
         "parameters": parameter_data(result.scene, request.parameters),
         "assumptions": list(result.translation.assumptions) if result.translation else [],
+        "notes": [*result.scene.notes, *result.scene.road_map.notes],
         "verdict": result.verdict.as_dict() if result.verdict is not None else None,
         "findings": list(result.run.findings) if result.run is not None else [],
         "feasibility": result.feasibility.as_dict() if result.feasibility is not None else None,
@@ -214,6 +216,12 @@ def tell_no_plan(console: Console, result: Result) -> None:
     elif result.status == "gave up":
         console.print(f"gave up: {tried(result)}", soft_wrap=True)
         console.print("Neither a plan nor a proof that there is none was found; more of --budget-ms may help.")
+
+
+def tell_map_notes(console: Console, result: Result) -> None:
+    """Say what is not on the map as its file has it: it may be why nothing was driven."""
+    for note in result.scene.road_map.notes:
+        console.print(f"map: {note}", soft_wrap=True, markup=False)
 
 
 def tried(result: Result) -> str | None:
@@ -238,6 +246,7 @@ def report_run(console: Console, request: Request, result: Result) -> None:
     )
     rows = tables.parameters(result.scene, request.parameters)
     rows += [("assumed" if not index else "", text) for index, text in enumerate(_assumed(result))]
+    rows += [("map", text) for text in result.scene.road_map.notes]
     rows += [("finding", text) for text in (result.run.findings if result.run else ())]
     if rows:
         console.print()

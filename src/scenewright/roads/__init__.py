@@ -1,4 +1,4 @@
-"""Roads: lane graph, OpenDRIVE reader, routes with Frenet coordinates and landmarks, conflict points.
+"""Roads: lane graph, map readers, routes with Frenet coordinates and landmarks, conflict points.
 
 What enters: a map's name or file. What leaves: `RoadMap`, `Route`, `Path` and `Conflict`. Nothing here knows of
 actors, programs or time. Names are imported on first use, so that importing the package costs nothing.
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from scenewright.roads.load import load_map, shipped_maps
     from scenewright.roads.model import Lane, RoadMap
     from scenewright.roads.path import Path
+    from scenewright.roads.readers import MapReader
     from scenewright.roads.routes import Route, all_routes, find_route, find_routes
 
 _HOME = {
@@ -23,6 +24,7 @@ _HOME = {
     "load_map": "load",
     "shipped_maps": "load",
     "Lane": "model",
+    "MapReader": "readers",
     "RoadMap": "model",
     "Path": "path",
     "Route": "routes",
@@ -34,6 +36,7 @@ _HOME = {
 __all__ = [
     "Conflict",
     "Lane",
+    "MapReader",
     "Path",
     "RoadMap",
     "Route",

@@ -1,15 +1,17 @@
 """Find a map by name or path and read it, once per process.
 
-What enters: the name of a map that comes with Scenewright, or a file. What leaves: a `RoadMap`.
+What enters: the name of a map that comes with Scenewright, or a file. What leaves: a `RoadMap`. Who reads which kind of
+file is known to `readers`.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from difflib import get_close_matches
 from functools import lru_cache
 from pathlib import Path
 
-from scenewright.errors import MapError
+from scenewright.errors import MapError, Place, ScenewrightError
 from scenewright.roads.model import RoadMap
 
 _MAPS = Path(__file__).parent / "maps"
@@ -26,7 +28,7 @@ def load_map(name_or_path: str | Path) -> RoadMap:
     Parameters
     ----------
     name_or_path
-        A name from `shipped_maps`, or the path of an OpenDRIVE file.
+        A name from `shipped_maps`, or the path of a file that a map reader is there for (see `readers`).
 
     Returns
     -------
@@ -37,6 +39,8 @@ def load_map(name_or_path: str | Path) -> RoadMap:
     ------
     MapError
         If there is no such map, or its file is broken.
+    MissingExtraError
+        If its reader needs something that is not installed.
 
     Examples
     --------
@@ -45,29 +49,56 @@ def load_map(name_or_path: str | Path) -> RoadMap:
     """
     text = str(name_or_path)
     source = _MAPS / f"{text}.xodr" if text in shipped_maps() else Path(name_or_path)
-    if not source.is_file():
+    if not _answers(source.is_file):
         raise _no_such_map(text, source)
-    if source.suffix.lower() != ".xodr":
-        raise MapError(
-            f"{source.name!r} is not a kind of map that can be read",
-            found=f"a file that ends in {source.suffix or 'nothing'!r}",
-            expected="an OpenDRIVE file (.xodr), or one of " + ", ".join(shipped_maps()),
-            fix="convert the map to OpenDRIVE, or rename it if it is OpenDRIVE",
-        )
     return _load(source.resolve(), source.stat().st_mtime_ns)
 
 
 @lru_cache(maxsize=32)
 def _load(source: Path, modified_ns: int) -> RoadMap:
     """Read a file; `modified_ns` is part of the key, so that an edited map is read anew."""
-    from scenewright.roads.opendrive import load_opendrive
+    from scenewright.roads.readers import endings, reader_for
 
-    return load_opendrive(source)
+    reader = reader_for(source.suffix)
+    if reader is None:
+        raise MapError(
+            f"{source.name!r} is not a kind of map that can be read",
+            found=f"a file that ends in {source.suffix or 'nothing'!r}",
+            expected=f"a file that ends in {', '.join(endings())}, or one of " + ", ".join(shipped_maps()),
+            fix="convert the map to OpenDRIVE (.xodr), or rename it if it is OpenDRIVE",
+        )
+    try:
+        road_map = reader(source)
+    except (ScenewrightError, OSError):
+        raise
+    except Exception as error:  # a reader may be anybody's, and a file anything
+        raise _reader_broke(source, f"{type(error).__name__}: {error}".splitlines()[0]) from error
+    if not isinstance(road_map, RoadMap):
+        raise _reader_broke(source, f"it returned a {type(road_map).__name__}")
+    return road_map
+
+
+def _answers(question: Callable[[], bool]) -> bool:
+    try:
+        return question()
+    except (OSError, ValueError):  # too long or too odd for the name of a file
+        return False
+
+
+def _reader_broke(source: Path, what: str) -> MapError:
+    return MapError(
+        f"the reader of {source.suffix} files failed on this one",
+        place=Place(source.name),
+        found=what,
+        expected="a map, or a message that says what is wrong with the file",
+        fix="tell those who offer the reader, with the file",
+    )
 
 
 def _no_such_map(text: str, source: Path) -> MapError:
     close = get_close_matches(text, shipped_maps(), n=1)
-    found = f"the folder {text!r}" if source.is_dir() else f"{text!r}, which is neither a file nor a shipped map"
+    is_folder = _answers(source.is_dir)
+    found = f"the folder {text!r}" if is_folder else f"{text!r}, which is neither a file nor a shipped map"
     return MapError(
         "there is no such map",
         found=found,

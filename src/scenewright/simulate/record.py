@@ -156,7 +156,7 @@ def _manifest(scene: Scene, run: Run, limits: Mapping[int, Limits], circumstance
         "plan": {"manner": run.first_plan.manner, "tolerance": run.last_plan.tolerance},
         "timings": {name: round(seconds, 6) for name, seconds in circumstances.timings_s.items()},
         "packages": _packages(),
-        "notes": [*circumstances.notes, *scene.notes],
+        "notes": [*circumstances.notes, *scene.notes, *scene.road_map.notes],
         "findings": list(run.findings),
     }
 
