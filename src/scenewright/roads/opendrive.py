@@ -69,15 +69,17 @@ def load_opendrive(source: Path) -> RoadMap:
     record = read_opendrive(source, defects)
     sampled = [lane for road in record.roads for lane in driving_lanes(road, source.name)]
     lanes = {lane.id: lane for lane in sampled if lane.length_m >= SHORTEST_M}
+    short = _short_lanes(record) | {lane.id for lane in sampled if lane.id not in lanes}
     if not lanes:
         raise MapError(
             "the map has no driving lanes",
             place=Place(source.name),
-            found=f"{len(record.roads)} roads without lanes of type driving",
+            found=f"{len(short)} lanes, all shorter than {100 * SHORTEST_M:g} cm"
+            if short
+            else f"{len(record.roads)} roads without lanes of type driving",
             expected='at least one <lane type="driving">',
             fix="check the lanes' types in the tool that wrote the map",
         )
-    short = _short_lanes(record) | {lane.id for lane in sampled if lane.id not in lanes}
     for name in sorted(short):
         defects.add(_TOO_SHORT, name)
     arcs = _directed_arcs(record, lanes.keys() | short, defects)

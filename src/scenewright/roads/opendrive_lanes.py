@@ -25,7 +25,7 @@ _STEP_STRAIGHT_M = 2.0
 _NARROWEST_M = 0.5
 # What is shorter has no direction to speak of; traffic passes over it (`opendrive` joins what lies before and behind).
 SHORTEST_M = 0.01
-_LARGEST_COORDINATE_M = 1e9
+_LARGEST_COORDINATE_M = 1e8
 
 
 def lane_id(road_id: str, section: int, number: int) -> str:
@@ -67,24 +67,28 @@ def driving_lanes(road: RoadRecord, map_name: str) -> list[Lane]:
 def _section_lanes(road: RoadRecord, index: int, section: SectionRecord, map_name: str) -> list[Lane]:
     s_m = _sample_points(road, section)
     poses = poses_along(road.geometries, s_m)
-    if not np.all(np.abs(poses) <= _LARGEST_COORDINATE_M):
-        raise MapError(
-            f"the reference line of road {road.id!r} leaves the earth",
-            place=Place(map_name, line=road.line),
-            found=f"a place further than {_LARGEST_COORDINATE_M:g} m from the origin",
-            expected="a road of a length and a curvature that can be driven",
-            fix="correct the road's <planView> or export the map again",
-        )
     offset = evaluate_cubics(road.lane_offsets, s_m)
     lanes: dict[int, Lane] = {}
     for side in (1, -1):
         inner = offset
         for record in sorted((r for r in section.lanes if r.number * side > 0), key=lambda r: abs(r.number)):
             outer = _outer_edge(record, side, offset, inner, s_m - section.start_m, map_name)
+            _check_place(road, np.column_stack([poses, outer]), record.line, map_name)
             if record.type in DRIVING_TYPES and float(np.max(np.abs(outer - inner))) >= _NARROWEST_M:
                 lanes[record.number] = _lane(road, index, section, record, s_m, poses, inner, outer)
             inner = outer
     return [_with_neighbors(road, number, lanes) for number in lanes]
+
+
+def _check_place(road: RoadRecord, places_m: FloatArray, line: int, map_name: str) -> None:
+    if not np.all(np.abs(places_m) <= _LARGEST_COORDINATE_M):
+        raise MapError(
+            f"road {road.id!r} leaves the earth",
+            place=Place(map_name, line=line),
+            found=f"a place or a turn beyond {_LARGEST_COORDINATE_M:g} (m, rad)",
+            expected="a road of a place, a curvature and a width that can be driven",
+            fix="correct the road's <planView> and the width of its lanes, or export the map again",
+        )
 
 
 def _sample_points(road: RoadRecord, section: SectionRecord) -> FloatArray:
