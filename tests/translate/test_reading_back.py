@@ -51,7 +51,6 @@ def told(*constraints: str) -> str:
         ("A0x(t0) < turn_end + gap_m", "the ego is less than gap_m past the end of its turn"),
         ("A0x(t0) > stop_line", "the ego is past its stop line"),
         ("stop_line - 3 == A0x(t0)", "the ego is 3 m before its stop line"),
-        ("A0x(t0) == A1.stop_line - 1", "the ego is 1 m before the truck's stop line"),
         ("A0x(t0) == just before stop_line - gap_m", "the ego is 5 m and gap_m before its stop line"),
         ("A0v(t0) == 30 mph", "the ego drives at 13.4112 m/s"),
         ("A0v(t0) == 0", "the ego stands still"),
@@ -95,6 +94,11 @@ def test_vehicles_behind_each_other() -> None:
     }.items():
         program = parse_program(f"{body}A0(t1) == A1(t1)\n{constraint}\n")
         assert f"The moment that counts: {words}." in read_back(program)
+
+
+def test_place_on_the_route_of_another() -> None:
+    program = parse_program(BODY.replace("- E, N", "- W") + "A0x(t0) == A1.stop_line - 1\n")
+    assert "the ego is 1 m before the truck's stop line" in " ".join(read_back(program, ground(program, MAP)))
 
 
 def test_moment_a_while_after_another() -> None:
