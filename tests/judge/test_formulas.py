@@ -108,8 +108,8 @@ def test_positions_in_one_lane_are_compared_as_the_paper_writes_them() -> None:
     assert judged(BRAKES, "A1x(t1) == A0x(t1) + 20").holds_at(TIGHT)
     assert judged(BRAKES, "always[0, 7](A0x <= A1x - 20)").holds_at(TIGHT)
     assert not judged(BRAKES, "headway(A0, A1, t1) == 3 s").holds_at(LOOSE)
-    assert judged(BRAKES, "headway(A0, A1, t1) == 2 s").error == pytest.approx(0.0, abs=1e-3)
-    assert judged(BRAKES, "ttc(A0, A1, t1) == 10 s").error == pytest.approx(0.0, abs=2e-3)
+    assert judged(BRAKES, "headway(A0, A1, t1) == 1.55 s").error == pytest.approx(0.0, abs=1e-3)
+    assert judged(BRAKES, "ttc(A0, A1, t1) == 7.75 s").error == pytest.approx(0.0, abs=2e-3)
 
 
 def test_unsigned_rate_of_slowing_down_is_understood() -> None:

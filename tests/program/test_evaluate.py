@@ -36,8 +36,14 @@ class Straight:
     def state(self, actor: int, order: Order, time_s: float) -> float:
         return self.motions[actor][order](time_s)
 
-    def state_on_piece(self, actor: int, order: Order, piece: str) -> float:
-        return self.motions[actor][order](1.0)
+    def piece_span_s(self, actor: int, piece: str) -> tuple[float, float]:
+        return 0.0, 2.0 + actor
+
+    def changes_s(self) -> tuple[float, ...]:
+        return ()
+
+    def between_m(self, actor: int, other: int) -> float:
+        return 4.0
 
     def knot_time_s(self, actor: int, knot: str) -> float:
         return {"t0": 0.0, "t1": 2.0 + actor}.get(knot, math.inf)
@@ -75,11 +81,11 @@ class Straight:
         ("A1x(0) - A1.stop_line == A0x(0) - A0.stop_line + 20", 0.0),
         ("gap(A0, A1, 0) == 20", 0.0),
         ("gap(A1, A0, 0) == -20", 0.0),
-        ("headway(A0, A1, 0) == 2", 0.0),
-        ("ttc(A0, A1, 0) == 5", 0.0),
+        ("headway(A0, A1, 0) == 1.6", 0.0),
+        ("ttc(A0, A1, 0) == 4", 0.0),
         ("tta(A0, stop_line, t1) == 3", 0.0),
         ("tta(A0, A1.stop_line, t1) == 3", 0.0),
-        ("ttc(A1, A0, 0) == 5", math.inf),
+        ("ttc(A1, A0, 0) == 4", 0.0),
         ("-A0v(0) * 2 / 4 == -5", 0.0),
         ("A0v(0) + A1v(0) - 1 == 15", 0.0),
         ("A0v(0) / 0 == 1", math.inf),
@@ -93,7 +99,7 @@ class Straight:
         ("never[0, 4](A1v <= 3)", 1.0),
         ("eventually[0, 4](A1v <= 3)", -1.0),
         ("always[A0(t0), A0(t1)](gap(A0, A1) >= 9)", -1.0),
-        ("eventually[2, 1](A1v <= 4)", 0.0),
+        ("eventually[2, 1](A1v <= 4)", math.inf),
     ],
 )
 def test_violations(text: str, off: float) -> None:

@@ -134,7 +134,7 @@ def brakes() -> Play:
 
 def brakes_by_time() -> Play:
     names = ("initial_ego_tta_behind_intersection_s", "ego_headway_behind_hero_s", "hero_deceleration_mpss")
-    return replace(brakes(), row=55, parameters=dict(zip(names, (14.013, 2.5, 4.0), strict=True)))
+    return replace(brakes(), row=55, parameters=dict(zip(names, (14.013, 2.05, 4.0), strict=True)))
 
 
 PLAYS = {

@@ -89,7 +89,8 @@ def test_vehicles_behind_each_other() -> None:
     for constraint, words in {
         "gap(A0, A1, t1) == 20": "the truck is 20 m ahead of the ego",
         "gap(A1, A0, t1) <= 20": "the ego is at most 20 m ahead of the truck",
-        "headway(A0, A1, t1) == 2": "the ego is 2 s behind the truck (gap over its own speed)",
+        "headway(A0, A1, t1) == 2": "the ego is 2 s behind the truck "
+        "(what lies between the bodies, over its own speed)",
         "ttc(A0, A1, t1) == 2": "the time to collision of the ego with the truck is 2 s",
     }.items():
         program = parse_program(f"{body}A0(t1) == A1(t1)\n{constraint}\n")

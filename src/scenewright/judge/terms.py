@@ -131,10 +131,11 @@ class _Reader:
         gap = self._gap(term.actor, term.target, time_s)
         if term.kind == "gap":
             return gap
+        bodies = 0.5 * (self.case.box(term.actor).length_m + self.case.box(term.target).length_m)
         if term.kind == "headway":
-            return _over(gap, speed)
+            return _over(gap - bodies, speed)
         closing = (speed - self.case.timelines[term.target].speed(time_s)) * np.sign(gap)
-        return _over(np.abs(gap), np.maximum(closing, 0.0))
+        return _over(np.abs(gap) - bodies, np.maximum(closing, 0.0))
 
     def _gap(self, actor: int, other: int, time_s: Values) -> FloatArray:
         ahead: FloatArray = self.case.timelines[other].position(time_s) + self._offset(actor, other)

@@ -7,6 +7,8 @@ leaves: numbers, and for formulas the margin by which they hold. It shares no co
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Protocol
 
 from scenewright.program import expressions as ex
@@ -14,6 +16,7 @@ from scenewright.program import expressions as ex
 _TEMPORAL_STEP_S = 0.02
 _MOST_INSTANTS = 20_000  # of an interval; a longer one is looked at more coarsely
 _EDGE_S = 1e-7
+_SAME = 1e-6  # what is nearer than this (SI) is the same
 
 
 class World(Protocol):
@@ -23,8 +26,8 @@ class World(Protocol):
         """Return position, speed or acceleration of `actor` at an instant."""
         ...
 
-    def state_on_piece(self, actor: int, order: ex.Order, piece: str) -> float:
-        """Return the value that a state has all through a piece (its acceleration, the speed of a `go` or `stop`)."""
+    def piece_span_s(self, actor: int, piece: str) -> tuple[float, float]:
+        """Return when `actor` begins and ends a piece; infinite where it never does."""
         ...
 
     def knot_time_s(self, actor: int, knot: str) -> float:
@@ -39,8 +42,16 @@ class World(Protocol):
         """Return a parameter's SI value."""
         ...
 
+    def changes_s(self) -> Sequence[float]:
+        """Return the instants at which some motion changes, where that is known: bounds are looked at there, too."""
+        ...
+
     def offset_m(self, actor: int, other: int) -> float:
         """Return what to add to the arc length of `other` to compare it with that of `actor`."""
+        ...
+
+    def between_m(self, actor: int, other: int) -> float:
+        """Return how much of a gap between two actors' centres their bodies take up."""
         ...
 
 
@@ -61,36 +72,98 @@ def difference(compare: ex.Compare, world: World, now_s: float | None = None) ->
     return left - right
 
 
-def violation(formula: ex.Formula, world: World, now_s: float | None = None) -> float:
-    """Return by how much `formula` is violated (SI of its comparison); zero or less where it holds."""
+def violation(formula: ex.Formula, world: World, now_s: float | None = None, denied: bool = False) -> float:
+    """Return by how much `formula` is violated (SI of its comparison); zero or less where it holds.
+
+    With `denied` it is its contrary that is to hold. A place, speed or rate of a whole piece is looked at all through
+    the piece; so is a stretch of time. That two values are *not* the same is violated without end where they are.
+    """
     match formula:
-        case ex.Compare(operator="=="):
-            return abs(difference(formula, world, now_s))
-        case ex.Compare(operator="<=" | "<"):
-            return difference(formula, world, now_s)
         case ex.Compare():
-            return -difference(formula, world, now_s)
-        case ex.Logic(operator="and", operands=operands):
-            return max(violation(operand, world, now_s) for operand in operands)
-        case ex.Logic(operator="or", operands=operands):
-            return min(violation(operand, world, now_s) for operand in operands)
+            piece = _whole_piece(formula)
+            if piece is not None:
+                return _throughout(formula, piece, world, denied)
+            return _compared(formula, world, now_s, denied)
         case ex.Logic(operator="not", operands=operands):
-            return -violation(operands[0], world, now_s)
-        case ex.Logic(operands=(left, right)):
-            return min(-violation(left, world, now_s), violation(right, world, now_s))
+            return violation(operands[0], world, now_s, not denied)
+        case ex.Logic(operator="implies", operands=(left, right)):
+            parts = [violation(left, world, now_s, not denied), violation(right, world, now_s, denied)]
+            return max(parts) if denied else min(parts)
+        case ex.Logic(operator=operator, operands=operands):
+            parts = [violation(operand, world, now_s, denied) for operand in operands]
+            return max(parts) if (operator == "and") != denied else min(parts)
         case ex.Temporal(operator=operator, start=start, end=end, body=body):
             first, last = term_value(start, world, now_s), term_value(end, world, now_s)
             if not (math.isfinite(first) and math.isfinite(last)):
                 return math.inf  # an interval that never begins or ends was not kept to
-            values = [violation(body, world, time_s) for time_s in _instants(first, last)]
-            if operator == "always":
-                return max(values)
-            return min(values) if operator == "eventually" else -min(values)
+            lasting = (operator != "eventually") != denied
+            if last < max(0.0, first):
+                return -math.inf if lasting else math.inf  # nothing is asked of no time, and nothing happens in it
+            instants = _instants(max(0.0, first), last, world)
+            values = [violation(body, world, time_s, (operator == "never") != denied) for time_s in instants]
+            return max(values) if lasting else min(values)
         case _:
             raise TypeError(f"not a formula: {formula!r}")
 
 
-def _instants(first_s: float, last_s: float) -> list[float]:
+def moments_of_worst(formula: ex.Formula, world: World, least: float = 1e-3) -> list[tuple[ex.Temporal, float]]:
+    """Return for each stretch of time in `formula` that is to be kept all along when (s) it is broken most."""
+    found = []
+    for node in ex.walk(formula):
+        if not isinstance(node, ex.Temporal) or node.operator == "eventually":
+            continue
+        first, last = term_value(node.start, world), term_value(node.end, world)
+        if math.isfinite(first) and math.isfinite(last) and last >= max(0.0, first):
+            instants = _instants(max(0.0, first), last, world)
+            values = [violation(node.body, world, time_s, node.operator == "never") for time_s in instants]
+            worst = max(range(len(values)), key=values.__getitem__)
+            if values[worst] > least:
+                found.append((node, instants[worst]))
+    return found
+
+
+def _compared(formula: ex.Compare, world: World, now_s: float | None, denied: bool) -> float:
+    apart = difference(formula, world, now_s)
+    match formula.operator:
+        case "==":
+            return (math.inf if abs(apart) <= _SAME else -abs(apart)) if denied else abs(apart)
+        case "<=" | "<":
+            return -apart if denied else apart
+        case _:
+            return apart if denied else -apart
+
+
+def _whole_piece(formula: ex.Compare) -> ex.State | None:
+    """Return the state of a whole piece that a comparison speaks of, or None."""
+    return next((n for n in ex.walk(formula) if isinstance(n, ex.State) and isinstance(n.at, ex.PieceRef)), None)
+
+
+def _throughout(formula: ex.Compare, state: ex.State, world: World, denied: bool) -> float:
+    assert isinstance(state.at, ex.PieceRef)
+    first, last = world.piece_span_s(state.actor, state.at.name)
+    if not (math.isfinite(first) and math.isfinite(last)):
+        return math.inf
+    bare = _with_state(formula, state, replace(state, at=None))
+    values = [_compared(bare, world, time_s, denied) for time_s in _instants(first, last, world)]
+    return min(values) if denied else max(values)
+
+
+def _with_state(compare: ex.Compare, state: ex.State, other: ex.State) -> ex.Compare:
+    def change(term: ex.Term) -> ex.Term:
+        match term:
+            case ex.State() if term == state:
+                return other
+            case ex.Arithmetic():
+                return replace(term, left=change(term.left), right=change(term.right))
+            case ex.Negate():
+                return replace(term, operand=change(term.operand))
+            case _:
+                return term
+
+    return replace(compare, left=change(compare.left), right=change(compare.right))
+
+
+def _instants(first_s: float, last_s: float, world: World) -> list[float]:
     """Return the instants at which a condition over ``[first_s, last_s]`` is looked at.
 
     A hair inside: at its very ends an interval between two knots touches the pieces before and after it, whose
@@ -100,7 +173,8 @@ def _instants(first_s: float, last_s: float) -> list[float]:
         return [first_s]
     begin, end = first_s + _EDGE_S, last_s - _EDGE_S
     count = min(max(2, math.ceil((end - begin) / _TEMPORAL_STEP_S) + 1), _MOST_INSTANTS)
-    return [begin + (end - begin) * i / (count - 1) for i in range(count)]
+    found = [begin + (end - begin) * i / (count - 1) for i in range(count)]
+    return found + [time_s for time_s in world.changes_s() if begin < time_s < end]
 
 
 def term_value(term: ex.Term, world: World, now_s: float | None = None) -> float:
@@ -114,8 +188,6 @@ def term_value(term: ex.Term, world: World, now_s: float | None = None) -> float
             return _landmark_m(term, world)
         case ex.Elapsed(actor=actor, knot=knot):
             return world.knot_time_s(actor, knot)
-        case ex.State(actor=actor, order=order, at=ex.PieceRef(name=piece)):
-            return world.state_on_piece(actor, order, piece)
         case ex.State(actor=actor, order=order, at=at):
             return world.state(actor, order, moment_s(at, actor, world, now_s)) + _shift_m(term, world)
         case ex.Derived():
@@ -152,9 +224,11 @@ def _derived(term: ex.Derived, world: World, now_s: float | None) -> float:
     gap = world.state(term.target, 0, time_s) + world.offset_m(term.actor, term.target) - position
     if term.kind == "gap":
         return gap
+    body = world.between_m(term.actor, term.target)
     if term.kind == "headway":
-        return _ratio(gap, speed)
-    return _ratio(gap, speed - world.state(term.target, 1, time_s))
+        return _ratio(gap - body, speed)
+    closing = speed - world.state(term.target, 1, time_s)
+    return _ratio(abs(gap) - body, closing if gap >= 0 else -closing)
 
 
 def _landmark_m(mark: ex.Landmark, world: World) -> float:

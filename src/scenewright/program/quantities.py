@@ -231,11 +231,11 @@ class Vehicle:
         return self._derived("gap", other.id, at)
 
     def ttc(self, other: Vehicle, at: Moment = None) -> Quantity:
-        """Return the time to collision with `other` ahead: gap over closing speed (s)."""
+        """Return the time to collision with `other` ahead: what lies between the bodies, over the closing speed (s)."""
         return self._derived("ttc", other.id, at)
 
     def headway(self, other: Vehicle, at: Moment = None) -> Quantity:
-        """Return the headway to `other` ahead: gap over own speed (s)."""
+        """Return the headway to `other` ahead: what lies between the bodies, over own speed (s)."""
         return self._derived("headway", other.id, at)
 
     def _state(self, order: Order, at: Moment) -> Quantity:

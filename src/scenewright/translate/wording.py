@@ -181,7 +181,7 @@ class Wording:
             return two, f"is {bound}{self._term(right, 'length')} ahead of {one}"
         size = f"{bound}{self._term(right, 'time')}"
         if derived.kind == "headway":
-            return one, f"is {size} behind {two} (gap over its own speed)"
+            return one, f"is {size} behind {two} (what lies between the bodies, over its own speed)"
         return f"the time to collision of {one} with {two}", f"is {size}"
 
     def _position(self, actor: int, operator: ex.ComparisonOperator, right: ex.Term) -> str | None:

@@ -21,6 +21,7 @@ from typing import Literal
 import numpy as np
 
 from scenewright.judge.tolerance import Tolerance
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.model import RoadMap
 from scenewright.study.benchmark.motion import LASTING_S, PLAIN_MPSS, FloatArray, Motion, Stretch
 from scenewright.study.benchmark.roadway import first_overlap_s, route_errors
@@ -190,7 +191,7 @@ def _sides(
         ]
     ego, lead = motions["ego"], setting.lead
     gap = motions["hero"].position_m(times) + lead.offset_m - ego.position_m(times)
-    value = _over(gap, ego.speed_mps(times)) if lead.timed else gap
+    value = _over(gap - VEHICLE_LENGTH_M, ego.speed_mps(times)) if lead.timed else gap  # a headway is between bodies
     return [("ego", lead.value, lead.timed, value)]
 
 
