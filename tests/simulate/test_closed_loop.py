@@ -10,7 +10,6 @@ from scenewright.judge.tolerance import TIGHT
 from scenewright.program.types import PieceKind
 from scenewright.simulate.hindsight import ego_left_no_room
 from scenewright.simulate.loop import Run
-from scenewright.solve.backends.z3_backend import Z3Backend
 from scenewright.solve.limits import ACCEL_MAX_MPSS, BRAKE_MAX_MPSS
 
 TABLE = [
@@ -111,7 +110,7 @@ def test_no_run_that_succeeded_is_proven_impossible(story: str, ego: str, seed: 
     result, run = driven(story, ego, seed), run_of(story, ego, seed)
     assert result.hindsight is None
     stage = Stage(STORIES[story], Scripted(lambda time_s, speed_mps: 0.0))
-    assert ego_left_no_room(stage.scene, stage.structure, stage.limits, Z3Backend(), run.trace) is None
+    assert ego_left_no_room(stage.scene, stage.structure, stage.limits, run.trace) is None
 
 
 @pytest.mark.parametrize("ego", ["dawdler", "noisy"])

@@ -176,7 +176,7 @@ def test_gives_up_and_drives_nothing_where_no_plan_is_found(monkeypatch: pytest.
     result = orchestrate(Request(STORY, ego="idm", out=tmp_path / "run", budget_s=PATIENT_S))
     assert result.status == "gave up"
     assert result.feasibility is not None
-    assert result.feasibility.answer == "unknown"
+    assert result.feasibility.answer == "feasible"
     assert (result.run, result.verdict, result.run_directory) == (None, None, None)
     assert result.attempt is not None
     assert (result.attempt.plan, result.attempt.reason) == (None, "incomplete")

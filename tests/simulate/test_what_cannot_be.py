@@ -10,7 +10,6 @@ from stories import HERO, STORIES, Scripted, Stage
 
 from scenewright.orchestrate import EXIT_STATUS, Request, orchestrate
 from scenewright.simulate.hindsight import drive_profile, ego_left_no_room
-from scenewright.solve.backends.z3_backend import Z3Backend
 
 TOO_FAST = STORIES["yields, distance"].replace(
     "A1x(t2) == conflict_point - 6", "fast: A1v(t1) == 14\nstops: A1x(t2) == conflict_point - 17"
@@ -59,7 +58,7 @@ def test_ego_that_rushes_off_left_no_room() -> None:
         assert stage.begin(stop_line_m - 50.0, 3.0).plan is not None
         run = stage.run()
         trigger_s = run.last_plan.profiles[HERO].knot_times_s["t1"]
-        proofs.append(ego_left_no_room(stage.scene, stage.structure, stage.limits, Z3Backend(), run.trace))
+        proofs.append(ego_left_no_room(stage.scene, stage.structure, stage.limits, run.trace))
     assert proofs[0] is None, "the ego that goes on at 3 m/s leaves plenty"
     assert proofs[1] is not None
     named = [str(clash) for clash in proofs[1].clashes]
@@ -71,7 +70,7 @@ def test_ego_that_never_comes_to_its_place_is_the_judges_finding() -> None:
     assert stage.begin(stage.scene.landmarks_m[0]["stop_line"] - 50.0, 6.0).plan is not None
     run = stage.run()
     assert run.trace.actors["ego"].s_m[-1] < stage.scene.landmarks_m[0]["stop_line"] - 14.0
-    assert ego_left_no_room(stage.scene, stage.structure, stage.limits, Z3Backend(), run.trace) is None
+    assert ego_left_no_room(stage.scene, stage.structure, stage.limits, run.trace) is None
 
 
 def test_hindsight_reaches_the_result_of_a_whole_run() -> None:

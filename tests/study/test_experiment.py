@@ -15,11 +15,9 @@ from scenewright.cli.app import app
 from scenewright.errors import InputError, OutputError, PolicyError
 from scenewright.judge.files import judge_run_directory
 from scenewright.judge.tolerance import TIGHT
-from scenewright.solve.backends.z3_backend import Z3Backend
 from scenewright.study.cases import BenchCase, run_bench_case
 from scenewright.study.experiment import FULL_EGOS, Experiment, Plan, Progress, preset
 from scenewright.study.rejudge import differences, kept_runs
-from scenewright.study.remembering import Remembering
 from scenewright.study.store import CaseRecord, read_results
 
 PACKAGE = Path(scenewright.__file__).parent
@@ -178,25 +176,6 @@ def test_infeasible_case_carries_its_proof(tmp_path: Path) -> None:
     assert (record.cause, record.first_cause, record.takes) == ("proven infeasible", "proven infeasible", 0)
     assert record.proof
     assert "A1x" in record.proof
-
-
-def test_solver_that_remembers_changes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    case = one_case(tmp_path, "noisy")
-    impossible = tuple((name, 60.0 if name.startswith("end") else value) for name, value in case.parameters)
-    asked = [
-        replace(case, method=method, parameters=parameters)
-        for parameters in (case.parameters, impossible)
-        for method in ("scenewright", "open-loop", "trigger-action")
-    ]
-    alone = []
-    for each in asked:
-        monkeypatch.setattr("scenewright.study.cases._solver", Z3Backend)
-        alone.append(told(run_bench_case(each)))
-    solver = Remembering(Z3Backend())
-    monkeypatch.setattr("scenewright.study.cases._solver", lambda: solver)
-    assert [told(run_bench_case(each)) for each in asked] == alone
-    assert solver.recalled > 10
-    assert {record.cause for record in alone} >= {"success", "proven infeasible"}
 
 
 def test_names_of_cases_are_names_of_files(tmp_path: Path) -> None:

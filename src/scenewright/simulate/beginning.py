@@ -83,9 +83,9 @@ def _is_last_hope(world: World, best: tuple[Replanner, EgoFirstState, Attempt] |
 def _solved_start(world: World) -> Iterator[EgoFirstState]:
     """Yield, once all others have failed, the first state in which an ego that holds its speed makes it possible."""
     bounds = replace(world.ego_bounds, holds_speed=True)
-    found = check_feasibility(world.scene, world.structure, world.limits, world.backend, bounds, explain=False)
+    found = check_feasibility(world.scene, world.structure, world.limits, bounds, explain=False)
     if found.ego_start is not None:
-        yield EgoFirstState(float(found.ego_start[0]), float(found.ego_start[1]), last_resort=True)
+        yield EgoFirstState(*found.ego_start, last_resort=True)
 
 
 def _quality(attempt: Attempt) -> int:

@@ -18,7 +18,6 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import TIGHT_TIME_S, LinearCondition, linear_conditions, tight_of
 from scenewright.solve.feasibility import EgoDrive, Feasibility, check_feasibility
 from scenewright.solve.limits import Limits
-from scenewright.solve.problem import Backend
 from scenewright.trace.model import ActorTrace, Trace
 
 _STRETCH_S = 0.1
@@ -27,7 +26,7 @@ _MOST_MOMENTS = 150
 
 
 def ego_left_no_room(
-    scene: Scene, structure: Structure, limits: Mapping[int, Limits], backend: Backend, trace: Trace
+    scene: Scene, structure: Structure, limits: Mapping[int, Limits], trace: Trace
 ) -> Feasibility | None:
     """Return the proof that against this drive of the ego no hero within `limits` could meet all conditions.
 
@@ -46,7 +45,7 @@ def ego_left_no_room(
     for moment_s in moments:
         knots = _ego_knots(scene, structure, conditions, motion, moment_s, trace.duration_s)
         drive = EgoDrive(motion, knots)
-        found = check_feasibility(scene, structure, limits, backend, drive=drive, explain=proof is None)
+        found = check_feasibility(scene, structure, limits, drive=drive, explain=proof is None)
         if found.answer != "infeasible":
             return None
         proof = proof or found

@@ -13,9 +13,9 @@ from scenewright.roads.grounding import Scene
 from scenewright.simulate.loop import Rates
 from scenewright.simulate.prediction import ConstantSpeed, Predictor, predictor_called
 from scenewright.simulate.vehicles import EgoVehicle
-from scenewright.solve.feasibility import EgoBounds, Feasibility, check_feasibility
+from scenewright.solve.feasibility import EgoBounds, Feasibility
 from scenewright.solve.limits import Limits, limits_on
-from scenewright.solve.parameters import choose_open_parameters
+from scenewright.solve.parameters import settle
 from scenewright.solve.planner import DEFAULT_BUDGET_S
 from scenewright.solve.problem import Backend
 
@@ -74,6 +74,5 @@ class World:
 
     def choose_and_check(self) -> Feasibility:
         """Give open parameters values, and ask whether the scenario can happen with them."""
-        world = (self.structure, self.limits, self.backend, self.ego_bounds)
-        self.scene = choose_open_parameters(self.scene, *world)
-        return check_feasibility(self.scene, *world)
+        self.scene, answer = settle(self.scene, self.structure, self.limits, self.ego_bounds)
+        return answer

@@ -1,7 +1,8 @@
 """Asks whether a scenario can happen at all with any ego that keeps its promises; if not, why not and what would help.
 
-What enters: a scene and bounds on everybody's motion. What leaves: a verdict with the clashing constraints in the
-user's words and the nearest values that would do.
+What enters: a scene and bounds on everybody's motion. What leaves: a motion that shows that it can; or the clashing
+constraints in the user's words, what the proof rests on, and the nearest values that would do; or that neither was
+found.
 """
 
 from __future__ import annotations
@@ -16,18 +17,18 @@ from scenewright.program.structure import Structure
 from scenewright.program.types import EGO, Program
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
-from scenewright.solve.outer_problem import EgoBounds, EgoDrive, OuterProblem
-from scenewright.solve.problem import Backend, Satisfiable, Unsatisfiable
+from scenewright.solve.proofs.decide import Decision, Question, decide
+from scenewright.solve.proofs.events import EgoBounds, EgoDrive
+from scenewright.solve.proofs.witness import Witness
 from scenewright.solve.suggestions import Suggestion, suggest
+from scenewright.units import decimal_fraction
 
 __all__ = ["Clash", "EgoBounds", "EgoDrive", "Feasibility", "Suggestion", "check_feasibility"]
-
-_PROOF_TIMEOUT_S = 3.0
 
 
 @dataclass(frozen=True, slots=True)
 class Clash:
-    """One member of the core: a constraint (with the user's words) or a limit of the world."""
+    """One member of the core: a constraint (with the user's words) or a law of motion."""
 
     id: str
     formula: str | None
@@ -46,19 +47,20 @@ class Feasibility:
     Attributes
     ----------
     answer
-        ``feasible`` (as far as the outer bounds tell), ``infeasible`` (proven) or ``unknown``.
+        ``feasible`` (there is a `witness`), ``infeasible`` (proven) or ``undecided``.
     parameters
-        SI values of open parameters with which it is feasible, where it is.
+        SI values of open parameters in the witness, where there is one.
     ego_start
-        A first position (m) and speed (m/s) of the ego with which it is feasible, where it is.
+        The first position (m) and speed (m/s) of the ego in the witness.
     """
 
-    answer: Literal["feasible", "infeasible", "unknown"]
+    answer: Literal["feasible", "infeasible", "undecided"]
     clashes: tuple[Clash, ...] = ()
     suggestions: tuple[Suggestion, ...] = ()
     reason: str = ""
     parameters: Mapping[str, Fraction] = field(default_factory=dict)
-    ego_start: tuple[Fraction, Fraction] | None = None
+    ego_start: tuple[float, float] | None = None
+    witness: Witness | None = None
 
     def explain(self) -> str:
         """Return the proof for people: what clashes, and what would make it possible."""
@@ -72,6 +74,7 @@ class Feasibility:
         """Return plain data, for ``--json``."""
         return {
             "answer": self.answer,
+            "reason": self.reason,
             "clashes": [{"id": c.id, "formula": c.formula, "words": c.words} for c in self.clashes],
             "suggestions": [
                 {"what": s.what, "value": s.value, "nearest": s.nearest, "unit": s.unit} for s in self.suggestions
@@ -83,7 +86,6 @@ def check_feasibility(
     scene: Scene,
     structure: Structure,
     limits: Mapping[int, Limits],
-    backend: Backend,
     ego: EgoBounds | None = None,
     explain: bool = True,
     drive: EgoDrive | None = None,
@@ -94,23 +96,34 @@ def check_feasibility(
     suggestions. With `drive` the ego is not any, but drives just so: infeasible then means that no hero could have met
     all conditions against this drive. (Another hero might have made the ego drive differently.)
     """
-    bounds = ego or EgoBounds()
-    problem = OuterProblem(scene, structure, limits, bounds, drive=drive).problem
-    result = backend.solve(problem, _PROOF_TIMEOUT_S)
-    if isinstance(result, Satisfiable):
-        names = (parameter.name for parameter in scene.open_parameters())
-        start = (result.model[f"a{EGO}x0"], result.model[f"a{EGO}v0"]) if drive is None else None
-        parameters = {name: result.model[f"p_{name}"] for name in names}
-        return Feasibility("feasible", parameters=parameters, ego_start=start)
-    if not isinstance(result, Unsatisfiable):
-        return Feasibility("unknown", reason=result.reason)
+    question = Question(scene, structure, limits, ego or EgoBounds(), drive=drive)
+    decision = decide(question, explain=explain)
+    if decision.witness is not None:
+        return _feasible(scene, decision.witness)
+    if decision.answer == "undecided":
+        return Feasibility("undecided", reason=_reason(decision))
     if not explain:
         return Feasibility("infeasible")
-    proof = backend.solve(problem, _PROOF_TIMEOUT_S, want_core=True)
-    core = proof.core if isinstance(proof, Unsatisfiable) else ()
-    clashes = tuple(_clash(scene.program, origin) for origin in core)
-    suggestions = () if drive else tuple(suggest(scene, structure, limits, bounds, backend, set(core)))
+    clashes = tuple(_clash(scene.program, origin) for origin in decision.core)
+    suggestions = () if drive else tuple(suggest(question, set(decision.core)))
     return Feasibility("infeasible", clashes, suggestions)
+
+
+def _feasible(scene: Scene, witness: Witness) -> Feasibility:
+    names = (parameter.name for parameter in scene.open_parameters())
+    parameters = {name: decimal_fraction(f"{witness.parameters[name]:.9f}") for name in names}
+    place, speed, _ = witness.profiles[EGO].state(0.0)
+    return Feasibility("feasible", parameters=parameters, ego_start=(place, speed), witness=witness)
+
+
+def _reason(decision: Decision) -> str:
+    if decision.left_out:
+        told = "; ".join(f"{name}: {why}" for name, why in decision.left_out.items())
+        return f"no plan can be made for {told}"
+    if decision.amiss:
+        worst = decision.amiss[0]
+        return f"neither a motion nor a proof was found in time; the best motion still breaks {worst.what}"
+    return "neither a motion nor a proof was found in time"
 
 
 def _clash(program: Program, origin: str) -> Clash:

@@ -7,7 +7,10 @@ first).
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
+from scenewright.motion.algebra import pin
+from scenewright.motion.laws import Law
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route
 from scenewright.solve.turns import tightest_curvature
@@ -51,6 +54,10 @@ class Limits:
     accel_max_mpss: float = ACCEL_MAX_MPSS
     brake_max_mpss: float = BRAKE_MAX_MPSS
     lateral_max_mpss: float = LATERAL_MAX_MPSS
+
+    def law(self) -> Law:
+        """Return the law of motion that these bounds are, in numbers for a solver."""
+        return Law(-pin(self.brake_max_mpss), pin(self.accel_max_mpss), Fraction(0), pin(self.speed_max_mps))
 
     def at_pace(self, share: float) -> Limits:
         """Return the same limits for one that comes to its trigger no faster than a share of what it may."""

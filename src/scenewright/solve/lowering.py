@@ -8,7 +8,9 @@ linear stays so.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from fractions import Fraction
+from typing import TypeGuard
 
 from scenewright.motion.algebra import (
     Condition,
@@ -23,6 +25,7 @@ from scenewright.motion.algebra import (
 from scenewright.motion.sketched import ONE, Ratio
 from scenewright.program import expressions as ex
 from scenewright.program.structure import Structure
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene
 from scenewright.solve.views import MotionView, SketchedView
 
@@ -71,6 +74,7 @@ class Lowering:
         self.motions = motions
         self.parameters = parameters
         self._now: tuple[int, int] | None = None
+        self._sides: dict[ex.Derived, int] = {}  # of a time to collision: -1 while its first actor is the one in front
 
     def condition(self, formula: ex.Formula, tolerance: Fraction = Fraction(0)) -> Condition:
         """Return `formula` as a condition; equalities may be off by `tolerance` units of `TIGHT`.
@@ -97,6 +101,19 @@ class Lowering:
                 raise TypeError(f"not a formula: {formula!r}")
 
     def _compare(self, formula: ex.Compare, tolerance: Fraction) -> Condition:
+        """Lower a comparison; one of a time to collision as the two cases of who is behind whom."""
+        open_sides = [n for n in ex.walk(formula) if _is_time_to_collision(n) and n not in self._sides]
+        if not open_sides:
+            return self._compared(formula, tolerance)
+        node, cases = open_sides[0], []
+        gap = self.term(replace(node, kind="gap"))[0]
+        for relation, side in ((">=", 1), ("<", -1)):
+            self._sides[node] = side
+            cases.append(conjunction([compare(relation, gap, Fraction(0)), self._compare(formula, tolerance)]))
+        del self._sides[node]
+        return disjunction(cases)
+
+    def _compared(self, formula: ex.Compare, tolerance: Fraction) -> Condition:
         left_num, left_den = self._side(formula.left)
         right_num, right_den = self._side(formula.right)
         left, right = left_num * right_den, right_num * left_den
@@ -186,9 +203,12 @@ class Lowering:
         if term.kind == "gap":
             return gap, ONE
         speed = self._state(term.actor, 1, term.at, term.actor)[0]
+        body = pin(VEHICLE_LENGTH_M)
         if term.kind == "headway":
-            return gap, speed
-        return gap, speed - self._state(term.target, 1, term.at, term.actor)[0]
+            return gap - body, speed
+        closing = speed - self._state(term.target, 1, term.at, term.actor)[0]
+        side = self._sides.get(term, 1)
+        return side * gap - body, side * closing
 
     def _landmark(self, mark: ex.Landmark) -> Fraction:
         if mark.actor is None:
@@ -241,6 +261,10 @@ class Lowering:
         if self._now is None or self._now[0] != actor or not isinstance(view, SketchedView):
             raise NotYet
         return view.motion.state_at_knot(self._now[1], order)
+
+
+def _is_time_to_collision(node: ex.Node) -> TypeGuard[ex.Derived]:
+    return isinstance(node, ex.Derived) and node.kind == "ttc" and not isinstance(node.target, ex.Landmark)
 
 
 def _may_be_endless(term: ex.Term) -> bool:

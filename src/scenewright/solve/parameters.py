@@ -13,9 +13,8 @@ from fractions import Fraction
 from scenewright.program.structure import Structure
 from scenewright.program.types import Parameter
 from scenewright.roads.grounding import Scene
-from scenewright.solve.feasibility import EgoBounds, check_feasibility
+from scenewright.solve.feasibility import EgoBounds, Feasibility, check_feasibility
 from scenewright.solve.limits import Limits
-from scenewright.solve.problem import Backend
 
 # SI values by dimension, for words that occur in the name; the empty word is the default.
 _EVERYDAY: dict[str, tuple[tuple[str, Fraction], ...]] = {
@@ -24,26 +23,36 @@ _EVERYDAY: dict[str, tuple[tuple[str, Fraction], ...]] = {
     "speed": (("", Fraction(8)),),
     "acceleration": (("", Fraction(3)),),
 }
+_DIGITS = (0, 1, 2, 3, 6)
 
 
-def choose_open_parameters(
-    scene: Scene, structure: Structure, limits: Mapping[int, Limits], backend: Backend, ego: EgoBounds | None = None
-) -> Scene:
-    """Return `scene` with a value for every parameter.
+def settle(
+    scene: Scene, structure: Structure, limits: Mapping[int, Limits], ego: EgoBounds | None = None
+) -> tuple[Scene, Feasibility]:
+    """Return `scene` with a value for every parameter, and whether it can happen.
 
-    Everyday values are taken where the scenario is possible with them; else those of a solution with all of them free;
-    where there is none, the everyday ones (and the proof that it is infeasible will say so).
+    Everyday values are taken where the scenario is possible with them; else those of a motion found with all of them
+    free, rounded as far as it stays possible. Where there is none the answer is that for all values.
     """
     open_parameters = scene.open_parameters()
+
+    def with_values(values: Mapping[str, Fraction], explain: bool = False) -> tuple[Scene, Feasibility]:
+        settled = replace(scene, parameters={**scene.parameters, **values})
+        return settled, check_feasibility(settled, structure, limits, ego, explain)
+
     if not open_parameters:
-        return scene
-    everyday = replace(scene, parameters={**scene.parameters, **{p.name: everyday_value(p) for p in open_parameters}})
-    if check_feasibility(everyday, structure, limits, backend, ego, explain=False).answer != "infeasible":
-        return everyday
-    found = check_feasibility(scene, structure, limits, backend, ego, explain=False)
+        return scene, check_feasibility(scene, structure, limits, ego)
+    everyday, answer = with_values({parameter.name: everyday_value(parameter) for parameter in open_parameters})
+    if answer.answer == "feasible":
+        return everyday, answer
+    found = check_feasibility(scene, structure, limits, ego)
     if found.answer != "feasible":
-        return everyday
-    return replace(scene, parameters={**scene.parameters, **found.parameters})
+        return everyday, found
+    for digits in _DIGITS:
+        settled, answer = with_values({name: round(value, digits) for name, value in found.parameters.items()})
+        if answer.answer == "feasible":
+            return settled, answer
+    return replace(scene, parameters={**scene.parameters, **found.parameters}), found
 
 
 def everyday_value(parameter: Parameter) -> Fraction:

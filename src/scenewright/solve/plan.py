@@ -6,11 +6,12 @@ What enters: profiles. What leaves: a `Plan` that can be carried out, checked ag
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from scenewright.motion.profile import Profile
 from scenewright.program.expressions import Order
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene
 
 SCHEMA_VERSION = 1
@@ -75,17 +76,20 @@ class PlanWorld:
         """Return position, speed or acceleration of `actor` at an instant."""
         return self._profiles[actor].state(time_s)[order]
 
-    def state_on_piece(self, actor: int, order: Order, piece: str) -> float:
-        """Return the state in the middle of a piece, where it holds all through."""
+    def piece_span_s(self, actor: int, piece: str) -> tuple[float, float]:
+        """Return when a piece begins and ends; infinite where that is not known."""
         index = self._scene.program.actor(actor).sketch.piece_index(piece)
         knots = self._scene.program.actor(actor).sketch.knots
         times = self._profiles[actor].knot_times_s
-        begin, end = times.get(knots[index], math.inf), times.get(knots[index + 1], math.inf)
-        return self.state(actor, order, 0.5 * (begin + end)) if end < math.inf else math.nan
+        return times.get(knots[index], math.inf), times.get(knots[index + 1], math.inf)
 
     def knot_time_s(self, actor: int, knot: str) -> float:
         """Return when `actor` passes `knot`; infinite where it is not known to."""
         return self._profiles[actor].knot_times_s.get(knot, math.inf)
+
+    def changes_s(self) -> Sequence[float]:
+        """Return the instants at which some motion changes."""
+        return [segment.start_s for profile in self._profiles.values() for segment in profile.segments]
 
     def landmark_m(self, actor: int, name: str, other: int | None) -> float:
         """Return the arc length of a landmark on the route of `actor`."""
@@ -98,3 +102,7 @@ class PlanWorld:
     def offset_m(self, actor: int, other: int) -> float:
         """Return what to add to the arc length of `other` to compare it with that of `actor`."""
         return self._scene.offset_m(actor, other)
+
+    def between_m(self, actor: int, other: int) -> float:
+        """Return how much of a gap between two actors' centres their bodies take up."""
+        return VEHICLE_LENGTH_M

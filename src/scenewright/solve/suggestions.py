@@ -1,12 +1,13 @@
 """Suggests what would make an infeasible scenario possible: the nearest other value of one number that clashes.
 
 What enters: a scene that is proven infeasible, and the core of the proof. What leaves: suggestions, each tried: with
-that value no proof of infeasibility is left.
+that value there is a witness.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+import time
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -23,16 +24,13 @@ from scenewright.program.expressions import (
     walk,
 )
 from scenewright.program.printer import print_expression
-from scenewright.program.structure import Structure
 from scenewright.program.types import Constraint, Program
 from scenewright.roads.grounding import Scene
-from scenewright.solve.limits import Limits
 from scenewright.solve.lowering import compared_dimension
-from scenewright.solve.outer_problem import EgoBounds, OuterProblem
-from scenewright.solve.problem import Backend, Satisfiable
-from scenewright.units import SI_SYMBOL, format_fraction
+from scenewright.solve.proofs.decide import Question, decide
+from scenewright.units import SI_SYMBOL, decimal_fraction, format_fraction
 
-_QUERY_TIMEOUT_S = 0.6
+_QUERY_S, _ALL_S = 0.2, 3.0
 _BISECTIONS = 10
 _SUGGESTIONS = 4
 
@@ -62,14 +60,7 @@ class _Lever:
     name: str
 
 
-def suggest(
-    scene: Scene,
-    structure: Structure,
-    limits: Mapping[int, Limits],
-    ego: EgoBounds,
-    backend: Backend,
-    core: set[str],
-) -> Iterator[Suggestion]:
+def suggest(question: Question, core: set[str]) -> Iterator[Suggestion]:
     """Yield a few changes of one number, each with the value nearest to the present one that is possible.
 
     Parameters
@@ -77,11 +68,11 @@ def suggest(
     core
         Ids of the constraints that clash; only their numbers are tried.
     """
-    found = 0
-    for lever in _levers(scene, core):
-        if found >= _SUGGESTIONS:
+    found, until = 0, time.monotonic() + _ALL_S
+    for lever in _levers(question.scene, core):
+        if found >= _SUGGESTIONS or time.monotonic() > until:
             return
-        nearest = _nearest(scene, structure, limits, ego, backend, lever)
+        nearest = _nearest(question, lever)
         if nearest is not None:
             found += 1
             unit = SI_SYMBOL.get(lever.dimension, "")  # type: ignore[call-overload]
@@ -118,21 +109,13 @@ def _with_constraint(program: Program, changed: Constraint) -> Program:
     return replace(program, constraints=constraints)
 
 
-def _nearest(
-    scene: Scene,
-    structure: Structure,
-    limits: Mapping[int, Limits],
-    ego: EgoBounds,
-    backend: Backend,
-    lever: _Lever,
-) -> Fraction | None:
-    """Return the value nearest to the lever's own with which the scenario is possible, rounded to a readable number."""
-    freed_scene = _freed(scene, lever)
+def _nearest(question: Question, lever: _Lever) -> Fraction | None:
+    """Return the value nearest to the lever's own with which there is a witness, rounded to a readable number."""
+    freed = replace(question, scene=_freed(question.scene, lever))
 
     def possible(low: Fraction, high: Fraction) -> Fraction | None:
-        problem = OuterProblem(freed_scene, structure, limits, ego, {lever.name: (low, high)}).problem
-        result = backend.solve(problem, _QUERY_TIMEOUT_S)
-        return result.model.get(f"p_{lever.name}") if isinstance(result, Satisfiable) else None
+        decision = decide(replace(freed, freed={lever.name: (low, high)}), _QUERY_S, explain=False)
+        return decimal_fraction(f"{decision.witness.parameters[lever.name]:.6f}") if decision.witness else None
 
     value, sign = lever.value, 1 if lever.value > 0 else -1
     ends = (sign * 10 * abs(value) + 20 * sign, Fraction(0))
@@ -140,10 +123,11 @@ def _nearest(
     if not found:
         return None
     best = min(found, key=lambda candidate: abs(candidate - value))
-    for readable in (Fraction(round(best * 100), 100), _rounded_away(best, value)):
-        if possible(readable, readable) is not None:
-            return readable
-    return best
+    for digits in (2, 3, 4, 6):
+        for readable in _rounded(best, value, digits):
+            if readable != value and possible(readable, readable) is not None:
+                return readable
+    return None
 
 
 def _freed(scene: Scene, lever: _Lever) -> Scene:
@@ -171,11 +155,12 @@ def _nearest_towards(
     return far
 
 
-def _rounded_away(found: Fraction, origin: Fraction) -> Fraction:
-    """Round to two decimals away from the value that did not work, so that the suggestion does."""
-    scaled = found * 100
+def _rounded(found: Fraction, origin: Fraction, digits: int) -> tuple[Fraction, Fraction]:
+    """Return a number with so many decimals: the nearest, and the next one away from the value that did not work."""
+    scaled = found * 10**digits
     floor = scaled.numerator // scaled.denominator
-    return Fraction(floor if found < origin else floor + 1, 100)
+    away = floor if found < origin else floor + 1
+    return Fraction(round(scaled), 10**digits), Fraction(away, 10**digits)
 
 
 def _with_name(formula: Formula, number: Number, name: str) -> Formula:

@@ -13,19 +13,16 @@ import shutil
 import time
 import zlib
 from dataclasses import dataclass, replace
-from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from scenewright.errors import InputError, ScenewrightError
 from scenewright.orchestrate import Request, Result, Take
 from scenewright.study.causes import INFEASIBLE, NO_ROOM, cause_across, cause_of_take
-from scenewright.study.remembering import Remembering
 from scenewright.study.store import PROGRAMS, RUNS, CaseRecord
 
 if TYPE_CHECKING:
     from scenewright.judge.verdict import Condition, Verdict
-    from scenewright.solve.problem import Backend
     from scenewright.study.benchmark import BenchmarkRow, Criterion
 
 OURS = "scenewright"
@@ -124,14 +121,6 @@ def run_bench_case(case: BenchCase) -> CaseRecord:
     return record
 
 
-@cache
-def _solver() -> Backend:
-    """Return the solver of this process, which remembers what other cases have asked."""
-    from scenewright.solve.backends.z3_backend import Z3Backend
-
-    return Remembering(Z3Backend())
-
-
 def carry_out_case(case: BenchCase, row: BenchmarkRow) -> tuple[CaseRecord, Request, Result]:
     """Run one case; raises `ScenewrightError` where the request is wrong."""
     import z3
@@ -141,7 +130,7 @@ def carry_out_case(case: BenchCase, row: BenchmarkRow) -> tuple[CaseRecord, Requ
     z3.set_param("ctrl_c", False)  # its own handler would take Ctrl-C for an answer
     request = case.request(row)
     started = time.perf_counter()
-    result = run_method(case.method, request, _solver())
+    result = run_method(case.method, request, None)
     record = replace(record_of(case, row, result), wall_s=time.perf_counter() - started)
     if case.keep and result.run is not None and result.verdict is not None:
         directory = f"{RUNS}/{case.key}"

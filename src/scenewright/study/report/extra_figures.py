@@ -163,7 +163,7 @@ def draw_solver(calls: Sequence[Measured]) -> Figure:
 
 
 def _stage_colours() -> dict[str, str]:
-    names = {"re-solve": OURS, "first plan": "trigger-action", "feasibility": "rejection", "hindsight": "synchronise"}
+    names = {"re-solve": OURS, "first plan": "trigger-action"}
     return {stage: method_colour(method) for stage, method in names.items()}
 
 

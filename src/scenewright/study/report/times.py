@@ -19,7 +19,7 @@ from scenewright.study.report.tables import Table
 
 PERCENTILES = (50, 90, 99)
 # What the orchestrator calls the stages in which it asks the solver; what is asked while it simulates are re-solves.
-STAGES = {"check": "feasibility", "plan": "first plan", "simulate": "re-solve", "hindsight": "hindsight"}
+STAGES = {"plan": "first plan", "simulate": "re-solve"}
 TICK_MS = 100.0  # between two re-plans
 _COLUMNS = {**{f"p{percent}_ms": f"p{percent} (ms)" for percent in PERCENTILES}, "max_ms": "max (ms)"}
 

@@ -1,0 +1,214 @@
+"""Proof, witness or undecided: whether a scenario can happen with any ego that keeps its promises.
+
+What enters: a scene and bounds on everybody's motion. What leaves: a `Decision`. Search and proof are two engines over
+one lowering: Newton steps find nearly all witnesses in a few milliseconds, z3 is left with refutations. What is found
+is realised and looked at by an evaluator of its own before it is called feasible.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scenewright.program.structure import Structure, actors_of
+from scenewright.program.types import EGO, Constraint
+from scenewright.roads.grounding import Scene
+from scenewright.solve.limits import Limits
+from scenewright.solve.proofs import z3_engine
+from scenewright.solve.proofs.events import EgoBounds, EgoDrive, Events
+from scenewright.solve.proofs.guesses import carried_over, first_guess
+from scenewright.solve.proofs.lowering import Lowered, Lowering
+from scenewright.solve.proofs.polynomials import ZERO, Atom, Formula, Some
+from scenewright.solve.proofs.refinement import Refinement
+from scenewright.solve.proofs.relaxation import Named, relaxation
+from scenewright.solve.proofs.search import Search
+from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
+
+Array = NDArray[np.float64]
+_ROUNDS = 14  # how often one motion is mended before another is looked for
+_GUESSES = (4, 5, 12)  # how many first guesses are tried before each time that a proof is looked for
+_PROOF_S = (0.15, 0.5, 1.0)
+_WITH_MANNER = 3  # so many guesses owe the manner; a motion that cannot be told by its looks is possible all the same
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """Whether a scenario can happen.
+
+    Attributes
+    ----------
+    answer
+        ``feasible`` with a `witness`, ``infeasible`` with a `core` of origins that clash, or ``undecided``.
+    left_out
+        Constraints that the answer does not rest on, by id, and why.
+    amiss
+        What was still amiss with the best motion found, where undecided.
+    """
+
+    answer: Literal["feasible", "infeasible", "undecided"]
+    witness: Witness | None = None
+    core: tuple[str, ...] = ()
+    left_out: Mapping[str, str] = field(default_factory=dict)
+    amiss: tuple[Broken, ...] = ()
+
+    def __post_init__(self) -> None:
+        if (self.answer == "feasible") != (self.witness is not None):
+            raise ValueError("what is feasible has a witness, nothing else has one")
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """What is asked: a scene, who is bounded how; what is freed, or how the ego drove, where that matters."""
+
+    scene: Scene
+    structure: Structure
+    limits: Mapping[int, Limits]
+    ego: EgoBounds = field(default_factory=EgoBounds)
+    freed: Mapping[str, tuple[Fraction, Fraction]] = field(default_factory=dict)
+    drive: EgoDrive | None = None
+
+    def constraints(self) -> tuple[Constraint, ...]:
+        """Return the constraints to be met; what the ego did alone is a fact, where its drive is given."""
+        found = self.scene.program.constraints
+        return tuple(c for c in found if self.drive is None or actors_of(c.formula) != {EGO})
+
+
+class _Case:
+    """One scene's events with what was added to them, grown as motions show the need."""
+
+    def __init__(self, question: Question, manner: bool = False, plan: bool = True) -> None:
+        self.scene, self.structure, self.limits = question.scene, question.structure, question.limits
+        self.events = Events(question.scene, question.limits, question.ego, question.drive, question.freed)
+        self.lowering = Lowering(self.events, Fraction(1) if question.drive else ZERO)
+        self.constraints = question.constraints()
+        self.lowered: list[Lowered] = self.lowering.lower(self.constraints)
+        self.more = Refinement(self.events, self.lowering, question.limits)
+        if plan:
+            self.more.lasting_rates()
+        if manner:
+            self.more.manner(question.structure)
+
+    def formulas(self) -> list[Formula]:
+        """Return all that a plan owes."""
+        return [
+            *(each.formula for each in self.lowered),
+            *(formula for formula, _ in self.events.rules),
+            *self.more.owed,
+        ]
+
+    def search(self) -> Search:
+        """Return a search over what there is now."""
+        self.lowered = self.lowering.lower(self.constraints)
+        return Search(self.events, self.formulas(), [*self.lowering.narrowings, *self.more.narrowings])
+
+    def relaxation(self) -> list[Named]:
+        """Return what a refutation rests on."""
+        self.lowered = self.lowering.lower(self.constraints)
+        self.lowering.narrowings += self.more.narrowings
+        return relaxation(self.events, self.lowering, self.lowered)
+
+
+def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> Decision:
+    """Look for a witness and for a proof in turn until there is one of them, or the time is over.
+
+    Open parameters are free within their ranges. With `explain` a proof comes with its core. Against one drive of the
+    ego only a proof is looked for: what might have been is nobody's plan.
+    """
+    until = time.monotonic() + limit_s
+    plain = _Case(question, plan=False)
+    left_out = {each.constraint.id: each.refused for each in plain.lowered if each.refused}
+    generator = np.random.default_rng(0)
+    amiss: tuple[Broken, ...] = ()
+    tried = 0
+    for guesses, proof_s in zip(_GUESSES, _PROOF_S, strict=True):
+        for _ in range(0 if left_out or question.drive else guesses):
+            case = _Case(question, manner=tried < _WITH_MANNER)
+            found, amiss = _witness(case, generator if tried else None, until)
+            tried += 1
+            if found is not None:
+                return Decision("feasible", found)
+            if time.monotonic() > until:
+                return Decision("undecided", amiss=amiss)
+        formulas = plain.relaxation()
+        answer = z3_engine.ask(plain.events.unknowns, formulas, min(proof_s, until - time.monotonic()))
+        if answer.kind == "refuted":
+            core = z3_engine.core(plain.events.unknowns, formulas, 1.0) if explain else ()
+            return Decision("infeasible", core=core, left_out=left_out)
+        if answer.kind == "met" and (left_out or question.drive):
+            break
+        if answer.kind == "met":
+            case = _Case(question, manner=tried < _WITH_MANNER)
+            found, amiss = _mended(case, np.array(answer.values), until, None)
+            if found is not None:
+                return Decision("feasible", found)
+    return Decision("undecided", left_out=left_out, amiss=amiss)
+
+
+def _witness(
+    case: _Case, generator: np.random.Generator | None, until: float
+) -> tuple[Witness | None, tuple[Broken, ...]]:
+    """Look for a witness from one first guess."""
+    return _mended(case, first_guess(case.events, case.formulas(), generator), until, generator)
+
+
+def _mended(
+    case: _Case, guess: Array, until: float, generator: np.random.Generator | None
+) -> tuple[Witness | None, tuple[Broken, ...]]:
+    """Search from a guess, and mend what is amiss with what is found until nothing is, or nothing helps."""
+    amiss: Sequence[Broken] = ()
+    for _ in range(_ROUNDS):
+        search = case.search()
+        guess = np.append(guess, np.zeros(len(case.events.unknowns) - len(guess)))
+        point = search.run(guess, generator)
+        if point is None:
+            return None, tuple(amiss)
+        witness = realised(case.events, search, point)
+        amiss = broken(case.scene, case.structure, case.limits, case.events.ego, witness)
+        if not amiss:
+            return witness, ()
+        if time.monotonic() > until or not case.more.mend(list(amiss), witness):
+            return None, tuple(amiss)
+        case.lowering.lower(case.constraints)
+        times = _times(case.events, witness)
+        guess = carried_over(case.events, point, witness.profiles, times)
+    return None, tuple(amiss)
+
+
+def _times(events: Events, witness: Witness) -> dict[int, float]:
+    """Return when each moment is in a motion, those included that were added since."""
+    times = dict(witness.times_s)
+    for instant, time_s in enumerate(events.times):
+        if instant in times:
+            continue
+        constant = time_s.constant
+        if constant is not None:
+            times[instant] = float(constant)
+        elif instant in events.defined:
+            values = {
+                next(iter(t.terms))[0]: times[k]
+                for k, t in enumerate(events.times)
+                if k in times and t.constant is None
+            }
+            times[instant] = max(0.0, events.defined[instant].value(values))
+        else:
+            times[instant] = _passing(events, witness, instant)
+    return times
+
+
+def _passing(events: Events, witness: Witness, instant: int) -> float:
+    """Return when an actor passes the place that a moment was made for; the end of its motion where it never does."""
+    actor = next(owner for owner, k in events.states if k == instant)
+    number = next(iter(events.state(actor, instant).place.terms))
+    for formula, _ in events.rules:
+        first = formula.parts[0] if isinstance(formula, Some) and formula.parts else None
+        if isinstance(first, Atom) and number in first.left.terms:
+            place = -float(first.left.terms.get((), 0)) / float(first.left.terms[number])
+            found = witness.profiles[actor].time_at(place)
+            return witness.end_s if found is None else min(found, witness.end_s)
+    return witness.end_s

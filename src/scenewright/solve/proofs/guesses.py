@@ -1,0 +1,127 @@
+"""First guesses for a search: when moments are and where everybody is then, as far as the constraints tell at a glance.
+
+What enters: events and constraints lowered over them. What leaves: a value for each unknown. A guess need not be
+possible: the search mends it. Later guesses are drawn, not made.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scenewright.motion.profile import Profile
+from scenewright.solve.proofs.events import Events
+from scenewright.solve.proofs.polynomials import ZERO, All, Atom, Formula, Polynomial
+
+Array = NDArray[np.float64]
+_SPEED_MPS, _GAP_S, _LATER_S = 8.0, 3.0, 4.0
+
+
+def told_values(formulas: Iterable[Formula]) -> dict[int, float]:
+    """Return the unknowns that a constraint fixes by itself."""
+    found: dict[int, float] = {}
+    open_parts = list(formulas)
+    while open_parts:
+        part = open_parts.pop()
+        if isinstance(part, All):
+            open_parts += part.parts
+        elif isinstance(part, Atom) and part.relation == "==" and part.left.degree == 1:
+            terms = [(key, value) for key, value in part.left.terms.items() if key != ()]
+            if len(terms) == 1:
+                ((key, factor),) = terms
+                found[key[0]] = float(-part.left.terms.get((), ZERO) / factor)
+    return found
+
+
+def first_guess(events: Events, formulas: Iterable[Formula], generator: np.random.Generator | None = None) -> Array:
+    """Return a guess; without a generator the plain one: everybody drives at one speed from place to place."""
+    told = told_values(formulas)
+    speed = _SPEED_MPS if generator is None else float(generator.uniform(3.0, 13.0))
+    point = np.array([0.5 * float(each.low + each.high) if each.kind == "other" else 0.0 for each in events.unknowns])
+    for number, value in told.items():
+        point[number] = value
+    times = _times(events, told, point, speed, generator)
+    for actor in events.scene.program.actors:
+        instants = sorted(events.instants_of(actor.id), key=times.__getitem__)
+        anchors = [(times[k], told[number]) for k in instants if (number := _place(events, actor.id, k)) in told] or [
+            (times[instants[0]], max(5.0, events.scene.landmarks_m[actor.id].get("stop_line", 80.0) - 60.0))
+        ]
+        for instant in instants:
+            place, own = _place(events, actor.id, instant), _speed(events, actor.id, instant)
+            if place not in told:
+                time_s, place_m = min(anchors, key=lambda anchor: abs(anchor[0] - times[instant]))
+                point[place] = place_m + speed * (times[instant] - time_s)
+            if own not in told:
+                point[own] = speed
+    return point
+
+
+def _times(
+    events: Events, told: Mapping[int, float], point: Array, speed: float, generator: np.random.Generator | None
+) -> dict[int, float]:
+    """Guess when each moment is, and put it into `point`."""
+    times = {number: float(value) for number, time in enumerate(events.times) if (value := time.constant) is not None}
+
+    def put(instant: int, time_s: float) -> None:
+        times[instant] = point[_number(events.times[instant])] = time_s
+
+    for actor in events.scene.program.actors:
+        knots = [events.knot(actor.id, name) for name in actor.sketch.knots]
+        now = 0.0
+        for before, knot in zip([knots[0], *knots], knots, strict=False):
+            if knot in times:
+                now = max(now, times[knot])
+                continue
+            here, there = (told.get(_place(events, actor.id, k)) for k in (before, knot))
+            later = _GAP_S if generator is None else float(generator.uniform(1.0, 6.0))
+            now += later if here is None or there is None else max(0.5, (there - here) / speed)
+            now = told.get(_number(events.times[knot]), now)
+            put(knot, now)
+    for instant, defined in events.defined.items():
+        put(instant, max(0.0, defined.value(point)))
+    for instant in range(len(events.times)):
+        if instant not in times:
+            put(instant, _within_a_piece(events, instant, times, generator))
+    return times
+
+
+def _within_a_piece(
+    events: Events, instant: int, times: Mapping[int, float], generator: np.random.Generator | None
+) -> float:
+    """Guess a moment of which only who it is about is known: within some piece of theirs."""
+    actors = [actor for actor, k in events.states if k == instant]
+    if not actors or generator is None:
+        return _LATER_S
+    sketch = events.scene.program.actor(actors[0]).sketch
+    knots = sorted({times[events.knot(actors[0], name)] for name in sketch.knots})
+    number = int(generator.integers(max(1, len(knots) - 1)))
+    return float(generator.uniform(knots[number], knots[number + 1])) if len(knots) > 1 else _LATER_S
+
+
+def carried_over(events: Events, point: Array, profiles: Mapping[int, Profile], times: Mapping[int, float]) -> Array:
+    """Return `point` for events that have grown since: states at the new moments are those of the motions found."""
+    grown = np.append(point, np.zeros(len(events.unknowns) - len(point)))
+    for instant, time_s in times.items():
+        if events.times[instant].constant is None:
+            grown[_number(events.times[instant])] = time_s
+    for (actor, instant), state in events.states.items():
+        number = _number(state.place)
+        if number >= len(point):
+            place, speed, _ = profiles[actor].state(times[instant])
+            grown[number], grown[_number(state.speed)] = place, speed
+    return grown
+
+
+def _place(events: Events, actor: int, instant: int) -> int:
+    return _number(events.state(actor, instant).place)
+
+
+def _speed(events: Events, actor: int, instant: int) -> int:
+    return _number(events.state(actor, instant).speed)
+
+
+def _number(polynomial: Polynomial) -> int:
+    """Return which unknown a polynomial is."""
+    return next(iter(polynomial.terms))[0]

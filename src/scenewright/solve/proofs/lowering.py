@@ -1,0 +1,428 @@
+"""Lowers a program's constraints to formulas over the states of actors at moments: every form that can be written.
+
+What enters: `Events` and the constraints. What leaves: for each constraint a formula that every motion satisfies which
+the judge would accept (what a proof may rest on), and what a plan owes besides: rates that last, narrower laws. What is
+of too high a degree is named; a proof may leave it out, a plan may not.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+
+from scenewright.program import expressions as ex
+from scenewright.program.types import Constraint
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
+from scenewright.solve.proofs.events import Events, pin
+from scenewright.solve.proofs.forms import (
+    actors_at,
+    bare_rate,
+    conjuncts,
+    free_actors,
+    kept,
+    piece_of,
+    with_state,
+)
+from scenewright.solve.proofs.narrowing import Narrowing, narrowings_of
+from scenewright.solve.proofs.polynomials import (
+    ONE,
+    TRUE,
+    ZERO,
+    Formula,
+    Polynomial,
+    TooHigh,
+    compare,
+    every,
+    negated,
+    polynomial,
+    some,
+)
+
+# One unit of tolerance by what is compared: the tight tolerances of the contract (m, s, m/s, m/s^2).
+TIGHT = {
+    "length": Fraction(1, 2), "time": Fraction(1, 10), "speed": Fraction(1, 4), "acceleration": Fraction(1, 4),
+}  # fmt: skip
+_RATE_ROOM_MPSS = Fraction(1, 1000)  # for numbers that were rounded; half of what a witness may be off
+RATE_LASTS_S = Fraction(1, 20)  # a rate at a moment is that of so much motion from there on
+_OPPOSITE = {"<=": ">", "<": ">=", ">=": "<", ">": "<="}
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A value as a quotient, where `given` holds. `endless` where it is longer than any time if it has no value."""
+
+    top: Polynomial
+    below: Polynomial
+    given: Formula = TRUE
+    endless: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Lowered:
+    """One constraint: what proofs may rest on, what a plan owes besides, and why it could not be lowered, if so."""
+
+    constraint: Constraint
+    formula: Formula
+    refused: str = ""
+
+
+@dataclass(slots=True)
+class Lowering:
+    """Lowers the constraints of one scene over its events.
+
+    `slack` is how many tight tolerances an equality may be off: against one drive all counts that a judge lets pass.
+    """
+
+    events: Events
+    slack: Fraction = ZERO
+    narrowings: list[Narrowing] = field(default_factory=list)
+    rates: dict[tuple[int, int], Polynomial] = field(default_factory=dict)  # of what begins, by actor and instant
+    means: dict[tuple[int, int, int], Polynomial] = field(default_factory=dict)  # of pieces, by actor and ends
+    _happens: dict[tuple[int, int, ex.Formula], int] = field(default_factory=dict)
+
+    def lower(self, constraints: tuple[Constraint, ...]) -> list[Lowered]:
+        """Return every constraint as a formula. All moments are made first: an `always` is about all that there are.
+
+        May be asked again when there are more moments.
+        """
+        self.narrowings.clear()
+        for constraint in constraints:
+            self._make_moments(constraint.formula, None)
+            self.narrowings += narrowings_of(self, constraint.formula)
+        return [self._lowered(constraint) for constraint in constraints]
+
+    def _lowered(self, constraint: Constraint) -> Lowered:
+        try:
+            return Lowered(constraint, self.formula(constraint.formula, None))
+        except TooHigh:
+            return Lowered(constraint, TRUE, "it multiplies more than two unknowns")
+
+    # -- moments ------------------------------------------------------------------------------------------------------
+    def _make_moments(self, formula: ex.Formula, inside: tuple[int, int] | None) -> None:
+        """Give every actor a state at each moment that `formula` speaks of."""
+        for node in ex.walk(formula):
+            if isinstance(node, ex.State | ex.Derived) and node.at is not None and not isinstance(node.at, ex.PieceRef):
+                for actor in actors_at(node):
+                    self.events.state(actor, self._instant(node.at, node.actor))
+            if isinstance(node, ex.Temporal):
+                for instant in self.stretch_of(node):
+                    for actor in free_actors(node.body):
+                        self.events.state(actor, instant)
+
+    def stretch_of(self, formula: ex.Temporal) -> tuple[int, int]:
+        """Return the instants at which a stretch of time begins and ends."""
+        return self._edge(formula.start), self._edge(formula.end)
+
+    def _edge(self, term: ex.Term) -> int:
+        if isinstance(term, ex.Elapsed):
+            return self.events.knot(term.actor, term.knot)
+        top, below = self.plain(term)
+        return self.events.moment(top if below.constant == 1 else top * (1 / (below.constant or ONE)), "edge")
+
+    def plain(self, term: ex.Term) -> tuple[Polynomial, Polynomial]:
+        """Return a term in which nobody's order matters as numerator and denominator."""
+        cases = self.term(term, None)
+        return cases[0].top, cases[0].below
+
+    def _instant(self, at: ex.At, owner: int) -> int:
+        match at:
+            case ex.Knot(name=name):
+                return self.events.knot(owner, name)
+            case ex.Elapsed(actor=actor, knot=knot):
+                return self.events.knot(actor, knot)
+            case ex.Number(value=value):
+                return self.events.clock(value)
+            case _:
+                raise TypeError(f"not a moment: {at!r}")
+
+    # -- formulas -----------------------------------------------------------------------------------------------------
+    def formula(self, formula: ex.Formula, now: int | None) -> Formula:
+        """Return `formula` over the states of moments; `now` is the instant at which a body is looked at."""
+        match formula:
+            case ex.Compare():
+                return self._compare(formula, now)
+            case ex.Logic(operator="and", operands=operands):
+                return every([self.formula(operand, now) for operand in operands])
+            case ex.Logic(operator="or", operands=operands):
+                return some([self.formula(operand, now) for operand in operands])
+            case ex.Logic(operator="not", operands=operands):
+                return self._not(operands[0], now)
+            case ex.Logic(operands=(left, right)):
+                return some([self._not(left, now), self.formula(right, now)])
+            case ex.Temporal():
+                return self._temporal(formula, now)
+            case _:
+                raise TypeError(f"not a formula: {formula!r}")
+
+    def _not(self, formula: ex.Formula, now: int | None) -> Formula:
+        """Return what it is that `formula` does not hold; of stretches of time it is about some moment or all."""
+        match formula:
+            case ex.Temporal():
+                turned = {"always": "eventually", "eventually": "always", "never": "eventually"}[formula.operator]
+                body = formula.body if formula.operator == "never" else ex.Logic("not", (formula.body,))
+                return self._temporal(replace(formula, operator=turned, body=body), now)  # type: ignore[arg-type]
+            case ex.Logic(operator="not", operands=(inner,)):
+                return self.formula(inner, now)
+            case ex.Logic(operator="and", operands=operands):
+                return some([self._not(operand, now) for operand in operands])
+            case ex.Logic(operator="or", operands=operands):
+                return every([self._not(operand, now) for operand in operands])
+            case ex.Logic(operator="implies", operands=(left, right)):
+                return every([self.formula(left, now), self._not(right, now)])
+            case _ if piece_of(formula) is not None:
+                return self._throughout(formula, now, sometime=True)  # type: ignore[arg-type]
+            case _:
+                return negated(self.formula(formula, now))
+
+    def _compare(self, formula: ex.Compare, now: int | None) -> Formula:
+        if piece_of(formula) is not None:
+            return self._throughout(formula, now, sometime=False)
+        parts = []
+        for left in self.term(formula.left, now):
+            for right in self.term(formula.right, now):
+                held = self._related(formula, left, right)
+                parts.append(every([left.given, right.given, held]))
+        return some(parts)
+
+    def _related(self, formula: ex.Compare, left: Case, right: Case) -> Formula:
+        if formula.operator != "==" or not self.slack:
+            return _related(formula.operator, left, right)
+        room = TIGHT[_dimension_of(formula)] * self.slack
+        parts = []
+        for operator, shift in (("<=", room), (">=", -room)):
+            parts.append(_related(operator, left, replace(right, top=right.top + shift * right.below)))
+        return every(parts)
+
+    def term(self, term: ex.Term, now: int | None) -> list[Case]:
+        """Return a term as quotients; more than one where it depends on who is ahead."""
+        events = self.events
+        match term:
+            case ex.Number(value=value):
+                return [_case(value)]
+            case ex.ParameterRef(name=name):
+                return [_case(events.parameters[name])]
+            case ex.Landmark():
+                return [_case(self._landmark(term))]
+            case ex.Elapsed(actor=actor, knot=knot):
+                return [_case(events.times[events.knot(actor, knot)])]
+            case ex.State(actor=actor, order=order, at=ex.PieceRef(name=piece)):
+                return [_case(self._piece_rate(actor, piece) if order == 2 else ZERO)]
+            case ex.State(actor=actor, order=order, at=at):
+                instant = now if at is None else self._instant(at, actor)
+                assert instant is not None
+                if order == 2:
+                    return [_case(self._rate_at(actor, instant))]
+                state = events.state(actor, instant)
+                return [_case(state.place + self._shift(term) if order == 0 else state.speed)]
+            case ex.Derived():
+                return self._derived(term, now)
+            case ex.Negate(operand=operand):
+                return [replace(case, top=-case.top) for case in self.term(operand, now)]
+            case ex.Arithmetic():
+                return [
+                    self._arithmetic(term, left, right)
+                    for left in self.term(term.left, now)
+                    for right in self.term(term.right, now)
+                ]
+            case _:
+                raise TypeError(f"not a term: {term!r}")
+
+    def _arithmetic(self, term: ex.Arithmetic, left: Case, right: Case) -> Case:
+        given, endless = every([left.given, right.given]), left.endless or right.endless
+        if term.operator in ("+", "-"):
+            other = right.top if term.operator == "+" else -right.top
+            if left.below.terms == right.below.terms:
+                top, below = left.top + other, left.below
+            else:
+                top, below = left.top * right.below + other * left.below, left.below * right.below
+            return Case(top, below, given, endless)
+        if term.operator == "*":
+            return Case(left.top * right.top, left.below * right.below, given, endless)
+        top, below = left.top * right.below, left.below * right.top
+        size = below.constant
+        if size is not None and size < 0:
+            top, below = -top, -below
+        return Case(top, below, given, endless)
+
+    def _derived(self, term: ex.Derived, now: int | None) -> list[Case]:
+        """Return a gap, or a quotient of a distance and a speed; times to collision and headways are between bodies."""
+        events, scene = self.events, self.events.scene
+        instant = now if term.at is None else self._instant(term.at, term.actor)
+        assert instant is not None
+        mine = events.state(term.actor, instant)
+        if isinstance(term.target, ex.Landmark):
+            return [Case(self._landmark(term.target) - mine.place, mine.speed, endless=True)]
+        other = events.state(term.target, instant)
+        gap = other.place + pin(scene.offset_m(term.actor, term.target)) - mine.place
+        if term.kind == "gap":
+            return [_case(gap)]
+        body = pin(VEHICLE_LENGTH_M)
+        if term.kind == "headway":
+            return [Case(gap - body, mine.speed, endless=True)]
+        closing = mine.speed - other.speed
+        return [
+            Case(gap - body, closing, compare(">=", gap, ZERO), endless=True),
+            Case(-gap - body, -closing, compare("<", gap, ZERO), endless=True),
+        ]
+
+    def _landmark(self, mark: ex.Landmark) -> Polynomial:
+        if mark.actor is None:
+            raise ValueError(f"landmark {mark.name} belongs to no one")
+        return polynomial(pin(self.events.scene.landmark_m(mark.actor, mark.name, mark.other)) + self._shift(mark))
+
+    def _shift(self, place: ex.State | ex.Landmark) -> Fraction:
+        """Return what brings a place to the route that it is meant along (m)."""
+        if place.frame is None or place.actor is None:
+            return ZERO
+        return pin(self.events.scene.offset_m(place.frame, place.actor))
+
+    # -- rates --------------------------------------------------------------------------------------------------------
+    def _piece_rate(self, actor: int, piece: str) -> Polynomial:
+        """Return the mean rate of a piece: whatever it does, its speeds at both ends say so much."""
+        first, last = self.piece_ends(actor, piece)
+        key = (actor, first, last)
+        if key not in self.means:
+            law = self.events.law_of(actor)
+            rate = self.events.new(f"r{actor}_{piece}", law.rate_low, law.rate_high, "rate")
+            lasts = self.events.times[last] - self.events.times[first]
+            change = self.events.state(actor, last).speed - self.events.state(actor, first).speed
+            self.events.rules.append((compare("==", rate * lasts, change), "a piece has a mean rate"))
+            self.means[key] = rate
+        return self.means[key]
+
+    def _rate_at(self, actor: int, instant: int) -> Polynomial:
+        """Return the rate of what begins at an instant; a plan owes it for a moment, a proof takes it from the law."""
+        key = (actor, instant)
+        if key not in self.rates:
+            law = self.events.law_of(actor)
+            rate = self.events.new(f"a{actor}_{instant}", law.rate_low, law.rate_high, "rate")
+            self.rates[key] = rate
+        return self.rates[key]
+
+    def piece_ends(self, actor: int, piece: str) -> tuple[int, int]:
+        """Return the instants at which a piece begins and ends."""
+        sketch = self.events.scene.program.actor(actor).sketch
+        number = sketch.piece_index(piece)
+        return (
+            self.events.knot(actor, sketch.knots[number]),
+            self.events.knot(actor, sketch.knots[number + 1]),
+        )
+
+    # -- stretches of time --------------------------------------------------------------------------------------------
+    def _throughout(self, formula: ex.Compare, now: int | None, *, sometime: bool) -> Formula:
+        """Return a comparison that is about a place or a speed all through a piece."""
+        node = piece_of(formula)
+        assert node is not None
+        if node.order == 2:
+            return negated(self._rate_of_piece(formula)) if sometime else self._rate_of_piece(formula)
+        assert isinstance(node.at, ex.PieceRef)
+        body = with_state(formula, node, replace(node, at=None))
+        first, last = self.piece_ends(node.actor, node.at.name)
+        if sometime:
+            return self._eventually(first, last, ex.Logic("not", (body,)), "piece")
+        return self._always(first, last, body)
+
+    def _rate_of_piece(self, formula: ex.Compare) -> Formula:
+        (left,), (right,) = self.term(formula.left, None), self.term(formula.right, None)
+        return self._related(formula, left, right)
+
+    def _temporal(self, formula: ex.Temporal, now: int | None) -> Formula:
+        first, last = self.stretch_of(formula)
+        if formula.operator == "eventually":
+            return self._eventually(first, last, formula.body, "eventually")
+        return self._always(first, last, kept(formula))
+
+    def _always(self, first: int, last: int, body: ex.Formula) -> Formula:
+        """Return what `always` says at every moment that all in its body have a state at, and of rates between them."""
+        if (parts_of := conjuncts(body)) is not None:
+            return every([self._always(first, last, part) for part in parts_of])
+        actors = free_actors(body)
+        if not actors:  # about moments of their own: it does not matter when it is looked at
+            return some([compare(">", *self._times(first, last)), self.formula(body, first)])
+        parts = []
+        if rate := bare_rate(body):
+            return self._always_rate(first, last, body, rate)
+        for instant in self._shared_instants(actors):
+            held = self.formula(body, instant)
+            parts.append(self._unless_outside(first, last, instant, held))
+        return every(parts)
+
+    def _shared_instants(self, actors: set[int]) -> list[int]:
+        sets = [set(self.events.instants_of(actor)) for actor in actors]
+        return sorted(set.intersection(*sets))
+
+    def _unless_outside(self, first: int, last: int, instant: int, held: Formula) -> Formula:
+        times = self.events.times
+        outside = [] if instant == first else [compare("<", times[instant], times[first])]
+        outside += [] if instant == last else [compare(">", times[instant], times[last])]
+        if instant in (first, last):
+            outside = [compare(">", *self._times(first, last))]
+        return some([*outside, held])
+
+    def _times(self, first: int, last: int) -> tuple[Polynomial, Polynomial]:
+        return self.events.times[first], self.events.times[last]
+
+    def _always_rate(self, first: int, last: int, body: ex.Formula, rate: ex.State) -> Formula:
+        """Return what a bound on a rate says of the speeds at each two moments between which it holds."""
+        events, parts = self.events, []
+        instants = events.instants_of(rate.actor)
+        for early in instants:
+            for late in instants:
+                if early == late:
+                    continue
+                lasts = events.times[late] - events.times[early]
+                change = events.state(rate.actor, late).speed - events.state(rate.actor, early).speed
+                held = self._scaled(body, rate, lasts, change)
+                outside = [compare("<=", lasts, ZERO)]
+                outside += [] if early == first else [compare("<", events.times[early], events.times[first])]
+                outside += [] if late == last else [compare(">", events.times[late], events.times[last])]
+                parts.append(some([*outside, held]))
+        return every(parts)
+
+    def _scaled(self, body: ex.Formula, rate: ex.State, lasts: Polynomial, change: Polynomial) -> Formula:
+        """Return a comparison with a rate, multiplied by how long it lasts: `change` stands for rate times time."""
+        negative = isinstance(body, ex.Logic)
+        formula = body.operands[0] if isinstance(body, ex.Logic) else body
+        assert isinstance(formula, ex.Compare)
+        operator = _OPPOSITE[formula.operator] if negative else formula.operator
+        sides = [
+            change if side == rate else self.term(side, None)[0].top * lasts for side in (formula.left, formula.right)
+        ]
+        return compare(operator, *sides)
+
+    def _eventually(self, first: int, last: int, body: ex.Formula, name: str) -> Formula:
+        """Return that at some moment, which is to be found, the body holds."""
+        events, key = self.events, (first, last, body)
+        if key not in self._happens:
+            self._happens[key] = events.instant(name)
+        made = self._happens[key]
+        for actor in free_actors(body):
+            events.state(actor, made)
+        times = events.times
+        within = [compare("<=", times[first], times[made]), compare("<=", times[made], times[last])]
+        return every([*within, self.formula(body, made)])
+
+
+def _dimension_of(formula: ex.Compare) -> str:
+    """Return the dimension of what a comparison compares, told from the first state or derived quantity in it."""
+    for node in ex.walk(formula):
+        if isinstance(node, ex.State):
+            return ("length", "speed", "acceleration")[node.order]
+        if isinstance(node, ex.Derived):
+            return "length" if node.kind == "gap" else "time"
+    return "time"
+
+
+def _case(value: Polynomial | Fraction) -> Case:
+    return Case(polynomial(value), polynomial(ONE))
+
+
+def _related(operator: str, left: Case, right: Case) -> Formula:
+    """Return a comparison of two quotients. One that stands is endlessly far off in time."""
+    conditions = [compare(">", case.below, ZERO) for case in (left, right) if case.below.constant != 1]
+    held = every([*conditions, compare(operator, left.top * right.below, right.top * left.below)])
+    if operator in (">", ">=") and left.endless:
+        return some([compare("<=", left.below, ZERO), held])
+    if operator in ("<", "<=") and right.endless:
+        return some([compare("<=", right.below, ZERO), held])
+    return held

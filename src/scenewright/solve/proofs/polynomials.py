@@ -1,0 +1,227 @@
+"""Polynomials of unknowns with exact coefficients, and formulas over them: the typed problem that backends are given.
+
+What enters: rationals and unknowns, by number. What leaves: polynomials of second degree at most, and trees of
+conjunctions and disjunctions with comparisons to zero as leaves. Negation is pushed to the leaves as it is made.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+Point = Mapping[int, float] | Sequence[float] | NDArray[np.float64]
+Monomial = tuple[int, ...]  # the unknowns that are multiplied, in ascending order; () is the constant
+ZERO, ONE = Fraction(0), Fraction(1)
+
+
+class TooHigh(Exception):  # noqa: N818 - a signal of the algebra, turned into a refusal by name where it is used
+    """A product is of a higher degree than backends take."""
+
+
+class Polynomial:
+    """A sum of monomials with exact coefficients. Supports ``+ - *`` and division by constants."""
+
+    __slots__ = ("terms",)
+
+    def __init__(self, terms: Mapping[Monomial, Fraction]) -> None:
+        self.terms = terms
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Polynomial) and self.terms == other.terms
+
+    def __hash__(self) -> int:
+        return hash(frozenset(self.terms.items()))
+
+    def __add__(self, other: Scalar) -> Polynomial:
+        mine, added = dict(self.terms), polynomial(other).terms
+        for key, value in added.items():
+            total = mine.get(key, ZERO) + value
+            if total:
+                mine[key] = total
+            else:
+                mine.pop(key, None)
+        return Polynomial(mine)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Polynomial:
+        return Polynomial({key: -value for key, value in self.terms.items()})
+
+    def __sub__(self, other: Scalar) -> Polynomial:
+        return self + (-polynomial(other))
+
+    def __rsub__(self, other: Scalar) -> Polynomial:
+        return polynomial(other) + (-self)
+
+    def __mul__(self, other: Scalar) -> Polynomial:
+        if not isinstance(other, Polynomial):
+            return Polynomial({key: value * other for key, value in self.terms.items()}) if other else Polynomial({})
+        product: dict[Monomial, Fraction] = {}
+        for left, a in self.terms.items():
+            for right, b in other.terms.items():
+                if len(left) + len(right) > 2:
+                    raise TooHigh
+                key = tuple(sorted(left + right))
+                product[key] = product.get(key, ZERO) + a * b
+        return Polynomial({key: value for key, value in product.items() if value})
+
+    __rmul__ = __mul__
+
+    @property
+    def constant(self) -> Fraction | None:
+        """The value where no unknown is in it, else None."""
+        if not self.terms:
+            return ZERO
+        return self.terms[()] if len(self.terms) == 1 and () in self.terms else None
+
+    @property
+    def degree(self) -> int:
+        """The most unknowns that are multiplied."""
+        return max((len(key) for key in self.terms), default=0)
+
+    def value(self, point: Point) -> float:
+        """Return the value at a point."""
+        total = 0.0
+        for key, coefficient in self.terms.items():
+            term = float(coefficient)
+            for number in key:
+                term *= float(point[number])
+            total += term
+        return total
+
+
+Scalar = Polynomial | Fraction | int
+
+
+def polynomial(value: Scalar) -> Polynomial:
+    """Return `value` as a polynomial."""
+    if isinstance(value, Polynomial):
+        return value
+    return Polynomial({(): Fraction(value)}) if value else Polynomial({})
+
+
+def unknown(number: int) -> Polynomial:
+    """Return the polynomial that is one unknown."""
+    return Polynomial({(number,): ONE})
+
+
+# -- formulas -------------------------------------------------------------------------------------------------------
+Relation = Literal["<=", "<", "=="]
+
+
+@dataclass(frozen=True, slots=True)
+class Atom:
+    """``left relation 0``."""
+
+    left: Polynomial
+    relation: Relation
+
+
+@dataclass(frozen=True, slots=True)
+class All:
+    """A conjunction."""
+
+    parts: tuple[Formula, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Some:
+    """A disjunction."""
+
+    parts: tuple[Formula, ...]
+
+
+Formula = Atom | All | Some
+TRUE, FALSE = All(()), Some(())
+
+
+def atom(left: Scalar, relation: Relation) -> Formula:
+    """Return a comparison with zero; a truth value where no unknown is in it."""
+    left = polynomial(left)
+    value = left.constant
+    if value is None:
+        return Atom(left, relation)
+    held = value == 0 if relation == "==" else value < 0 if relation == "<" else value <= 0
+    return TRUE if held else FALSE
+
+
+def compare(operator: str, left: Scalar, right: Scalar) -> Formula:
+    """Return ``left operator right``, with any of ``== <= < >= >``."""
+    left, right = polynomial(left), polynomial(right)
+    match operator:
+        case "==":
+            return atom(left - right, "==")
+        case "<=" | "<":
+            return atom(left - right, "<=" if operator == "<=" else "<")
+        case ">=":
+            return atom(right - left, "<=")
+        case _:
+            return atom(right - left, "<")
+
+
+def every(parts: Iterable[Formula]) -> Formula:
+    """Return the conjunction of `parts`, flat."""
+    found: list[Formula] = []
+    for part in parts:
+        if isinstance(part, All):
+            found += part.parts
+        elif part == FALSE:
+            return FALSE
+        else:
+            found.append(part)
+    return found[0] if len(found) == 1 else All(tuple(found))
+
+
+def some(parts: Iterable[Formula]) -> Formula:
+    """Return the disjunction of `parts`, flat."""
+    found: list[Formula] = []
+    for part in parts:
+        if isinstance(part, Some):
+            found += part.parts
+        elif part == TRUE:
+            return TRUE
+        else:
+            found.append(part)
+    return found[0] if len(found) == 1 else Some(tuple(found))
+
+
+def negated(formula: Formula) -> Formula:
+    """Return the negation."""
+    match formula:
+        case Atom(left=left, relation="=="):
+            return Some((Atom(left, "<"), Atom(-left, "<")))
+        case Atom(left=left, relation="<="):
+            return Atom(-left, "<")
+        case Atom(left=left):
+            return Atom(-left, "<=")
+        case All(parts=parts):
+            return some(negated(part) for part in parts)
+        case Some(parts=parts):
+            return every(negated(part) for part in parts)
+
+
+def atoms(formula: Formula) -> Iterator[Atom]:
+    """Yield every comparison in `formula`."""
+    if isinstance(formula, Atom):
+        yield formula
+    else:
+        for part in formula.parts:
+            yield from atoms(part)
+
+
+def violation(formula: Formula, point: Point) -> float:
+    """Return by how much `formula` fails at a point, in the units of its comparisons; zero where it holds."""
+    match formula:
+        case Atom(left=left, relation="=="):
+            return abs(left.value(point))
+        case Atom(left=left):
+            return max(0.0, left.value(point))
+        case All(parts=parts):
+            return max((violation(part, point) for part in parts), default=0.0)
+        case Some(parts=parts):
+            return min((violation(part, point) for part in parts), default=float("inf"))

@@ -1,0 +1,245 @@
+"""Adds moments and places to a search where a motion that it found is no witness: never before one shows the need.
+
+What enters: what is amiss with a motion. What leaves: more events, formulas that a plan owes, narrower laws in turns.
+Everything added is true of every witness; what is also true of every legal motion is marked for proofs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import lru_cache
+
+import numpy as np
+
+from scenewright.motion.laws import ANY
+from scenewright.program import expressions as ex
+from scenewright.program.evaluate import moments_of_worst
+from scenewright.program.structure import Structure
+from scenewright.program.types import Actor, PieceKind
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
+from scenewright.roads.conflicts import find_conflict
+from scenewright.roads.routes import Route
+from scenewright.solve.limits import Limits
+from scenewright.solve.plan import PlanWorld
+from scenewright.solve.proofs.events import Events, pin
+from scenewright.solve.proofs.forms import actors_at, free_states
+from scenewright.solve.proofs.lowering import RATE_LASTS_S, Lowering
+from scenewright.solve.proofs.narrowing import Narrowing
+from scenewright.solve.proofs.polynomials import Formula, compare, some
+from scenewright.solve.proofs.witness import Broken, Witness
+
+SHARES = (0.985, 0.8, 0.6, 0.4, 0.2)
+_TURN_STEP_M = 0.25
+_SAFETY = 0.999  # rounding of places and speeds within a turn
+_ROOM_M = Fraction(1, 20)
+# How a hero shows what begins at its trigger, for a motion that is to be judged: docs/verdict.md.
+SETTLED_S, SETTLED_MPSS = Fraction(1, 2), Fraction(45, 100)
+BEGINS_S, BEGINS_MPSS = Fraction(2, 5), Fraction(3, 4)
+SEEN_MPSS, FAINT_MPSS = Fraction(55, 100), Fraction(1, 20)
+STANDS_S = Fraction(35, 100)
+
+
+@dataclass(slots=True)
+class Refinement:
+    """What was added to one search so far."""
+
+    events: Events
+    lowering: Lowering
+    limits: Mapping[int, Limits]
+    owed: list[Formula] = field(default_factory=list)
+    narrowings: list[Narrowing] = field(default_factory=list)
+    turns: set[tuple[int, float]] = field(default_factory=set)
+    looked_at: list[ex.Temporal] = field(default_factory=list)
+
+    def lasting_rates(self) -> None:
+        """Let every rate at a moment last for a moment."""
+        events = self.events
+        for (actor, instant), rate in list(self.lowering.rates.items()):
+            knots = [events.knot(actor, name) for name in events.scene.program.actor(actor).sketch.knots]
+            before = instant == knots[-1]
+            now = events.times[instant]
+            other = events.moment(now - RATE_LASTS_S if before else now + RATE_LASTS_S, "lasts")
+            first, last = (other, instant) if before else (instant, other)
+            a, b = events.state(actor, first), events.state(actor, last)
+            self.owed.append(compare("==", b.speed - a.speed, rate * RATE_LASTS_S))
+            self.owed.append(compare("==", (b.place - a.place) * 2, (a.speed + b.speed) * RATE_LASTS_S))
+
+    def manner(self, structure: Structure) -> None:
+        """Let pieces be seen for what they are, heroes be settled before their trigger and begin at it."""
+        events, program = self.events, self.events.scene.program
+        for actor in program.heroes:
+            self._seen_pieces(actor)
+        for hero in structure.triggers:
+            knot = structure.trigger_knot(hero)
+            sketch = program.actor(hero).sketch
+            if knot is None or knot not in sketch.knots[:-1]:
+                continue
+            number = sketch.knot_index(knot)
+            kind = sketch.pieces[number]
+            if kind not in (PieceKind.DEC, PieceKind.ACC) or (number and sketch.pieces[number - 1] is PieceKind.STOP):
+                continue
+            sign = -1 if kind is PieceKind.DEC else 1
+            trigger, end = events.knot(hero, knot), events.knot(hero, sketch.knots[number + 1])
+            now = events.times[trigger]
+            shown = events.moment(now + BEGINS_S, "begins")
+            events.state(hero, shown)
+            begun = replace(ANY, rate_high=-BEGINS_MPSS) if sign < 0 else replace(ANY, rate_low=BEGINS_MPSS)
+            self.narrowings.append(Narrowing(hero, trigger, shown, begun))
+            self.owed.append(compare("<=", events.times[shown], events.times[end]))
+            if number and sketch.pieces[number - 1] is PieceKind.GO:
+                settled = events.moment(now - SETTLED_S, "settled")
+                events.state(hero, settled)
+                calm = replace(ANY, rate_low=-SETTLED_MPSS) if sign < 0 else replace(ANY, rate_high=SETTLED_MPSS)
+                self.narrowings.append(Narrowing(hero, settled, trigger, calm))
+
+    def _seen_pieces(self, actor: Actor) -> None:
+        """Let braking and speeding up last as long as their pieces and no longer; let who stops stand for a while."""
+        events, kinds = self.events, actor.sketch.pieces
+        knots = [events.knot(actor.id, name) for name in actor.sketch.knots]
+        for number, kind in enumerate(kinds):
+            begins, ends = knots[number], knots[number + 1]
+            if kind is PieceKind.STOP:
+                self.owed.append(compare(">=", events.times[ends] - events.times[begins], STANDS_S))
+            if kind not in (PieceKind.DEC, PieceKind.ACC):
+                continue
+            seen = replace(ANY, rate_high=-SEEN_MPSS) if kind is PieceKind.DEC else replace(ANY, rate_low=SEEN_MPSS)
+            self.narrowings.append(Narrowing(actor.id, begins, ends, seen))
+            if kinds[number + 1 : number + 2] in ((), (PieceKind.GO,)):
+                self._over(actor.id, kind, ends, knots[number + 2 : number + 3])
+
+    def _over(self, actor: int, kind: PieceKind, ends: int, following: list[int]) -> None:
+        """Let what was done in a piece be over for a while; who has come to a standstill stays there."""
+        events = self.events
+        over = events.moment(events.times[ends] + STANDS_S, "over")
+        now, then = events.state(actor, ends), events.state(actor, over)
+        past = replace(ANY, rate_low=-FAINT_MPSS) if kind is PieceKind.DEC else replace(ANY, rate_high=FAINT_MPSS)
+        self.narrowings.append(Narrowing(actor, ends, over, past))
+        self.owed += [compare("<=", events.times[over], events.times[knot]) for knot in following]
+        if kind is PieceKind.DEC:
+            self.owed.append(compare("<=", then.place - now.place, now.speed * STANDS_S))
+
+    def mend(self, broken: list[Broken], witness: Witness) -> bool:
+        """Add what each thing amiss asks for; False where nothing can be added."""
+        world = PlanWorld(self.events.scene, witness.profiles, witness.parameters)
+        added = False
+        for each in broken:
+            if each.what == "law":
+                continue  # rounding: nothing to add, another motion may be better
+            if each.what == "turn":
+                added |= self._slow_in_turn(each, witness)
+            elif each.what == "apart":
+                added |= self._keep_apart(each, witness)
+            else:
+                formula = self.events.scene.program.constraint(each.what).formula
+                added |= self._even_pieces(formula)
+                for node, time_s in moments_of_worst(formula, world):
+                    self._look_at(node, time_s, witness)
+                    added = True
+        return added
+
+    def _even_pieces(self, formula: ex.Formula) -> bool:
+        """Let pieces whose rate a formula speaks of have one rate throughout."""
+        added = False
+        for node in ex.walk(formula):
+            if isinstance(node, ex.State) and node.order == 2 and isinstance(node.at, ex.PieceRef):
+                ends = self.lowering.piece_ends(node.actor, node.at.name)
+                even = Narrowing(node.actor, *ends, ANY, even=True)
+                if even not in self.narrowings:
+                    self.narrowings.append(even)
+                    added = True
+        return added
+
+    def _look_at(self, node: ex.Temporal, time_s: float, witness: Witness) -> None:
+        """Add moments between those that there are, at which all that a body speaks of have a state.
+
+        Between them everybody keeps to one rate: what holds at two moments then hardly fails between them.
+        """
+        actors = {actor for part in free_states(node.body) for actor in actors_at(part)}
+        made = [self._between(time_s, witness)]
+        if node not in self.looked_at:
+            self.looked_at.append(node)
+            first, last = self.lowering.stretch_of(node)
+            begin, lasts = self.events.times[first], self.events.times[last] - self.events.times[first]
+            made += [self.events.moment(begin + lasts * Fraction(k, 4), "quarter") for k in (1, 2, 3)]
+            if len(actors) > 1:
+                self.narrowings += [Narrowing(actor, first, last, ANY, even=True) for actor in actors]
+        for instant in made:
+            for actor in actors:
+                self.events.state(actor, instant)
+
+    def _between(self, time_s: float, witness: Witness) -> int:
+        """Return a new moment at the same share of the time between its neighbours in the motion found."""
+        known = sorted(witness.times_s.items(), key=lambda item: item[1])
+        before = max((item for item in known if item[1] <= time_s), key=lambda item: item[1], default=known[0])
+        after = min((item for item in known if item[1] > time_s), key=lambda item: item[1], default=None)
+        times = self.events.times
+        if after is None:
+            return self.events.moment(times[before[0]] + pin(max(0.0, time_s - before[1])), "between")
+        share = Fraction(round(1000 * (time_s - before[1]) / (after[1] - before[1])), 1000)
+        early, late = times[before[0]], times[after[0]]
+        return self.events.moment(early + (late - early) * share, "between")
+
+    # -- turns --------------------------------------------------------------------------------------------------------
+    def _slow_in_turn(self, broken: Broken, witness: Witness) -> bool:
+        """Bound the speed where the bend is so sharp, and less so where it is less."""
+        route = self.events.scene.routes[broken.actor]
+        place = witness.profiles[broken.actor].state(broken.time_s)[0]
+        tightest, bends = _bends(route)
+        here = abs(route.path.curvature(place)) / tightest if tightest > 0 else 0.0
+        share = next((each for each in SHARES if each <= here + 1e-9), SHARES[-1])
+        wanted = [each for each in SHARES if each >= share and (broken.actor, each) not in self.turns]
+        for each in wanted[-1:]:
+            self.turns.add((broken.actor, each))
+            self._bound_turn(broken.actor, each, tightest, bends)
+        return bool(wanted)
+
+    def _bound_turn(self, actor: int, share: float, tightest: float, bends: tuple[tuple[float, float], ...]) -> None:
+        sharp = [s for s, bend in bends if bend >= share * tightest]
+        first, last = (self.events.at_place(actor, pin(s)) for s in (sharp[0], sharp[-1]))
+        self.events.order(first, last)
+        sideways = self.limits[actor].lateral_max_mpss
+        tighter = next((each for each in reversed(SHARES) if each > share), 1.0)
+        kept = pin(_SAFETY * math.sqrt(sideways / (tighter * tightest)))
+        proven = pin(math.sqrt(sideways / (share * tightest)) + 1e-4)
+        self.narrowings.append(
+            Narrowing(actor, first, last, replace(ANY, speed_high=kept), replace(ANY, speed_high=proven))
+        )
+
+    # -- apart --------------------------------------------------------------------------------------------------------
+    def _keep_apart(self, broken: Broken, witness: Witness) -> bool:
+        """Let two that touch be apart at that moment: one before the stretch that both need, or past it."""
+        events, scene = self.events, self.events.scene
+        for other in witness.profiles:
+            if other == broken.actor:
+                continue
+            conflict = find_conflict(scene.routes[other], scene.routes[broken.actor])
+            made = self._between(broken.time_s, witness)
+            mine, theirs = events.state(broken.actor, made), events.state(other, made)
+            choices = []
+            if conflict is not None and conflict.kind == "crossing":
+                for place, (low, high) in ((theirs.place, conflict.zone_a_m), (mine.place, conflict.zone_b_m)):
+                    choices += [compare("<=", place, pin(low)), compare(">=", place, pin(high))]
+            elif (offset := self._offset(broken.actor, other)) is not None:
+                gap = theirs.place + pin(offset) - mine.place
+                length = pin(VEHICLE_LENGTH_M) + _ROOM_M
+                choices = [compare(">=", gap, length), compare("<=", gap, -length)]
+            if choices:
+                self.owed.append(some(choices))
+                return True
+        return False
+
+    def _offset(self, actor: int, other: int) -> float | None:
+        from scenewright.roads.conflicts import shared_offset_m
+
+        return shared_offset_m(self.events.scene.routes[actor], self.events.scene.routes[other])
+
+
+@lru_cache(maxsize=256)
+def _bends(route: Route) -> tuple[float, tuple[tuple[float, float], ...]]:
+    """Return the tightest curvature (1/m) of a route, and places (m) with theirs."""
+    places = np.arange(0.0, route.path.length_m, _TURN_STEP_M)
+    bends = tuple((float(s), abs(route.path.curvature(float(s)))) for s in places)
+    return max((bend for _, bend in bends), default=0.0), bends

@@ -1,0 +1,180 @@
+"""What a refutation rests on: formulas that every legal motion of the scenario satisfies.
+
+What enters: events and lowered constraints. What leaves: named formulas. Leaving some out makes a proof harder to find,
+never false; so nothing is assumed here that a legal motion could break: no comfort, no manner, no turn before it is
+known to lie within the scenario.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scenewright.motion.laws import Law, reach
+from scenewright.program.types import EGO
+from scenewright.solve.proofs.events import Events, Stretch
+from scenewright.solve.proofs.lowering import Lowered, Lowering
+from scenewright.solve.proofs.polynomials import (
+    FALSE,
+    TRUE,
+    ZERO,
+    Formula,
+    Polynomial,
+    atom,
+    compare,
+    every,
+    some,
+)
+
+_CERTAIN = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """A formula, and what it rests on: a constraint's id, or a law in words."""
+
+    formula: Formula
+    origin: str
+
+
+def relaxation(events: Events, lowering: Lowering, constraints: Sequence[Lowered]) -> list[Named]:
+    """Return all that must hold of any motion."""
+    found = [Named(each.formula, each.constraint.id) for each in constraints]
+    events.learn_from(iter([each.formula for each in constraints]))
+    found += [Named(formula, origin) for formula, origin in events.rules]
+    least = events.least_differences()
+    found += _order_of_knots(events)
+    for actor in events.scene.program.actors:
+        if not (actor.is_ego and events.drive is not None):  # how it drove is a fact
+            found += _motion(events, lowering, actor.id, least)
+    return [each for each in found if each.formula != TRUE]
+
+
+def _order_of_knots(events: Events) -> Iterator[Named]:
+    for actor in events.scene.program.actors:
+        knots = [events.knot(actor.id, name) for name in actor.sketch.knots]
+        for early, late in pairwise(knots):
+            formula = compare("<=", events.times[early], events.times[late])
+            yield Named(formula, f"the knots of {actor.name} come one after another")
+
+
+def _motion(events: Events, lowering: Lowering, actor: int, least: NDArray[np.float64]) -> Iterator[Named]:
+    """Yield the law of the stretch between each two moments of an actor that may lie in one."""
+    name = events.scene.program.actor(actor).name
+    instants = events.instants_of(actor)
+    for stretch in events.stretches[actor]:
+        origin = f"how {name} may move in {'an' if stretch.kind == 'acc' else 'a'} {stretch.kind} piece"
+        if actor == EGO:
+            origin = events.ego.words(name)
+        inside = [instant for instant in instants if _possibly_inside(stretch, instant, least)]
+        for instant in inside:
+            yield Named(_speeds(events, actor, stretch, instant, least), origin)
+        for early in inside:
+            for late in inside:
+                if early == late or least[late, early] > _CERTAIN:
+                    continue
+                if _parted(inside, stretch, early, late, least):
+                    continue
+                law = _narrowed(lowering, actor, stretch.law, early, late, least)
+                yield Named(_between(events, actor, stretch, early, late, law, least), origin)
+
+
+def _possibly_inside(stretch: Stretch, instant: int, least: NDArray[np.float64]) -> bool:
+    """Whether an instant is not certain to be before or after a stretch."""
+    before = least[instant, stretch.first] > _CERTAIN
+    after = stretch.last is not None and least[stretch.last, instant] > _CERTAIN
+    return not before and not after
+
+
+def _certainly_inside(stretch: Stretch, instant: int, least: NDArray[np.float64]) -> bool:
+    return bool(least[stretch.first, instant] >= 0 and (stretch.last is None or least[instant, stretch.last] >= 0))
+
+
+def _parted(inside: list[int], stretch: Stretch, early: int, late: int, least: NDArray[np.float64]) -> bool:
+    """Whether a third moment in the stretch lies between for certain: the laws on either side then say it all."""
+    for middle in inside:
+        if middle in (early, late) or not _certainly_inside(stretch, middle, least):
+            continue
+        if least[early, middle] >= 0 and least[middle, late] >= 0:
+            tied = least[middle, early] >= 0 or least[late, middle] >= 0
+            if not tied or middle < max(early, late):
+                return True
+    return False
+
+
+def _narrowed(lowering: Lowering, actor: int, law: Law, early: int, late: int, least: NDArray[np.float64]) -> Law:
+    """Return the law between two moments, made narrower by what holds all the time between them for certain."""
+    for narrowing in lowering.narrowings:
+        if narrowing.actor != actor or narrowing.proven is None:
+            continue
+        begun = all(least[instant, early] >= 0 for instant in narrowing.begins())
+        if begun and all(least[late, instant] >= 0 for instant in narrowing.ends()):
+            law = law.meet(narrowing.proven)
+    return law
+
+
+def _speeds(events: Events, actor: int, stretch: Stretch, instant: int, least: NDArray[np.float64]) -> Formula:
+    speed = events.state(actor, instant).speed
+    law, free = stretch.law, events.law_of(actor)
+    held = []
+    if law.speed_high < free.speed_high:
+        held.append(compare("<=", speed, law.speed_high))
+    if law.speed_low > 0:
+        held.append(compare(">=", speed, law.speed_low))
+    return _if_inside(events, stretch, [instant], every(held), least) if held else TRUE
+
+
+def _if_inside(
+    events: Events, stretch: Stretch, instants: list[int], held: Formula, least: NDArray[np.float64]
+) -> Formula:
+    """Return that `held`, unless one of the moments lies outside the stretch."""
+    outside = []
+    for instant in instants:
+        if least[stretch.first, instant] < 0:
+            outside.append(compare("<", events.times[instant], events.times[stretch.first]))
+        if stretch.last is not None and least[instant, stretch.last] < 0:
+            outside.append(compare(">", events.times[instant], events.times[stretch.last]))
+    return some([*outside, held])
+
+
+def _between(
+    events: Events, actor: int, stretch: Stretch, early: int, late: int, law: Law, least: NDArray[np.float64]
+) -> Formula:
+    """Return the reach of a law between two moments, unless they come the other way round or lie outside."""
+    held = reach_formula(events, actor, early, late, law)
+    if least[early, late] < 0:
+        held = some([compare("<", events.times[late], events.times[early]), held])
+    return _if_inside(events, stretch, [early, late], held, least)
+
+
+def reach_formula(events: Events, actor: int, early: int, late: int, law: Law) -> Formula:
+    """Return the exact conditions on the states at two moments between which an actor obeys `law`."""
+    a, b = events.state(actor, early), events.state(actor, late)
+    lasts = events.times[late] - events.times[early]
+    found = reach(law, a.speed, b.speed, lasts, b.place - a.place)
+    if found.impossible:
+        return FALSE
+    caps: list[Formula] = []
+    free = events.law_of(actor)
+    for speed in (a.speed, b.speed):
+        if law.speed_high < free.speed_high:
+            caps.append(compare("<=", speed, law.speed_high))
+        if law.speed_low > ZERO:
+            caps.append(compare(">=", speed, law.speed_low))
+    return every(
+        [
+            *caps,
+            *(atom(_scalar(row), "<=") for row in found.rows),
+            *(atom(_scalar(row), "==") for row in found.equal),
+            *(some([atom(_scalar(one), "<="), atom(_scalar(other), "<=")]) for one, other in found.choices),
+        ]
+    )
+
+
+def _scalar(value: object) -> Polynomial:
+    assert isinstance(value, Polynomial)
+    return value

@@ -1,0 +1,439 @@
+"""Looks for a motion of everybody that meets all constraints: Newton steps, one convex problem each.
+
+What enters: events, constraints lowered over them, and a first guess. What leaves: values of all unknowns, exact to a
+micrometre, or nothing. No order of moments is guessed: at each step they stand in the order of their present times,
+neighbours obey the law of the piece they lie in, of alternatives the nearest is taken, and one convex problem with
+soft rows meets all of it as well as it can. It proves nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scenewright.motion.laws import ANY, Law
+from scenewright.solve.proofs.events import Events
+from scenewright.solve.proofs.narrowing import Narrowing
+from scenewright.solve.proofs.polynomials import All, Atom, Formula, Some
+
+Array = NDArray[np.float64]
+
+DONE, NEARLY_DONE = 1e-6, 5e-5  # scaled: 0.5 mm, 0.05 ms, 0.1 mm/s where rounded numbers leave no more
+_SCALE = {"time": 1.0, "place": 10.0, "speed": 2.0, "rate": 1.0, "other": 1.0}
+_SOFT = 1e-5
+_STRICT = 1e-3  # by how much a strict comparison is to hold, in units of its scaled row
+_MOST_STEPS = 40
+_TRUST = 4.0
+
+
+@dataclass(slots=True)
+class _Compiled:
+    """All atoms of all formulas, for values and gradients at once."""
+
+    count: int
+    owner: NDArray[np.intp]
+    factor: Array
+    left: NDArray[np.intp]
+    right: NDArray[np.intp]
+    equal: NDArray[np.bool_]
+    strict: NDArray[np.bool_]
+
+    def values(self, point: Array) -> Array:
+        """Return the left side of every atom; `point` ends with a one."""
+        found = np.bincount(self.owner, self.factor * point[self.left] * point[self.right], minlength=self.count)
+        return found.astype(np.float64, copy=False)
+
+    def gradients(self, point: Array) -> Array:
+        """Return all gradients, shape (atoms, unknowns + 1)."""
+        width = len(point)
+        flat = np.bincount(
+            self.owner * width + self.left, self.factor * point[self.right], minlength=self.count * width
+        ) + np.bincount(self.owner * width + self.right, self.factor * point[self.left], minlength=self.count * width)
+        return flat.astype(np.float64, copy=False).reshape(self.count, width)
+
+
+@dataclass(slots=True)
+class _Tree:
+    """A formula with the numbers of its atoms at its leaves."""
+
+    kind: str
+    atom: int = -1
+    parts: list[_Tree] = field(default_factory=list)
+
+
+class Search:
+    """One search problem; `run` may be asked again from other guesses."""
+
+    def __init__(self, events: Events, formulas: Sequence[Formula], narrowings: Sequence[Narrowing]) -> None:
+        self.events = events
+        self.formulas = formulas
+        self.narrowings = narrowings
+        self.steps = 0
+        self._index: list[Atom] = []
+        self._trees = [self._tree(formula) for formula in self.formulas]
+        size = len(self.events.unknowns)
+        self._size = size
+        self._compiled = _compile(self._index, size)
+        self._low = np.array([float(each.low) for each in self.events.unknowns])
+        self._high = np.array([float(each.high) for each in self.events.unknowns])
+        self._scale = np.array([_SCALE[each.kind] for each in self.events.unknowns])
+        free = np.array([each.kind == "other" for each in self.events.unknowns])
+        self._scale = np.where(free, np.maximum(1.0, 0.25 * (self._high - self._low)), self._scale)
+        self._liking: Array = np.ones(0)
+        self._actors = [_Line.of(self.events, actor.id, size) for actor in self.events.scene.program.actors]
+
+    def _tree(self, formula: Formula) -> _Tree:
+        match formula:
+            case Atom():
+                self._index.append(formula)
+                return _Tree("atom", len(self._index) - 1)
+            case All(parts=parts):
+                return _Tree("all", parts=[self._tree(part) for part in parts])
+            case Some(parts=parts):
+                return _Tree("some", parts=[self._tree(part) for part in parts])
+
+    # -- the steps ----------------------------------------------------------------------------------------------------
+    def run(
+        self, guess: Array, generator: np.random.Generator | None = None, most_steps: int = _MOST_STEPS
+    ) -> Array | None:
+        """Return values that meet everything, starting from a guess; None where the steps do not get there.
+
+        With a `generator` some alternatives are liked better than others, whatever is nearest.
+        """
+        self._liking = np.ones(len(self._index))
+        if generator is not None:
+            self._liking = np.exp(2.0 * generator.standard_normal(len(self._index)))
+        point = np.append(np.clip(guess, self._low, self._high), 1.0)
+        trust, best, stale = _TRUST, np.inf, 0
+        for _ in range(most_steps):
+            self.steps += 1
+            rows, levels, equal = self._rows(point)
+            worst = float(np.max(np.where(equal, np.abs(levels), levels), initial=0.0))
+            if worst < DONE:
+                return point[:-1]
+            if worst < 0.7 * best:
+                best, stale = worst, 0
+            else:
+                stale += 1
+                trust = max(0.25, 0.6 * trust)
+                if stale > 8:
+                    return point[:-1] if worst < NEARLY_DONE else None
+            step = self._step(point, rows, levels, equal, trust)
+            if step is None:
+                return None
+            point[:-1] = np.clip(point[:-1] + step, self._low, self._high)
+        return None
+
+    def _step(self, point: Array, rows: Array, levels: Array, equal: NDArray[np.bool_], trust: float) -> Array | None:
+        """Return the least step that meets the linearised rows as well as can be."""
+        import daqp
+
+        scale, size = self._scale, self._size
+        upper = np.minimum((self._high - point[:-1]) / scale, trust)
+        lower = np.maximum((self._low - point[:-1]) / scale, -trust)
+        near = equal | (levels > -3.0 * trust * 4)
+        rows, levels, equal = rows[near], levels[near], equal[near]
+        above, below = -levels, np.where(equal, -levels, -1e30)
+        sense = np.concatenate([np.zeros(size, dtype=np.int32), np.where(equal, 8, 8).astype(np.int32)])
+        x, _, flag, _ = daqp.solve(
+            np.eye(size),
+            np.zeros(size),
+            np.ascontiguousarray(rows),
+            np.concatenate([upper, above]),
+            np.concatenate([lower, below]),
+            sense,
+            rho_soft=_SOFT,
+            primal_tol=1e-8,
+            iter_limit=2000,
+        )
+        return None if flag < 1 else np.asarray(x) * scale
+
+    # -- rows ---------------------------------------------------------------------------------------------------------
+    def _rows(self, point: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
+        """Return linearised rows over scaled steps, their levels (to be at most zero, or zero) and which are equal."""
+        values, gradients = self._compiled.values(point), self._compiled.gradients(point)
+        scaled = gradients[:, :-1] * self._scale
+        norms = np.maximum(np.sqrt((scaled * scaled).sum(axis=1)), 1e-9)
+        levels = values / norms + np.where(self._compiled.strict, _STRICT, 0.0)
+        errors = np.where(self._compiled.equal, np.abs(levels), levels)
+        chosen: list[int] = []
+        for tree in self._trees:
+            _choose(tree, errors * self._liking, chosen)
+        taken = np.array(chosen, dtype=np.intp)
+        parts = [(scaled[taken] / norms[taken, None], levels[taken], self._compiled.equal[taken])]
+        parts += [line.rows(point, self._scale, self.narrowings) for line in self._actors]
+        return (
+            np.concatenate([part[0] for part in parts]),
+            np.concatenate([part[1] for part in parts]),
+            np.concatenate([part[2] for part in parts]),
+        )
+
+    def order_of(self, point: Array, actor: int) -> list[int]:
+        """Return an actor's instants in the order of their times."""
+        line = next(line for line in self._actors if line.actor == actor)
+        return [line.instants[k] for k in line.sorted(np.append(point, 1.0))]
+
+    def laws_of(self, point: Array, actor: int) -> list[Law]:
+        """Return the laws between an actor's instants, in the order of their times."""
+        line = next(line for line in self._actors if line.actor == actor)
+        return line.laws_between(line.sorted(np.append(point, 1.0)), self.narrowings)
+
+
+@dataclass(slots=True)
+class _Line:
+    """One actor's moments along time: numbers of their unknowns; a known time is a multiple of the one at the end."""
+
+    actor: int
+    instants: list[int]
+    time: NDArray[np.intp]
+    time_factor: Array
+    place: NDArray[np.intp]
+    speed: NDArray[np.intp]
+    knots: list[int]  # positions, in the order of the sketch
+    laws: list[tuple[int, Law]]  # position of the first moment of each stretch, and its law
+
+    @classmethod
+    def of(cls, events: Events, actor: int, size: int) -> _Line:
+        """Collect the moments of an actor."""
+        instants = events.instants_of(actor)
+        where = {instant: k for k, instant in enumerate(instants)}
+        time, factor = [], []
+        for instant in instants:
+            constant = events.times[instant].constant
+            time.append(size if constant is not None else next(iter(events.times[instant].terms))[0])
+            factor.append(1.0 if constant is None else float(constant))
+        states = [events.state(actor, instant) for instant in instants]
+        sketch = events.scene.program.actor(actor).sketch
+        knots = list(dict.fromkeys(where[events.knot(actor, name)] for name in sketch.knots))
+        laws = [(where[stretch.first], stretch.law) for stretch in events.stretches[actor]]
+        return cls(
+            actor,
+            instants,
+            np.array(time, dtype=np.intp),
+            np.array(factor),
+            np.array([next(iter(state.place.terms))[0] for state in states], dtype=np.intp),
+            np.array([next(iter(state.speed.terms))[0] for state in states], dtype=np.intp),
+            knots,
+            laws,
+        )
+
+    def sorted(self, point: Array) -> list[int]:
+        """Return positions in the order of time; knots keep the order of the sketch."""
+        times = self.time_factor * point[self.time]
+        latest = -np.inf
+        rank = np.full(len(times), len(self.knots))
+        for number, knot in enumerate(self.knots):
+            latest = times[knot] = max(times[knot], latest)
+            rank[knot] = number
+        return sorted(range(len(times)), key=lambda k: (times[k], rank[k], k))
+
+    def rows(
+        self, point: Array, scale: Array, narrowings: Sequence[Narrowing]
+    ) -> tuple[Array, Array, NDArray[np.bool_]]:
+        """Return the laws between neighbours, linearised."""
+        order = self.sorted(point)
+        early, late = np.array(order[:-1], dtype=np.intp), np.array(order[1:], dtype=np.intp)
+        laws = self.laws_between(order, narrowings)
+        even = self.even_between(order, narrowings)
+        al, be, lo, hi = (
+            np.array([float(getattr(law, name)) for law in laws])
+            for name in ("rate_low", "rate_high", "speed_low", "speed_high")
+        )
+        v1, v2 = point[self.speed[early]], point[self.speed[late]]
+        d = self.time_factor[late] * point[self.time[late]] - self.time_factor[early] * point[self.time[early]]
+        x = point[self.place[late]] - point[self.place[early]]
+        levels, slopes, equal, keep = _reach_rows(al, be, lo, hi, even, v1, v2, d, x)
+        count, kinds = len(early), levels.shape[0]
+        width = len(point)
+        rows = np.zeros((kinds, count, width))
+        pair = np.arange(count)
+        for k in range(kinds):
+            g1, g2, gd, gx = slopes[k]
+            np.add.at(rows[k], (pair, self.speed[early]), g1)
+            np.add.at(rows[k], (pair, self.speed[late]), g2)
+            np.add.at(rows[k], (pair, self.time[late]), gd * self.time_factor[late])
+            np.add.at(rows[k], (pair, self.time[early]), -gd * self.time_factor[early])
+            np.add.at(rows[k], (pair, self.place[late]), gx)
+            np.add.at(rows[k], (pair, self.place[early]), -gx)
+        flat = rows.reshape(kinds * count, width)[:, :-1] * scale
+        norms = np.sqrt((flat * flat).sum(axis=1))
+        keep = keep.reshape(-1) & (norms > 1e-9)
+        norms = np.maximum(norms, 1e-9)
+        return flat[keep] / norms[keep, None], (levels.reshape(-1) / norms)[keep], equal.reshape(-1)[keep]
+
+    def even_between(self, order: Sequence[int], narrowings: Sequence[Narrowing]) -> NDArray[np.bool_]:
+        """Return whether there is to be one rate between each two neighbours."""
+        where = {self.instants[k]: number for number, k in enumerate(order)}
+        even = np.zeros(len(order) - 1, dtype=bool)
+        for narrowing in narrowings:
+            if narrowing.actor == self.actor and narrowing.even:
+                even[where[narrowing.first] : where[narrowing.last]] = True
+        return even
+
+    def laws_between(self, order: Sequence[int], narrowings: Sequence[Narrowing]) -> list[Law]:
+        """Return the law between each two neighbours."""
+        position = {k: number for number, k in enumerate(order)}
+        where = {instant: position[k] for k, instant in enumerate(self.instants)}
+        starts = sorted((position[k], number, law) for number, (k, law) in enumerate(self.laws))
+        laws, at = [], 0
+        for number in range(len(order) - 1):
+            while at + 1 < len(starts) and starts[at + 1][0] <= number:
+                at += 1
+            laws.append(starts[at][2])
+        for narrowing in narrowings:
+            if narrowing.actor == self.actor and narrowing.law is not ANY:
+                begin = max(where[instant] for instant in narrowing.begins())
+                for number in range(begin, min(len(laws), *(where[instant] for instant in narrowing.ends()))):
+                    laws[number] = laws[number].meet(narrowing.law)
+        return laws
+
+
+def _reach_rows(
+    al: Array,
+    be: Array,
+    lo: Array,
+    hi: Array,
+    even: NDArray[np.bool_],
+    v1: Array,
+    v2: Array,
+    d: Array,
+    x: Array,
+) -> tuple[Array, Array, NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return levels and slopes of `motion.laws.reach` for many stretches at once.
+
+    Returns
+    -------
+    levels
+        Shape (rows, stretches): at most zero, or zero where equal.
+    slopes
+        Shape (rows, 4, stretches): by first speed, second speed, duration and distance.
+    equal, keep
+        Which are equalities; which there are at all.
+    """
+    zero, one = np.zeros_like(d), np.ones_like(d)
+    delta, fixed = v2 - v1, be - al < 1e-12
+    over, under, span = be * d - delta, delta - al * d, 2 * (be - al)
+    levels: list[Array] = []
+    slopes: list[tuple[Array, Array, Array, Array]] = []
+    equal: list[NDArray[np.bool_]] = []
+    keep: list[NDArray[np.bool_]] = []
+    never, always = np.zeros(len(d), dtype=bool), np.ones(len(d), dtype=bool)
+
+    def add(
+        level: Array, slope: tuple[Array, Array, Array, Array], there: NDArray[np.bool_], same: bool = False
+    ) -> None:
+        levels.append(level)
+        slopes.append(slope)
+        equal.append(always if same else never)
+        keep.append(there)
+
+    free = ~fixed
+    add(-d, (zero, zero, -one, zero), always)
+    add(delta - al * d, (-one, one, -al, zero), fixed, same=True)
+    add(2 * x - (v1 + v2) * d, (-d, -d, -(v1 + v2), 2 * one), fixed | even, same=True)
+    add(-over, (-one, one, -be, zero), free)
+    add(-under, (one, -one, al, zero), free)
+    # 2 (be - al) (x - v1 d - be d^2 / 2) + over^2, and its mirror image
+    add(
+        span * (x - v1 * d - 0.5 * be * d * d) + over * over,
+        (-span * d + 2 * over, -2 * over, -span * (v1 + be * d) + 2 * over * be, span),
+        free,
+    )
+    add(
+        span * (v1 * d + 0.5 * al * d * d - x) + under * under,
+        (span * d - 2 * under, 2 * under, span * (v1 + al * d) - 2 * under * al, -span),
+        free,
+    )
+    add(lo * d - x, (zero, zero, lo, -one), free)
+    add(x - hi * d, (zero, zero, -hi, one), free)
+    for speed, first in ((v1, True), (v2, False)):
+        gradient = (one, zero, zero, zero) if first else (zero, one, zero, zero)
+        negative = (-one, zero, zero, zero) if first else (zero, -one, zero, zero)
+        add(speed - hi, gradient, always)
+        add(lo - speed, negative, always)
+    both = free & (al < 0) & (be > 0)
+    for choices in _caps(al, be, lo, hi, v1, v2, d, x):
+        (one_level, one_slope), (other_level, other_slope) = choices
+        unit_one = one_level / np.maximum(_size(one_slope), 1e-9)
+        unit_other = other_level / np.maximum(_size(other_slope), 1e-9)
+        take = unit_one <= unit_other
+        add(
+            np.where(take, one_level, other_level),
+            tuple(np.where(take, a, b) for a, b in zip(one_slope, other_slope, strict=True)),  # type: ignore[arg-type]
+            both,
+        )
+    return (
+        np.array(levels),
+        np.array([np.array(slope) for slope in slopes]),
+        np.array(equal),
+        np.array(keep),
+    )
+
+
+def _size(slope: tuple[Array, ...]) -> Array:
+    v1, v2, d, x = slope
+    return np.asarray(np.sqrt(4 * v1 * v1 + 4 * v2 * v2 + d * d + 100 * x * x))
+
+
+def _caps(
+    al: Array, be: Array, lo: Array, hi: Array, v1: Array, v2: Array, d: Array, x: Array
+) -> list[tuple[tuple[Array, tuple[Array, ...]], tuple[Array, tuple[Array, ...]]]]:
+    """Return the two pairs of alternatives: the top speed is not met or what that costs; the lowest likewise."""
+    zero, ab = np.zeros_like(d), al * be
+    top = (
+        (-al * v1 + be * v2 - ab * d - (be - al) * hi, (-al, be, -ab, zero)),
+        (
+            -al * (hi - v1) ** 2 + be * (hi - v2) ** 2 + 2 * ab * (hi * d - x),
+            (2 * al * (hi - v1), -2 * be * (hi - v2), 2 * ab * hi, -2 * ab),
+        ),
+    )
+    low = (
+        (-be * (v1 - lo) + al * (v2 - lo) - ab * d, (-be, al, -ab, zero)),
+        (
+            be * (v1 - lo) ** 2 - al * (v2 - lo) ** 2 + 2 * ab * (x - lo * d),
+            (2 * be * (v1 - lo), -2 * al * (v2 - lo), -2 * ab * lo, 2 * ab),
+        ),
+    )
+    return [top, low]
+
+
+def _compile(index: Sequence[Atom], size: int) -> _Compiled:
+    owner, factor, left, right = [], [], [], []
+    for number, atom in enumerate(index):
+        for key, coefficient in atom.left.terms.items():
+            owner.append(number)
+            factor.append(float(coefficient))
+            left.append(key[0] if key else size)
+            right.append(key[1] if len(key) > 1 else size)
+    return _Compiled(
+        len(index),
+        np.array(owner, dtype=np.intp),
+        np.array(factor),
+        np.array(left, dtype=np.intp),
+        np.array(right, dtype=np.intp),
+        np.array([atom.relation == "==" for atom in index], dtype=bool),
+        np.array([atom.relation == "<" for atom in index], dtype=bool),
+    )
+
+
+def _choose(tree: _Tree, errors: Array, chosen: list[int]) -> None:
+    """Collect the atoms that are to hold, of alternatives those of the one that is nearest to holding."""
+    if tree.kind == "atom":
+        chosen.append(tree.atom)
+    elif tree.kind == "all":
+        for part in tree.parts:
+            _choose(part, errors, chosen)
+    elif tree.parts:
+        best = min(tree.parts, key=lambda part: _error(part, errors))
+        _choose(best, errors, chosen)
+
+
+def _error(tree: _Tree, errors: Array) -> float:
+    if tree.kind == "atom":
+        return max(0.0, float(errors[tree.atom]))
+    if tree.kind == "all":
+        return max((_error(part, errors) for part in tree.parts), default=0.0)
+    return min((_error(part, errors) for part in tree.parts), default=np.inf)

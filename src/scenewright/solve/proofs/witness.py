@@ -1,0 +1,166 @@
+"""Makes a motion of what a search found, and looks whether it is one: the only thing that is called feasible.
+
+What enters: values of all unknowns. What leaves: a profile for each actor, and what is amiss with them: constraints
+that an evaluator of its own finds broken, motions that no law admits, turns that are taken too fast, boxes that touch
+before the trigger. It shares no code with the lowering, so a wrong lowering is found out here.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scenewright.motion.laws import Law, realise
+from scenewright.motion.profile import Profile, Segment
+from scenewright.program.evaluate import violation
+from scenewright.program.structure import Structure
+from scenewright.program.types import EGO
+from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
+from scenewright.roads.grounding import Scene
+from scenewright.solve.limits import Limits
+from scenewright.solve.plan import PlanWorld
+from scenewright.solve.proofs.events import EgoBounds, Events
+from scenewright.solve.proofs.search import Search
+
+Array = NDArray[np.float64]
+_TOLERANCE = 2e-3  # mm, ms, mm/s: twice what a search is exact to
+_STEP_S = 0.05
+_RATE_SLACK = 1e-2
+_SHORTEST_S = 1e-4  # in so short a time a rounded speed makes any rate
+
+
+@dataclass(frozen=True, slots=True)
+class Broken:
+    """Something amiss: a constraint's id, ``law``, ``turn`` or ``apart``; whose, when (s), by how much (SI)."""
+
+    what: str
+    actor: int
+    time_s: float
+    by: float
+
+
+@dataclass(frozen=True, slots=True)
+class Witness:
+    """A motion of everybody with which all that was asked for happens."""
+
+    profiles: Mapping[int, Profile]
+    parameters: Mapping[str, float]
+    times_s: Mapping[int, float]
+    end_s: float
+
+
+def realised(events: Events, search: Search, point: Array) -> Witness:
+    """Return the motion that the values at `point` stand for."""
+    times = {number: time.value(point) for number, time in enumerate(events.times)}
+    profiles = {}
+    for actor in events.scene.program.actors:
+        profiles[actor.id] = _profile(events, search, point, actor.id, times)
+    parameters = {name: value.value(point) for name, value in events.parameters.items()}
+    return Witness(profiles, parameters, times, max(times[k] for _, k in events.states))
+
+
+def _profile(events: Events, search: Search, point: Array, actor: int, times: Mapping[int, float]) -> Profile:
+    order = search.order_of(point, actor)
+    laws = search.laws_of(point, actor)
+    knots = {name: times[events.knot(actor, name)] for name in events.scene.program.actor(actor).sketch.knots}
+    pieces = sorted(knots.values())
+    segments: list[Segment] = []
+    for number, (early, late) in enumerate(pairwise(order)):
+        a, b = events.state(actor, early), events.state(actor, late)
+        place, speed = a.place.value(point), a.speed.value(point)
+        after, end = b.speed.value(point), b.place.value(point)
+        now = times[early]
+        piece = max(0, min(sum(t <= now + 1e-9 for t in pieces) - 1, len(pieces) - 2))
+        for duration, rate in realise(laws[number], speed, after, times[late] - now, end - place):
+            if duration < _SHORTEST_S:
+                rate = min(max(rate, float(laws[number].rate_low)), float(laws[number].rate_high))
+            if duration > 1e-12:
+                segments.append(Segment(now, duration, place, speed, rate, piece))
+                place += (speed + 0.5 * rate * duration) * duration
+                now, speed = now + duration, max(0.0, speed + rate * duration)
+    if not segments:
+        state = events.state(actor, order[0])
+        segments = [Segment(0.0, 0.0, state.place.value(point), state.speed.value(point), 0.0)]
+    return Profile(tuple(segments), knots)
+
+
+def broken(
+    scene: Scene, structure: Structure, limits: Mapping[int, Limits], ego: EgoBounds, witness: Witness
+) -> list[Broken]:
+    """Return all that is amiss with a motion."""
+    world = PlanWorld(scene, witness.profiles, witness.parameters)
+    found = [
+        Broken(constraint.id, EGO, math.nan, by)
+        for constraint in scene.program.constraints
+        if not (by := violation(constraint.formula, world)) <= _TOLERANCE
+    ]
+    for actor, profile in witness.profiles.items():
+        found += _unlawful(actor, profile, ego.law() if actor == EGO else limits[actor].law())
+    for hero in scene.program.heroes:
+        found += _too_fast(scene, limits[hero.id], witness, hero.id)
+    return found + _touching(scene, structure, witness)
+
+
+def _unlawful(actor: int, profile: Profile, law: Law) -> list[Broken]:
+    """Return where a motion jumps, or does what nobody like that can do."""
+    for segment in profile.segments:
+        if not law.admits(segment.speed_mps, [(segment.duration_s, segment.accel_mpss)], slack=_RATE_SLACK):
+            return [Broken("law", actor, segment.start_s, abs(segment.accel_mpss))]
+    for before, after in pairwise(profile.segments):
+        jump = max(abs(after.s_m - before.end_s_m), abs(after.speed_mps - before.end_speed_mps))
+        if jump > _TOLERANCE:
+            return [Broken("law", actor, after.start_s, jump)]
+    return []
+
+
+def _too_fast(scene: Scene, limits: Limits, witness: Witness, actor: int) -> list[Broken]:
+    profile = witness.profiles[actor]
+    times = np.arange(0.0, profile.end_s + 1e-9, _STEP_S)
+    states = np.array([profile.state(float(t)) for t in times])
+    bend = np.array([scene.routes[actor].path.curvature(float(s)) for s in states[:, 0]])
+    sideways = states[:, 1] ** 2 * np.abs(bend)
+    worst = int(np.argmax(sideways))
+    over = float(sideways[worst]) - limits.lateral_max_mpss
+    return [Broken("turn", actor, float(times[worst]), over)] if over > 1e-3 else []
+
+
+def _touching(scene: Scene, structure: Structure, witness: Witness) -> list[Broken]:
+    """Return pairs whose boxes touch before the last trigger."""
+    found = []
+    triggers = [
+        witness.profiles[hero].knot_times_s.get(knot, 0.0)
+        for hero in structure.triggers
+        if (knot := structure.trigger_knot(hero)) is not None
+    ]
+    until = max(triggers, default=witness.end_s)
+    times = np.arange(0.0, until, _STEP_S)
+    boxes = {}
+    for actor in scene.program.actors:
+        places = np.array([witness.profiles[actor.id].state(float(t))[0] for t in times])
+        boxes[actor.id] = scene.routes[actor.id].path.poses(places) if len(times) else np.zeros((0, 3))
+    actors = sorted(boxes)
+    for number, a in enumerate(actors):
+        for b in actors[number + 1 :]:
+            touch = boxes_touch(boxes[a], boxes[b])
+            if touch.any():
+                found.append(Broken("apart", b, float(times[int(np.argmax(touch))]), 1.0))
+    return found
+
+
+def boxes_touch(first: Array, second: Array) -> NDArray[np.bool_]:
+    """Return whether the boxes at each two poses ``x, y, heading`` overlap (separating axes of both)."""
+    half_length, half_width = 0.5 * VEHICLE_LENGTH_M, 0.5 * VEHICLE_WIDTH_M
+    dx, dy = second[:, 0] - first[:, 0], second[:, 1] - first[:, 1]
+    cos, sin = np.abs(np.cos(second[:, 2] - first[:, 2])), np.abs(np.sin(second[:, 2] - first[:, 2]))
+    along = half_length + half_length * cos + half_width * sin
+    across = half_width + half_length * sin + half_width * cos
+    touch = np.ones(len(dx), dtype=bool)
+    for heading in (first[:, 2], second[:, 2]):
+        touch &= np.abs(dx * np.cos(heading) + dy * np.sin(heading)) <= along
+        touch &= np.abs(-dx * np.sin(heading) + dy * np.cos(heading)) <= across
+    return touch

@@ -1,0 +1,91 @@
+"""Moments and states: knots that are one, moments that depend on others, laws on stretches, orders that are certain."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from planted import EGO, T, limits_of
+
+from scenewright.program.text import parse_program
+from scenewright.roads.grounding import Scene, ground
+from scenewright.solve.proofs.events import EgoBounds, Events
+from scenewright.solve.proofs.polynomials import compare, unknown
+
+TEXT = """Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (hero):
+- E, N
+- [t0, go, t1, dec, t2, stop, t3, go, t4]
+
+Constraints:
+A0(t1) == A1(t1)
+"""
+
+
+def events_of(text: str = TEXT, ego: EgoBounds = EGO) -> Events:
+    scene: Scene = ground(parse_program(text), T)
+    return Events(scene, limits_of(scene), ego)
+
+
+def test_knots_that_are_one_moment_are_one_instant() -> None:
+    events = events_of()
+    assert events.knot(0, "t0") == events.knot(1, "t0") == events.start
+    assert events.knot(0, "t1") == events.knot(1, "t1") != events.start
+    assert events.knot(0, "t2") != events.knot(1, "t2")
+    assert events.times[events.start].constant == 0
+
+
+def test_a_moment_that_is_asked_for_twice_is_one() -> None:
+    events = events_of()
+    later = events.times[events.knot(1, "t1")] + Fraction(2)
+    assert events.moment(later, "later") == events.moment(later, "again")
+    assert events.clock(Fraction(3)) == events.clock(Fraction(3))
+    assert events.moment(events.times[events.start] - 5, "before") == events.start
+    assert events.at_place(1, Fraction(100)) == events.at_place(1, Fraction(100)) != events.at_place(1, Fraction(101))
+
+
+def test_laws_of_pieces() -> None:
+    events = events_of()
+    hero = events.stretches[1]
+    assert [str(stretch.kind) for stretch in hero] == ["go", "dec", "stop", "go"]
+    assert hero[1].law.rate_high == 0 > hero[1].law.rate_low
+    assert hero[2].law.speed_high == 0
+    assert hero[3].last is None, "after the last knot nobody is bound by the sketch"
+    assert len(events.stretches[0]) == 1, "neighbours under one law are one stretch"
+    held = events_of(ego=EgoBounds(holds_speed=True)).stretches[0][0].law
+    assert held.rate_low == held.rate_high == 0
+
+
+def test_what_is_certain_of_the_order() -> None:
+    events = events_of()
+    start, first, second = events.start, events.knot(1, "t1"), events.knot(1, "t2")
+    least = events.least_differences()
+    assert least[start, first] >= 0
+    assert least[first, second] >= 0
+    assert least[second, first] < 0
+    time_1, time_2 = events.times[first], events.times[second]
+    place_1, place_2 = events.state(1, first).place, events.state(1, second).place
+    events.learn_from(
+        iter([compare(">=", time_2 - time_1, 3), compare("==", place_1, 100), compare("==", place_2, 200)])
+    )
+    least = events.least_differences()
+    top = float(events.law_of(1).speed_high)
+    assert least[first, second] == max(3.0, 100 / top)
+
+
+def test_a_contradiction_is_not_learned() -> None:
+    events = events_of()
+    first, second = events.knot(1, "t1"), events.knot(1, "t2")
+    events.learn_from(iter([compare("<=", events.times[second] - events.times[first], -1)]))
+    assert events.least_differences()[second, first] < 0, "it is for a proof to find"
+
+
+def test_unknowns_have_ranges() -> None:
+    events = events_of()
+    end = events.scene.routes[1].landmarks["route_end"]
+    place = events.unknowns[next(iter(events.state(1, events.start).place.terms))[0]]
+    assert (place.kind, float(place.low)) == ("place", 0.0)
+    assert abs(float(place.high) - end) < 1e-3
+    assert events.new("mine", Fraction(1), Fraction(2), "other").terms == unknown(len(events.unknowns) - 1).terms

@@ -1,0 +1,69 @@
+"""Formulas fall into the parts that they are made of, and say whom they speak of."""
+
+from __future__ import annotations
+
+import pytest
+
+from scenewright.program import expressions as ex
+from scenewright.program.text import parse_program
+from scenewright.solve.proofs.forms import bare_rate, conjuncts, free_actors, kept, piece_of, with_state
+
+HEAD = "Actor 0 (ego):\n- W\n- [t0, go, t1, go, t2]\n\nActor 1 (hero):\n- W\n- [t0, go, t1, dec, t2]\n\nConstraints:\n"
+
+
+def formula(text: str) -> ex.Formula:
+    return parse_program(HEAD + "A0(t1) == A1(t1)\n" + text + "\n").constraints[-1].formula
+
+
+def body(text: str) -> ex.Formula:
+    found = formula(f"always[A1(t0), A1(t2)] ({text})")
+    assert isinstance(found, ex.Temporal)
+    return found.body
+
+
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        ("A1v <= 3 and A1v >= 1", 2),
+        ("not (A1v <= 3 or A0v <= 3)", 2),
+        ("not not (A1v <= 3)", 1),
+        ("A1v <= 3 or A0v <= 3", None),
+        ("not (A1v <= 3 and A0v <= 3)", None),
+        ("A1v <= 3", None),
+    ],
+)
+def test_what_holds_all_along_in_parts(text: str, parts: int | None) -> None:
+    found = conjuncts(body(text))
+    assert (None if found is None else len(found)) == parts
+
+
+def test_never_is_always_not() -> None:
+    never = formula("never[A1(t0), A1(t2)] (A1v <= 3)")
+    assert isinstance(never, ex.Temporal)
+    assert kept(never) == ex.Logic("not", (never.body,))
+
+
+def test_whom_a_body_speaks_of() -> None:
+    assert free_actors(body("A1v <= 3")) == {1}
+    assert free_actors(body("A1v <= A0v")) == {0, 1}
+    assert free_actors(body("gap(A1, A0) >= 3")) == {0, 1}
+    assert free_actors(body("A1v <= A0v(t1)")) == {1}  # that of actor 0 has a moment of its own
+
+
+def test_rates() -> None:
+    assert bare_rate(body("A1a <= 3")) is not None
+    assert bare_rate(body("not (A1a >= 3)")) is not None
+    assert bare_rate(body("A1a <= A0a")) is None
+    assert bare_rate(body("A1v <= 3")) is None
+
+
+def test_the_state_of_a_piece_can_be_exchanged() -> None:
+    compared = formula("3 - A1a(dec) * 2 >= 1")
+    node = piece_of(compared)
+    assert isinstance(compared, ex.Compare)
+    assert node is not None
+    other = ex.State(1, 1, ex.Knot("t1"))
+    changed = with_state(compared, node, other)
+    assert piece_of(changed) is None
+    assert other in list(ex.walk(changed))
+    assert piece_of(formula("A1a(t1) <= 3")) is None

@@ -1,0 +1,80 @@
+"""What refutations rest on: every formula is true of motions that are legal, whatever they are."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+
+import pytest
+from planted import Planted, limits_of, lowered, plant
+
+from scenewright.solve.proofs import z3_engine
+from scenewright.solve.proofs.events import Events
+from scenewright.solve.proofs.lowering import Lowering
+from scenewright.solve.proofs.polynomials import violation
+from scenewright.solve.proofs.relaxation import relaxation
+
+
+def values_of(planted: Planted, events: Events, lowering: Lowering) -> list[float]:
+    """Return what each unknown is in the planted motions."""
+    point = [0.0] * len(events.unknowns)
+    times: dict[int, Fraction] = {}
+    for number, time in enumerate(events.times):
+        if time.constant is not None:
+            times[number] = time.constant
+    for key, instant in {key: events.knot(*key) for key in planted.knots}.items():
+        times[instant] = planted.knots[key]
+    for number, time in enumerate(events.times):
+        if number in times and time.constant is None:
+            point[next(iter(time.terms))[0]] = float(times[number])
+    for number, defined in events.defined.items():
+        times[number] = max(Fraction(0), Fraction(defined.value(point)).limit_denominator(10**9))
+        point[next(iter(events.times[number].terms))[0]] = float(times[number])
+    for (actor, instant), state in events.states.items():
+        place, speed, _ = planted.motions[actor].state(times[instant])
+        point[next(iter(state.place.terms))[0]] = float(place)
+        point[next(iter(state.speed.terms))[0]] = float(speed)
+    for (actor, first, last), rate in lowering.means.items():
+        change = planted.motions[actor].state(times[last])[1] - planted.motions[actor].state(times[first])[1]
+        point[next(iter(rate.terms))[0]] = float(change / (times[last] - times[first]))
+    return point
+
+
+@pytest.mark.parametrize("seed", range(140))
+def test_planted_motions_satisfy_every_formula(seed: int) -> None:
+    planted = plant(seed)
+    scene = planted.scene()
+    events = Events(scene, limits_of(scene), planted.question().ego)
+    lowering = Lowering(events)
+    formulas = relaxation(events, lowering, lowering.lower(scene.program.constraints))
+    point = values_of(planted, events, lowering)
+    for unknown, value in zip(events.unknowns, point, strict=True):
+        assert float(unknown.low) - 1e-6 <= value <= float(unknown.high) + 1e-6, unknown
+    for each in formulas:
+        assert violation(each.formula, point) < 1e-5, (each.origin, planted.text)
+
+
+def test_what_is_false_of_the_motions_is_among_the_formulas_too() -> None:
+    """The property above could not fail if the formulas said nothing."""
+    planted = plant(0)
+    scene = planted.scene()
+    events, lowering = lowered(scene)
+    formulas = relaxation(events, lowering, lowering.lower(scene.program.constraints))
+    point = values_of(planted, events, lowering)
+    spoilt = 0
+    for number, unknown in enumerate(events.unknowns):
+        if unknown.kind in ("place", "speed", "time"):
+            moved = [*point[:number], point[number] + 40.0, *point[number + 1 :]]
+            spoilt += any(violation(each.formula, moved) > 1e-3 for each in formulas)
+    assert spoilt == sum(unknown.kind in ("place", "speed", "time") for unknown in events.unknowns)
+
+
+def test_contradictory_orders_of_moments_are_refuted_and_not_believed() -> None:
+    """90 m in half a second: what follows for the order of moments contradicts itself, and must not hide the laws."""
+    planted = plant(1)
+    head = planted.text[: planted.text.index("Constraints:")]
+    text = re.sub(r"\(\d+ / \d+\)", "1", head) + "Constraints:\nA0x(t0) == 50\nA0x(t1) == 140\nA0(t1) == 0.5 s\n"
+    scene = Planted(text, planted.motions, planted.knots).scene()
+    events, lowering = lowered(scene)
+    formulas = relaxation(events, lowering, lowering.lower(scene.program.constraints))
+    assert z3_engine.ask(events.unknowns, formulas, 5.0).kind == "refuted"
