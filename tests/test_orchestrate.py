@@ -99,13 +99,29 @@ def test_stages_are_reported_in_order_and_timed(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("until", "stages"), [("check", STAGES[:3]), ("plan", STAGES[:4])])
-def test_stops_where_it_is_asked_to(until: str, stages: list[str], tmp_path: Path) -> None:
+def test_stops_where_it_is_asked_to(until: str, stages: list[str]) -> None:
     began: list[str] = []
-    result = orchestrate(Request(SENTENCE, FINE, out=tmp_path / "run"), began.append, until=until)  # type: ignore[arg-type]
+    result = orchestrate(Request(SENTENCE, FINE), began.append, until=until)  # type: ignore[arg-type]
     assert (result.status, began) == ("success", stages)
     assert (result.attempt is not None) == (until == "plan")
     assert (result.run, result.run_directory) == (None, None)
+
+
+def test_nothing_is_written_of_a_plan(tmp_path: Path) -> None:
+    assert orchestrate(Request(SENTENCE, FINE, out=tmp_path / "run"), until="plan").status == "success"
     assert list((tmp_path / "run").iterdir()) == []
+
+
+def test_a_witness_is_judged_and_written_where_there_is_a_folder_for_it(tmp_path: Path) -> None:
+    began: list[str] = []
+    result = orchestrate(Request(SENTENCE, FINE, out=tmp_path / "run"), began.append, until="check")
+    assert (result.status, began) == ("success", [*STAGES[:3], "judge", "write"])
+    assert result.run_directory == tmp_path / "run"
+    assert result.verdict is not None
+    assert judge_run_directory(tmp_path / "run").holds_at(TIGHT)
+    manifest = json.loads((tmp_path / "run" / "manifest.json").read_text(encoding="utf-8"))
+    assert (manifest["mode"], manifest["ego"]["name"]) == ("witness", "none")
+    assert (tmp_path / "run" / "index.html").is_file()
 
 
 def test_every_status_has_its_exit_status() -> None:

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 
     from scenewright.judge.case import Case
     from scenewright.judge.verdict import Condition, Verdict
+    from scenewright.solve.proofs.witness import Witness
     from scenewright.trace.model import Trace
     from scenewright.translate.translation import Translation
 
@@ -139,7 +140,8 @@ def orchestrate(
     progress
         Called with the simulated time (s) as the run goes on.
     until
-        The last stage to carry out. After ``check`` or ``plan`` the status is ``success`` where that stage succeeded.
+        The last stage to carry out. After ``check`` or ``plan`` the status is ``success`` where that stage succeeded;
+        after ``check`` the witness is judged and written where there is a folder for it.
     backend
         The solver; z3 by default. One that wraps it can watch what is asked.
 
@@ -154,6 +156,8 @@ def orchestrate(
         return result
     if until == "check":
         result.status = "success" if answer == "feasible" else "gave up"
+        if request.out is not None and result.feasibility is not None and result.feasibility.witness is not None:
+            _write_witness(request.out, request, result, world, result.feasibility.witness, stages)
         return result
     with stages("plan"):
         planned = first_plan(world, world.predictor)
@@ -178,6 +182,21 @@ def begin(request: Request, stages: Stages, backend: Backend | None = None) -> t
         feasibility = world.choose_and_check()
     result = Result("infeasible", world.scene, translation, feasibility, timings_s=stages.seconds)
     return world, result, feasibility.answer
+
+
+def _write_witness(
+    directory: Path, request: Request, result: Result, world: World, witness: Witness, stages: Stages
+) -> None:
+    """Write the motion that shows that it can happen as a run, judged as any run is."""
+    from scenewright.judge.judgement import judge
+    from scenewright.simulate.witnessed import run_of_witness
+
+    result.run = run_of_witness(world.scene, world.limits, witness)
+    with stages("judge"):
+        result.verdict = judge(case_of(world.scene, result.run, world.limits))
+    with stages("write"):
+        write_result(directory, request, result, world, stages.seconds)
+    result.run_directory = directory
 
 
 def _drive(
@@ -280,7 +299,7 @@ def judge_run(request: Request, result: Result, world: World, stages: Stages, hi
         result.status = "interrupted" if run.status == "interrupted" else "failed"
     elif hindsight and not holds:
         with stages("hindsight"):
-            result.hindsight = ego_left_no_room(world.scene, world.structure, world.limits, world.backend, run.trace)
+            result.hindsight = ego_left_no_room(world.scene, world.structure, world.limits, run.trace)
         if result.hindsight is not None:
             run.findings.append(
                 "The ego left no room: against the way it drove no vehicle within its limits could have met all "
@@ -307,14 +326,15 @@ def write_result(
     assert result.run is not None
     assert result.verdict is not None
     given = frozenset(request.parameters)
+    driven = bool(result.attempt)  # a witness is nobody's driving
     circumstances = Circumstances(
-        world.policy.name,
-        world.policy.options,
-        request.mode,
+        world.policy.name if driven else "none",
+        world.policy.options if driven else {},
+        request.mode if driven else "witness",
         request.tolerance,
         request.seed,
         request.translator if result.translation else "none",
-        world.rates,
+        world.rates if driven else Rates(replan_s=None),
         frozenset(p.name for p in world.scene.program.parameters if p.name not in given and p.value is None),
         given,
         timings_s,

@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from scenewright import __version__
-from scenewright.cli import bench, faults, listing, looking, reading, running
+from scenewright.cli import bench, checking, faults, listing, looking, reading, running
 
 SENTENCE = (
     "The ego drives westbound. An oncoming hero turns left into the driveway. When the ego is 25 m before the "
@@ -73,7 +73,13 @@ app.command(
     epilog=_examples(_TRANSLATE, "scenewright translate first.scene --json", "scenewright translate --show-prompt")
     + _BY_A_MODEL
 )(reading.translate)
-app.command(epilog=_examples(_TRANSLATE, "scenewright check first.scene --ego constant:speed_mps=12"))(reading.check)
+app.command(
+    epilog=_examples(
+        _TRANSLATE,
+        "scenewright check first.scene --ego constant:speed_mps=12",
+        "scenewright check first.scene --out witness",
+    )
+)(checking.check)
 app.command(epilog=_examples(_TRANSLATE, "scenewright solve first.scene --out plan.json"))(reading.solve)
 app.command(epilog=_examples(_TRANSLATE, _RUN, "scenewright judge runs/first --tolerance loose"))(looking.judge)
 app.command(epilog=_examples("scenewright maps", "scenewright maps t_intersection"))(listing.maps)

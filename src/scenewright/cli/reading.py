@@ -1,6 +1,6 @@
-"""`translate`, `check` and `solve`: what a description means, whether it can happen, and how, without driving.
+"""`translate` and `solve`: what a description means, and how it could be made to happen, without driving.
 
-What enters: the options of a command. What leaves: a program, an answer or a plan, for people or as JSON.
+What enters: the options of a command. What leaves: a program or a plan, for people or as JSON.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import typer
 from scenewright.cli.console import print_json, stderr, stdout
 from scenewright.cli.faults import told
 from scenewright.cli.options import SOURCE, AsJson, MapName, Translator
-from scenewright.cli.running import carry_out, result_data, tell_map_notes, tell_no_plan
+from scenewright.cli.running import carry_out, data_without_a_run, tell_map_notes, tell_no_plan
 from scenewright.cli.translators import Asked, impossibility, with_asked, with_translator
 from scenewright.errors import InputError, OutputError, Place, ScenewrightError
 from scenewright.translate.model.settings import TranslatorSettings
@@ -26,7 +26,6 @@ from scenewright.translate.model.settings import TranslatorSettings
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from scenewright.orchestrate import Request, Result
     from scenewright.program.types import Program
     from scenewright.translate.translation import Translation
 
@@ -161,30 +160,6 @@ def _tell_translation(console: Console, sentences: tuple[str, ...], translation:
 
 
 @with_asked
-def check(asked: Asked, as_json: AsJson = False) -> None:
-    """Say whether a scenario can happen at all, and if not, what clashes and what would help."""
-    with told(as_json):
-        from scenewright.cli import tables
-        from scenewright.orchestrate import EXIT_STATUS
-
-        request = asked.request()
-        result = carry_out(request, until="check", quiet=as_json)
-        status = EXIT_STATUS[result.status]
-        if as_json:
-            print_json(_without_a_run(request, result, status))
-        else:
-            stdout().print(tables.understood(result.scene))
-            rows = tables.parameters(result.scene, request.parameters)
-            if rows:
-                stdout().print(tables.facts(rows))
-            if result.status == "success":
-                stdout().print("\nNothing speaks against it: no limit of motion or of the map rules it out.")
-            tell_no_plan(stdout(), result)
-            tell_map_notes(stdout(), result)
-        raise typer.Exit(status)
-
-
-@with_asked
 def solve(asked: Asked, out: PlanFile = None, as_json: AsJson = False) -> None:
     """Plan the scenario for an ego that keeps its speed, and print the plan; nothing is driven."""
     with told(as_json):
@@ -199,7 +174,7 @@ def solve(asked: Asked, out: PlanFile = None, as_json: AsJson = False) -> None:
         if out is not None and data is not None:
             _write(out, json.dumps(data, indent=2, allow_nan=False) + "\n")
         if as_json:
-            print_json({**_without_a_run(request, result, status), "plan": data})
+            print_json({**data_without_a_run(request, result, status), "plan": data})
         elif plan is not None:
             rows = tables.parameters(result.scene, request.parameters)
             stdout().print(tables.facts([*rows, ("manner", plan.manner)]))
@@ -208,12 +183,6 @@ def solve(asked: Asked, out: PlanFile = None, as_json: AsJson = False) -> None:
             tell_no_plan(stderr(), result)
             tell_map_notes(stderr(), result)
         raise typer.Exit(status)
-
-
-def _without_a_run(request: Request, result: Result, status: int) -> dict[str, object]:
-    """Return what came of a request that was not to be driven."""
-    of_runs = ("run_directory", "page", "tolerance", "verdict", "findings")
-    return {key: value for key, value in result_data(request, result, status).items() if key not in of_runs}
 
 
 def _write(path: Path, text: str) -> None:

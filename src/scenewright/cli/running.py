@@ -209,6 +209,12 @@ def result_data(request: Request, result: Result, status: int) -> dict[str, obje
     }
 
 
+def data_without_a_run(request: Request, result: Result, status: int) -> dict[str, object]:
+    """Return what came of a request that was not to be driven."""
+    of_runs = ("run_directory", "page", "tolerance", "verdict", "findings")
+    return {key: value for key, value in result_data(request, result, status).items() if key not in of_runs}
+
+
 def tell_no_plan(console: Console, result: Result) -> None:
     """Say why nothing was driven: a proof that it cannot happen, or what was tried in vain."""
     if result.status == "infeasible" and result.feasibility is not None:

@@ -1,0 +1,75 @@
+"""Turns a witness into a run: judged, written and looked at like one that was driven.
+
+What enters: a scene and the motion of everybody that shows that it can happen. What leaves: a `Run`; nobody's policy
+took part in it, and nothing was solved again.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from scenewright.motion.profile import Profile, Segment
+from scenewright.roads.grounding import Scene
+from scenewright.roads.routes import Route
+from scenewright.simulate.loop import DEFAULT_STEP_S, Run
+from scenewright.solve.limits import Limits
+from scenewright.solve.plan import Plan
+from scenewright.solve.proofs.witness import Witness
+from scenewright.trace.model import ActorTrace, FloatArray, Trace
+
+_AFTERWARDS_S = 2.0  # what follows the last moment that matters, to be looked at
+_ON_STEP_S, _ON_STEP_M, _ON_BRAKE_MPSS = 0.1, 0.5, 3.0
+
+
+def run_of_witness(scene: Scene, limits: Mapping[int, Limits], witness: Witness) -> Run:
+    """Return a run in which everybody, the ego too, moves as in `witness`, until a little after its last moment."""
+    until_s = max(witness.end_s + _AFTERWARDS_S, 2 * DEFAULT_STEP_S)
+    profiles = dict(witness.profiles)
+    for hero in scene.program.heroes:
+        profiles[hero.id] = _driven_on(scene.routes[hero.id], profiles[hero.id], limits[hero.id], until_s)
+    ends_s = [_end_s(scene.routes[actor], profile) for actor, profile in profiles.items()]
+    ends_s += [profiles[hero.id].end_s for hero in scene.program.heroes]
+    until_s = max(min(until_s, *ends_s), witness.end_s)
+    time_s = DEFAULT_STEP_S * np.arange(int(np.ceil(until_s / DEFAULT_STEP_S - 1e-9)) + 1, dtype=np.float64)
+    actors = {actor.name: _trace(scene.routes[actor.id], profiles[actor.id], time_s) for actor in scene.program.actors}
+    plan = Plan(profiles, manner="a witness", parameters=witness.parameters)
+    knots_s = dict(witness.profiles[scene.program.ego.id].knot_times_s)
+    return Run(Trace(actors), plan, plan, [], "finished", ego_knots_s=knots_s)
+
+
+def _driven_on(route: Route, profile: Profile, limits: Limits, until_s: float) -> Profile:
+    """Return a profile that goes on after its last moment at the speed that it has, or slower where the road bends.
+
+    It ends where that would take more than it can.
+    """
+    last, end_m = profile.segments[-1], route.path.length_m
+    places = np.arange(last.end_s_m, max(end_m, last.end_s_m + 1.0), _ON_STEP_M)
+    bends = np.array([abs(route.path.curvature(float(s))) for s in np.minimum(places, end_m)])
+    squared = 0.98 * limits.lateral_max_mpss / np.maximum(bends, 1e-6)
+    braking = 2.0 * _ON_BRAKE_MPSS * places
+    squared = np.minimum.accumulate((squared + braking)[::-1])[::-1] - braking  # what can be braked down from in time
+    segments, now, place, speed = list(profile.segments), profile.end_s, last.end_s_m, last.end_speed_mps
+    while now < until_s:
+        admitted = math.sqrt(float(np.interp(place + speed * _ON_STEP_S, places, squared)))
+        rate = max(min(0.0, (admitted - speed) / _ON_STEP_S), -speed / _ON_STEP_S)
+        if rate < -limits.brake_max_mpss:
+            break
+        segments.append(Segment(now, _ON_STEP_S, place, speed, rate, segments[-1].piece))
+        now, place = now + _ON_STEP_S, place + (speed + 0.5 * rate * _ON_STEP_S) * _ON_STEP_S
+        speed += rate * _ON_STEP_S
+    return Profile(tuple(segments), profile.knot_times_s)
+
+
+def _end_s(route: Route, profile: Profile) -> float:
+    """Return when a route has been driven to its end; for ever where that is not to happen."""
+    found = profile.time_at(route.landmarks["route_end"])
+    return np.inf if found is None else found
+
+
+def _trace(route: Route, profile: Profile, time_s: FloatArray) -> ActorTrace:
+    s_m, speed_mps, accel_mpss = np.array([profile.state(float(t)) for t in time_s]).T.copy()
+    x_m, y_m, heading_rad = route.path.poses(s_m).T[:3].copy()
+    return ActorTrace(time_s, x_m, y_m, heading_rad, speed_mps, accel_mpss, s_m, np.zeros(len(time_s)))

@@ -1,0 +1,58 @@
+"""`check`: one answer for each source, the worst one's exit status, witnesses to look at."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from sentences import IMPOSSIBLE, SENTENCE
+
+Command = Callable[..., Any]
+
+
+def test_one_line_for_each(command: Command, folder: Path) -> None:
+    Path("good.txt").write_text(SENTENCE, encoding="utf-8")
+    Path("bad.txt").write_text(IMPOSSIBLE, encoding="utf-8")
+    result = command("check", "good.txt", "bad.txt")
+    assert result.exit_code == 3
+    good, bad = result.stdout.strip().splitlines()
+    assert good.split() == ["feasible", "good.txt"]
+    assert bad.startswith("infeasible  bad.txt  c")
+    assert command("check", "good.txt", "good.txt").exit_code == 0
+
+
+def test_a_wrong_file_does_not_keep_the_others_from_their_turn(command: Command, folder: Path) -> None:
+    Path("good.txt").write_text(SENTENCE, encoding="utf-8")
+    result = command("check", "nowhere.scene", "good.txt")
+    assert result.exit_code == 2
+    assert "feasible    good.txt" in result.stdout
+    assert "nowhere.scene" in result.stderr
+    data = json.loads(command("check", "nowhere.scene", "good.txt", "--json").stdout)
+    assert data["exit_status"] == 2
+    assert [each["source"] for each in data["checks"]] == ["nowhere.scene", "good.txt"]
+    assert data["checks"][0]["error"]["message"]
+    assert data["checks"][1]["feasibility"]["answer"] == "feasible"
+
+
+def test_a_witness_is_a_run_directory(command: Command, folder: Path) -> None:
+    result = command("check", SENTENCE, "--out", "witness")
+    assert result.exit_code == 0
+    assert "witness/index.html" in result.stdout
+    assert command("judge", "witness").exit_code == 0
+    data = json.loads(command("check", SENTENCE, "--out", "again", "--json").stdout)
+    assert data["verdict"]["success"]["tight"]
+    assert Path(data["run_directory"], "trace.parquet").is_file()
+
+
+def test_what_cannot_happen_has_no_witness(command: Command, folder: Path) -> None:
+    assert command("check", IMPOSSIBLE, "--out", "witness").exit_code == 3
+    assert list(folder.iterdir()) == []
+
+
+def test_each_witness_has_a_folder(command: Command, folder: Path) -> None:
+    Path("good.txt").write_text(SENTENCE, encoding="utf-8")
+    Path("bad.txt").write_text(IMPOSSIBLE, encoding="utf-8")
+    assert command("check", "good.txt", "bad.txt", "good.txt", "--out", "witnesses").exit_code == 3
+    assert sorted(path.name for path in Path("witnesses").iterdir()) == ["001-good", "002-good"]

@@ -1,0 +1,30 @@
+"""A witness as a run: everybody moves as it says, and the judge, who knows nothing of it, calls it a success."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from scenarios import FEASIBLE, Example, limits_of
+from scenewright.judge.judgement import judge
+from scenewright.judge.tolerance import TIGHT
+from scenewright.orchestrate import case_of
+from scenewright.program.structure import read_structure
+from scenewright.simulate.witnessed import run_of_witness
+from scenewright.solve.feasibility import check_feasibility
+
+
+@pytest.mark.parametrize("case", FEASIBLE, ids=lambda case: case.name)
+def test_moves_as_the_witness_says(case: Example) -> None:
+    scene = case.scene()
+    limits = limits_of(scene)
+    witness = check_feasibility(scene, read_structure(scene.program), limits).witness
+    assert witness is not None
+    run = run_of_witness(scene, limits, witness)
+    for actor in scene.program.actors:
+        trace, profile = run.trace.actors[actor.name], witness.profiles[actor.id]
+        middle = (trace.time_s[:-1] + trace.time_s[1:]) / 2
+        told = [profile.state(float(t))[0] for t in middle]
+        assert np.allclose([trace.position(float(t)) for t in middle], told, atol=5e-3)
+        assert run.trace.duration_s >= max(profile.knot_times_s.values()) - 1e-9
+    assert judge(case_of(scene, run, limits)).holds_at(TIGHT)
