@@ -26,13 +26,14 @@ from scenarios import (
 )
 from scenewright.motion.profile import Profile, chain
 from scenewright.program.evaluate import violation
+from scenewright.program.printer import print_expression
 from scenewright.program.structure import knots_of
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.backends.z3_backend import Z3Backend
 from scenewright.solve.limits import ACCEL_MAX_MPSS, COUNTER, STANDSTILL_MIN_S, Limits
 from scenewright.solve.plan import Plan, PlanWorld
-from scenewright.solve.planner import Planner
+from scenewright.solve.planner import Planner, check_profiles
 from scenewright.solve.reach import Prospects
 from scenewright.solve.situation import HeroState, Situation
 
@@ -275,3 +276,30 @@ def test_one_that_is_pressed_stands_no_longer_than_can_be_seen() -> None:
         stands_s[pressed], passes_s[pressed] = knots_s["t3"] - stands_since_s, knots_s["t4"]
     assert stands_s[True] < STANDSTILL_MIN_S + 0.05 < stands_s[False]
     assert passes_s[True] < passes_s[False] - 0.2
+
+
+def test_a_sliver_of_time_that_rounding_leaves_is_no_part_of_a_piece() -> None:
+    scene = BRAKES.scene()
+    rate = next(c for c in scene.program.constraints if "A1a(dec)" in print_expression(c.formula))
+
+    def braking(rest_s: float) -> Profile:
+        moves = [(2.0, 0.0, 0), (2.0, -3.0, 1), (rest_s, 0.0, 1)]
+        return Profile(chain(0.0, 100.0, 6.0, moves), {"t0": 0.0, "t1": 2.0, "t2": 4.0 + rest_s})
+
+    parameters = {name: float(value) for name, value in scene.parameters.items()}
+    ego = ego_at(8.0, 60.0, 0.0)
+    assert check_profiles(scene, {0: ego, 1: braking(7.6e-6)}, parameters, [rate], 0.0) is None
+    assert check_profiles(scene, {0: ego, 1: braking(0.5)}, parameters, [rate], 0.0) is not None
+
+
+@pytest.mark.parametrize(
+    ("asked", "can_be"),
+    [("always[1, 2] (A1v <= 9)", True), ("eventually[1, 3] (A1v <= 6)", True), ("A1v(2.0) == 40", False)],
+)
+def test_a_first_plan_breaks_nothing_that_is_asked_of_heroes_alone(asked: str, can_be: bool) -> None:
+    scene = replace(YIELDS, text=YIELDS.text + asked + "\n").scene()
+    attempt = planner_of(scene).first_plan([situation_of(scene, 8.0, 7.0)], budget_s=20.0)
+    assert (attempt.plan is not None) is can_be, attempt.reason
+    if attempt.plan is not None:
+        world = PlanWorld(scene, attempt.plan.profiles, attempt.plan.parameters)
+        assert violation(scene.program.constraints[-1].formula, world) <= 1e-3

@@ -15,7 +15,8 @@ from scenewright.program import expressions as ex
 
 _TEMPORAL_STEP_S = 0.02
 _MOST_INSTANTS = 20_000  # of an interval; a longer one is looked at more coarsely
-_EDGE_S = 1e-7
+# Speeds are looked at right at the ends of a stretch; rates a hair inside, where no rounded duration leaves a sliver.
+_EDGE_S, _EDGE_OF_RATES_S = 1e-7, 1e-4
 _SAME = 1e-6  # what is nearer than this (SI) is the same
 
 
@@ -99,7 +100,7 @@ def violation(formula: ex.Formula, world: World, now_s: float | None = None, den
             lasting = (operator != "eventually") != denied
             if last < max(0.0, first):
                 return -math.inf if lasting else math.inf  # nothing is asked of no time, and nothing happens in it
-            instants = _instants(max(0.0, first), last, world)
+            instants = _instants(max(0.0, first), last, world, body)
             values = [violation(body, world, time_s, (operator == "never") != denied) for time_s in instants]
             return max(values) if lasting else min(values)
         case _:
@@ -114,7 +115,7 @@ def moments_of_worst(formula: ex.Formula, world: World, least: float = 1e-3) -> 
             continue
         first, last = term_value(node.start, world), term_value(node.end, world)
         if math.isfinite(first) and math.isfinite(last) and last >= max(0.0, first):
-            instants = _instants(max(0.0, first), last, world)
+            instants = _instants(max(0.0, first), last, world, node.body)
             values = [violation(node.body, world, time_s, node.operator == "never") for time_s in instants]
             worst = max(range(len(values)), key=values.__getitem__)
             if values[worst] > least:
@@ -144,7 +145,7 @@ def _throughout(formula: ex.Compare, state: ex.State, world: World, denied: bool
     if not (math.isfinite(first) and math.isfinite(last)):
         return math.inf
     bare = _with_state(formula, state, replace(state, at=None))
-    values = [_compared(bare, world, time_s, denied) for time_s in _instants(first, last, world)]
+    values = [_compared(bare, world, time_s, denied) for time_s in _instants(first, last, world, bare)]
     return min(values) if denied else max(values)
 
 
@@ -163,15 +164,17 @@ def _with_state(compare: ex.Compare, state: ex.State, other: ex.State) -> ex.Com
     return replace(compare, left=change(compare.left), right=change(compare.right))
 
 
-def _instants(first_s: float, last_s: float, world: World) -> list[float]:
+def _instants(first_s: float, last_s: float, world: World, body: ex.Formula) -> list[float]:
     """Return the instants at which a condition over ``[first_s, last_s]`` is looked at.
 
     A hair inside: at its very ends an interval between two knots touches the pieces before and after it, whose
     acceleration is another.
     """
-    if last_s <= first_s + 2 * _EDGE_S:
+    of_rates = any(isinstance(node, ex.State) and node.order == 2 for node in ex.walk(body))
+    edge_s = _EDGE_OF_RATES_S if of_rates else _EDGE_S
+    if last_s <= first_s + 2 * edge_s:
         return [first_s]
-    begin, end = first_s + _EDGE_S, last_s - _EDGE_S
+    begin, end = first_s + edge_s, last_s - edge_s
     count = min(max(2, math.ceil((end - begin) / _TEMPORAL_STEP_S) + 1), _MOST_INSTANTS)
     found = [begin + (end - begin) * i / (count - 1) for i in range(count)]
     return found + [time_s for time_s in world.changes_s() if begin < time_s < end]

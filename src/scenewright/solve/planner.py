@@ -18,7 +18,7 @@ from scenewright.motion.polynomial import bernstein_coefficients
 from scenewright.motion.profile import Profile
 from scenewright.program.evaluate import violation
 from scenewright.program.expressions import Compare
-from scenewright.program.structure import Role, Structure
+from scenewright.program.structure import Role, Structure, actors_of
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition, hero_side
@@ -302,7 +302,20 @@ class Planner:
         fault = fault or check_profiles(self.scene, profiles, parameters, built.asserted, float(tolerance))
         if fault is not None:
             return f"the model fails its check: {fault}"
+        if situation.time_s == 0.0 and (fault := self._left_out(profiles, parameters, built.asserted, tolerance)):
+            return f"no plan is made for it: {fault}"
         return Plan(profiles, float(tolerance), manner.name, parameters)
+
+    def _left_out(
+        self,
+        profiles: Mapping[int, Profile],
+        parameters: Mapping[str, float],
+        asserted: Sequence[Constraint],
+        tolerance: Fraction,
+    ) -> str | None:
+        """Return what a first plan breaks of that which was asked of heroes alone, and no problem could hold."""
+        heroes = [c for c in self.scene.program.constraints if c not in asserted and EGO not in actors_of(c.formula)]
+        return check_profiles(self.scene, profiles, parameters, heroes, float(tolerance))
 
 
 def broken_limit(profile: Profile, limits: Limits, after_s: float = -math.inf) -> str | None:
