@@ -219,6 +219,8 @@ def tell_no_plan(console: Console, result: Result) -> None:
     """Say why nothing was driven: a proof that it cannot happen, or what was tried in vain."""
     if result.status == "infeasible" and result.feasibility is not None:
         console.print(result.feasibility.explain(), soft_wrap=True)
+    elif result.status == "gave up" and result.attempt is None:
+        console.print(f"Undecided: {tried(result)}", soft_wrap=True)
     elif result.status == "gave up":
         console.print(f"gave up: {tried(result)}", soft_wrap=True)
         console.print("Neither a plan nor a proof that there is none was found; more of --budget-ms may help.")
@@ -237,7 +239,7 @@ def tried(result: Result) -> str | None:
     if result.attempt is not None:
         attempt = result.attempt
         return f"{attempt.tries} ways to move in {attempt.wall_s:.1f} s; the last: {attempt.reason or attempt.status}"
-    return f"the solver could not tell ({result.feasibility.reason if result.feasibility else 'unknown'})"
+    return result.feasibility.reason if result.feasibility is not None else None
 
 
 def report_run(console: Console, request: Request, result: Result) -> None:
