@@ -52,7 +52,7 @@ def test_another_speed_or_place_is_left_to_the_base(s_m: float, speed: float) ->
 def test_a_later_take_succeeds_where_the_first_missed_and_is_named(tmp_path: Path) -> None:
     # To stop 39 m behind its trigger the hero has to be fast there, whenever the ego chooses to stop crawling.
     text = STALLS.replace("22 m behind", "45 m behind").replace("14 m behind", "17.5 m behind")
-    for seed in range(60):
+    for seed in (11, *range(60)):  # the first is known to do
         first = orchestrate(Request(text, ego="stop-and-go", seed=seed, takes=1))
         if first.status == "failure":
             again = orchestrate(Request(text, ego="stop-and-go", seed=seed, takes=3, out=tmp_path / "run"))
