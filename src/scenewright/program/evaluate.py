@@ -81,7 +81,7 @@ def violation(formula: ex.Formula, world: World, now_s: float | None = None, den
     """
     match formula:
         case ex.Compare():
-            piece = _whole_piece(formula)
+            piece = ex.piece_of(formula)
             if piece is not None:
                 return _throughout(formula, piece, world, denied)
             return _compared(formula, world, now_s, denied)
@@ -134,34 +134,14 @@ def _compared(formula: ex.Compare, world: World, now_s: float | None, denied: bo
             return apart if denied else -apart
 
 
-def _whole_piece(formula: ex.Compare) -> ex.State | None:
-    """Return the state of a whole piece that a comparison speaks of, or None."""
-    return next((n for n in ex.walk(formula) if isinstance(n, ex.State) and isinstance(n.at, ex.PieceRef)), None)
-
-
 def _throughout(formula: ex.Compare, state: ex.State, world: World, denied: bool) -> float:
     assert isinstance(state.at, ex.PieceRef)
     first, last = world.piece_span_s(state.actor, state.at.name)
     if not (math.isfinite(first) and math.isfinite(last)):
         return math.inf
-    bare = _with_state(formula, state, replace(state, at=None))
+    bare = ex.with_state(formula, state, replace(state, at=None))
     values = [_compared(bare, world, time_s, denied) for time_s in _instants(first, last, world, bare)]
     return min(values) if denied else max(values)
-
-
-def _with_state(compare: ex.Compare, state: ex.State, other: ex.State) -> ex.Compare:
-    def change(term: ex.Term) -> ex.Term:
-        match term:
-            case ex.State() if term == state:
-                return other
-            case ex.Arithmetic():
-                return replace(term, left=change(term.left), right=change(term.right))
-            case ex.Negate():
-                return replace(term, operand=change(term.operand))
-            case _:
-                return term
-
-    return replace(compare, left=change(compare.left), right=change(compare.right))
 
 
 def _instants(first_s: float, last_s: float, world: World, body: ex.Formula) -> list[float]:

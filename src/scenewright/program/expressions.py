@@ -7,7 +7,7 @@ Nodes hold no behaviour; parsing, printing, checking, lowering and evaluating li
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Literal
 
@@ -222,3 +222,27 @@ def node_ids(root_id: str, node: Node) -> Iterator[tuple[str, Node]]:
     yield root_id, node
     for index, child in enumerate(children(node)):
         yield from node_ids(f"{root_id}.{index}", child)
+
+
+def piece_of(formula: Formula) -> State | None:
+    """Return the state in a comparison that is asked of a whole piece."""
+    if not isinstance(formula, Compare):
+        return None
+    return next((n for n in walk(formula) if isinstance(n, State) and isinstance(n.at, PieceRef)), None)
+
+
+def with_state(formula: Compare, node: State, other: State) -> Compare:
+    """Return a comparison in which one state is exchanged for another."""
+
+    def change(term: Term) -> Term:
+        match term:
+            case State() if term == node:
+                return other
+            case Arithmetic():
+                return replace(term, left=change(term.left), right=change(term.right))
+            case Negate():
+                return replace(term, operand=change(term.operand))
+            case _:
+                return term
+
+    return replace(formula, left=change(formula.left), right=change(formula.right))

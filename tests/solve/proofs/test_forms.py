@@ -6,7 +6,7 @@ import pytest
 
 from scenewright.program import expressions as ex
 from scenewright.program.text import parse_program
-from scenewright.solve.proofs.forms import bare_rate, conjuncts, free_actors, kept, piece_of, with_state
+from scenewright.solve.proofs.forms import bare_rate, conjuncts, free_actors, kept
 
 HEAD = "Actor 0 (ego):\n- W\n- [t0, go, t1, go, t2]\n\nActor 1 (hero):\n- W\n- [t0, go, t1, dec, t2]\n\nConstraints:\n"
 
@@ -59,11 +59,11 @@ def test_rates() -> None:
 
 def test_the_state_of_a_piece_can_be_exchanged() -> None:
     compared = formula("3 - A1a(dec) * 2 >= 1")
-    node = piece_of(compared)
+    node = ex.piece_of(compared)
     assert isinstance(compared, ex.Compare)
     assert node is not None
     other = ex.State(1, 1, ex.Knot("t1"))
-    changed = with_state(compared, node, other)
-    assert piece_of(changed) is None
+    changed = ex.with_state(compared, node, other)
+    assert ex.piece_of(changed) is None
     assert other in list(ex.walk(changed))
-    assert piece_of(formula("A1a(t1) <= 3")) is None
+    assert ex.piece_of(formula("A1a(t1) <= 3")) is None

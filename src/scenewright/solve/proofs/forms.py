@@ -6,16 +6,8 @@ What enters: formulas of a program. What leaves: their parts. It knows no scene 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 from scenewright.program import expressions as ex
-
-
-def piece_of(formula: ex.Formula) -> ex.State | None:
-    """Return the state in a comparison that is asked of a whole piece."""
-    if not isinstance(formula, ex.Compare):
-        return None
-    return next((n for n in ex.walk(formula) if isinstance(n, ex.State) and isinstance(n.at, ex.PieceRef)), None)
 
 
 def bare_rate(body: ex.Formula) -> ex.State | None:
@@ -65,20 +57,3 @@ def actors_at(node: ex.State | ex.Derived) -> tuple[int, ...]:
     if isinstance(node, ex.Derived) and isinstance(node.target, int):
         return node.actor, node.target
     return (node.actor,)
-
-
-def with_state(formula: ex.Compare, node: ex.State, other: ex.State) -> ex.Compare:
-    """Return a comparison in which one state is exchanged for another."""
-
-    def change(term: ex.Term) -> ex.Term:
-        match term:
-            case ex.State() if term == node:
-                return other
-            case ex.Arithmetic():
-                return replace(term, left=change(term.left), right=change(term.right))
-            case ex.Negate():
-                return replace(term, operand=change(term.operand))
-            case _:
-                return term
-
-    return replace(formula, left=change(formula.left), right=change(formula.right))

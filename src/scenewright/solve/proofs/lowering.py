@@ -20,8 +20,6 @@ from scenewright.solve.proofs.forms import (
     conjuncts,
     free_actors,
     kept,
-    piece_of,
-    with_state,
 )
 from scenewright.solve.proofs.narrowing import Narrowing, narrowings_of
 from scenewright.solve.proofs.polynomials import (
@@ -169,13 +167,13 @@ class Lowering:
                 return every([self._not(operand, now) for operand in operands])
             case ex.Logic(operator="implies", operands=(left, right)):
                 return every([self.formula(left, now), self._not(right, now)])
-            case _ if piece_of(formula) is not None:
+            case _ if ex.piece_of(formula) is not None:
                 return self._throughout(formula, now, sometime=True)  # type: ignore[arg-type]
             case _:
                 return negated(self.formula(formula, now))
 
     def _compare(self, formula: ex.Compare, now: int | None) -> Formula:
-        if piece_of(formula) is not None:
+        if ex.piece_of(formula) is not None:
             return self._throughout(formula, now, sometime=False)
         parts = []
         for left in self.term(formula.left, now):
@@ -311,12 +309,12 @@ class Lowering:
     # -- stretches of time --------------------------------------------------------------------------------------------
     def _throughout(self, formula: ex.Compare, now: int | None, *, sometime: bool) -> Formula:
         """Return a comparison that is about a place or a speed all through a piece."""
-        node = piece_of(formula)
+        node = ex.piece_of(formula)
         assert node is not None
         if node.order == 2:
             return negated(self._rate_of_piece(formula)) if sometime else self._rate_of_piece(formula)
         assert isinstance(node.at, ex.PieceRef)
-        body = with_state(formula, node, replace(node, at=None))
+        body = ex.with_state(formula, node, replace(node, at=None))
         first, last = self.piece_ends(node.actor, node.at.name)
         if sometime:
             return self._eventually(first, last, ex.Logic("not", (body,)), "piece")

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from scenewright.motion.laws import ANY, Law
 from scenewright.program import expressions as ex
-from scenewright.solve.proofs.forms import conjuncts, kept, piece_of, with_state
+from scenewright.solve.proofs.forms import conjuncts, kept
 
 if TYPE_CHECKING:
     from scenewright.solve.proofs.lowering import Lowering
@@ -72,11 +72,11 @@ def narrowings_of(lowering: Lowering, formula: ex.Formula) -> Iterator[Narrowing
         case ex.Temporal(operator="always" | "never", body=body):
             if law := _law_of(lowering, body, negative=formula.operator == "never"):
                 yield Narrowing(law[0], *lowering.stretch_of(formula), law[1], law[1])
-        case ex.Compare() if (node := piece_of(formula)) is not None and isinstance(node.at, ex.PieceRef):
+        case ex.Compare() if (node := ex.piece_of(formula)) is not None and isinstance(node.at, ex.PieceRef):
             ends = lowering.piece_ends(node.actor, node.at.name)
             if node.order == 2 and formula.operator == "==":  # a rate that is one number is one all through
                 yield Narrowing(node.actor, *ends, ANY, even=True)
-            if law := _law_of(lowering, with_state(formula, node, replace(node, at=None)), negative=False):
+            if law := _law_of(lowering, ex.with_state(formula, node, replace(node, at=None)), negative=False):
                 yield Narrowing(law[0], *ends, law[1], proven=None if node.order == 2 else law[1])
 
 
