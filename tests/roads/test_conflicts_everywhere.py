@@ -8,11 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from numpy.typing import NDArray
 
 from scenewright.errors import MapError
 from scenewright.roads import RoadMap, Route, all_routes, find_conflict, load_map
 from scenewright.roads.bodies import CAR, Body
 from scenewright.roads.conflicts import Conflict, conflicts, shared_stretches
+from scenewright.roads.polyline import FloatArray
 
 from .conftest import FOREIGN, any_map
 
@@ -80,7 +82,7 @@ def test_from_the_other_route_they_are_the_same_in_the_same_order(every_map: Roa
         assert ways == sorted(ways)
 
 
-def bodies_at(route: Route, s_m: np.ndarray, body: Body) -> np.ndarray:  # type: ignore[type-arg]
+def bodies_at(route: Route, s_m: FloatArray, body: Body) -> NDArray[np.object_]:
     x, y, heading = route.path.poses(s_m).T
     along, across = (0.5 * body.length_m * np.array([1, 1, -1, -1]), 0.5 * body.width_m * np.array([1, -1, -1, 1]))
     cos, sin = np.cos(heading)[:, None], np.sin(heading)[:, None]
@@ -88,7 +90,7 @@ def bodies_at(route: Route, s_m: np.ndarray, body: Body) -> np.ndarray:  # type:
     return shapely.polygons(corners)
 
 
-def touched(route: Route, s_m: np.ndarray, body: Body, others: np.ndarray) -> np.ndarray:  # type: ignore[type-arg]
+def touched(route: Route, s_m: FloatArray, body: Body, others: NDArray[np.object_]) -> NDArray[np.bool_]:
     return shapely.intersects(bodies_at(route, s_m, body)[:, None], others[None, :]).any(axis=1)
 
 

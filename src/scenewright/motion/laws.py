@@ -8,7 +8,7 @@ no map; jerk is no part of a law.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -170,9 +170,3 @@ def holds(conditions: Reach, slack: float = 0.0) -> bool:
         and all(abs(row) <= slack for row in conditions.equal)
         and all(min(pair) <= slack for pair in conditions.choices)
     )
-
-
-def mapped(conditions: Reach, change: Callable[[Number], Number]) -> Iterator[Number]:
-    """Yield `change` of every expression in `conditions`."""
-    for row in (*conditions.rows, *conditions.equal, *(each for pair in conditions.choices for each in pair)):
-        yield change(row)

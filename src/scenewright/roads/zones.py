@@ -103,19 +103,18 @@ def boxes_touch(poses_a: FloatArray, poses_b: FloatArray, body_a: Body, body_b: 
         near = dx * dx + dy * dy <= reach_m**2
         rows, columns = np.flatnonzero(near.any(axis=1)), np.flatnonzero(near.any(axis=0))
         if len(rows):
-            touch[np.ix_(first + rows, columns)] = _overlap(block[rows], poses_b[columns], body_a, body_b)
+            touch[np.ix_(first + rows, columns)] = overlap(block[rows, None], poses_b[None, columns], body_a, body_b)
     return touch
 
 
-def _overlap(poses_a: FloatArray, poses_b: FloatArray, body_a: Body, body_b: Body) -> NDArray[np.bool_]:
-    dx = poses_b[None, :, 0] - poses_a[:, None, 0]
-    dy = poses_b[None, :, 1] - poses_a[:, None, 1]
-    turned = poses_b[None, :, 2] - poses_a[:, None, 2]
+def overlap(poses_a: FloatArray, poses_b: FloatArray, body_a: Body, body_b: Body) -> NDArray[np.bool_]:
+    """Return whether boxes overlap; poses are ``x, y, heading`` along the last axis, all other axes are broadcast."""
+    dx, dy, turned = (poses_b[..., k] - poses_a[..., k] for k in range(3))
     cos, sin = np.abs(np.cos(turned)), np.abs(np.sin(turned))
-    overlap = np.ones(dx.shape, dtype=bool)
-    for own, other, heading in ((body_a, body_b, poses_a[:, None, 2]), (body_b, body_a, poses_b[None, :, 2])):
+    touch = np.ones(dx.shape, dtype=bool)
+    for own, other, heading in ((body_a, body_b, poses_a[..., 2]), (body_b, body_a, poses_b[..., 2])):
         along_m = 0.5 * (own.length_m + other.length_m * cos + other.width_m * sin)
         across_m = 0.5 * (own.width_m + other.length_m * sin + other.width_m * cos)
-        overlap &= np.abs(dx * np.cos(heading) + dy * np.sin(heading)) <= along_m
-        overlap &= np.abs(-dx * np.sin(heading) + dy * np.cos(heading)) <= across_m
-    return overlap
+        touch &= np.abs(dx * np.cos(heading) + dy * np.sin(heading)) <= along_m
+        touch &= np.abs(-dx * np.sin(heading) + dy * np.cos(heading)) <= across_m
+    return touch

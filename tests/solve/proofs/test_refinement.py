@@ -10,38 +10,41 @@ from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
 from scenewright.solve.proofs.decide import Question, decide
 from scenewright.solve.proofs.refinement import BEGINS_MPSS, BEGINS_S, SETTLED_MPSS, SETTLED_S
+from scenewright.solve.proofs.witness import Witness
 
 HEAD = "Actor 0 (ego):\n- W\n- [t0, go, t1, go, t2]\n\nActor 1 (hero):\n- {}\n- [t0, go, t1, {}, t2]\n\nConstraints:\n"
 
 
-def answered(route: str, piece: str, *constraints: str) -> tuple[Question, object]:
+def answered(route: str, piece: str, *constraints: str) -> tuple[Question, Witness]:
     scene = ground(parse_program(HEAD.format(route, piece) + "\n".join(constraints) + "\n"), T)
     question = Question(scene, read_structure(scene.program), limits_of(scene), EGO)
-    return question, decide(question)
+    witness = decide(question).witness
+    assert witness is not None
+    return question, witness
 
 
 def test_turns_are_taken_at_a_speed_that_they_admit() -> None:
-    question, decision = answered(
+    question, witness = answered(
         "E, N", "go", "A0(t1) == A1(t1)", "A1x(t1) == turn_start - 5", "A1x(t2) == turn_end + 5", "A1v(t1) >= 6"
     )
-    profile = decision.witness.profiles[1]  # type: ignore[attr-defined]
+    profile = witness.profiles[1]
     states = [profile.state(t) for t in np.arange(0.0, profile.end_s, 0.02)]
     path = question.scene.routes[1].path
     assert max(v * v * abs(path.curvature(s)) for s, v, _ in states) <= question.limits[1].lateral_max_mpss + 1e-3
 
 
 def test_what_holds_all_along_holds_between_moments() -> None:
-    _, decision = answered(
+    _, witness = answered(
         "W", "dec", "A0(t1) == A1(t1)", "A1x(t1) == A0x(t1) + 25", "always[A1(t0), A1(t2)] (A1v <= A0v - 1)"
     )
-    ego, hero = (decision.witness.profiles[a] for a in (0, 1))  # type: ignore[attr-defined]
+    ego, hero = (witness.profiles[a] for a in (0, 1))
     times = np.arange(0.0, hero.knot_times_s["t2"], 0.005)
     assert max(hero.state(t)[1] - ego.state(t)[1] for t in times) <= -1 + 5e-3
 
 
 def test_a_hero_is_settled_and_then_shows_what_begins() -> None:
-    _, decision = answered("E, N", "dec", "A0(t1) == A1(t1)", "A1x(t1) == conflict_point - 25", "A1v(t2) == 0")
-    hero = decision.witness.profiles[1]  # type: ignore[attr-defined]
+    _, witness = answered("E, N", "dec", "A0(t1) == A1(t1)", "A1x(t1) == conflict_point - 25", "A1v(t2) == 0")
+    hero = witness.profiles[1]
     trigger = hero.knot_times_s["t1"]
     before = [hero.state(t)[2] for t in np.arange(trigger - float(SETTLED_S) + 0.01, trigger - 0.01, 0.01)]
     after = [hero.state(t)[2] for t in np.arange(trigger + 0.01, trigger + float(BEGINS_S) - 0.01, 0.01)]
@@ -50,9 +53,9 @@ def test_a_hero_is_settled_and_then_shows_what_begins() -> None:
 
 
 def test_two_in_one_lane_do_not_touch_before_the_trigger() -> None:
-    _, decision = answered(
+    _, witness = answered(
         "W", "dec", "A0(t1) == A1(t1)", "A0x(t0) == A1x(t0) - 6", "gap(A0, A1, t1) == 40", "A1v(t2) == 0"
     )
-    ego, hero = (decision.witness.profiles[a] for a in (0, 1))  # type: ignore[attr-defined]
+    ego, hero = (witness.profiles[a] for a in (0, 1))
     times = np.arange(0.0, hero.knot_times_s["t1"], 0.01)
     assert min(hero.state(t)[0] - ego.state(t)[0] for t in times) >= 4.5 - 1e-3

@@ -9,11 +9,13 @@ import pytest
 from planted import plant
 
 from scenewright.motion.profile import Profile, Segment
-from scenewright.solve.proofs.decide import decide
-from scenewright.solve.proofs.witness import Witness, boxes_touch, broken
+from scenewright.roads.bodies import CAR
+from scenewright.roads.zones import overlap
+from scenewright.solve.proofs.decide import Question, decide
+from scenewright.solve.proofs.witness import Witness, broken
 
 
-def witness_of(seed: int) -> tuple[object, Witness]:
+def witness_of(seed: int) -> tuple[Question, Witness]:
     asked = plant(seed).question()
     witness = decide(asked).witness
     assert witness is not None
@@ -38,15 +40,15 @@ def shifted(profile: Profile, by_m: float) -> Profile:
 def test_a_motion_that_is_off_is_found_out() -> None:
     asked, witness = witness_of(1)
     off = replace(witness, profiles={**witness.profiles, 1: shifted(witness.profiles[1], 3.0)})
-    assert broken(asked.scene, asked.structure, asked.limits, asked.ego, witness) == []  # type: ignore[attr-defined]
-    assert broken(asked.scene, asked.structure, asked.limits, asked.ego, off)  # type: ignore[attr-defined]
+    assert broken(asked.scene, asked.structure, asked.limits, asked.ego, witness) == []
+    assert broken(asked.scene, asked.structure, asked.limits, asked.ego, off)
 
 
 def test_a_turn_that_is_taken_too_fast_is_found_out() -> None:
     asked, witness = witness_of(2)
     turning = 1
-    assert asked.scene.routes[turning].turn != "straight"  # type: ignore[attr-defined]
-    landmarks = asked.scene.routes[turning].landmarks  # type: ignore[attr-defined]
+    assert asked.scene.routes[turning].turn != "straight"
+    landmarks = asked.scene.routes[turning].landmarks
     fast = Profile(
         (Segment(0.0, 6.0, landmarks["turn_start"] - 20.0, 14.0, 0.0),), witness.profiles[turning].knot_times_s
     )
@@ -56,7 +58,7 @@ def test_a_turn_that_is_taken_too_fast_is_found_out() -> None:
         asked.limits,
         asked.ego,
         replace(witness, profiles={**witness.profiles, turning: fast}),
-    )  # type: ignore[attr-defined]
+    )
     assert any(each.what == "turn" and each.actor == turning for each in found)
 
 
@@ -66,11 +68,11 @@ def test_a_motion_that_no_law_admits_is_found_out() -> None:
     for off in (replace(first, accel_mpss=5.0), replace(first, speed_mps=first.speed_mps + 1.0)):
         profile = Profile((off, *rest), witness.profiles[1].knot_times_s)
         changed = replace(witness, profiles={**witness.profiles, 1: profile})
-        found = broken(asked.scene, asked.structure, asked.limits, asked.ego, changed)  # type: ignore[attr-defined]
+        found = broken(asked.scene, asked.structure, asked.limits, asked.ego, changed)
         assert any(each.what == "law" and each.actor == 1 for each in found)
 
 
 def test_boxes() -> None:
     first = np.array([[0.0, 0.0, 0.0]] * 4)
     second = np.array([[4.4, 0.0, 0.0], [4.6, 0.0, 0.0], [0.0, 1.8, 0.0], [3.3, 0.0, np.pi / 2]])
-    assert boxes_touch(first, second).tolist() == [True, False, True, False]
+    assert overlap(first, second, CAR, CAR).tolist() == [True, False, True, False]

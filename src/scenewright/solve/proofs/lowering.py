@@ -13,6 +13,7 @@ from fractions import Fraction
 from scenewright.program import expressions as ex
 from scenewright.program.types import Constraint
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
+from scenewright.solve.lowering import TIGHT, compared_dimension
 from scenewright.solve.proofs.events import Events, pin
 from scenewright.solve.proofs.forms import (
     actors_at,
@@ -21,7 +22,7 @@ from scenewright.solve.proofs.forms import (
     free_actors,
     kept,
 )
-from scenewright.solve.proofs.narrowing import Narrowing, narrowings_of
+from scenewright.solve.proofs.narrowing import OPPOSITE, Narrowing, narrowings_of
 from scenewright.solve.proofs.polynomials import (
     ONE,
     TRUE,
@@ -36,13 +37,7 @@ from scenewright.solve.proofs.polynomials import (
     some,
 )
 
-# One unit of tolerance by what is compared: the tight tolerances of the contract (m, s, m/s, m/s^2).
-TIGHT = {
-    "length": Fraction(1, 2), "time": Fraction(1, 10), "speed": Fraction(1, 4), "acceleration": Fraction(1, 4),
-}  # fmt: skip
-_RATE_ROOM_MPSS = Fraction(1, 1000)  # for numbers that were rounded; half of what a witness may be off
 RATE_LASTS_S = Fraction(1, 20)  # a rate at a moment is that of so much motion from there on
-_OPPOSITE = {"<=": ">", "<": ">=", ">=": "<", ">": "<="}
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +80,7 @@ class Lowering:
         """
         self.narrowings.clear()
         for constraint in constraints:
-            self._make_moments(constraint.formula, None)
+            self._make_moments(constraint.formula)
             self.narrowings += narrowings_of(self, constraint.formula)
         return [self._lowered(constraint) for constraint in constraints]
 
@@ -96,7 +91,7 @@ class Lowering:
             return Lowered(constraint, TRUE, "it multiplies more than two unknowns")
 
     # -- moments ------------------------------------------------------------------------------------------------------
-    def _make_moments(self, formula: ex.Formula, inside: tuple[int, int] | None) -> None:
+    def _make_moments(self, formula: ex.Formula) -> None:
         """Give every actor a state at each moment that `formula` speaks of."""
         for node in ex.walk(formula):
             if isinstance(node, ex.State | ex.Derived) and node.at is not None and not isinstance(node.at, ex.PieceRef):
@@ -148,7 +143,7 @@ class Lowering:
             case ex.Logic(operands=(left, right)):
                 return some([self._not(left, now), self.formula(right, now)])
             case ex.Temporal():
-                return self._temporal(formula, now)
+                return self._temporal(formula)
             case _:
                 raise TypeError(f"not a formula: {formula!r}")
 
@@ -156,9 +151,9 @@ class Lowering:
         """Return what it is that `formula` does not hold; of stretches of time it is about some moment or all."""
         match formula:
             case ex.Temporal():
-                turned = {"always": "eventually", "eventually": "always", "never": "eventually"}[formula.operator]
-                body = formula.body if formula.operator == "never" else ex.Logic("not", (formula.body,))
-                return self._temporal(replace(formula, operator=turned, body=body), now)  # type: ignore[arg-type]
+                if formula.operator == "eventually":
+                    return self._temporal(replace(formula, operator="never"))
+                return self._temporal(replace(formula, operator="eventually", body=ex.Logic("not", (kept(formula),))))
             case ex.Logic(operator="not", operands=(inner,)):
                 return self.formula(inner, now)
             case ex.Logic(operator="and", operands=operands):
@@ -167,14 +162,14 @@ class Lowering:
                 return every([self._not(operand, now) for operand in operands])
             case ex.Logic(operator="implies", operands=(left, right)):
                 return every([self.formula(left, now), self._not(right, now)])
-            case _ if ex.piece_of(formula) is not None:
-                return self._throughout(formula, now, sometime=True)  # type: ignore[arg-type]
+            case ex.Compare() if ex.piece_of(formula) is not None:
+                return self._throughout(formula, sometime=True)
             case _:
                 return negated(self.formula(formula, now))
 
     def _compare(self, formula: ex.Compare, now: int | None) -> Formula:
         if ex.piece_of(formula) is not None:
-            return self._throughout(formula, now, sometime=False)
+            return self._throughout(formula, sometime=False)
         parts = []
         for left in self.term(formula.left, now):
             for right in self.term(formula.right, now):
@@ -185,7 +180,7 @@ class Lowering:
     def _related(self, formula: ex.Compare, left: Case, right: Case) -> Formula:
         if formula.operator != "==" or not self.slack:
             return _related(formula.operator, left, right)
-        room = TIGHT[_dimension_of(formula)] * self.slack
+        room = TIGHT[compared_dimension(formula)] * self.slack
         parts = []
         for operator, shift in (("<=", room), (">=", -room)):
             parts.append(_related(operator, left, replace(right, top=right.top + shift * right.below)))
@@ -307,7 +302,7 @@ class Lowering:
         )
 
     # -- stretches of time --------------------------------------------------------------------------------------------
-    def _throughout(self, formula: ex.Compare, now: int | None, *, sometime: bool) -> Formula:
+    def _throughout(self, formula: ex.Compare, *, sometime: bool) -> Formula:
         """Return a comparison that is about a place or a speed all through a piece."""
         node = ex.piece_of(formula)
         assert node is not None
@@ -324,7 +319,7 @@ class Lowering:
         (left,), (right,) = self.term(formula.left, None), self.term(formula.right, None)
         return self._related(formula, left, right)
 
-    def _temporal(self, formula: ex.Temporal, now: int | None) -> Formula:
+    def _temporal(self, formula: ex.Temporal) -> Formula:
         first, last = self.stretch_of(formula)
         if formula.operator == "eventually":
             return self._eventually(first, last, formula.body, "eventually")
@@ -382,7 +377,7 @@ class Lowering:
         negative = isinstance(body, ex.Logic)
         formula = body.operands[0] if isinstance(body, ex.Logic) else body
         assert isinstance(formula, ex.Compare)
-        operator = _OPPOSITE[formula.operator] if negative else formula.operator
+        operator = OPPOSITE[formula.operator] if negative else formula.operator
         sides = [
             change if side == rate else self.term(side, None)[0].top * lasts for side in (formula.left, formula.right)
         ]
@@ -399,16 +394,6 @@ class Lowering:
         times = events.times
         within = [compare("<=", times[first], times[made]), compare("<=", times[made], times[last])]
         return every([*within, self.formula(body, made)])
-
-
-def _dimension_of(formula: ex.Compare) -> str:
-    """Return the dimension of what a comparison compares, told from the first state or derived quantity in it."""
-    for node in ex.walk(formula):
-        if isinstance(node, ex.State):
-            return ("length", "speed", "acceleration")[node.order]
-        if isinstance(node, ex.Derived):
-            return "length" if node.kind == "gap" else "time"
-    return "time"
 
 
 def _case(value: Polynomial | Fraction) -> Case:

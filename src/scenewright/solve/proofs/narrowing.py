@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from scenewright.solve.proofs.lowering import Lowering
 
 _RATE_ROOM_MPSS = Fraction(1, 1000)  # for numbers that were rounded; half of what a witness may be off
-_OPPOSITE = {"<=": ">", "<": ">=", ">=": "<", ">": "<="}
+OPPOSITE = {"<=": ">", "<": ">=", ">=": "<", ">": "<="}
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,4 +135,4 @@ def _operator(operator: str, *, flipped: bool, negative: bool) -> str | None:
     """Return an operator with its sides exchanged or denied; None where nothing simple is left of it."""
     if flipped:
         operator = {"<=": ">=", ">=": "<=", "<": ">", ">": "<"}.get(operator, operator)
-    return _OPPOSITE.get(operator) if negative else operator
+    return OPPOSITE.get(operator) if negative else operator

@@ -24,6 +24,8 @@ Array = NDArray[np.float64]
 DONE, NEARLY_DONE = 1e-6, 5e-5  # scaled: 0.5 mm, 0.05 ms, 0.1 mm/s where rounded numbers leave no more
 _SCALE = {"time": 1.0, "place": 10.0, "speed": 2.0, "rate": 1.0, "other": 1.0}
 _SOFT = 1e-5
+_SOFT_ROW = 8  # how daqp is told that a row may be broken at a price
+_LOOKED_AT = 12.0  # in longest steps: what holds by more than this cannot matter within one
 _STRICT = 1e-3  # by how much a strict comparison is to hold, in units of its scaled row
 _MOST_STEPS = 40
 _TRUST = 4.0
@@ -134,10 +136,10 @@ class Search:
         scale, size = self._scale, self._size
         upper = np.minimum((self._high - point[:-1]) / scale, trust)
         lower = np.maximum((self._low - point[:-1]) / scale, -trust)
-        near = equal | (levels > -3.0 * trust * 4)
+        near = equal | (levels > -_LOOKED_AT * trust)
         rows, levels, equal = rows[near], levels[near], equal[near]
         above, below = -levels, np.where(equal, -levels, -1e30)
-        sense = np.concatenate([np.zeros(size, dtype=np.int32), np.where(equal, 8, 8).astype(np.int32)])
+        sense = np.concatenate([np.zeros(size, dtype=np.int32), np.full(len(levels), _SOFT_ROW, dtype=np.int32)])
         x, _, flag, _ = daqp.solve(
             np.eye(size),
             np.zeros(size),

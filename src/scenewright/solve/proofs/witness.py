@@ -20,8 +20,9 @@ from scenewright.motion.profile import Profile, Segment
 from scenewright.program.evaluate import violation
 from scenewright.program.structure import Structure
 from scenewright.program.types import EGO
-from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
+from scenewright.roads.bodies import CAR
 from scenewright.roads.grounding import Scene
+from scenewright.roads.zones import overlap
 from scenewright.solve.limits import Limits
 from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.events import EgoBounds, Events
@@ -146,21 +147,7 @@ def _touching(scene: Scene, structure: Structure, witness: Witness) -> list[Brok
     actors = sorted(boxes)
     for number, a in enumerate(actors):
         for b in actors[number + 1 :]:
-            touch = boxes_touch(boxes[a], boxes[b])
+            touch = overlap(boxes[a], boxes[b], CAR, CAR)
             if touch.any():
                 found.append(Broken("apart", b, float(times[int(np.argmax(touch))]), 1.0))
     return found
-
-
-def boxes_touch(first: Array, second: Array) -> NDArray[np.bool_]:
-    """Return whether the boxes at each two poses ``x, y, heading`` overlap (separating axes of both)."""
-    half_length, half_width = 0.5 * VEHICLE_LENGTH_M, 0.5 * VEHICLE_WIDTH_M
-    dx, dy = second[:, 0] - first[:, 0], second[:, 1] - first[:, 1]
-    cos, sin = np.abs(np.cos(second[:, 2] - first[:, 2])), np.abs(np.sin(second[:, 2] - first[:, 2]))
-    along = half_length + half_length * cos + half_width * sin
-    across = half_width + half_length * sin + half_width * cos
-    touch = np.ones(len(dx), dtype=bool)
-    for heading in (first[:, 2], second[:, 2]):
-        touch &= np.abs(dx * np.cos(heading) + dy * np.sin(heading)) <= along
-        touch &= np.abs(-dx * np.sin(heading) + dy * np.cos(heading)) <= across
-    return touch
