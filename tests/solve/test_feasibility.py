@@ -234,3 +234,8 @@ def test_a_time_to_collision_that_never_comes_is_long_enough() -> None:
         "A0(t1) == A1(t1)\nA0v(t1) == 5\nA1v(t1) == 8\ngap(A0, A1, t1) == 20\nttc(A0, A1, t1) >= 3\nA1v(t2) == 0",
     )
     assert feasibility(ground(parse_program(text), T), explain=False).answer == "feasible"
+
+
+def test_a_number_out_of_range_clashes_with_its_range_in_words() -> None:
+    scene = replace(NOT_YIELDING, text=NOT_YIELDING.text + "A0v(1.0) >= 100\n").scene()
+    assert "how fast anybody may be" in {clash.id for clash in feasibility(scene).clashes}

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Literal
 
@@ -21,7 +21,7 @@ from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.proofs import z3_engine
-from scenewright.solve.proofs.events import EgoBounds, EgoDrive, Events
+from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, EgoDrive, Events, Unknown
 from scenewright.solve.proofs.guesses import carried_over, first_guess
 from scenewright.solve.proofs.lowering import Lowered, Lowering
 from scenewright.solve.proofs.polynomials import ZERO, Atom, Formula, Some
@@ -34,6 +34,12 @@ Array = NDArray[np.float64]
 _ROUNDS = 14  # how often one motion is mended before another is looked for
 _GUESSES = (4, 5, 12)  # how many first guesses are tried before each time that a proof is looked for
 _PROOF_S = (0.15, 0.5, 1.0)
+_RANGES = {
+    "time": f"everything happens within {float(LONGEST_S):g} s of the start",
+    "speed": "how fast anybody may be",
+    "place": "where the routes end",
+}
+_WIDER = 1000  # a range so much wider is none
 _WITH_MANNER = 3  # so many guesses owe the manner; a motion that cannot be told by its looks is possible all the same
 
 
@@ -138,7 +144,7 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
         formulas = plain.relaxation()
         answer = z3_engine.ask(plain.events.unknowns, formulas, min(proof_s, until - time.monotonic()))
         if answer.kind == "refuted":
-            core = z3_engine.core(plain.events.unknowns, formulas, 1.0) if explain else ()
+            core = _core(plain.events.unknowns, formulas) if explain else ()
             return Decision("infeasible", core=core, left_out=left_out)
         if answer.kind == "met" and (left_out or question.drive):
             break
@@ -148,6 +154,18 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
             if found is not None:
                 return Decision("feasible", found)
     return Decision("undecided", left_out=left_out, amiss=amiss)
+
+
+def _core(unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> tuple[str, ...]:
+    """Return what clashes, and which ranges of single numbers it takes for that."""
+    core = z3_engine.core(unknowns, formulas, 1.0)
+    clashing = [each for each in formulas if each.origin in core]
+    ranges = []
+    for kind, words in _RANGES.items():
+        wider = [replace(each, high=_WIDER * each.high) if each.kind == kind else each for each in unknowns]
+        if z3_engine.ask(wider, clashing, 0.2).kind == "met":
+            ranges.append(words)
+    return (*core, *ranges)
 
 
 def _witness(
