@@ -14,6 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from scenewright.motion.profile import Profile
+from scenewright.plan.preferences import PREFERENCES
 from scenewright.plan.problem import Answer, Problem, Program, Situation
 from scenewright.plan.shooting import profile_of
 from scenewright.plan.solving import Solution, solve
@@ -33,6 +34,8 @@ from scenewright.solve.planner import Attempt
 _EVEN_S = 0.1
 _FIRST_STEPS, _TICK_STEPS = 40, 4
 _SECOND_THOUGHTS = 3
+_MOST_STEPS_MORE, _STEPS_A_SECOND, _LATEST_S = 16, 12, 12.0
+_MUCH_LATER_S, _AS_GOOD = 1.0, 0.7
 _PACES = (0.8, 0.4)
 _FIRST_JOINT_S = (3.5, 6.0)
 
@@ -146,12 +149,22 @@ class ConvexPlanner:
         else:
             prediction = self._foresee()
             problem = Problem(self.program, self._situation(time_s, prediction, None))
-            solution = solve(problem, np.array(problem.guess), _TICK_STEPS)
+            solution = solve(problem, np.array(problem.guess), _TICK_STEPS + self._more_steps(problem))
             self.plan = self._made(problem, solution, prediction)
             record = Replan(time_s, "sat", "daqp", 0.0, solution.missed, "")
         record = replace(record, wall_s=time.perf_counter() - started)
         self.records.append(record)
         return record
+
+    def _more_steps(self, problem: Problem) -> int:
+        """Return how many more steps a plan takes for which triggers come at other times than before."""
+        moved_s = 0.0
+        for hero in self.scene.program.heroes:
+            name = self.structure.trigger_knot(hero.id)
+            if name is not None:
+                planned_s = self.plan.profiles[hero.id].knot_times_s[name]
+                moved_s = max(moved_s, abs(problem.now.knots_s.get(self.program.knot(hero.id, name), planned_s) - planned_s))
+        return min(_MOST_STEPS_MORE, int(_STEPS_A_SECOND * moved_s))
 
     def ego_stood_s(self, time_s: float) -> float:
         """Return for how long the ego has not moved (s)."""
@@ -188,6 +201,38 @@ class ConvexPlanner:
             found[hero_id] = Answer(profile, other[0] - base[0], other[1] - base[1])
         return found
 
+    def _trigger_s(self, hero: Actor, time_s: float, prediction: Profile, planned: PlannedTrigger | None) -> float:
+        """Return when a trigger comes of which the ego decides: where it is at its side, or as good as at it.
+
+        A time to arrival that an ego hardly reaches before it slows down may be forecast for now or for much later.
+        """
+        found = self._times.instants_s(hero, time_s, prediction, self.ego_knots_s, planned)[0]
+        # What is far off is not foreseen: it is enough to know that it is.
+        found = found if planned is None else min(found, time_s + _LATEST_S)
+        if planned is None or found < planned.time_s + _MUCH_LATER_S:
+            return found
+        soonest = max(time_s + 0.02, planned.time_s - _MUCH_LATER_S)
+        tries = np.arange(soonest, planned.time_s + _MUCH_LATER_S, 0.05)
+        misses = [self._times.ego_miss(hero, prediction, float(at_s)) for at_s in tries]
+        best = int(np.argmin(misses)) if len(misses) else 0
+        return float(tries[best]) if misses and 0.0 < misses[best] <= _AS_GOOD else found
+
+    def _settled_s(self, joint: Mapping[int, float], time_s: float) -> dict[int, float]:
+        """Return from when on heroes are settled for long enough, whose triggers both decide."""
+        found = {}
+        for hero in self.scene.program.heroes:
+            name = self.structure.trigger_knot(hero.id)
+            if name is None or (instant := self.program.knot(hero.id, name)) not in joint:
+                continue
+            begins = hero.sketch.pieces[hero.sketch.knots.index(name)]
+            sense = 1.0 if begins == "acc" else -1.0
+            profile = self.plan.profiles[hero.id]
+            steps = [time_s - 0.05 * k for k in range(12) if time_s >= 0.05 * k]
+            pulled = [at_s for at_s in steps if sense * profile.state(at_s - 1e-6)[2] > PREFERENCES.settled_mpss + 0.1]
+            if pulled:
+                found[instant] = pulled[0] + PREFERENCES.settled_s
+        return found
+
     def _apart(self) -> dict[int, tuple[float, float]]:
         """Return for heroes on the ego's lane on which side they keep (1 ahead, -1 behind), and what to add to theirs."""
         return {hero: (1.0 if c.ahead else -1.0, c.offset_m) for hero, c in self._clearances.items()}
@@ -218,8 +263,13 @@ class ConvexPlanner:
             planned = None if first else self._planned(hero)
             side = self._times.ego_side(hero)
             if side is not None or hero.id in self._times._lags:
-                triggers[hero.id] = self._times.instants_s(hero, time_s, prediction, self.ego_knots_s, planned)[0]
+                triggers[hero.id] = self._trigger_s(hero, time_s, prediction, planned)
                 knots[self.program.knot(hero.id, name)] = triggers[hero.id]
+                if planned is not None:  # what follows keeps its place in time after it
+                    for knot in hero.sketch.knots[hero.sketch.knots.index(name) + 1 :]:
+                        instant = self.program.knot(hero.id, knot)
+                        if instant in expected:
+                            expected[instant] += triggers[hero.id] - planned.time_s
             elif first:
                 expected[self.program.knot(hero.id, name)] = joint[self.program.knot(hero.id, name)] = joint_s or 0.0
             else:
@@ -228,7 +278,7 @@ class ConvexPlanner:
             self._expect(expected, knots)
         for name, at_s in self._times.ego_knots_s(time_s, prediction, self.ego_knots_s, triggers).items():
             knots.setdefault(self.program.knot(EGO, name), at_s)
-        return Situation(time_s, _EgoStates(self._samples, prediction), knots, expected, heroes, joint, isinstance(self.predictor, ConstantSpeed), self._answers(time_s, prediction, first), self._apart())
+        return Situation(time_s, _EgoStates(self._samples, prediction), knots, expected, heroes, joint, isinstance(self.predictor, ConstantSpeed), self._answers(time_s, prediction, first), self._apart(), frozenset(triggers), {} if first else self._settled_s(joint, time_s))
 
     def _expect(self, expected: dict[int, float], knots: Mapping[int, float]) -> None:
         for actor in self.scene.program.actors:

@@ -50,7 +50,13 @@ class Preferences:
     order_s: float = 1.5
     order_price: float = 4.0
     order_most: float = 3.0
-    punctual: float = 2.0
+    punctual: float = 0.7
+    out_of_way: float = 6.0
+    sets_off_mpss: float = 1.5
+    waits_mpss: float = 3.0
+    waits_s: float = 1.5
+    plain_mps: float = 1.2
+    plain_price: float = 2.0
     lateral_mpss: float = 2.5
     slowest_mps: float = 1.5
     closeness: float = 0.02

@@ -37,6 +37,7 @@ _CELL_S, _MOST_CELLS, _AFTER_S = 0.6, 12, 3.0
 _AROUND_M, _STEP_M = 3.0, 0.5
 _STILL_MPS = 0.1
 _SOONEST_S, _LEAST_S = 0.02, 0.05
+_OUT_OF_WAY_M = 0.5
 _APART_M = VEHICLE_LENGTH_M + 1.5
 _ANY = float("inf")
 
@@ -74,6 +75,10 @@ class Situation:
         Whether the ego will drive as foreseen, as its policy promises.
     answers
         For each hero that the ego follows, how.
+    settled_s
+        From when on a hero, as it has driven, is settled for long enough for its trigger.
+    waits
+        Heroes of whose trigger the ego decides when it comes.
     apart
         For each hero on the ego's lane: 1 where it keeps ahead, -1 behind; what to add to its arc length there (m).
     """
@@ -87,6 +92,8 @@ class Situation:
     sure: bool = False
     answers: Mapping[int, Answer] = field(default_factory=dict)
     apart: Mapping[int, tuple[float, float]] = field(default_factory=dict)
+    waits: frozenset[int] = frozenset()
+    settled_s: Mapping[int, float] = field(default_factory=dict)
 
 
 class Program:
@@ -105,6 +112,11 @@ class Program:
         scale = [_TIGHT[unknown.kind] for unknown in self.events.unknowns]
         self.scale = np.array([*scale, 0.0])
         self.caps = {hero.id: _caps(scene.routes[hero.id], limits[hero.id]) for hero in scene.program.heroes}
+        self.zones: dict[int, float] = {}
+        for hero in scene.program.heroes:
+            conflict = scene.conflict(EGO, hero.id)
+            if conflict is not None and conflict.kind == "crossing":
+                self.zones[hero.id] = conflict.zone_b_m[0] - _OUT_OF_WAY_M
         only_times = np.array([unknown.kind == "time" for unknown in self.events.unknowns])
         self.orders = [
             all(key == () or (len(key) == 1 and only_times[key[0]]) for key in atom.left.terms)
@@ -185,7 +197,8 @@ class Problem:
         if instant in self.now.knots_s:
             return Moment(self.now.knots_s[instant])
         guess = self.now.expected_s.get(instant, self.now.time_s + 5.0)
-        return Moment(0.0, self._new(guess, self.now.time_s + _SOONEST_S if self.now.heroes else 0.0, 200.0, 0.6))
+        soonest = self.now.time_s + _SOONEST_S if self.now.heroes else 0.0
+        return Moment(0.0, self._new(guess, max(soonest, self.now.settled_s.get(instant, 0.0)), 200.0, 0.6))
 
     def _lay_out(self, hero: Actor) -> None:
         """Make a hero's legs from now on, with first guesses of what it does in them."""
@@ -223,6 +236,8 @@ class Problem:
         settled_s = self.wanted.settled_s
         if kind is PieceKind.GO and at_trigger and last.value(z) - first.value(z) > settled_s + 0.4:
             between = Moment(last.constant_s - settled_s, last.unknown)
+            if last.unknown is not None and first.unknown is None:
+                self.low[last.unknown] = max(self.low[last.unknown], first.constant_s + settled_s + _LEAST_S)
             coming = self._leg(hero.id, number, kind, first, between, z, profile)
             settled = self._leg(hero.id, number, kind, between, last, z, profile, coming.accels[-1])
             return [coming, settled]
@@ -232,7 +247,8 @@ class Problem:
         self, hero: int, piece: int, kind: PieceKind, first: Moment, last: Moment, z: Array,
         profile: Profile | None, joined: int | None = None,
     ) -> Leg:  # fmt: skip
-        begin_s, lasts_s = first.value(z), last.value(z) - first.value(z)
+        lasts_s = last.value(z) - first.value(z)
+        before_s = self._as_planned(hero, piece, first, last, z, profile)
         cells = min(max(2, round(lasts_s / _CELL_S)), _MOST_CELLS) if kind is not PieceKind.STOP else 1
         if kind is PieceKind.STOP:
             return Leg(piece, kind, first, last, cells, ())
@@ -244,12 +260,27 @@ class Problem:
             low, guess = wanted.least_rate_mpss, wanted.speeding_up_mpss
         accels = [] if joined is None else [joined]
         for k in range(len(accels), cells + 1):
-            time_s = begin_s + k * lasts_s / cells
-            before = guess
-            if profile is not None and time_s < profile.end_s - 1e-6:
-                before = profile.state(time_s - (1e-6 if k == cells else -1e-6))[2]
-            accels.append(self._new(before, low, high, 3.0))
+            if profile is not None and before_s[0] < before_s[1]:
+                inside_s = 1e-6 if k == 0 else -1e-6 if k == cells else 0.0
+                guess = profile.state(before_s[0] + (before_s[1] - before_s[0]) * k / cells + inside_s)[2]
+            accels.append(self._new(guess, low, high, 3.0))
         return Leg(piece, kind, first, last, cells, tuple(accels))
+
+    def _as_planned(
+        self, hero: int, piece: int, first: Moment, last: Moment, z: Array, profile: Profile | None
+    ) -> tuple[float, float]:
+        """Return when the plan in force does what a leg is to do: guesses keep to their places within pieces."""
+        if profile is None:
+            return 0.0, 0.0
+        actor = self.program.scene.program.actor(hero)
+        begin_s = self.now.heroes[hero][0]
+        knots = [max(begin_s, profile.knot_times_s[name]) for name in actor.sketch.knots]
+        now = [max(begin_s, self._moments[self.program.knot(hero, name)].value(z)) for name in actor.sketch.knots]
+        if first.value(z) >= now[-1] - 1e-9:
+            return knots[-1], max(profile.end_s, knots[-1])
+        whole, old = now[piece + 1] - now[piece], knots[piece + 1] - knots[piece]
+        shares = [(moment.value(z) - now[piece]) / max(whole, 1e-9) for moment in (first, last)]
+        return knots[piece] + shares[0] * old, knots[piece] + shares[1] * old
 
     # -- values -------------------------------------------------------------------------------------------------------
     def ordered(self, z: Array) -> Array:
@@ -344,8 +375,7 @@ class Problem:
             self._limits(hero, shots[hero.id], bounds, costs)
             self._manner(hero, shots[hero.id], bounds, costs)
             self._narrowed(hero, shots[hero.id], bounds)
-            if hero.id in self.now.apart:
-                self._keep_apart(hero, shots[hero.id], bounds)
+            self._keep_apart(hero, shots[hero.id], bounds)
         return costs, bounds, missed
 
     def _asked(self, z: Array, shots: Mapping[int, Shot], costs: Rows, bounds: Rows) -> tuple[float, float]:
@@ -481,18 +511,43 @@ class Problem:
             costs.add(lasts - wanted.lasts_s, slope, 0.3)
 
     def _keep_apart(self, hero: Actor, shot: Shot, bounds: Rows) -> None:
-        """Add that until its trigger a hero on the ego's lane leaves room between the two."""
+        """Add that until its trigger a hero is not in the ego's way, and can wait for it."""
+        instant, wanted = self.program.trigger(hero.id), self.wanted
+        reached = self.nodes.get((hero.id, instant)) if instant is not None else None
+        if reached is None:
+            return
+        last = shot.first_node[reached[0]]
+        if hero.id in self.now.apart:
+            self._stay_on_side(hero, shot, last, bounds)
+        zone_m = self.program.zones.get(hero.id)
+        until_s = float(shot.time[last])
+        s_T, v_T, d_s_T, d_v_T = shot.at_node(last)
+        runs_up_m, d_runs_up = v_T**2 / (2.0 * wanted.sets_off_mpss), v_T / wanted.sets_off_mpss * d_v_T
+        first = 1 if hero.id in self.now.heroes else 0
+        for node in range(first, last + 1):
+            s_m, v, d_s, d_v = shot.at_node(node)
+            if zone_m is not None and s_m < zone_m + 2.0:
+                bounds.add(s_m - zone_m, d_s, wanted.out_of_way)
+            if hero.id in self.now.waits and until_s - shot.time[node] > v_T / wanted.sets_off_mpss + wanted.waits_s:
+                beyond_m = s_m + v**2 / (2.0 * wanted.waits_mpss) + runs_up_m - s_T
+                bounds.add(beyond_m, d_s + v / wanted.waits_mpss * d_v + d_runs_up - d_s_T, wanted.out_of_way)
+
+    def _stay_on_side(self, hero: Actor, shot: Shot, last: int, bounds: Rows) -> None:
+        """Add that a hero on the ego's lane leaves room between the two, and that their distance changes plainly."""
         side, offset_m = self.now.apart[hero.id]
-        trigger = self.program.trigger(hero.id)
-        until_s = self._moments[trigger].value(shot.z) if trigger is not None else 0.0
-        for node in range(len(shot.time)):
+        for node in range(1 if hero.id in self.now.heroes else 0, last + 1):
             time_s = float(shot.time[node])
-            if not self.now.time_s < time_s < until_s + 1e-6 and (node or hero.id in self.now.heroes):
-                continue
             s_m, _, d_s, _ = shot.at_node(node)
             ego_m, ego_mps, _ = self.now.ego(time_s)
             room_m = side * (s_m + offset_m - ego_m) - _APART_M
             bounds.add(-room_m, -side * (d_s - ego_mps * shot.d_time[node]), self.wanted.price)
+        s_m, v, d_s, d_v = shot.at_node(last)
+        time_s = float(shot.time[last])
+        ego_m, ego_mps, ego_mpss = self.now.ego(time_s)
+        now_m = side * (float(shot.s[0]) - self.now.ego(float(shot.time[0]))[0])
+        opens = 1.0 if side * (s_m - ego_m) > now_m else -1.0
+        rate, d_rate = side * (v - ego_mps), side * (d_v - ego_mpss * shot.d_time[last])
+        bounds.add(self.wanted.plain_mps - opens * rate, -opens * d_rate, self.wanted.plain_price)
 
     def _narrowed(self, hero: Actor, shot: Shot, bounds: Rows) -> None:
         """Add narrower laws, which constraints make of stretches of time."""

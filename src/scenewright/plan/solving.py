@@ -96,4 +96,5 @@ def _step(costs: Rows, bounds: Rows, low: Array, high: Array, longest: Array) ->
         primal_tol=1e-7,
         iter_limit=4000,
     )
-    return None if flag < 1 else np.asarray(x)[:size]
+
+    return None if flag < 1 else np.clip(np.asarray(x)[:size], low, high)
