@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from scenewright.motion.profile import Profile
+from scenewright.motion.profile import Profile, chain
 from scenewright.plan.preferences import PREFERENCES
 from scenewright.plan.problem import Answer, Problem, Program, Situation
 from scenewright.plan.shooting import profile_of
@@ -36,7 +36,7 @@ _FIRST_STEPS, _TICK_STEPS = 40, 4
 _SECOND_THOUGHTS = 3
 _MOST_STEPS_MORE, _STEPS_A_SECOND, _LATEST_S = 16, 12, 12.0
 _MUCH_LATER_S, _AS_GOOD = 1.0, 0.7
-_PACES = (0.8, 0.4)
+_PACES = (0.8, 0.45, 0.25)
 _FIRST_JOINT_S = (3.5, 6.0)
 
 
@@ -75,37 +75,73 @@ class ConvexPlanner:
         self._times.ego_began = ego[1:3]
         self.ego_knots_s = {self.scene.program.ego.sketch.knots[0]: 0.0}
         prediction = self.predictor.predict([ego])
-        best: tuple[float, Plan, Solution] | None = None
+        best: tuple[Solution, Plan] | None = None
         joint = any(
             self.structure.trigger_knot(hero.id) and self._times.ego_side(hero) is None and hero.id not in self._times._lags
             for hero in self.scene.program.heroes
         )
         for joint_s in _FIRST_JOINT_S if joint else (0.0,):
             for pace in _PACES:
-                problem = Problem(self.program, self._situation(0.0, prediction, joint_s), pace)
-                solution = solve(problem, np.array(problem.guess), _FIRST_STEPS)
-                if best is None or solution.cost < best[0]:
-                    best = solution.cost, self._made(problem, solution, prediction), solution
+                found = self._first(prediction, joint_s, pace)
+                if best is None or found[0].cost < best[0].cost:
+                    best = found
         assert best is not None
+        for _ in range(_SECOND_THOUGHTS if self._times.leaders else 1):
+            # Its cells are laid for the times that it has now; and an ego that follows a hero answers what that does.
+            self.plan = best[1]
+            best = self._first(self._foresee(), self._joint_of(best[1]), 1.0, best[1])
         self.plan = best[1]
-        for _ in range(_SECOND_THOUGHTS if self._times.leaders else 0):
-            # An ego that follows a hero answers what that does.
-            prediction = self._foresee()
-            situation = self._situation(0.0, prediction, self._joint_of(self.plan))
-            problem = Problem(self.program, situation)
-            solution = solve(problem, np.array(problem.guess), _FIRST_STEPS)
-            self.plan = self._made(problem, solution, prediction)
-            best = solution.cost, self.plan, solution
         for hero in self.scene.program.heroes:
             name = self.structure.trigger_knot(hero.id)
             if name is not None:
                 self._joint_s[hero.id] = self.plan.profiles[hero.id].knot_times_s[name]
         wall_s = time.perf_counter() - started
-        missed = best[2].missed
+        missed = best[0].missed
         status = "sat" if missed < 0.2 else "relaxed"
-        attempt = Attempt(self.plan, status, "", wall_s, best[2].steps, promises_outcome=best[2].late_s <= 0.0)
+        attempt = Attempt(self.plan, status, "", wall_s, best[0].steps, promises_outcome=best[0].late_s <= 0.0)
         self.records = [Replan(0.0, status, "daqp", wall_s, missed, "")]
         return attempt
+
+    def _first(
+        self, prediction: Profile, joint_s: float, pace: float, before: Plan | None = None
+    ) -> tuple[Solution, Plan]:
+        """Return a first plan, from a guess of triggers and pace or from another plan."""
+        situation = self._situation(0.0, prediction, joint_s)
+        if before is not None:
+            times = {
+                self.program.knot(hero.id, name): time_s
+                for hero in self.scene.program.heroes
+                for name, time_s in before.profiles[hero.id].knot_times_s.items()
+            }
+            expected = {instant: times.get(instant, time_s) for instant, time_s in situation.expected_s.items()}
+            situation = replace(situation, expected_s=expected, guesses=before.profiles)
+        else:
+            situation = replace(situation, guesses=self._even_motions(situation, pace))
+        problem = Problem(self.program, situation)
+        z = np.array(problem.guess)
+        solution = solve(problem, z, _FIRST_STEPS)
+        return solution, self._made(problem, solution, prediction)
+
+    def _even_motions(self, situation: Situation, pace: float) -> dict[int, Profile]:
+        """Return first guesses: everybody comes evenly to where a condition at its trigger wants it."""
+        found = {}
+        for hero in self.scene.program.heroes:
+            speed_mps = pace * self.limits[hero.id].natural_approach_speed_mps
+            instant = self.program.trigger(hero.id)
+            trigger_s = situation.knots_s.get(instant, situation.expected_s.get(instant, 0.0)) if instant is not None else 0.0
+            place_m = 50.0 + speed_mps * trigger_s
+            for condition in self.conditions:
+                others = {a: situation.ego(trigger_s)[:2] for a in condition.weights if a == EGO}
+                known = set(condition.weights) == {*others, hero.id}
+                if known and condition.moments <= self.structure.triggers.get(hero.id, frozenset()):
+                    per_metre = condition.weights[hero.id][0]
+                    if per_metre:
+                        rest = condition.value({**others, hero.id: (0.0, speed_mps)})
+                        place_m = -rest / per_metre
+                        break
+            first = place_m - speed_mps * trigger_s
+            found[hero.id] = Profile(chain(0.0, first, speed_mps, [(trigger_s, 0.0, 0)]), {hero.sketch.knots[0]: 0.0})
+        return found
 
     def _joint_of(self, plan: Plan) -> float:
         """Return when the first trigger comes in a plan (s)."""

@@ -58,7 +58,8 @@ class Preferences:
     plain_mps: float = 1.2
     plain_price: float = 2.0
     lateral_mpss: float = 2.5
-    slowest_mps: float = 1.5
+    slowest_mps: float = 1.8
+    slowest_price: float = 6.0
     closeness: float = 0.02
 
 

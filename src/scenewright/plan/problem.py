@@ -36,6 +36,7 @@ _TIGHT = {"time": 0.1, "place": 0.5, "speed": 0.25, "rate": 0.25, "other": 1.0}
 _CELL_S, _MOST_CELLS, _AFTER_S = 0.6, 12, 3.0
 _AROUND_M, _STEP_M = 3.0, 0.5
 _STILL_MPS = 0.1
+_MOVES_MPS = 0.7
 _SOONEST_S, _LEAST_S = 0.02, 0.05
 _OUT_OF_WAY_M = 0.5
 _APART_M = VEHICLE_LENGTH_M + 1.5
@@ -75,6 +76,8 @@ class Situation:
         Whether the ego will drive as foreseen, as its policy promises.
     answers
         For each hero that the ego follows, how.
+    guesses
+        Motions that first plans start from.
     settled_s
         From when on a hero, as it has driven, is settled for long enough for its trigger.
     waits
@@ -94,6 +97,7 @@ class Situation:
     apart: Mapping[int, tuple[float, float]] = field(default_factory=dict)
     waits: frozenset[int] = frozenset()
     settled_s: Mapping[int, float] = field(default_factory=dict)
+    guesses: Mapping[int, Profile] = field(default_factory=dict)
 
 
 class Program:
@@ -158,10 +162,8 @@ class Rows:
 class Problem:
     """One plan's unknowns, for one situation."""
 
-    def __init__(
-        self, program: Program, situation: Situation, pace: float = 0.8, wanted: Preferences = PREFERENCES
-    ) -> None:
-        self.program, self.now, self.wanted, self.pace = program, situation, wanted, pace
+    def __init__(self, program: Program, situation: Situation, wanted: Preferences = PREFERENCES) -> None:
+        self.program, self.now, self.wanted = program, situation, wanted
         self.low: list[float] = []
         self.high: list[float] = []
         self.step: list[float] = []
@@ -211,17 +213,17 @@ class Problem:
             self.starts[hero.id] = Start(s_m, speed_mps)
             begin = Moment(begin_s)
         else:
-            profile, piece, begin = None, 0, knots[0]
-            speed = program.limits[hero.id].natural_approach_speed_mps
+            profile, piece, begin = self.now.guesses[hero.id], 0, knots[0]
+            place_m, speed_mps, _ = profile.state(0.0)
             end = program.scene.routes[hero.id].landmarks["route_end"]
-            self.starts[hero.id] = Start(place=self._new(50.0, 0.0, end, 40.0), speed=self._new(self.pace * speed, 0.0, 60.0, 5.0))
+            self.starts[hero.id] = Start(place=self._new(place_m, 0.0, end, 40.0), speed=self._new(speed_mps, 0.0, 60.0, 5.0))
         legs: list[Leg] = []
         for number in range(piece, len(sketch.pieces)):
             first = begin if number == piece else knots[number]
             self.nodes[hero.id, program.knot(hero.id, sketch.knots[number])] = (len(legs), 0)
             legs += self._piece(hero, number, first, knots[number + 1], z, profile)
         self.nodes[hero.id, program.knot(hero.id, sketch.knots[-1])] = (len(legs), 0)
-        if profile is not None and piece < len(sketch.pieces):
+        if hero.id in self.now.heroes and piece < len(sketch.pieces):
             self.nodes.pop((hero.id, program.knot(hero.id, sketch.knots[piece])), None)
         last = knots[-1] if piece < len(sketch.pieces) else begin
         stands = sketch.pieces[-1] is PieceKind.STOP
@@ -270,10 +272,10 @@ class Problem:
         self, hero: int, piece: int, first: Moment, last: Moment, z: Array, profile: Profile | None
     ) -> tuple[float, float]:
         """Return when the plan in force does what a leg is to do: guesses keep to their places within pieces."""
-        if profile is None:
+        if profile is None or len(profile.knot_times_s) < 2:
             return 0.0, 0.0
         actor = self.program.scene.program.actor(hero)
-        begin_s = self.now.heroes[hero][0]
+        begin_s = self.now.heroes[hero][0] if hero in self.now.heroes else 0.0
         knots = [max(begin_s, profile.knot_times_s[name]) for name in actor.sketch.knots]
         now = [max(begin_s, self._moments[self.program.knot(hero, name)].value(z)) for name in actor.sketch.knots]
         if first.value(z) >= now[-1] - 1e-9:
@@ -443,9 +445,9 @@ class Problem:
         natural = limits.natural_approach_speed_mps
         for node in range(1, len(shot.time)):
             s, v, d_s, d_v = shot.at_node(node)
-            bounds.add(-v, -d_v, price / 0.25, firm=True)
+            bounds.add(-v, -d_v, price / 0.05, firm=True)
             cap, slope = _interpolated(s, places, hard)
-            bounds.add(v - cap, d_v - slope * d_s, price / 0.25, firm=True)
+            bounds.add(v - cap, d_v - slope * d_s, price / 0.05, firm=True)
             cap, slope = _interpolated(s, places, soft)
             costs.beyond(v - cap, d_v - slope * d_s, 0.7)
             costs.beyond(v - natural, d_v, 0.5)
@@ -470,7 +472,8 @@ class Problem:
         natural = 0.8 * self.program.limits[hero.id].natural_approach_speed_mps
         if node and begins.kind is not PieceKind.STOP:
             costs.add(v - natural, d_v, 0.15)
-            bounds.add(wanted.slowest_mps - v, -d_v, price / 0.25)
+            bounds.add(wanted.slowest_mps - v, -d_v, wanted.slowest_price)
+            bounds.add(_MOVES_MPS - v, -d_v, price / 0.25)
         if not sense:
             return
         lasts = max(float(shot.time[node + 1] - shot.time[node]), 1e-3)
@@ -600,8 +603,8 @@ def _caps(route: Route, limits: Limits) -> tuple[Array, Array, Array]:
     around = round(_AROUND_M / _STEP_M)
     padded = np.pad(bends, around, mode="edge")
     sharpest = np.max([padded[k : k + len(bends)] for k in range(2 * around + 1)], axis=0)
-    sharpest = np.maximum(sharpest, 1e-6)
-    top = limits.speed_max_mps
+    sharpest, top = np.maximum(sharpest, 1e-6), 0.97 * limits.speed_max_mps
+    top = 0.97 * limits.speed_max_mps
     return (
         places,
         np.minimum(np.sqrt(0.97 * limits.lateral_max_mpss / sharpest), top),

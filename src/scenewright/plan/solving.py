@@ -14,7 +14,7 @@ from scenewright.plan.problem import Problem, Rows, steps_and_bounds
 
 Array = NDArray[np.float64]
 DEBUG=False
-_SOFT_ROW, _SOFT = 8, 1e-5  # how daqp is told that a row may be broken, at a high price
+_SOFT_ROW, _SOFT = 8, 1e-6  # how daqp is told that a row may be broken, at a high price
 _DAMPING = 0.02
 _ENOUGH = 1e-4
 _HALVINGS = 6
@@ -71,30 +71,29 @@ def _step(costs: Rows, bounds: Rows, low: Array, high: Array, longest: Array) ->
 
     size = len(longest)
     residuals, slopes = np.array(costs.values), np.array(costs.slopes)
-    levels, rows, firm = np.array(bounds.values), np.array(bounds.slopes), np.array(bounds.firm)
+    levels, rows = np.array(bounds.values), np.array(bounds.slopes)
     near = (levels > -np.abs(rows) @ longest) & np.any(rows != 0.0, axis=1)
-    levels, rows, firm, most = levels[near], rows[near], firm[near], np.array(bounds.most)[near]
+    levels, rows, most = levels[near], rows[near], np.array(bounds.most)[near]
     softened = np.sqrt(np.minimum(1.0, most / np.maximum(levels, 1e-9)))
     levels, rows = levels * softened, rows * softened[:, None]
-    priced = np.flatnonzero(~firm)
-    # What may be broken at a price has a slack of its own; what is firm is left to the solver's own slacks.
-    whole = size + len(priced)
-    hessian = np.eye(whole)
-    hessian[:size, :size] = slopes.T @ slopes + np.diag((_DAMPING / longest) ** 2)
-    matrix = np.zeros((len(levels), whole))
-    matrix[:, :size] = rows
-    matrix[priced, size + np.arange(len(priced))] = -1.0
-    free = np.full(len(priced), 1e30)
+    # Each row has a slack of its own, so that its price is the same here as in the merit.
+    count = len(levels)
+    slopes, rows = slopes * longest, rows * longest
+    sizes = np.maximum(np.linalg.norm(rows, axis=1), 1.0)
+    hessian = np.zeros((size + count, size + count))
+    hessian[:size, :size] = slopes.T @ slopes + _DAMPING**2 * np.eye(size)
+    hessian[size:, size:] = np.diag(sizes**2)
+    scale = 1.0 / max(1.0, float(np.max(np.diag(hessian))))
+    matrix = np.hstack([rows / sizes[:, None], -np.eye(count)])
+    free = np.full(count, 1e30)
     x, _, flag, _ = daqp.solve(
-        hessian,
-        np.concatenate([slopes.T @ residuals, np.zeros(len(priced))]),
-        matrix,
-        np.concatenate([high, free, -levels]),
-        np.concatenate([low, 0.0 * free, np.full(len(levels), -1e30)]),
-        np.concatenate([np.zeros(whole, dtype=np.int32), np.where(firm, _SOFT_ROW, 0).astype(np.int32)]),
-        rho_soft=_SOFT,
-        primal_tol=1e-7,
+        scale * hessian,
+        scale * np.concatenate([slopes.T @ residuals, np.zeros(count)]),
+        np.ascontiguousarray(matrix),
+        np.concatenate([high / longest, free, -levels / sizes]),
+        np.concatenate([low / longest, 0.0 * free, -free]),
+        np.zeros(size + 2 * count, dtype=np.int32),
+        primal_tol=1e-9,
         iter_limit=4000,
     )
-
-    return None if flag < 1 else np.clip(np.asarray(x)[:size], low, high)
+    return None if flag < 1 else np.clip(np.asarray(x)[:size] * longest, low, high)
