@@ -51,7 +51,9 @@ class Preferences:
     order_price: float = 4.0
     order_most: float = 3.0
     punctual: float = 0.7
-    out_of_way: float = 6.0
+    out_of_way_price: float = 12.0
+    out_of_way_most: float = 3.0
+    waits_price: float = 6.0
     sets_off_mpss: float = 1.5
     waits_mpss: float = 3.0
     waits_s: float = 1.5

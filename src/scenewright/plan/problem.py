@@ -119,7 +119,7 @@ class Program:
         self.zones: dict[int, float] = {}
         for hero in scene.program.heroes:
             conflict = scene.conflict(EGO, hero.id)
-            if conflict is not None and conflict.kind == "crossing":
+            if conflict is not None and conflict.kind != "following":
                 self.zones[hero.id] = conflict.zone_b_m[0] - _OUT_OF_WAY_M
         only_times = np.array([unknown.kind == "time" for unknown in self.events.unknowns])
         self.orders = [
@@ -424,6 +424,9 @@ class Problem:
         wanted = self.wanted
         usual = {PieceKind.DEC: -wanted.braking_mpss, PieceKind.ACC: wanted.speeding_up_mpss}
         for number, leg in enumerate(shot.legs):
+            if number == len(shot.legs) - 1 and leg.kind is PieceKind.GO and shot.v[shot.first_node[number]] > 1.0:
+                # Whoever drives on afterwards does so as people do there.
+                costs.add(float(shot.v[-1]) - 0.8 * self.program.limits[hero.id].natural_approach_speed_mps, shot.d_v[-1], 0.1)
             if not leg.accels:
                 continue
             aim = usual.get(leg.kind, 0.0)
@@ -530,10 +533,10 @@ class Problem:
         for node in range(first, last + 1):
             s_m, v, d_s, d_v = shot.at_node(node)
             if zone_m is not None and s_m < zone_m + 2.0:
-                bounds.add(s_m - zone_m, d_s, wanted.out_of_way)
+                bounds.add(s_m - zone_m, d_s, wanted.out_of_way_price, most=wanted.out_of_way_most)
             if hero.id in self.now.waits and until_s - shot.time[node] > v_T / wanted.sets_off_mpss + wanted.waits_s:
                 beyond_m = s_m + v**2 / (2.0 * wanted.waits_mpss) + runs_up_m - s_T
-                bounds.add(beyond_m, d_s + v / wanted.waits_mpss * d_v + d_runs_up - d_s_T, wanted.out_of_way)
+                bounds.add(beyond_m, d_s + v / wanted.waits_mpss * d_v + d_runs_up - d_s_T, wanted.waits_price)
 
     def _stay_on_side(self, hero: Actor, shot: Shot, last: int, bounds: Rows) -> None:
         """Add that a hero on the ego's lane leaves room between the two, and that their distance changes plainly."""
@@ -604,7 +607,6 @@ def _caps(route: Route, limits: Limits) -> tuple[Array, Array, Array]:
     padded = np.pad(bends, around, mode="edge")
     sharpest = np.max([padded[k : k + len(bends)] for k in range(2 * around + 1)], axis=0)
     sharpest, top = np.maximum(sharpest, 1e-6), 0.97 * limits.speed_max_mps
-    top = 0.97 * limits.speed_max_mps
     return (
         places,
         np.minimum(np.sqrt(0.97 * limits.lateral_max_mpss / sharpest), top),
