@@ -215,23 +215,23 @@ def test_a_hero_is_ready_for_an_ego_that_makes_haste_and_for_one_that_stops(
     ego = ego_at(3.0, scene.landmark_m(0, "stop_line") - 25.0, expected_s)
     situation = Situation(0.0, ego, {"t0": 0.0, "t1": expected_s}, {1: state}, {1: expected_s}, earliest_s=earliest)
     prospects = Prospects(scene, planner.structure, planner.limits, planner.conditions)
-    for manner in prospects.versions(situation, replace(COUNTER, ready=True), 0.0, gently=True):
-        plan = planner._solve(situation, manner, Fraction(0), 20.0)
+    for style in prospects.versions(situation, replace(COUNTER, ready=True), 0.0, gently=True):
+        plan = planner._solve(situation, style, Fraction(0), 20.0)
         if not isinstance(plan, Plan):
             continue
         approach = [segment for segment in plan.profiles[1].segments if segment.piece == 0]
         for segment in approach[:-1]:
-            if manner.wait is not None:
+            if style.wait is not None:
                 # From where it stands it gets to its place at no more than all it has, as fast as it must be.
                 if segment.end_speed_mps == 0.0:
                     run_m = place - segment.end_s_m
                     assert math.sqrt(2 * limits_of(scene)[1].accel_max_mpss * run_m) >= COUNTER.trigger_speed_mps
                     assert run_m > 0.0
             else:
-                assert manner.waiting_place_m is not None
+                assert style.waiting_place_m is not None
                 stop_m = segment.end_speed_mps**2 / (2 * limits_of(scene)[1].brake_max_mpss)
-                if segment.end_s < expected_s - manner.sets_off_s:
-                    assert segment.end_s_m + stop_m <= manner.waiting_place_m + 1e-3
+                if segment.end_s < expected_s - style.sets_off_s:
+                    assert segment.end_s_m + stop_m <= style.waiting_place_m + 1e-3
                 left_s = np.interp(segment.end_s, [0.0, expected_s], [arrival_s, expected_s]) - segment.end_s
                 reach_m = segment.end_speed_mps * left_s + 0.5 * limits_of(scene)[1].accel_max_mpss * left_s**2
                 assert segment.end_s_m + reach_m >= place - 1e-3

@@ -43,7 +43,7 @@ _RETRY_EVERY = 3
 _PATIENCE_S = 3.0
 # How often a first plan is made again, for an ego that reacts to the one before.
 _SECOND_THOUGHTS = 2
-# How many ways in which a hero may lead the ego are asked for; in which manners it would rather not drive ahead of it.
+# How many ways in which a hero may lead the ego are asked for; in which styles it would rather not drive ahead of it.
 _MOST_LED, _HARD = 3, (WHOLE.name, URGENT.name)
 
 
@@ -223,7 +223,7 @@ class Replanner:
 
     def _record(self, time_s: float, attempt: Attempt) -> Replan:
         tolerance = attempt.plan.tolerance if attempt.plan else self.plan.tolerance
-        reason = attempt.reason or (attempt.plan.manner if attempt.plan else "")
+        reason = attempt.reason or (attempt.plan.style if attempt.plan else "")
         status = attempt.status if attempt.plan else f"{attempt.status}, last plan goes on"
         return Replan(time_s, status, self.planner.backend.name, attempt.wall_s, tolerance, reason)
 
@@ -240,7 +240,7 @@ class Replanner:
                         last.start_s, new.start_s - last.start_s, last.s_m, last.speed_mps, last.accel_mpss, last.piece
                     )
             profiles[hero.id] = Profile((*past, *new.segments), new.knot_times_s)
-        return Plan(profiles, plan.tolerance, plan.manner, plan.parameters)
+        return Plan(profiles, plan.tolerance, plan.style, plan.parameters)
 
     def ego_stood_s(self, time_s: float) -> float:
         """Return for how long the ego has not moved (s)."""
@@ -419,4 +419,4 @@ class Replanner:
 
 def _is_hard(attempt: Attempt) -> bool:
     """Whether there is no plan, or only one that takes a hero's whole authority."""
-    return attempt.plan is None or attempt.plan.manner in _HARD
+    return attempt.plan is None or attempt.plan.style in _HARD

@@ -1,6 +1,6 @@
 """What a vehicle can do, and what it would do of itself: bounds in steps from natural to its whole authority.
 
-What enters: a route and its speed limits. What leaves: `Limits` (never exceeded) and `Manner`s (how gently to try
+What enters: a route and its speed limits. What leaves: `Limits` (never exceeded) and `Style`s (how gently to try
 first).
 """
 
@@ -96,7 +96,7 @@ class Wait:
 
 
 @dataclass(frozen=True, slots=True)
-class Manner:
+class Style:
     """How an actor may move in one attempt at a plan; each list of attempts goes from natural to whole authority.
 
     Attributes
@@ -170,13 +170,13 @@ class Manner:
         return limits.natural_speed_mps if self.natural_speed else limits.speed_max_mps
 
 
-STEADY = Manner("steady", 0.0, 0.0, 1, True, (1.2, 2.4), (1.2, 2.5), (0.6, 1.2), 2.0, True)
+STEADY = Style("steady", 0.0, 0.0, 1, True, (1.2, 2.4), (1.2, 2.5), (0.6, 1.2), 2.0, True)
 # Where the moment is free and holding the speed leads to one: only rounding is made up for.
-COASTING = Manner("steady", 0.02, 0.02, 1, True, (0.6, 8.0), (0.8, 4.0), (0.5, 3.0), MOVING_MPS, False)
-GENTLE = Manner("gentle", 1.0, 1.2, 2, True, (0.9, 4.0), (1.0, 2.5), (0.6, 1.5), 1.5, True)
-FIRM = Manner("firm", 2.5, 3.0, 3, True, (0.7, 6.0), (0.8, 3.5), (0.5, 3.0), MOVING_MPS, False)
-WHOLE = Manner("whole", ACCEL_MAX_MPSS, BRAKE_MAX_MPSS, 5, True, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)
-URGENT = Manner(
+COASTING = Style("steady", 0.02, 0.02, 1, True, (0.6, 8.0), (0.8, 4.0), (0.5, 3.0), MOVING_MPS, False)
+GENTLE = Style("gentle", 1.0, 1.2, 2, True, (0.9, 4.0), (1.0, 2.5), (0.6, 1.5), 1.5, True)
+FIRM = Style("firm", 2.5, 3.0, 3, True, (0.7, 6.0), (0.8, 3.5), (0.5, 3.0), MOVING_MPS, False)
+WHOLE = Style("whole", ACCEL_MAX_MPSS, BRAKE_MAX_MPSS, 5, True, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)
+URGENT = Style(
     "urgent", ACCEL_MAX_MPSS, 8.0, 4, False, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False, seen_s=0.35,
     out_of_way=False,
 )  # fmt: skip
