@@ -30,9 +30,8 @@ _DEAD_BAND_S = 0.003
 _DEAD_BAND_SHARE = 0.02
 # By how much (s) a hero may begin too soon or too late.
 _ONSET_S = 0.05
-# In the last half second of a trigger whose moment is free.
+# While one is to be settled for a trigger whose moment is free.
 _DEAD_BAND_LAST_S = 0.03
-_SETTLE_S = 0.5
 # How long an ego must have driven evenly for a jump in its acceleration to be a change of mind.
 _EVEN_S = 0.1
 _LATE_MISS, _EARLY_MISS = 0.5, 0.12
@@ -83,10 +82,12 @@ class Replanner:
     _failures: int = field(init=False, default=0)
     _first_trigger_s: float = field(init=False, default=0.0)
     _times: TriggerTimes = field(init=False)
+    _settled_s: float = field(init=False)  # for how long a hero is to be settled before its trigger
 
     def __post_init__(self) -> None:
         cruise_mps = self.planner.limits[EGO].natural_approach_speed_mps
         self._times = TriggerTimes(self.scene, self.structure, self.conditions, self.predictor, cruise_mps)
+        self._settled_s = float(self.scene.program.manner.settled_s)
 
     # -- the first plan ---------------------------------------------------------------------------------------------
     def begin(self, ego: EgoSample) -> Attempt:
@@ -198,6 +199,7 @@ class Replanner:
             offset_m=clearance.offset_m,
             top_mps=self.planner.limits[hero_id].approach_speed_max_mps,
             cruise_mps=self.planner.limits[EGO].natural_approach_speed_mps,
+            settled_s=self._settled_s,
         )
         return [
             self._situation(time_s, way.ego, self.ego_knots_s, heroes, {hero_id: way.instant_s})
@@ -217,8 +219,8 @@ class Replanner:
         for hero in self.scene.program.heroes:
             profile, knot = self.plan.profiles[hero.id], self.structure.trigger_knot(hero.id)
             planned = profile.knot_times_s.get(knot or "", -1.0)
-            if time_s < planned < time_s + _SETTLE_S and self._times.ego_side(hero) is None:
-                later = {**self.plan.profiles, hero.id: profile.held(planned, _SETTLE_S)}
+            if time_s < planned < time_s + self._settled_s and self._times.ego_side(hero) is None:
+                later = {**self.plan.profiles, hero.id: profile.held(planned, self._settled_s)}
                 self.plan = replace(self.plan, profiles=later)
 
     def _record(self, time_s: float, attempt: Attempt) -> Replan:
@@ -398,14 +400,15 @@ class Replanner:
         off_s = abs(situation.trigger_s[hero.id] - planned)
         left_s = max(0.0, planned - time_s)
         miss = self._times.joint_miss(hero, situation.ego, planned, self.plan.profiles[hero.id])
-        settled = left_s <= _SETTLE_S and self.plan.tolerance <= _LATE_MISS
+        last = left_s <= self._settled_s
+        settled = last and self.plan.tolerance <= _LATE_MISS
         if miss > (_LATE_MISS if settled else _EARLY_MISS * (1.0 + left_s)):
             return False
         if settled and self._times.ego_side(hero) is None:
             return off_s <= _DEAD_BAND_LAST_S
         if self._times.ego_side(hero) is not None:
-            # Within the last half second the hero stays settled for as long as that is good enough.
-            miss, tolerance = (_LATE_MISS, _LATE_MISS) if left_s <= _SETTLE_S else (_EARLY_MISS, 0.0)
+            # While it is to be settled the hero stays so for as long as that is good enough.
+            miss, tolerance = (_LATE_MISS, _LATE_MISS) if last else (_EARLY_MISS, 0.0)
             near = off_s <= _ONSET_S and self._times.ego_miss(hero, situation.ego, planned) <= miss
             if near and self.plan.tolerance <= tolerance:
                 return True

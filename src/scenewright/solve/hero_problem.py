@@ -20,7 +20,7 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition, hero_side
 from scenewright.solve.clearance import APART_M, Clearance, out_of_way_mps
-from scenewright.solve.limits import BRAKE_MAX_MPSS, CLOSE, MOVING_MPS, Limits, Style
+from scenewright.solve.limits import BRAKE_MAX_MPSS, MOVING_MPS, ROOM, Limits, Style
 from scenewright.solve.lowering import Lowering, NotYet
 from scenewright.solve.problem import Problem
 from scenewright.solve.readiness import readiness
@@ -120,7 +120,8 @@ class HeroProblem:
                 if not begun and not stretch.cruise:
                     shortest = shortest_s(self.style, hero, stretch.piece, self.structure.trigger_knot(hero.id), side)
                     if self.style.steps == 1 and rate_is_given(self.scene.program, hero, stretch.piece):
-                        shortest = min(shortest, pin(CLOSE.seen_s))  # who is slow has soon done what it is told
+                        # Who is slow has soon done what it is told.
+                        shortest = min(shortest, self.scene.program.manner.stricter(ROOM).begins_s)
                 problem.bound(duration, shortest, _LONGEST_S, f"{hero.name}'s pieces take some time")
             else:
                 duration = stretch.duration_s

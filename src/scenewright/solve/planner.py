@@ -30,7 +30,7 @@ from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.solve.problem import Backend, Satisfiable, Unknown
 from scenewright.solve.reach import Prospects
 from scenewright.solve.situation import SHORTEST_LEAD_S, Situation
-from scenewright.solve.trials import COAST, EXACT, Trial, first_trials, hasty, off, opening, relaxed, trials
+from scenewright.solve.trials import COAST, EXACT, Trial, first_trials, hasty, kept_to, off, opening, relaxed, trials
 
 _TRIES_A_TICK = 5
 # How finely the best for an outcome in doubt is searched: one that is promised by no more than this (s). What comes
@@ -115,24 +115,30 @@ class Planner:
         clearances = [Clearance.of(scene, structure, conditions, hero) for hero in scene.program.heroes]
         self._leads = any(c is not None and c.ahead and not c.closing for c in clearances)
         self._prospects = Prospects(scene, structure, limits, conditions)
-        self.trials = trials(self._outcome)
+        self.trials = self._kept(trials(self._outcome))
+        self._coast = self._kept(COAST)
         # One that is timed at its trigger is near it where it is slow, and has less to brake.
         sides = [(hero.id, hero_side(conditions, structure, hero.id)) for hero in scene.program.heroes]
         timed = any(side is not None and side.weights[hero][1] for hero, side in sides)
-        self._hasty = hasty(self._outcome and not timed)
+        self._hasty = self._kept(hasty(self._outcome and not timed))
         self._held = self.trials[0].style
         self._replans = 0
         self._position = 0
         self._searching = False
 
+    def _kept(self, trials: Iterable[Trial]) -> tuple[Trial, ...]:
+        """Return the same trials in the manner of the program."""
+        return kept_to(self.scene.program.manner, trials)
+
     def first_plan(self, situations: Sequence[Situation], budget_s: float = 10.0) -> Attempt:
         """Plan from the start, with the heroes' first states free; `situations` differ in the trigger's instant."""
-        exact = (*first_trials(self._outcome), *self.trials)
+        first = self._kept(first_trials(self._outcome))
+        exact = (*first, *self.trials)
         # Where both decide when: rather soon and less evenly than late, when the ego may have changed its pace.
         soon = [s for s in situations if min(s.trigger_s.values(), default=0.0) <= _SOON_S or len(situations) == 1]
         later = [s for s in situations if s not in soon]
-        drawing_away = opening(first_trials(self._outcome), _OPENINGS_MPS) if self._leads else ()
-        groups = ((exact, soon), (exact, later), (off(), situations))
+        drawing_away = opening(first, _OPENINGS_MPS) if self._leads else ()
+        groups = ((exact, soon), (exact, later), (self._kept(off()), situations))
         ways = [(trial, situation) for situation in soon for trial in drawing_away]
         ways += [(trial, situation) for trials_, some in groups for trial in trials_ for situation in some]
         attempt, found = self._search(ways, budget_s, 2 * len(ways))
@@ -154,7 +160,8 @@ class Planner:
             return attempt
         low, high = self.trials[self.trials.index(trial) - 1].style.outcome_margin_s, margin_s
         if situation.pressed:
-            low, trial = margin_s + _MOST_HASTE_S, Trial(replace(HASTE, clear=False))
+            low = margin_s + _MOST_HASTE_S
+            trial = Trial(replace(HASTE, clear=False).kept_to(self.scene.program.manner))
         while low - high > _FINELY_S:
             middle = 0.5 * (low + high)
             style = replace(trial.style, outcome_margin_s=middle)
@@ -201,7 +208,7 @@ class Planner:
         Every style at the planned instant comes before any at a later one: who puts off its trigger to move a little
         more gently may put it off for ever.
         """
-        preferred = [(trial, situation) for trial in COAST for situation in situations if situation.coasting]
+        preferred = [(trial, situation) for trial in self._coast for situation in situations if situation.coasting]
         preferred += [(trial, situation) for trial in self._hasty for situation in situations if situation.earliest_s]
         situations = [situation for situation in situations if not situation.coasting]
         near, far = situations[:_NEAR], situations[_NEAR:]
@@ -214,8 +221,9 @@ class Planner:
         def last(first: int) -> Iterator[tuple[Trial, Situation]]:
             trials = off()
             if len(situations) == 1:
-                trials = relaxed(self._held, lambda style: self._least_tolerance(style, situations[0]))
-            yield from [(trial, situation) for trial in trials for situation in near][first:]
+                manner = self.scene.program.manner
+                trials = relaxed(self._held, lambda style: self._least_tolerance(style.kept_to(manner), situations[0]))
+            yield from [(trial, situation) for trial in self._kept(trials) for situation in near][first:]
 
         return preferred, exact, last
 

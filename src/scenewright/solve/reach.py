@@ -17,7 +17,7 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import TIGHT_LENGTH_M, TIGHT_TIME_S, LinearCondition, hero_side
 from scenewright.solve.clearance import out_of_way_mps
 from scenewright.solve.haste import Errand
-from scenewright.solve.limits import ACCEL_MAX_MPSS, SETTLED_MPSS, WAIT_BRAKE_MPSS, Limits, Style, Wait
+from scenewright.solve.limits import ACCEL_MAX_MPSS, ROOM, WAIT_BRAKE_MPSS, Limits, Style, Wait
 from scenewright.solve.situation import Situation
 from scenewright.solve.stretches import (
     approach_rates,
@@ -180,6 +180,7 @@ class Prospects:
         program = scene.program
         self._heroes = {hero.id: hero for hero in program.heroes}
         self._limits = limits
+        self._settled_mpss = float(program.manner.stricter(ROOM).settled_mpss)
         self._out_of_way_mps = {hero.id: out_of_way_mps(scene, structure, conditions, hero) for hero in program.heroes}
         self._tasks: dict[int, Task] = {}
         errands = {hero.id: Errand.of(program, structure, conditions, hero) for hero in program.heroes}
@@ -247,7 +248,7 @@ class Prospects:
 
         What is left is a reserve for when the ego drives otherwise than foreseen.
         """
-        settled = replace(style, counter_mpss=min(style.counter_mpss, SETTLED_MPSS))
+        settled = replace(style, counter_mpss=min(style.counter_mpss, self._settled_mpss))
         if settled != style and self.least_miss(situation, settled, tolerance) <= tolerance:
             style = settled
         ways = self._ways(situation, style, tolerance)

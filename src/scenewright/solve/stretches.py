@@ -14,7 +14,7 @@ from scenewright.program.expressions import Compare, Formula, PieceRef, State, w
 from scenewright.program.structure import Structure
 from scenewright.program.types import Actor, PieceKind, Program
 from scenewright.solve.arrival import LinearCondition
-from scenewright.solve.limits import BEGINNING_MPSS, COASTING, Limits, Style, Wait
+from scenewright.solve.limits import COASTING, Limits, Style, Wait
 from scenewright.solve.situation import Situation
 
 _WALKING_MPS = 2.0
@@ -163,8 +163,8 @@ def approach_rates(style: Style, stretch: Stretch, following: PieceKind) -> tupl
     if not stretch.settled:
         return up, down
     if style.steps <= 2:
-        return (up, down) if style == COASTING else (Fraction(0), Fraction(0))
-    early, counter = pin(BEGINNING_MPSS), pin(style.counter_mpss)
+        return (up, down) if style.approach_accel_mpss == COASTING.approach_accel_mpss else (Fraction(0), Fraction(0))
+    early, counter = pin(style.early_mpss), pin(style.counter_mpss)
     if following is PieceKind.DEC:
         return min(up, counter), min(down, early)
     if following is PieceKind.ACC:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from scenewright.program.manner import Manner
 from scenewright.solve.limits import (
     CLOSE,
     CLOSE_QUICK,
@@ -108,6 +109,11 @@ def off() -> tuple[Trial, ...]:
 
 def _trial(style: Style, tolerance: float) -> Trial:
     return Trial(style, Fraction(round(min(tolerance, _WORST), 2)).limit_denominator(100))
+
+
+def kept_to(manner: Manner, trials: Iterable[Trial]) -> tuple[Trial, ...]:
+    """Return the same trials for a program of that manner."""
+    return tuple(replace(trial, style=trial.style.kept_to(manner)) for trial in trials)
 
 
 def opening(trials: tuple[Trial, ...], by_mps: Iterable[float]) -> tuple[Trial, ...]:
