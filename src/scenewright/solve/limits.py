@@ -177,7 +177,7 @@ class Style:
             early_mpss=float(calm_mpss(manner)),
             settle_s=max(self.settle_s, float(kept.settled_s)),
             seen_s=max(self.seen_s, float(kept.begins_s)),
-            dec_mpss=(max(self.dec_mpss[0], begins_mpss), self.dec_mpss[1]),
+            dec_mpss=(max(self.dec_mpss[0], begins_mpss), max(self.dec_mpss[1], begins_mpss)),
             acc_mpss=(max(self.acc_mpss[0], begins_mpss), max(self.acc_mpss[1], begins_mpss)),
             stop_s=(self.stop_s[0] + longer_s, self.stop_s[1] + longer_s),
         )
