@@ -65,7 +65,7 @@ def test_every_number_changes_some_verdict() -> None:
 @pytest.mark.parametrize(
     ("play", "condition", "numbers"),
     [
-        (BRAKES, "hero_onset", ["begins_mpss = 0.75"]),
+        (BRAKES, "hero_onset", ["begins_mpss = 0.75", "begins_s = 0.45"]),
         (BRAKES, "hero_settled", ["settled_s = 0.75", "settled_mpss = 1.25"]),
         (TOUCHES, "hero_standstill", ["stands_s = 0.4", "stands_mps = 0.25"]),
         (GOES_AFTER, "hero_goes_again", ["stands_mps = 0.25"]),

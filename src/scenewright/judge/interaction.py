@@ -64,7 +64,8 @@ def _beginning(case: Case, measured: Measured, hero: Actor, kind: PieceKind) -> 
     moment, phase, verb = measured.triggers[hero.id], measured.onsets.get(hero.id), _VERBS[kind]
     manner = case.program.manner
     settled_mpss, settled_s = float(manner.settled_mpss), float(manner.settled_s)
-    begins = f"{hero.name} begins to {verb} at the trigger (by {float(manner.begins_mpss):g} m/s^2, or half of all)"
+    seen = f"by {float(manner.begins_mpss):g} m/s^2 or half of its most, for {float(manner.begins_s):g} s"
+    begins = f"{hero.name} begins to {verb} at the trigger ({seen})"
     if phase is None or not np.isfinite(moment):
         reason = f"{hero.name} never began to {verb}" if np.isfinite(moment) else "there was no trigger"
         yield unjudged(f"{hero.name}_onset", "interaction", begins, reason)
