@@ -12,7 +12,7 @@ from scenarios import YIELDS, limits_of, read_structure
 from scenewright.motion.profile import Profile, chain
 from scenewright.program.types import PieceKind
 from scenewright.solve.arrival import LinearCondition, linear_conditions
-from scenewright.solve.limits import COUNTER, FIRM, GENTLE, URGENT, WHOLE, Manner
+from scenewright.solve.limits import COUNTER, FIRM, GENTLE, URGENT, WHOLE, Style
 from scenewright.solve.reach import Approach, Prospects, Task, least_miss
 from scenewright.solve.situation import HeroState, Situation
 from scenewright.solve.stretches import approach_rates, timed_approach
@@ -67,16 +67,16 @@ def test_who_hurries_and_who_holds_back_bound_the_place() -> None:
     assert approach.within(1.0, 1.0).fastest(0.0, 6.0) == pytest.approx((6.5 + 7.125, 7.25))
 
 
-@pytest.mark.parametrize("manner", [FIRM, WHOLE, COUNTER], ids=["firm", "whole", "counter"])
+@pytest.mark.parametrize("style", [FIRM, WHOLE, COUNTER], ids=["firm", "whole", "counter"])
 @pytest.mark.parametrize("rest_s", [Fraction(1, 10), Fraction(1, 2), Fraction(3, 5), Fraction(3)])
-def test_the_last_half_second_is_settled_however_little_is_left(manner: Manner, rest_s: Fraction) -> None:
+def test_the_last_half_second_is_settled_however_little_is_left(style: Style, rest_s: Fraction) -> None:
     left = rest_s
-    for stretch in timed_approach(manner, 0, rest_s, "t1"):
-        up, down = approach_rates(manner, stretch, PieceKind.DEC)
+    for stretch in timed_approach(style, 0, rest_s, "t1"):
+        up, down = approach_rates(style, stretch, PieceKind.DEC)
         left -= stretch.duration_s or 0
         if left < Fraction(1, 2) and stretch.end_knot:
             assert down <= Fraction(1, 4)
-            assert up <= Fraction(9, 20) or manner is COUNTER
+            assert up <= Fraction(9, 20) or style is COUNTER
     assert left == 0
 
 

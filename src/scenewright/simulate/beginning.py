@@ -99,7 +99,7 @@ def _quality(attempt: Attempt) -> int:
     if attempt.plan is None:
         return 0
     promised = _PROMISED if attempt.status == "sat" and attempt.promises_outcome else 0
-    return promised + _GENTLENESS[attempt.plan.manner]
+    return promised + _GENTLENESS[attempt.plan.style]
 
 
 def _is_better(scene: Scene, attempt: Attempt, other: Attempt) -> bool:

@@ -25,13 +25,13 @@ class Plan:
     ----------
     tolerance
         By how many tight tolerances the trigger had to be given up (0: met exactly).
-    manner
+    style
         How far from natural the motion had to go.
     """
 
     profiles: Mapping[int, Profile]
     tolerance: float = 0.0
-    manner: str = ""
+    style: str = ""
     parameters: Mapping[str, float] = field(default_factory=dict)
 
     def as_dict(self, scene: Scene) -> dict[str, object]:
@@ -58,7 +58,7 @@ class Plan:
             actors[actor.name] = {"knots": knots, "segments": segments}
         return {
             "schema_version": SCHEMA_VERSION,
-            "manner": self.manner,
+            "style": self.style,
             "tolerance": self.tolerance,
             "actors": actors,
         }

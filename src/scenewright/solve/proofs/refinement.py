@@ -14,15 +14,16 @@ from functools import lru_cache
 
 import numpy as np
 
-from scenewright.motion.laws import ANY
+from scenewright.motion.laws import ANY, Law
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import moments_of_worst
+from scenewright.program.manner import Manner
 from scenewright.program.structure import Structure
 from scenewright.program.types import Actor, PieceKind
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import find_conflict
 from scenewright.roads.routes import Route
-from scenewright.solve.limits import Limits
+from scenewright.solve.limits import ROOM, Limits, calm_mpss
 from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.events import Events, pin
 from scenewright.solve.proofs.forms import actors_at, free_states
@@ -35,11 +36,7 @@ SHARES = (0.985, 0.8, 0.6, 0.4, 0.2)
 _TURN_STEP_M = 0.25
 _SAFETY = 0.999  # rounding of places and speeds within a turn
 _ROOM_M = Fraction(1, 20)
-# How a hero shows what begins at its trigger, for a motion that is to be judged: docs/verdict.md.
-SETTLED_S, SETTLED_MPSS = Fraction(1, 2), Fraction(45, 100)
-BEGINS_S, BEGINS_MPSS = Fraction(2, 5), Fraction(3, 4)
-SEEN_MPSS, FAINT_MPSS = Fraction(55, 100), Fraction(1, 20)
-STANDS_S = Fraction(35, 100)
+_STILL_M = Fraction(1, 1000)  # who moves no farther stands, and a search has somewhere to go
 
 
 @dataclass(slots=True)
@@ -70,8 +67,9 @@ class Refinement:
     def manner(self, structure: Structure) -> None:
         """Let pieces be seen for what they are, heroes be settled before their trigger and begin at it."""
         events, program = self.events, self.events.scene.program
+        kept = program.manner.stricter(ROOM)
         for actor in program.heroes:
-            self._seen_pieces(actor)
+            self._seen_pieces(actor, kept)
         for hero in structure.triggers:
             knot = structure.trigger_knot(hero)
             sketch = program.actor(hero).sketch
@@ -81,45 +79,43 @@ class Refinement:
             kind = sketch.pieces[number]
             if kind not in (PieceKind.DEC, PieceKind.ACC) or (number and sketch.pieces[number - 1] is PieceKind.STOP):
                 continue
-            sign = -1 if kind is PieceKind.DEC else 1
             trigger, end = events.knot(hero, knot), events.knot(hero, sketch.knots[number + 1])
             now = events.times[trigger]
-            shown = events.moment(now + BEGINS_S, "begins")
+            shown = events.moment(now + kept.begins_s, "begins")
             events.state(hero, shown)
-            begun = replace(ANY, rate_high=-BEGINS_MPSS) if sign < 0 else replace(ANY, rate_low=BEGINS_MPSS)
+            begun = _pulling(kind, kept.begins_mpss)
             self.narrowings.append(Narrowing(hero, trigger, shown, begun))
             self.owed.append(compare("<=", events.times[shown], events.times[end]))
             if number and sketch.pieces[number - 1] is PieceKind.GO:
-                settled = events.moment(now - SETTLED_S, "settled")
+                settled = events.moment(now - kept.settled_s, "settled")
                 events.state(hero, settled)
-                calm = replace(ANY, rate_low=-SETTLED_MPSS) if sign < 0 else replace(ANY, rate_high=SETTLED_MPSS)
+                calm = _not_pulling(kind, calm_mpss(program.manner))
                 self.narrowings.append(Narrowing(hero, settled, trigger, calm))
 
-    def _seen_pieces(self, actor: Actor) -> None:
+    def _seen_pieces(self, actor: Actor, kept: Manner) -> None:
         """Let braking and speeding up last as long as their pieces and no longer; let who stops stand for a while."""
         events, kinds = self.events, actor.sketch.pieces
         knots = [events.knot(actor.id, name) for name in actor.sketch.knots]
         for number, kind in enumerate(kinds):
             begins, ends = knots[number], knots[number + 1]
             if kind is PieceKind.STOP:
-                self.owed.append(compare(">=", events.times[ends] - events.times[begins], STANDS_S))
+                self.owed.append(compare(">=", events.times[ends] - events.times[begins], kept.stands_s))
             if kind not in (PieceKind.DEC, PieceKind.ACC):
                 continue
-            seen = replace(ANY, rate_high=-SEEN_MPSS) if kind is PieceKind.DEC else replace(ANY, rate_low=SEEN_MPSS)
-            self.narrowings.append(Narrowing(actor.id, begins, ends, seen))
+            self.narrowings.append(Narrowing(actor.id, begins, ends, _pulling(kind, kept.begins_mpss)))
             if kinds[number + 1 : number + 2] in ((), (PieceKind.GO,)):
-                self._over(actor.id, kind, ends, knots[number + 2 : number + 3])
+                self._over(actor.id, kind, ends, knots[number + 2 : number + 3], kept)
 
-    def _over(self, actor: int, kind: PieceKind, ends: int, following: list[int]) -> None:
+    def _over(self, actor: int, kind: PieceKind, ends: int, following: list[int], kept: Manner) -> None:
         """Let what was done in a piece be over for a while; who has come to a standstill stays there."""
         events = self.events
-        over = events.moment(events.times[ends] + STANDS_S, "over")
+        lasts_s = kept.stands_s if kind is PieceKind.DEC else kept.begins_s
+        over = events.moment(events.times[ends] + lasts_s, "over")
         now, then = events.state(actor, ends), events.state(actor, over)
-        past = replace(ANY, rate_low=-FAINT_MPSS) if kind is PieceKind.DEC else replace(ANY, rate_high=FAINT_MPSS)
-        self.narrowings.append(Narrowing(actor, ends, over, past))
+        self.narrowings.append(Narrowing(actor, ends, over, _not_pulling(kind, Fraction(0))))
         self.owed += [compare("<=", events.times[over], events.times[knot]) for knot in following]
         if kind is PieceKind.DEC:
-            self.owed.append(compare("<=", then.place - now.place, now.speed * STANDS_S))
+            self.owed.append(compare("<=", then.place - now.place, now.speed * lasts_s + _STILL_M))
 
     def mend(self, broken: list[Broken], witness: Witness) -> bool:
         """Add what each thing amiss asks for; False where nothing can be added."""
@@ -235,6 +231,16 @@ class Refinement:
         from scenewright.roads.conflicts import shared_offset_m
 
         return shared_offset_m(self.events.scene.routes[actor], self.events.scene.routes[other])
+
+
+def _pulling(kind: PieceKind, rate_mpss: Fraction) -> Law:
+    """Return the law of who brakes or speeds up by at least a rate."""
+    return replace(ANY, rate_high=-rate_mpss) if kind is PieceKind.DEC else replace(ANY, rate_low=rate_mpss)
+
+
+def _not_pulling(kind: PieceKind, rate_mpss: Fraction) -> Law:
+    """Return the law of who does not brake, or speed up, by more than a rate."""
+    return replace(ANY, rate_low=-rate_mpss) if kind is PieceKind.DEC else replace(ANY, rate_high=rate_mpss)
 
 
 @lru_cache(maxsize=256)
