@@ -31,6 +31,7 @@ from scenewright.solve.feasibility import Feasibility
 from scenewright.solve.limits import Limits
 from scenewright.solve.planner import Attempt
 from scenewright.solve.problem import Backend
+from scenewright.solve.proofs.refuters import refuter_called
 from scenewright.translate.model.settings import TranslatorSettings
 from scenewright.translate.sources import read_scenario
 
@@ -65,7 +66,7 @@ _SLOW_PACE = 0.43
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What a user asks for: the command line of ``scenewright run``, as data."""
+    """What a user asks for: the command line of ``scenewright run``, as data; `solver` is what refutes."""
 
     source: str
     parameters: Mapping[str, float | str] = field(default_factory=dict)
@@ -80,6 +81,7 @@ class Request:
     budget_s: float = 0.25
     predictor: str = "road"
     takes: int = 3
+    solver: str = "z3"
     translation: TranslatorSettings = field(default_factory=TranslatorSettings)
 
 
@@ -279,7 +281,8 @@ def set_up(request: Request, stages: Stages, backend: Backend | None = None) -> 
         scene = ground(program, load_map(request.map_name or program.map_name), request.parameters)
         check_values(program, scene.parameters, name=program.name)
     rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
-    world = World(scene, request.ego, request.seed, rates, request.predictor, request.budget_s, backend)
+    refuter = refuter_called(request.solver)
+    world = World(scene, request.ego, request.seed, rates, request.predictor, request.budget_s, backend, refuter)
     return world, translation
 
 

@@ -1,0 +1,25 @@
+"""Parts of installed packages: listed by entry point, and what they miss is found without importing them."""
+
+from __future__ import annotations
+
+from importlib.metadata import EntryPoint
+
+from scenewright.plugins import missing_extra, points
+
+GROUP = "scenewright.nothing_of_this"
+OURS = (EntryPoint("plots", "nowhere:nothing [plots]", GROUP), EntryPoint("plain", "nowhere:nothing", GROUP))
+
+
+def test_our_own_parts_are_there_without_being_registered() -> None:
+    found = points(GROUP, OURS)
+    assert sorted(found) == ["plain", "plots"]
+    assert found["plain"].value == "nowhere:nothing"
+
+
+def test_what_needs_no_extra_misses_none() -> None:
+    assert missing_extra(OURS[1], "does nothing") is None
+
+
+def test_an_extra_is_known_by_what_the_package_says_of_itself() -> None:
+    unheard_of = EntryPoint("z", "nowhere:nothing [no-such-extra]", GROUP)
+    assert missing_extra(unheard_of, "does nothing") is None, "nothing belongs to an extra that nobody declares"
