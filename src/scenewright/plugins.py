@@ -17,6 +17,11 @@ _REQUIREMENT = re.compile(r"""(?P<name>[\w.-]+)[^;]*;\s*extra\s*==\s*['"](?P<ext
 _OUR_PACKAGE = "scenewright"
 
 
+def named(name: str, group: str, ours: Iterable[EntryPoint]) -> EntryPoint | None:
+    """Return the entry point of a name; nothing that is installed is looked through for ours, which takes its time."""
+    return next((point for point in ours if point.name == name), None) or points(group, ours).get(name)
+
+
 def points(group: str, ours: Iterable[EntryPoint]) -> dict[str, EntryPoint]:
     """Return the entry points of a group by name; ours go before those of others, so that no package takes their place.
 
@@ -34,6 +39,8 @@ def missing_extra(point: EntryPoint, does: str) -> MissingExtraError | None:
     does
         What the missing library does here, such as ``reads .osm files``.
     """
+    if not point.extras:
+        return None
     package = point.dist.name if point.dist is not None else _OUR_PACKAGE
     for requirement in filter(None, map(_REQUIREMENT.fullmatch, _requirements(package))):
         if requirement["extra"] in point.extras and not _is_installed(requirement["name"]):

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import cast
 
 from scenewright.errors import MapError
-from scenewright.plugins import missing_extra, points
+from scenewright.plugins import missing_extra, named, points
 from scenewright.roads.model import RoadMap
 
 MapReader = Callable[[Path], RoadMap]
@@ -36,7 +36,7 @@ def reader_for(ending: str) -> MapReader | None:
     MapError
         Where it cannot be imported.
     """
-    point = points(GROUP, _OURS).get(ending.lower().removeprefix("."))
+    point = named(ending.lower().removeprefix("."), GROUP, _OURS)
     if point is None:
         return None
     missing = missing_extra(point, f"reads .{point.name} files")

@@ -18,7 +18,7 @@ from scenewright.solve.limits import Limits, limits_on
 from scenewright.solve.parameters import settle
 from scenewright.solve.planner import DEFAULT_BUDGET_S
 from scenewright.solve.problem import Backend
-from scenewright.solve.proofs.refuters import Refuter, refuter_called
+from scenewright.solve.proofs.refuters import refuter_called
 
 
 class World:
@@ -34,13 +34,13 @@ class World:
         Name of how the ego is foreseen.
     budget_s
         Wall-clock time that one re-solve may take.
-    backend, refuter
-        What solves for plans, and what refutes; z3 does both by default.
+    backend, solver
+        What solves for plans, and the name of what refutes.
 
     Raises
     ------
     ScenewrightError
-        Where there is no such policy or predictor.
+        Where there is no such policy, predictor or solver.
     """
 
     def __init__(
@@ -52,7 +52,7 @@ class World:
         predictor: str = "road",
         budget_s: float = DEFAULT_BUDGET_S,
         backend: Backend | None = None,
-        refuter: Refuter | None = None,
+        solver: str = "z3",
     ) -> None:
         from scenewright.solve.backends.z3_backend import Z3Backend
 
@@ -65,7 +65,7 @@ class World:
         self.structure: Structure = read_structure(scene.program)
         self.limits: dict[int, Limits] = {i: limits_on(route, scene.road_map) for i, route in scene.routes.items()}
         self.backend: Backend = backend or Z3Backend()
-        self.refuter = refuter or refuter_called()
+        self.refuter = refuter_called(solver)
         promise = guarded.envelope
         self.ego_bounds = (
             EgoBounds(promise.speed_max_mps, promise.accel_max_mpss, -promise.accel_min_mpss, promise.holds_speed)

@@ -9,9 +9,14 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from planted import T, lowered
 from posed import UNKNOWNS, X, Y, at_random, eased, named
 
+from forms import FORMS, program
 from scenewright.errors import InputError, MissingExtraError, SolverError
+from scenewright.program.text import parse_program
+from scenewright.roads.grounding import ground
+from scenewright.solve.proofs.events import Unknown
 from scenewright.solve.proofs.polynomials import compare, some, violation
 from scenewright.solve.proofs.refuters import (
     GROUP,
@@ -23,6 +28,7 @@ from scenewright.solve.proofs.refuters import (
     taken,
     tightened,
 )
+from scenewright.solve.proofs.relaxation import Named, relaxation
 
 OTHERS = ("cvc5", "scip")
 SLIGHTLY = Fraction(1, 1000)
@@ -154,3 +160,31 @@ def test_no_two_solvers_contradict_each_other(name: str, count: int) -> None:
             assert all(violation(each.formula, told.values) < slack for each in formulas if told.values), f"seed {seed}"
     assert answers["refuted", "refuted"] > count / 5, "there was something to agree on"
     assert answers["met", "met"] > count / 5
+
+
+def relaxed(text: str) -> tuple[list[Unknown], list[Named]]:
+    scene = ground(parse_program(text), T)
+    events, lowering = lowered(scene)
+    return events.unknowns, relaxation(events, lowering, lowering.lower(scene.program.constraints))
+
+
+@pytest.mark.parametrize(("name", "every"), [("cvc5", 5), ("scip", 1)])
+def test_what_no_form_of_constraint_can_ask_for_others_refute_too(name: str, every: int) -> None:
+    solver = other(name)
+    for form in [each for each in FORMS if each.name != "interval in interval"][::every]:
+        kind = solver.ask(*relaxed(form.impossible_program()), 5.0).kind
+        # One that takes "before" for "not after" finds a motion where the difference is all there is.
+        assert kind == "refuted" or (not solver.capabilities.exact and " < " in form.impossible), form.name
+
+
+def test_a_solver_of_ours_refutes_what_a_shared_table_calls_impossible(shared_dir: Path) -> None:
+    table = shared_dir / "acceptance" / "forms.txt"
+    if not table.is_file():
+        pytest.skip("no table of forms beside the clone")
+    rows = [line.split(" | ") for line in table.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+    second = other("scip")
+    for name, base, impossible, *_ in rows:
+        parameter, _, formula = impossible.rpartition(": ")
+        if name == "temporal in temporal" or " < " in impossible:
+            continue
+        assert second.ask(*relaxed(program(base, formula, parameter)), 5.0).kind == "refuted", name

@@ -46,7 +46,8 @@ class Cvc5:
             return Answer("timeout")
         answer, _, rest = said.partition("\n")
         if answer == "unsat":
-            return Answer("refuted", core=tuple({formulas[int(number)].origin for number in _NAME.findall(rest)}))
+            numbers = map(int, _NAME.findall(rest))
+            return Answer("refuted", core=tuple({origin for n in numbers for origin in formulas[n].origins}))
         return Answer("met" if answer == "sat" else "unknown")
 
 

@@ -26,7 +26,7 @@ from scenewright.solve.proofs.lowering import Lowered, Lowering
 from scenewright.solve.proofs.polynomials import ZERO, Atom, Formula, Some
 from scenewright.solve.proofs.refinement import Refinement
 from scenewright.solve.proofs.refuters import Refuter, core, refuter_called, taken
-from scenewright.solve.proofs.relaxation import Named, relaxation
+from scenewright.solve.proofs.relaxation import Named, relaxation, resting_on
 from scenewright.solve.proofs.search import Search
 from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
 
@@ -165,7 +165,7 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
 def _core(refuter: Refuter, unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> tuple[str, ...]:
     """Return what clashes, and which ranges of single numbers it takes for that."""
     origins = core(refuter, unknowns, formulas, 1.0)
-    clashing = [each for each in formulas if each.origin in origins]
+    clashing = resting_on(formulas, origins)
     ranges = []
     for kind, words in _RANGES.items():
         wider = [replace(each, high=_WIDER * each.high) if each.kind == kind else each for each in unknowns]

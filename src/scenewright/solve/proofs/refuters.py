@@ -15,10 +15,10 @@ from importlib.metadata import EntryPoint
 from typing import Literal, Protocol, cast
 
 from scenewright.errors import InputError, MissingExtraError, SolverError
-from scenewright.plugins import missing_extra, points
+from scenewright.plugins import missing_extra, named, points
 from scenewright.solve.proofs.events import Unknown
 from scenewright.solve.proofs.polynomials import All, Atom, atoms
-from scenewright.solve.proofs.relaxation import Named
+from scenewright.solve.proofs.relaxation import Named, resting_on
 
 GROUP = "scenewright.solvers"
 _OURS = tuple(
@@ -115,7 +115,7 @@ def refuter_called(name: str = "z3") -> Refuter:
     SolverError
         Where it cannot be imported.
     """
-    point = points(GROUP, _OURS).get(name.lower())
+    point = named(name.lower(), GROUP, _OURS)
     if point is None:
         raise InputError(
             "there is no such solver",
@@ -146,13 +146,13 @@ def taken(refuter: Refuter, formulas: Sequence[Named]) -> list[Named]:
 
 def core(refuter: Refuter, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float) -> tuple[str, ...]:
     """Return origins that already clash, each of them needed as far as that could be told in time."""
-    origins = list(dict.fromkeys(each.origin for each in formulas))
+    origins = list(dict.fromkeys(origin for each in formulas for origin in each.origins))
     if refuter.capabilities.cores:
         told = refuter.ask(unknowns, formulas, timeout_s, want_core=True)
         origins = [origin for origin in origins if origin in told.core or told.kind != "refuted"]
     until = time.monotonic() + timeout_s
     for origin in list(origins):
-        rest = [each for each in formulas if each.origin in origins and each.origin != origin]
+        rest = resting_on(formulas, {other for other in origins if other != origin})
         if time.monotonic() < until and refuter.ask(unknowns, rest, _SHRINK_S).kind == "refuted":
             origins.remove(origin)
     return tuple(origins)

@@ -37,8 +37,8 @@ class Z3:
         solver.from_string(smtlib(ranges, formulas, named=want_core))
         answer = solver.check()
         if answer == z3.unsat:
-            found = {formulas[int(str(name)[1:])].origin for name in solver.unsat_core()} if want_core else ()
-            return Answer("refuted", core=tuple(found))
+            numbers = [int(str(name)[1:]) for name in solver.unsat_core()] if want_core else []
+            return Answer("refuted", core=tuple({origin for n in numbers for origin in formulas[n].origins}))
         if answer == z3.sat:
             return Answer("met", values=_values(solver.model(), len(ranges)))
         return Answer("timeout" if solver.reason_unknown() in ("timeout", "canceled") else "unknown")
