@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from importlib.metadata import EntryPoint
 
-from scenewright.plugins import missing_extra, points
+from scenewright.plugins import missing_extra, named, points
 
 GROUP = "scenewright.nothing_of_this"
 OURS = (EntryPoint("plots", "nowhere:nothing [plots]", GROUP), EntryPoint("plain", "nowhere:nothing", GROUP))
@@ -14,6 +14,11 @@ def test_our_own_parts_are_there_without_being_registered() -> None:
     found = points(GROUP, OURS)
     assert sorted(found) == ["plain", "plots"]
     assert found["plain"].value == "nowhere:nothing"
+
+
+def test_a_part_is_found_by_its_name_alone() -> None:
+    assert named("plain", GROUP, OURS) is OURS[1]
+    assert named("nobody", GROUP, OURS) is None
 
 
 def test_what_needs_no_extra_misses_none() -> None:

@@ -55,6 +55,8 @@ def told(constraints: str) -> list[NotHeld]:
         ("always[A1(t0), A1(t2)] (A1v >= 8)", 6.0, "m/s"),
         ("A1v(t1) == A0v(t1) - 3", 3.0, "m/s"),
         ("A0v(2.0) == 7", 3.0, "m/s"),
+        ("A1(t2) < A0(t1) and A1v(t2) == 5", 3.0, "m/s"),
+        ("A1(t2) <= 5", 3.0, "s"),
         ("A1v(t1) / A1v(t0) <= 1/2", 0.5, ""),
     ],
 )
@@ -73,6 +75,8 @@ def test_what_is_broken_is_told_with_its_number(constraint: str, by: float, unit
         "A1v(t2) == 2",
         "A1v(t2) == 1.2",  # within the loose tolerance
         "A1(t2) < A0(t1)",  # who comes first is seen by driving
+        "A1(t2) < A0(t1) and A1v(t2) == 2",
+        "A1(t2) < A0(t1) or A1v(t2) == 7",
         "A0v(t2) == 3",  # nobody foresees when that is
         "A0(t1) == A1(t1)",
     ],

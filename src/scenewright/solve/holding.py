@@ -57,15 +57,16 @@ def not_held(
     )
     world = PlanWorld(scene, {**profiles, EGO: passed}, parameters)
     for constraint in scene.program.constraints:
-        formula = constraint.formula
-        egos = [knot for actor, knot in knots_of(formula) if actor == EGO]
-        if (egos and _is_order(formula)) or any(math.isinf(world.knot_time_s(EGO, knot)) for knot in egos):
-            continue
-        by = violation(formula, world)
-        dimensions = {dimension_of(node) for node in ex.walk(formula) if isinstance(node, ex.Compare)}
-        if not by <= max(_ROUNDED, *map(allowed, dimensions)):
-            dimension = dimensions.pop() if len(dimensions) == 1 else None
-            yield NotHeld(constraint, scene.program.words_of(constraint), by, SI_SYMBOL[dimension] if dimension else "")
+        for part in _asked(constraint.formula):
+            if any(actor == EGO and math.isinf(world.knot_time_s(EGO, knot)) for actor, knot in knots_of(part)):
+                continue
+            by = violation(part, world)
+            dimensions = {dimension_of(node) for node in ex.walk(part) if isinstance(node, ex.Compare)}
+            if not by <= max(_ROUNDED, *map(allowed, dimensions)):
+                dimension = dimensions.pop() if len(dimensions) == 1 else None
+                unit = SI_SYMBOL[dimension] if dimension else ""
+                yield NotHeld(constraint, scene.program.words_of(constraint), by, unit)
+                break
 
 
 def _passed_s(scene: Scene, ego: Profile, world: PlanWorld) -> Iterator[tuple[str, float]]:
@@ -80,8 +81,17 @@ def _passed_s(scene: Scene, ego: Profile, world: PlanWorld) -> Iterator[tuple[st
                     yield knot, time_s
 
 
-def _is_order(formula: ex.Formula) -> bool:
-    """Whether a formula says of moments that one comes before another."""
-    if not isinstance(formula, ex.Compare) or formula.operator == "==":
+def _asked(formula: ex.Formula) -> Iterator[ex.Formula]:
+    """Yield the parts that all must hold, without those in which it matters who comes before the ego."""
+    if isinstance(formula, ex.Logic) and formula.operator == "and":
+        for operand in formula.operands:
+            yield from _asked(operand)
+    elif not any(isinstance(node, ex.Compare) and _is_order(node) for node in ex.walk(formula)):
+        yield formula
+
+
+def _is_order(formula: ex.Compare) -> bool:
+    """Whether a comparison says of moments, the ego's among them, that one comes before another."""
+    if formula.operator == "==" or EGO not in actors_of(formula):
         return False
     return not any(isinstance(node, ex.State | ex.Derived) for node in ex.walk(formula))
