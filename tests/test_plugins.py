@@ -28,3 +28,12 @@ def test_what_needs_no_extra_misses_none() -> None:
 def test_an_extra_is_known_by_what_the_package_says_of_itself() -> None:
     unheard_of = EntryPoint("z", "nowhere:nothing [no-such-extra]", GROUP)
     assert missing_extra(unheard_of, "does nothing") is None, "nothing belongs to an extra that nobody declares"
+
+
+def test_a_library_of_ours_is_missed_where_no_installer_says_so() -> None:
+    ours = EntryPoint("z", "nowhere:nothing [deep]", GROUP)
+    missing = missing_extra(ours, "does nothing", {"deep": "no-such-library"})
+    assert missing is not None
+    assert "no-such-library, which does nothing, is not installed" in str(missing)
+    assert 'pip install "scenewright[deep]"' in str(missing)
+    assert missing_extra(ours, "does nothing", {"deep": "pytest"}) is None

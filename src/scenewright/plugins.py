@@ -8,8 +8,9 @@ the package that offers one is missing. A part says what it needs besides as an 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from importlib.metadata import EntryPoint, PackageNotFoundError, distribution, entry_points
+from types import MappingProxyType
 
 from scenewright.errors import MissingExtraError
 
@@ -31,20 +32,27 @@ def points(group: str, ours: Iterable[EntryPoint]) -> dict[str, EntryPoint]:
     return theirs | {point.name: point for point in ours}
 
 
-def missing_extra(point: EntryPoint, does: str) -> MissingExtraError | None:
+def missing_extra(
+    point: EntryPoint, does: str, libraries: Mapping[str, str] = MappingProxyType({})
+) -> MissingExtraError | None:
     """Return the error that names the extra to install; None where the part has all that it needs.
 
     Parameters
     ----------
     does
         What the missing library does here, such as ``reads .osm files``.
+    libraries
+        The library of each extra of ours: where we are no installed package, nothing else tells.
     """
     if not point.extras:
         return None
     package = point.dist.name if point.dist is not None else _OUR_PACKAGE
-    for requirement in filter(None, map(_REQUIREMENT.fullmatch, _requirements(package))):
-        if requirement["extra"] in point.extras and not _is_installed(requirement["name"]):
-            return MissingExtraError(f"{requirement['name']}, which {does},", requirement["extra"], package)
+    found = filter(None, map(_REQUIREMENT.fullmatch, _requirements(package)))
+    needed = [(each["extra"], each["name"]) for each in found]
+    needed += [] if point.dist is not None else list(libraries.items())
+    for extra, library in needed:
+        if extra in point.extras and not _is_installed(library):
+            return MissingExtraError(f"{library}, which {does},", extra, package)
     return None
 
 

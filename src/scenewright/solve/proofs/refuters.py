@@ -29,6 +29,7 @@ _OURS = tuple(
         "scip": "scip_engine:Scip [scip]",
     }.items()
 )
+_LIBRARIES = {"cvc5": "cvc5", "scip": "pyscipopt"}
 _SHRINK_S = 0.5  # for each question whether a core does without one of its members
 
 
@@ -100,7 +101,7 @@ class Refuter(Protocol):
 # -- by name --------------------------------------------------------------------------------------------------------
 def known() -> dict[str, MissingExtraError | None]:
     """Return the solvers that can be named, each with what it misses; nothing is imported for that."""
-    return {name: missing_extra(point, "refutes") for name, point in points(GROUP, _OURS).items()}
+    return {name: missing_extra(point, "refutes", _LIBRARIES) for name, point in points(GROUP, _OURS).items()}
 
 
 def refuter_called(name: str = "z3") -> Refuter:
@@ -123,7 +124,7 @@ def refuter_called(name: str = "z3") -> Refuter:
             expected=", ".join(known()),
             fix="scenewright solvers lists them",
         )
-    missing = missing_extra(point, "refutes")
+    missing = missing_extra(point, "refutes", _LIBRARIES)
     if missing is not None:
         raise missing
     try:
