@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from scenarios import YIELDS, limits_of, read_structure
 from scenewright.motion.profile import Profile, chain
+from scenewright.orchestrate import Request, orchestrate
 from scenewright.program.types import PieceKind
 from scenewright.solve.arrival import LinearCondition, linear_conditions
 from scenewright.solve.limits import COUNTER, FIRM, GENTLE, URGENT, WHOLE, Style
@@ -157,3 +158,21 @@ def test_waits_where_it_can_still_be_fast_enough() -> None:
     reached = [v for v in speeds if found.wait.place_m + v * v / 8.0 <= -(side.constant + per_speed * v) / per_metre]
     assert reached
     assert max(reached) >= 1.0
+
+
+@pytest.mark.parametrize(
+    ("first", "at_the_trigger", "sketch"),
+    [
+        ("gap(A0, A1, t0) == 20", "A1v(t1) == 8", "t0, go, t1, go, t2"),
+        ("A0x(t0) == stop_line - 150", "headway(A0, A1, t1) == 1.5 and A1v(t1) == 8", "t0, go, t1, dec, t2"),
+    ],
+)
+def test_a_side_that_is_a_speed_and_no_place_is_planned_for(first: str, at_the_trigger: str, sketch: str) -> None:
+    """A hero that is only to be so fast at its trigger has no place to wait at."""
+    head = "Actor 0 (ego):\n- W\n- [t0, go, t1, go, t2]\n\nActor 1 (hero):\n- W\n"
+    text = (
+        f"{head}- [{sketch}]\n\nConstraints:\n{first}\nA0(t1) == A1(t1)\nA0x(t1) == stop_line - 60\n{at_the_trigger}\n"
+    )
+    result = orchestrate(Request(text, ego="idm", takes=1))
+    assert result.run is not None
+    assert result.run.status == "finished"

@@ -222,11 +222,11 @@ class Prospects:
 
     def _ready(self, situation: Situation, style: Style, waits: Style | None) -> tuple[Style, ...]:
         """Return how a hero that is about to brake is ready for whatever the ego does; nothing for any other."""
-        ways = self._ways(situation, style)
-        if len(ways) != 1 or self._tasks[ways[0][1]].following is not PieceKind.DEC:
+        way = self._way_to_a_place(situation, style)
+        if way is None or self._tasks[way[1]].following is not PieceKind.DEC:
             return ()
-        _, _, _, s_m, speed_mps = ways[0]
-        places = self._waiting_places(ways[0], style, hasty=True)
+        _, _, _, s_m, speed_mps = way
+        places = self._waiting_places(way, style, hasty=True)
         stops_m = s_m + speed_mps * speed_mps / (2.0 * _BRAKES_AT_MOST_MPSS)
         place_m, go_s, _ = next((place for place in places if place[0] >= stops_m), places[-1])
         ready = replace(style, waiting_place_m=place_m, sets_off_s=_SOMEWHAT_FASTER * go_s)
@@ -272,15 +272,15 @@ class Prospects:
         Who waits can still be early or late; who creeps ever nearer can only be early. One waits as near as it can and
         still be fast enough at its trigger, for the ego may make haste.
         """
-        ways = self._ways(situation, style)
-        if len(ways) != 1 or style.natural_speed:
+        way = self._way_to_a_place(situation, style)
+        if way is None or style.natural_speed:
             return None
-        side, hero, approach, s_m, speed_mps = ways[0]
+        side, hero, approach, s_m, speed_mps = way
         rest_s = situation.trigger_s[hero] - situation.time_s
         creeps_mps = _CREEPS_WHEN_HASTY_MPS if situation.earliest_s else _CREEPS_MPS
         if approach.place_m(side, hero) - s_m > creeps_mps * rest_s:
             return None
-        for place_m, go_s, room_m in self._waiting_places(ways[0], style, bool(situation.earliest_s)):
+        for place_m, go_s, room_m in self._waiting_places(way, style, bool(situation.earliest_s)):
             wait = _drive_up(s_m, speed_mps, place_m, room_m, _SOMEWHAT_FASTER * go_s)
             if wait is not None and wait.shortest_s < rest_s:
                 return replace(style, wait=wait)
@@ -309,7 +309,12 @@ class Prospects:
             places.append((place_m, max(go_s, _SHORTEST_GO_S), room_m))
         return places
 
-    def _ways(self, situation: Situation, style: Style, tolerance: float = 0.0) -> list[_Way]:
+    def _way_to_a_place(self, situation: Situation, style: Style) -> _Way | None:
+        """Return the way of the only hero that is on one, where its side is a place and not a speed alone."""
+        ways = self._ways(situation, style)
+        return ways[0] if len(ways) == 1 and ways[0][0].weights[ways[0][1]][0] else None
+
+    def _ways(self, situation: Situation, style: Manner, tolerance: float = 0.0) -> list[_Way]:
         """Return, for every hero with a side of its own and a timed way to it, what `least_miss` takes."""
         found = []
         for hero_id, state in situation.heroes.items():
