@@ -314,7 +314,7 @@ class Prospects:
         ways = self._ways(situation, style)
         return ways[0] if len(ways) == 1 and ways[0][0].weights[ways[0][1]][0] else None
 
-    def _ways(self, situation: Situation, style: Manner, tolerance: float = 0.0) -> list[_Way]:
+    def _ways(self, situation: Situation, style: Style, tolerance: float = 0.0) -> list[_Way]:
         """Return, for every hero with a side of its own and a timed way to it, what `least_miss` takes."""
         found = []
         for hero_id, state in situation.heroes.items():
