@@ -26,7 +26,7 @@ from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.narrowing import Narrowing
-from scenewright.solve.proofs.polynomials import Polynomial
+from scenewright.solve.proofs.polynomials import Atom, Polynomial
 from scenewright.solve.proofs.search import Search, _choose
 
 Array = NDArray[np.float64]
@@ -121,6 +121,7 @@ class Program:
             conflict = scene.conflict(EGO, hero.id)
             if conflict is not None and conflict.kind != "following":
                 self.zones[hero.id] = conflict.zone_b_m[0] - _OUT_OF_WAY_M
+        self.quotients = _quotients(self.events, self.search._index)
         only_times = np.array([unknown.kind == "time" for unknown in self.events.unknowns])
         self.orders = [
             all(key == () or (len(key) == 1 and only_times[key[0]]) for key in atom.left.terms)
@@ -386,6 +387,8 @@ class Problem:
         compiled = program.search._compiled
         values, gradients = compiled.values(point), compiled.gradients(point)
         norms = np.maximum(np.sqrt(((gradients * program.scale) ** 2).sum(axis=1)), 1e-9)
+        for k, place, speed in program.quotients:
+            norms[k] = _TIGHT["time"] * max(float(point[speed]), _MOVES_MPS) * max(abs(float(gradients[k, place])), 1e-9)
         levels = values / norms
         errors = np.where(compiled.equal, np.abs(levels), levels)
         chosen: list[int] = []
@@ -591,6 +594,19 @@ def _number(value: Polynomial) -> int | None:
     if value.constant is not None:
         return None
     return next(iter(value.terms))[0]
+
+
+def _quotients(events: Events, index: Sequence[Atom]) -> list[tuple[int, int, int]]:
+    """Return atoms that compare times, a place over a speed: their numbers, with those of the place and the speed."""
+    found = []
+    for number, atom in enumerate(index):
+        kinds: dict[str, int] = {}
+        for key in atom.left.terms:
+            for unknown in key:
+                kinds.setdefault(events.unknowns[unknown].kind, unknown)
+        if "place" in kinds and "speed" in kinds:
+            found.append((number, kinds["place"], kinds["speed"]))
+    return found
 
 
 def _interpolated(s_m: float, places: Array, caps: Array) -> tuple[float, float]:
