@@ -17,6 +17,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from scenewright.judge.tolerance import LOOSE, TIGHT, dimension_of
+from scenewright.plan.planner import Attempt, Planner
+from scenewright.plan.rehearsal import Rehearsed
 from scenewright.program.check import check_values
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene, ground
@@ -25,14 +27,10 @@ from scenewright.simulate.beginning import first_plan, is_timed_by_ego
 from scenewright.simulate.ego_start import EgoFirstState
 from scenewright.simulate.hindsight import drive_profile, ego_left_no_room
 from scenewright.simulate.loop import Rates, Run, simulate
-from scenewright.simulate.rehearsal import Rehearsed
-from scenewright.simulate.replanner import Replanner
 from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
 from scenewright.solve.holding import NotHeld, not_held
 from scenewright.solve.limits import Limits
-from scenewright.solve.planner import Attempt
-from scenewright.solve.problem import Backend
 from scenewright.translate.model.settings import TranslatorSettings
 from scenewright.translate.sources import read_scenario
 
@@ -79,7 +77,6 @@ class Request:
     translator: str = "offline"
     out: Path | None = None
     replan_hz: float = 10.0
-    budget_s: float = 0.25
     predictor: str = "road"
     takes: int = 3
     solver: str = "z3"
@@ -135,7 +132,6 @@ def orchestrate(
     report: Report | None = None,
     progress: Callable[[float], None] | None = None,
     until: Stop = "end",
-    backend: Backend | None = None,
 ) -> Result:
     """Carry out `request`.
 
@@ -150,8 +146,6 @@ def orchestrate(
     until
         The last stage to carry out. After ``check`` or ``plan`` the status is ``success`` where that stage succeeded;
         after ``check`` the witness is judged and written where there is a folder for it.
-    backend
-        The solver; z3 by default. One that wraps it can watch what is asked.
 
     Raises
     ------
@@ -159,7 +153,7 @@ def orchestrate(
         Where the input is wrong; every subclass says what and how to mend it.
     """
     stages = Stages(report)
-    world, result, answer = begin(request, stages, backend)
+    world, result, answer = begin(request, stages)
     if answer == "infeasible":
         return result
     if until == "check":
@@ -171,12 +165,9 @@ def orchestrate(
         planned = first_plan(world, world.predictor)
         assert planned is not None
         result.attempt = planned[2]
-    if result.attempt.plan is not None:
-        profiles = result.attempt.plan.profiles
-        result.not_held = tuple(not_held(world.scene, profiles, dimension_of, LOOSE.of))
-    planless = result.attempt.plan is None or bool(result.not_held)
-    if planless or until == "plan":
-        result.status = "gave up" if planless else "success"
+    result.not_held = tuple(not_held(world.scene, result.attempt.plan.profiles, dimension_of, LOOSE.of))
+    if result.not_held or until == "plan":
+        result.status = "gave up" if result.not_held else "success"
         return result
     _drive(request, result, world, planned, stages, progress)
     result = _rehearse(request, result, world, stages, progress)
@@ -187,9 +178,9 @@ def orchestrate(
     return result
 
 
-def begin(request: Request, stages: Stages, backend: Backend | None = None) -> tuple[World, Result, str]:
+def begin(request: Request, stages: Stages) -> tuple[World, Result, str]:
     """Set everything up and ask whether it can happen; return world, answer, and the result for one that cannot."""
-    world, translation = set_up(request, stages, backend)
+    world, translation = set_up(request, stages)
     with stages("check"):
         feasibility = world.choose_and_check()
     result = Result("infeasible", world.scene, translation, feasibility, timings_s=stages.seconds)
@@ -215,15 +206,15 @@ def _drive(
     request: Request,
     result: Result,
     world: World,
-    planned: tuple[Replanner, EgoFirstState, Attempt],
+    planned: tuple[Planner, EgoFirstState, Attempt],
     stages: Stages,
     progress: Callable[[float], None] | None,
 ) -> None:
     """Carry out one take from its first second, and judge it."""
-    replanner, start, result.attempt = planned
+    planner, start, result.attempt = planned
     with stages("simulate"):
         world.ego.reset(start.s_m, start.speed_mps)
-        result.run = simulate(world.scene, world.ego, replanner, world.rates, progress)
+        result.run = simulate(world.scene, world.ego, planner, world.rates, progress)
     judge_run(request, result, world, stages)
 
 
@@ -245,7 +236,7 @@ def _rehearse(
         slower_than_mps = math.inf if is_timed_by_ego(world) else _slower_than_mps(last, drive.state(0.0)[1])
         for wanted in dict.fromkeys([(slower_than_mps, pace), (math.inf, 1.0)]):
             planned = first_plan(world, predictor, *wanted)
-            if planned is not None and planned[2].plan is not None:
+            if planned is not None:
                 break
         else:
             break  # nothing to drive, however the take begins
@@ -277,7 +268,7 @@ def _missed_only_outcome(result: Result) -> bool:
     return {condition.kind for condition in _missed(result)} == {"outcome"}
 
 
-def set_up(request: Request, stages: Stages, backend: Backend | None = None) -> tuple[World, Translation | None]:
+def set_up(request: Request, stages: Stages) -> tuple[World, Translation | None]:
     """Read the source, put it on its map, and load the policy; nothing that is wrong with them is found out late."""
     if request.out is not None:
         from scenewright.simulate.record import prepare_directory
@@ -290,7 +281,7 @@ def set_up(request: Request, stages: Stages, backend: Backend | None = None) -> 
         check_values(program, scene.parameters, name=program.name)
     rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
     ego, seed, predictor = request.ego, request.seed, request.predictor
-    world = World(scene, ego, seed, rates, predictor, request.budget_s, backend, request.solver)
+    world = World(scene, ego, seed, rates, predictor, request.solver)
     return world, translation
 
 

@@ -145,3 +145,13 @@ def format_fraction(value: Fraction) -> str:
     scaled = abs(value.numerator) * 10**digits // value.denominator
     text = str(scaled).rjust(digits + 1, "0")
     return f"{'-' if value < 0 else ''}{text[:-digits]}.{text[-digits:]}"
+
+
+_PINNED_DECIMALS = 4
+
+
+def pin(value: float | Fraction) -> Fraction:
+    """Round a measured number to the rational that a solver is given (0.1 mm, 0.1 mm/s): the one place of rounding."""
+    if isinstance(value, Fraction):
+        return value
+    return Fraction(round(float(value) * 10**_PINNED_DECIMALS), 10**_PINNED_DECIMALS)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from scenewright.simulate.following import Leader
-from scenewright.simulate.prediction import EgoSample
+from scenewright.plan.following import Leader
+from scenewright.plan.prediction import EgoSample
 
 CRUISE_MPS = 13.9
 

@@ -15,7 +15,7 @@ from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.simulate.loop import Rates, Run, simulate
-from scenewright.simulate.prediction import Predictor, RoadAware
+from scenewright.plan.prediction import Predictor, RoadAware
 from scenewright.simulate.replanner import Replanner
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.arrival import LinearCondition, linear_conditions

@@ -8,8 +8,8 @@ from stories import HERO, driven
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
-from scenewright.simulate.following import Leader, foresee_follower
-from scenewright.simulate.prediction import ConstantAcceleration
+from scenewright.plan.following import Leader, foresee_follower
+from scenewright.plan.prediction import ConstantAcceleration
 
 
 @pytest.mark.parametrize("headway_s", [1.0, 1.3, 1.8, 2.2])

@@ -7,9 +7,9 @@ from followers import CRUISE_MPS, idm
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.program.types import EGO
-from scenewright.simulate.following import Leader
+from scenewright.plan.following import Leader
 from scenewright.simulate.leading import Led, ways_to_lead
-from scenewright.simulate.prediction import ConstantAcceleration, EgoSample
+from scenewright.plan.prediction import ConstantAcceleration, EgoSample
 from scenewright.solve.arrival import LinearCondition
 from scenewright.solve.situation import HeroState
 

@@ -18,7 +18,7 @@ from scenewright.motion.profile import Profile
 from scenewright.orchestrate import case_of
 from scenewright.roads.load import load_map
 from scenewright.roads.routes import Route, find_route
-from scenewright.simulate.prediction import (
+from scenewright.plan.prediction import (
     ConstantAcceleration,
     ConstantSpeed,
     EgoSample,

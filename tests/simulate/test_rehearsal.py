@@ -10,8 +10,8 @@ import pytest
 from scenewright.judge.tolerance import TIGHT
 from scenewright.motion.profile import Profile, chain
 from scenewright.orchestrate import Request, orchestrate
-from scenewright.simulate.prediction import ConstantSpeed
-from scenewright.simulate.rehearsal import Rehearsed
+from scenewright.plan.prediction import ConstantSpeed
+from scenewright.plan.rehearsal import Rehearsed
 
 DRIVE = Profile(chain(0.0, 0.0, 10.0, [(4.0, 0.0, 0), (5.0, -2.0, 0), (3.0, 0.0, 0), (4.0, 1.5, 0)]))
 STALLS = (

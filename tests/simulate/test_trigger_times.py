@@ -11,8 +11,8 @@ from scenewright.program.text import parse_program
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import ground
 from scenewright.roads.load import load_map
-from scenewright.simulate.prediction import ConstantAcceleration
-from scenewright.simulate.triggers import PlannedTrigger, TriggerTimes
+from scenewright.plan.prediction import ConstantAcceleration
+from scenewright.plan.triggers import PlannedTrigger, TriggerTimes
 from scenewright.solve.arrival import TIGHT_LENGTH_M, linear_conditions
 from scenewright.solve.situation import HeroState
 

@@ -63,9 +63,6 @@ def run(
     predictor: Annotated[
         str, typer.Option(help="How the ego is foreseen: road (slows for turns and lines), acceleration or speed.")
     ] = "road",
-    budget_ms: Annotated[
-        float, typer.Option("--budget-ms", min=1.0, max=60_000.0, help="Wall time that one re-solve may take.")
-    ] = 250.0,
     as_json: AsJson = False,
     quiet: Annotated[bool, typer.Option("--quiet", help="Print nothing but where the run is.")] = False,
     open_page: Annotated[bool, typer.Option("--open", help="Open the run's page in the browser afterwards.")] = False,
@@ -77,7 +74,6 @@ def run(
             tolerance=tolerance,
             seed=seed,
             replan_hz=replan_hz,
-            budget_s=budget_ms / 1000,
             predictor=predictor,
             takes=takes,
         )
@@ -226,9 +222,6 @@ def tell_no_plan(console: Console, result: Result) -> None:
         for each in result.not_held:
             console.print(f"  - {each}", soft_wrap=True, markup=False)
         console.print("`scenewright check` tells whether it can happen.", soft_wrap=True)
-    elif result.status == "gave up":
-        console.print(f"gave up: {tried(result)}", soft_wrap=True)
-        console.print("Neither a plan nor a proof that there is none was found; more of --budget-ms may help.")
 
 
 def tell_map_notes(console: Console, result: Result) -> None:
@@ -243,9 +236,6 @@ def tried(result: Result) -> str | None:
         return None
     if result.not_held:
         return "the planner cannot hold yet: " + "; ".join(map(str, result.not_held))
-    if result.attempt is not None:
-        attempt = result.attempt
-        return f"{attempt.tries} ways to move in {attempt.wall_s:.1f} s; the last: {attempt.reason or attempt.status}"
     return result.feasibility.reason if result.feasibility is not None else None
 
 

@@ -7,42 +7,91 @@ is fixed; a hero freezes at its trigger, but for later pieces that react to the 
 from __future__ import annotations
 
 import time
-from bisect import bisect_right
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
-import numpy as np
-
 from scenewright.motion.profile import Profile, chain
-from scenewright.plan.preferences import PREFERENCES
-from scenewright.plan.problem import Answer, Problem, Program, Situation
+from scenewright.plan.asked import Asked
+from scenewright.plan.clearance import Clearance
+from scenewright.plan.following import Leader, foresee_follower
+from scenewright.plan.prediction import ConstantSpeed, EgoSample, Predictor, jumped, lately
+from scenewright.plan.problem import Missed, Problem
 from scenewright.plan.shooting import profile_of
+from scenewright.plan.situation import Answer, Drive, Further, Lanes, SeenAndForeseen, Situation
 from scenewright.plan.solving import Solution, solve
+from scenewright.plan.triggers import TriggerTimes
 from scenewright.program.structure import Role, Structure, knots_of
-from scenewright.program.types import EGO, Actor
+from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.grounding import Scene
-from scenewright.simulate.following import Leader, foresee_follower
-from scenewright.simulate.prediction import ConstantSpeed, EgoSample, Predictor, jumped, lately
-from scenewright.simulate.replanner import Replan
-from scenewright.simulate.triggers import PlannedTrigger, TriggerTimes
 from scenewright.solve.arrival import LinearCondition
-from scenewright.solve.clearance import Clearance
 from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan
-from scenewright.solve.planner import Attempt
 
+# How long an ego must have driven evenly for a jump in its acceleration to be a change of mind (s).
 _EVEN_S = 0.1
-_FIRST_STEPS, _TICK_STEPS = 40, 4
-_SECOND_THOUGHTS = 3
-_MOST_STEPS_MORE, _STEPS_A_SECOND, _LATEST_S = 16, 12, 12.0
-_MUCH_LATER_S, _AS_GOOD = 1.0, 0.7
-_PACES = (0.8, 0.45, 0.25)
-_FIRST_JOINT_S = (3.5, 6.0)
+# Newton steps of a first plan and of a tick, and how many more a tick has for each second that a trigger has moved by.
+_FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
+# First plans are solved for from these speeds (shares of the natural one) and, where both decide, triggers (s): Newton
+# finds the nearest plan, not the best.
+_PACES, _JOINT_S = (0.8, 0.45, 0.25), (3.5, 6.0)
+# How often a first plan is solved for again: its cells are laid for the times of the one before, and an ego that
+# follows a hero answers what that does.
+_AGAIN, _AGAIN_FOLLOWED = 1, 3
+# A plan that misses no more than this (tight tolerances) does what was asked.
+GOOD = 0.2
+# A hero that was a little less than settled a moment ago was so from now on; how far back that is looked at (s).
+_NEARLY_MPSS, _LOOKED_AT_S, _LOOKED_BACK = 0.1, 0.05, 12
+
+
+@dataclass(frozen=True, slots=True)
+class Replan:
+    """What one tick's re-solve came to; `tolerance` is what it misses, in tight tolerances."""
+
+    time_s: float
+    status: str
+    backend: str
+    wall_s: float
+    tolerance: float
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class Attempt:
+    """What a first plan came to."""
+
+    plan: Plan
+    missed: Missed
+    wall_s: float
+    steps: int
+
+    @property
+    def is_good(self) -> bool:
+        """Whether it does what was asked of the heroes."""
+        return self.missed.by <= GOOD
+
+    @property
+    def promises_outcome(self) -> bool:
+        """Whether, with the ego as foreseen, it leads to the outcome too (who goes first)."""
+        return self.missed.late_s <= 0.0
 
 
 @dataclass(slots=True)
-class ConvexPlanner:
-    """Plans and re-plans the heroes of one scene over one run; a `HeroDriver`."""
+class Planner:
+    """Plans and re-plans the heroes of one scene over one run.
+
+    Attributes
+    ----------
+    limits
+        Of every actor, by id.
+    predictor
+        Foresees the ego where it follows nobody.
+    conditions
+        The scene's linear conditions.
+    plan
+        The motion that is being carried out.
+    ego_knots_s
+        When the ego passed its knots.
+    """
 
     scene: Scene
     structure: Structure
@@ -52,101 +101,110 @@ class ConvexPlanner:
     plan: Plan = field(init=False)
     ego_knots_s: dict[str, float] = field(init=False, default_factory=dict)
     records: list[Replan] = field(init=False, default_factory=list)
-    program: Program = field(init=False)
-    _samples: list[EgoSample] = field(init=False, default_factory=list)
+    _asked: Asked = field(init=False)
     _times: TriggerTimes = field(init=False)
-    _clearances: dict[int, Clearance] = field(init=False, default_factory=dict)
-    _joint_s: dict[int, float] = field(init=False, default_factory=dict)
+    _samples: list[EgoSample] = field(init=False, default_factory=list)
+    _joint_s: dict[int, float] = field(init=False, default_factory=dict)  # first planned, where both decide when
+    _lanes: dict[int, Clearance] = field(init=False, default_factory=dict)  # heroes on the ego's lane
 
     def __post_init__(self) -> None:
-        self.program = Program(self.scene, self.structure, self.limits)
-        cruise_mps = self.limits[EGO].natural_approach_speed_mps
-        self._times = TriggerTimes(self.scene, self.structure, self.conditions, self.predictor, cruise_mps)
+        self._asked = Asked(self.scene, self.structure, self.limits)
+        self._times = TriggerTimes(self.scene, self.structure, self.conditions)
         for hero in self.scene.program.heroes:
             clearance = Clearance.of(self.scene, self.structure, self.conditions, hero)
             if clearance is not None:
-                self._clearances[hero.id] = clearance
+                self._lanes[hero.id] = clearance
 
     # -- the first plan -----------------------------------------------------------------------------------------------
     def begin(self, ego: EgoSample) -> Attempt:
-        """Plan from the ego's first state; the plan is kept if there is one."""
+        """Plan from the ego's first state; the plan is kept."""
         started = time.perf_counter()
-        self._samples = [ego]
-        self._times.ego_began = ego[1:3]
+        self._samples, self._times.ego_began = [ego], ego[1:3]
         self.ego_knots_s = {self.scene.program.ego.sketch.knots[0]: 0.0}
         prediction = self.predictor.predict([ego])
-        best: tuple[Solution, Plan] | None = None
-        joint = any(
-            self.structure.trigger_knot(hero.id) and self._times.ego_side(hero) is None and hero.id not in self._times._lags
-            for hero in self.scene.program.heroes
-        )
-        for joint_s in _FIRST_JOINT_S if joint else (0.0,):
-            for pace in _PACES:
-                found = self._first(prediction, joint_s, pace)
-                if best is None or found[0].cost < best[0].cost:
-                    best = found
-        assert best is not None
-        for _ in range(_SECOND_THOUGHTS if self._times.leaders else 1):
-            # Its cells are laid for the times that it has now; and an ego that follows a hero answers what that does.
+        joint = any(self._trigger(hero) is not None and not self._ego_decides(hero) for hero in self._heroes)
+        tries = [
+            self._planned_first(prediction, joint_s, self._even_motions(prediction, joint_s, pace))
+            for joint_s in (_JOINT_S if joint else (0.0,))
+            for pace in _PACES
+        ]
+        best = min(tries, key=lambda found: found[0].cost)
+        for _ in range(_AGAIN_FOLLOWED if self._leaders() else _AGAIN):
             self.plan = best[1]
-            best = self._first(self._foresee(), self._joint_of(best[1]), 1.0, best[1])
-        self.plan = best[1]
-        for hero in self.scene.program.heroes:
-            name = self.structure.trigger_knot(hero.id)
-            if name is not None:
+            best = self._planned_first(self._foreseen(), 0.0, self.plan.profiles)
+        solution, self.plan = best
+        for hero in self._heroes:
+            if (name := self._trigger(hero)) is not None:
                 self._joint_s[hero.id] = self.plan.profiles[hero.id].knot_times_s[name]
-        wall_s = time.perf_counter() - started
-        missed = best[0].missed
-        status = "sat" if missed < 0.2 else "relaxed"
-        attempt = Attempt(self.plan, status, "", wall_s, best[0].steps, promises_outcome=best[0].late_s <= 0.0)
-        self.records = [Replan(0.0, status, "daqp", wall_s, missed, "")]
+        attempt = Attempt(self.plan, solution.missed, time.perf_counter() - started, solution.steps)
+        self.records = [Replan(0.0, _status(solution), "daqp", attempt.wall_s, solution.missed.by, "")]
         return attempt
 
-    def _first(
-        self, prediction: Profile, joint_s: float, pace: float, before: Plan | None = None
+    def _planned_first(
+        self, prediction: Profile, joint_s: float, guesses: Mapping[int, Profile]
     ) -> tuple[Solution, Plan]:
-        """Return a first plan, from a guess of triggers and pace or from another plan."""
-        situation = self._situation(0.0, prediction, joint_s)
-        if before is not None:
-            times = {
-                self.program.knot(hero.id, name): time_s
-                for hero in self.scene.program.heroes
-                for name, time_s in before.profiles[hero.id].knot_times_s.items()
-            }
-            expected = {instant: times.get(instant, time_s) for instant, time_s in situation.expected_s.items()}
-            situation = replace(situation, expected_s=expected, guesses=before.profiles)
-        else:
-            situation = replace(situation, guesses=self._even_motions(situation, pace))
-        problem = Problem(self.program, situation)
-        z = np.array(problem.guess)
-        solution = solve(problem, z, _FIRST_STEPS)
+        """Return a first plan that is found from guesses: motions, or other plans with all their knots."""
+        problem = Problem(self._asked, self._first_situation(prediction, joint_s, guesses))
+        solution = solve(problem, problem.guess, _FIRST_STEPS)
         return solution, self._made(problem, solution, prediction)
 
-    def _even_motions(self, situation: Situation, pace: float) -> dict[int, Profile]:
+    def _even_motions(self, prediction: Profile, joint_s: float, pace: float) -> dict[int, Profile]:
         """Return first guesses: everybody comes evenly to where a condition at its trigger wants it."""
         found = {}
-        for hero in self.scene.program.heroes:
+        for hero in self._heroes:
             speed_mps = pace * self.limits[hero.id].natural_approach_speed_mps
-            instant = self.program.trigger(hero.id)
-            trigger_s = situation.knots_s.get(instant, situation.expected_s.get(instant, 0.0)) if instant is not None else 0.0
-            place_m = 50.0 + speed_mps * trigger_s
-            for condition in self.conditions:
-                others = {a: situation.ego(trigger_s)[:2] for a in condition.weights if a == EGO}
-                known = set(condition.weights) == {*others, hero.id}
-                if known and condition.moments <= self.structure.triggers.get(hero.id, frozenset()):
-                    per_metre = condition.weights[hero.id][0]
-                    if per_metre:
-                        rest = condition.value({**others, hero.id: (0.0, speed_mps)})
-                        place_m = -rest / per_metre
-                        break
-            first = place_m - speed_mps * trigger_s
-            found[hero.id] = Profile(chain(0.0, first, speed_mps, [(trigger_s, 0.0, 0)]), {hero.sketch.knots[0]: 0.0})
+            trigger_s = self._times.instant_s(hero, 0.0, prediction, None) if self._ego_decides(hero) else joint_s
+            first_m = self._place_m(hero, prediction.state(trigger_s)[:2], speed_mps) - speed_mps * trigger_s
+            moves = [(trigger_s, 0.0, 0)]
+            found[hero.id] = Profile(chain(0.0, first_m, speed_mps, moves), {hero.sketch.knots[0]: 0.0})
         return found
 
-    def _joint_of(self, plan: Plan) -> float:
-        """Return when the first trigger comes in a plan (s)."""
-        names = [(hero.id, self.structure.trigger_knot(hero.id)) for hero in self.scene.program.heroes]
-        return min((plan.profiles[hero].knot_times_s[name] for hero, name in names if name), default=0.0)
+    def _place_m(self, hero: Actor, ego: tuple[float, float], speed_mps: float) -> float:
+        """Return where a hero that is so fast is at its trigger, as far as a condition there tells."""
+        instant = self.structure.triggers.get(hero.id, frozenset())
+        for condition in self.conditions:
+            if (
+                condition.moments <= instant
+                and hero.id in condition.weights
+                and set(condition.weights) <= {EGO, hero.id}
+            ):
+                per_metre = condition.weights[hero.id][0]
+                if per_metre:
+                    return -condition.value({EGO: ego, hero.id: (0.0, speed_mps)}) / per_metre
+        return 0.5 * self.scene.routes[hero.id].landmarks["route_end"]
+
+    def _first_situation(self, prediction: Profile, joint_s: float, guesses: Mapping[int, Profile]) -> Situation:
+        triggers = {
+            hero.id: self._times.instant_s(hero, 0.0, prediction, None)
+            for hero in self._heroes
+            if self._ego_decides(hero)
+        }
+        knots = {self._asked.knot(hero, self._name(hero)): at_s for hero, at_s in triggers.items()}
+        knots |= self._ego_knots(0.0, prediction, triggers, knots)
+        expected: dict[int, float] = {}
+        planned: dict[int, float] = {}
+        for hero in self._heroes:
+            if hero.id not in triggers and (name := self._trigger(hero)) is not None:
+                instant = self._asked.knot(hero.id, name)
+                expected[instant] = planned[instant] = guesses[hero.id].knot_times_s.get(name, joint_s)
+        for actor in self.scene.program.actors:
+            now, told = 0.0, guesses[actor.id].knot_times_s if actor.id in guesses else {}
+            for name in actor.sketch.knots:
+                instant = self._asked.knot(actor.id, name)
+                if instant not in knots:
+                    expected.setdefault(instant, told.get(name, now + self._asked.wanted.lasts_s))
+                now = knots.get(instant, expected.get(instant, now))
+        return Situation(
+            0.0,
+            SeenAndForeseen(self._samples, prediction),
+            knots,
+            expected,
+            guesses=guesses,
+            planned_s=planned,
+            waits=frozenset(triggers),
+            sure=self._is_sure,
+            lanes=self._on_lanes(0.0, prediction, first=True),
+        )
 
     # -- one tick -----------------------------------------------------------------------------------------------------
     @property
@@ -154,264 +212,228 @@ class ConvexPlanner:
         """Whether the ego has just changed its mind while a hero can still answer."""
         if not jumped(lately(self._samples, _EVEN_S)):
             return False
-        return any(self._open_piece(hero, self._samples[-1][0]) is not None for hero in self.scene.program.heroes)
+        return any(self._open_piece(hero, self._samples[-1][0]) is not None for hero in self._heroes)
 
     def observe(self, sample: EgoSample) -> None:
         """Take note of the ego's state after a step, and of the knots that it passed in it."""
         previous = self._samples[-1]
         self._samples.append(sample)
         for hero, instant in self.structure.triggers.items():
-            planned = self.plan.profiles[hero].knot_times_s.get(self.structure.trigger_knot(hero) or "")
+            planned = self.plan.profiles[hero].knot_times_s.get(self._name(hero))
             if planned is not None and planned <= sample[0]:
                 for owner, name in instant:
                     if owner == EGO:
-                        self.ego_knots_s.setdefault(name, planned)
+                        self.ego_knots_s.setdefault(name, planned)  # the moment is the same
         knots = self.scene.program.ego.sketch.knots
         for condition in self._times.ego_alone():
             knot = next(iter(condition.moments))[1]
             if knot in self.ego_knots_s or any(k not in self.ego_knots_s for k in knots[: knots.index(knot)]):
                 continue
-            before = condition.value({EGO: (previous[1], previous[2])})
-            after = condition.value({EGO: (sample[1], sample[2])})
-            if before == after or before * after > 0:
-                continue
-            self.ego_knots_s[knot] = previous[0] + before / (before - after) * (sample[0] - previous[0])
+            before, after = (condition.value({EGO: state[1:3]}) for state in (previous, sample))
+            if before != after and before * after <= 0:
+                self.ego_knots_s[knot] = previous[0] + before / (before - after) * (sample[0] - previous[0])
 
     def tick(self, time_s: float) -> Replan:
         """Re-solve where that is needed, and return what came of it."""
         started = time.perf_counter()
-        if all(self._open_piece(hero, time_s) is None for hero in self.scene.program.heroes):
+        if all(self._open_piece(hero, time_s) is None for hero in self._heroes):
             record = Replan(time_s, "frozen", "", 0.0, self.plan.tolerance, "after its trigger the hero does not adapt")
         else:
-            prediction = self._foresee()
-            problem = Problem(self.program, self._situation(time_s, prediction, None))
-            solution = solve(problem, np.array(problem.guess), _TICK_STEPS + self._more_steps(problem))
+            prediction = self._foreseen()
+            situation, moved_s = self._situation(time_s, prediction)
+            problem = Problem(self._asked, situation)
+            steps = _TICK_STEPS + min(_MOST_STEPS_MORE, int(_STEPS_A_SECOND * moved_s))
+            solution = solve(problem, problem.guess, steps)
             self.plan = self._made(problem, solution, prediction)
-            record = Replan(time_s, "sat", "daqp", 0.0, solution.missed, "")
+            record = Replan(time_s, _status(solution), "daqp", 0.0, solution.missed.by, "")
         record = replace(record, wall_s=time.perf_counter() - started)
         self.records.append(record)
         return record
 
-    def _more_steps(self, problem: Problem) -> int:
-        """Return how many more steps a plan takes for which triggers come at other times than before."""
-        moved_s = 0.0
-        for hero in self.scene.program.heroes:
-            name = self.structure.trigger_knot(hero.id)
-            if name is not None:
-                planned_s = self.plan.profiles[hero.id].knot_times_s[name]
-                moved_s = max(moved_s, abs(problem.now.knots_s.get(self.program.knot(hero.id, name), planned_s) - planned_s))
-        return min(_MOST_STEPS_MORE, int(_STEPS_A_SECOND * moved_s))
-
     def ego_stood_s(self, time_s: float) -> float:
         """Return for how long the ego has not moved (s)."""
-        for sample in reversed(self._samples):
-            if sample[2] > 0.1:
-                return time_s - sample[0]
-        return time_s
+        return time_s - next((sample[0] for sample in reversed(self._samples) if sample[2] > 0.1), 0.0)
 
-    # -- what is known ------------------------------------------------------------------------------------------------
-    def _foresee(self) -> Profile:
-        prediction = self.predictor.predict(self._samples)
-        for hero_id, clearance in self._times.leaders.items():
-            leader = Leader(self.plan.profiles[hero_id], clearance.offset_m)
-            prediction = foresee_follower(prediction, self._samples, leader, self._times.cruise_mps)
-        return prediction
-
-    def _answers(self, time_s: float, prediction: Profile, first: bool) -> dict[int, Answer]:
-        """Return how the ego answers heroes that it follows, from how it would answer one that is a metre further on."""
-        if time_s >= 0.0 and not hasattr(self, "plan"):
-            return {}
-        found = {}
-        for hero_id, clearance in self._times.leaders.items():
-            name = self.structure.trigger_knot(hero_id)
-            profile = self.plan.profiles[hero_id]
-            trigger_s = profile.knot_times_s.get(name or "", time_s)
-            if trigger_s <= time_s:
-                continue
-            further = _Further(profile, time_s, trigger_s, first)
-            alone = self.predictor.predict(self._samples)
-            other = foresee_follower(
-                alone, self._samples, Leader(further, clearance.offset_m), self._times.cruise_mps
-            ).state(trigger_s)
-            base = prediction.state(trigger_s)
-            found[hero_id] = Answer(profile, other[0] - base[0], other[1] - base[1])
-        return found
-
-    def _trigger_s(self, hero: Actor, time_s: float, prediction: Profile, planned: PlannedTrigger | None) -> float:
-        """Return when a trigger comes of which the ego decides: where it is at its side, or as good as at it.
-
-        A time to arrival that an ego hardly reaches before it slows down may be forecast for now or for much later.
-        """
-        found = self._times.instants_s(hero, time_s, prediction, self.ego_knots_s, planned)[0]
-        # What is far off is not foreseen: it is enough to know that it is.
-        found = found if planned is None else min(found, time_s + _LATEST_S)
-        if planned is None or found < planned.time_s + _MUCH_LATER_S:
-            return found
-        soonest = max(time_s + 0.02, planned.time_s - _MUCH_LATER_S)
-        tries = np.arange(soonest, planned.time_s + _MUCH_LATER_S, 0.05)
-        misses = [self._times.ego_miss(hero, prediction, float(at_s)) for at_s in tries]
-        best = int(np.argmin(misses)) if len(misses) else 0
-        return float(tries[best]) if misses and 0.0 < misses[best] <= _AS_GOOD else found
-
-    def _settled_s(self, joint: Mapping[int, float], time_s: float) -> dict[int, float]:
-        """Return from when on heroes are settled for long enough, whose triggers both decide."""
-        found = {}
-        for hero in self.scene.program.heroes:
-            name = self.structure.trigger_knot(hero.id)
-            if name is None or (instant := self.program.knot(hero.id, name)) not in joint:
-                continue
-            begins = hero.sketch.pieces[hero.sketch.knots.index(name)]
-            sense = 1.0 if begins == "acc" else -1.0
-            profile = self.plan.profiles[hero.id]
-            steps = [time_s - 0.05 * k for k in range(12) if time_s >= 0.05 * k]
-            pulled = [at_s for at_s in steps if sense * profile.state(at_s - 1e-6)[2] > PREFERENCES.settled_mpss + 0.1]
-            if pulled:
-                found[instant] = pulled[0] + PREFERENCES.settled_s
-        return found
-
-    def _apart(self) -> dict[int, tuple[float, float]]:
-        """Return for heroes on the ego's lane on which side they keep (1 ahead, -1 behind), and what to add to theirs."""
-        return {hero: (1.0 if c.ahead else -1.0, c.offset_m) for hero, c in self._clearances.items()}
-
-    def _situation(self, time_s: float, prediction: Profile, joint_s: float | None) -> Situation:
-        """Return what to plan from; `joint_s` is a first guess of triggers that both decide."""
-        first = joint_s is not None
+    def _situation(self, time_s: float, prediction: Profile) -> tuple[Situation, float]:
+        """Return what to plan from now, and by how much triggers have moved of which the ego decides (s)."""
         knots: dict[int, float] = {}
         expected: dict[int, float] = {}
+        planned: dict[int, float] = {}
+        drives: dict[int, Drive] = {}
         triggers: dict[int, float] = {}
-        heroes: dict[int, tuple[float, int, Profile]] = {}
-        joint: dict[int, float] = {}
-        for hero in self.scene.program.heroes:
-            name = self.structure.trigger_knot(hero.id)
-            if not first:
-                piece = self._open_piece(hero, time_s)
-                profile = self.plan.profiles[hero.id]
-                frozen = len(hero.sketch.pieces) if piece is None else piece
-                begin_s = max(time_s, profile.knot_times_s.get(hero.sketch.knots[frozen], time_s))
-                heroes[hero.id] = (begin_s, frozen, profile)
-                for number, knot in enumerate(hero.sketch.knots):
-                    instant = self.program.knot(hero.id, knot)
-                    (knots if number <= frozen else expected)[instant] = profile.knot_times_s[knot]
-                if piece is None:
-                    knots[self.program.knot(hero.id, hero.sketch.knots[-1])] = profile.knot_times_s[hero.sketch.knots[-1]]
-            if name is None or self.program.knot(hero.id, name) in knots:
+        moved_s = 0.0
+        for hero in self._heroes:
+            profile, names = self.plan.profiles[hero.id], hero.sketch.knots
+            piece = self._open_piece(hero, time_s)
+            first = len(hero.sketch.pieces) if piece is None else piece
+            begin_s = max(time_s, profile.knot_times_s.get(names[first], time_s))
+            drives[hero.id] = Drive(begin_s, first, profile)
+            for number, name in enumerate(names):
+                (knots if number <= first else expected)[self._asked.knot(hero.id, name)] = profile.knot_times_s[name]
+            trigger = self._trigger(hero)
+            if trigger is None or (instant := self._asked.knot(hero.id, trigger)) in knots:
                 continue
-            planned = None if first else self._planned(hero)
-            side = self._times.ego_side(hero)
-            if side is not None or hero.id in self._times._lags:
-                triggers[hero.id] = self._trigger_s(hero, time_s, prediction, planned)
-                knots[self.program.knot(hero.id, name)] = triggers[hero.id]
-                if planned is not None:  # what follows keeps its place in time after it
-                    for knot in hero.sketch.knots[hero.sketch.knots.index(name) + 1 :]:
-                        instant = self.program.knot(hero.id, knot)
-                        if instant in expected:
-                            expected[instant] += triggers[hero.id] - planned.time_s
-            elif first:
-                expected[self.program.knot(hero.id, name)] = joint[self.program.knot(hero.id, name)] = joint_s or 0.0
-            else:
-                joint[self.program.knot(hero.id, name)] = self._joint_s[hero.id]
-        if first:
-            self._expect(expected, knots)
-        for name, at_s in self._times.ego_knots_s(time_s, prediction, self.ego_knots_s, triggers).items():
-            knots.setdefault(self.program.knot(EGO, name), at_s)
-        return Situation(time_s, _EgoStates(self._samples, prediction), knots, expected, heroes, joint, isinstance(self.predictor, ConstantSpeed), self._answers(time_s, prediction, first), self._apart(), frozenset(triggers), {} if first else self._settled_s(joint, time_s))
-
-    def _expect(self, expected: dict[int, float], knots: Mapping[int, float]) -> None:
-        for actor in self.scene.program.actors:
-            now = 0.0
-            for name in actor.sketch.knots:
-                instant = self.program.knot(actor.id, name)
-                now = knots.get(instant, expected.setdefault(instant, now + 2.0) if instant not in knots else now)
-
-    def _planned(self, hero: Actor) -> PlannedTrigger:
-        profile = self.plan.profiles[hero.id]
-        name = self.structure.trigger_knot(hero.id) or ""
-        trigger = hero.sketch.knots.index(name)
-        approach = tuple(segment for segment in profile.segments if segment.piece < trigger)
-        return PlannedTrigger(profile.knot_times_s[name], Profile(approach or profile.segments[:1]))
-
-    def _open_piece(self, hero: Actor, time_s: float) -> int | None:
-        """Return the piece from which on `hero` is still solved for, or None once it only carries out."""
-        times, sketch = self.plan.profiles[hero.id].knot_times_s, hero.sketch
-        current = sum(1 for knot in sketch.knots[1:] if times.get(knot, float("inf")) <= time_s)
-        trigger = self.structure.trigger_knot(hero.id)
-        if trigger is None:
-            return None
-        if current < sketch.knots.index(trigger):
-            return current
-        reactive = self._reactive_piece(hero)
-        return reactive if reactive is not None and current <= reactive else None
-
-    def _reactive_piece(self, hero: Actor) -> int | None:
-        """Return the standing piece after the trigger whose end a constraint with the ego depends on."""
-        knots = hero.sketch.knots
-        trigger = self.structure.trigger_knot(hero.id)
-        begin = knots.index(trigger) if trigger else 0
-        for piece in range(begin + 1, len(hero.sketch.pieces)):
-            if hero.sketch.pieces[piece] != "stop":
+            if not self._ego_decides(hero):
+                planned[instant] = self._joint_s[hero.id]
                 continue
-            later = set(knots[piece + 1 :])
-            for constraint in self.scene.program.constraints:
-                keys = set(knots_of(constraint.formula))
-                if self.structure.roles[constraint.id] is Role.OUTCOME and any(
-                    a == hero.id and k in later for a, k in keys
-                ) and any(a == EGO for a, _ in keys):
-                    return piece
-        return None
+            before_s = profile.knot_times_s[trigger]
+            triggers[hero.id] = knots[instant] = self._times.instant_s(hero, time_s, prediction, before_s)
+            moved_s = max(moved_s, abs(knots[instant] - before_s))
+            for later in names[names.index(trigger) + 1 :]:  # what follows keeps its place in time after it
+                expected[self._asked.knot(hero.id, later)] += knots[instant] - before_s
+        knots |= self._ego_knots(time_s, prediction, triggers, knots)
+        situation = Situation(
+            time_s,
+            SeenAndForeseen(self._samples, prediction),
+            knots,
+            expected,
+            drives,
+            planned_s=planned,
+            settled_s=self._settled_s(planned, time_s),
+            waits=frozenset(triggers),
+            sure=self._is_sure,
+            lanes=self._on_lanes(time_s, prediction, first=False),
+        )
+        return situation, moved_s
 
     def _made(self, problem: Problem, solution: Solution, prediction: Profile) -> Plan:
         """Return the plan that values stand for, with what was driven before it."""
+        times = [moment.value(solution.z) for moment in problem.moments]
         profiles: dict[int, Profile] = {}
-        shots = problem.shots(solution.z)
-        for hero in self.scene.program.heroes:
-            knots_s = {}
-            for name in hero.sketch.knots:
-                knots_s[name] = problem._moments[self.program.knot(hero.id, name)].value(solution.z)
-            past = []
-            if hero.id in problem.now.heroes:
-                begin_s, piece, profile = problem.now.heroes[hero.id]
-                if piece >= len(hero.sketch.pieces):
-                    profiles[hero.id] = profile
-                    continue
-                past = [s if s.end_s <= begin_s else s.part(s.start_s, begin_s) for s in profile.segments if s.start_s < begin_s - 1e-9]
-            profiles[hero.id] = profile_of(shots[hero.id], knots_s, past)
-        ego_knots = {
-            name: problem._moments[self.program.knot(EGO, name)].value(solution.z)
-            for name in self.scene.program.ego.sketch.knots
-        }
-        profiles[EGO] = Profile(prediction.segments, ego_knots)
+        for hero, shot in problem.shots(solution.z).items():
+            sketch = self.scene.program.actor(hero).sketch
+            drive = problem.now.heroes.get(hero)
+            if drive is not None and drive.piece >= len(sketch.pieces):
+                profiles[hero] = drive.motion
+                continue
+            past = [] if drive is None else [
+                segment if segment.end_s <= drive.begin_s else segment.part(segment.start_s, drive.begin_s)
+                for segment in drive.motion.segments
+                if segment.start_s < drive.begin_s - 1e-9
+            ]  # fmt: skip
+            profiles[hero] = profile_of(
+                shot, {name: times[self._asked.knot(hero, name)] for name in sketch.knots}, past
+            )
+        names = self.scene.program.ego.sketch.knots
+        profiles[EGO] = Profile(prediction.segments, {name: times[self._asked.knot(EGO, name)] for name in names})
         parameters = {name: float(value) for name, value in self.scene.parameters.items()}
-        return Plan(profiles, solution.missed, "convex", parameters)
+        return Plan(profiles, solution.missed.by, _status(solution), parameters)
+
+    # -- what is known ------------------------------------------------------------------------------------------------
+    @property
+    def _heroes(self) -> Iterable[Actor]:
+        return self.scene.program.heroes
+
+    def _trigger(self, hero: Actor) -> str | None:
+        return self.structure.trigger_knot(hero.id)
+
+    def _name(self, hero: int) -> str:
+        return self.structure.trigger_knot(hero) or ""
+
+    def _ego_decides(self, hero: Actor) -> bool:
+        """Whether the ego alone decides when a hero's trigger comes."""
+        return hero.id in self.structure.triggers and self._times.ego_side(hero) is not None
+
+    @property
+    def _is_sure(self) -> bool:
+        """Whether the ego drives as foreseen, as its policy promises."""
+        return isinstance(self.predictor, ConstantSpeed)
+
+    def _leaders(self) -> dict[int, Clearance]:
+        """Return the heroes that drive ahead of the ego, where it is not known to hold its speed."""
+        if self._is_sure:
+            return {}
+        return {hero: clearance for hero, clearance in self._lanes.items() if clearance.ahead}
+
+    def _foreseen(self) -> Profile:
+        """Return how the ego will go on, while the heroes do what is planned."""
+        prediction = self.predictor.predict(self._samples)
+        for hero, clearance in self._leaders().items():
+            leader = Leader(self.plan.profiles[hero], clearance.offset_m)
+            prediction = foresee_follower(prediction, self._samples, leader, self._cruise_mps)
+        return prediction
+
+    @property
+    def _cruise_mps(self) -> float:
+        return self.limits[EGO].natural_approach_speed_mps
+
+    def _ego_knots(
+        self, time_s: float, prediction: Profile, triggers: Mapping[int, float], known: Mapping[int, float]
+    ) -> dict[int, float]:
+        """Return when the ego passes its knots, by instant, as far as they are not known."""
+        found = self._times.ego_knots_s(time_s, prediction, self.ego_knots_s, triggers)
+        instants = {self._asked.knot(EGO, name): at_s for name, at_s in found.items()}
+        return {instant: at_s for instant, at_s in instants.items() if instant not in known}
+
+    def _on_lanes(self, time_s: float, prediction: Profile, *, first: bool) -> Lanes:
+        """Return who keeps on which side of the ego on its lane, and what the ego makes of it."""
+        apart = {hero: (1.0 if lane.ahead else -1.0, lane.offset_m) for hero, lane in self._lanes.items()}
+        return Lanes(apart, self._answers(time_s, prediction, all_along=first))
+
+    def _answers(self, time_s: float, prediction: Profile, *, all_along: bool) -> dict[int, Answer]:
+        """Return how the ego answers heroes that it follows, from how it would answer one that is a metre further on."""
+        found: dict[int, Answer] = {}
+        for hero, clearance in self._leaders().items() if hasattr(self, "plan") else ():
+            profile = self.plan.profiles[hero]
+            trigger_s = profile.knot_times_s.get(self._name(hero), time_s)
+            if trigger_s <= time_s:
+                continue
+            leader = Leader(Further(profile, time_s, trigger_s, all_along), clearance.offset_m)
+            alone = self.predictor.predict(self._samples)
+            other = foresee_follower(alone, self._samples, leader, self._cruise_mps).state(trigger_s)
+            place_m, speed_mps, _ = prediction.state(trigger_s)
+            found[hero] = Answer(profile, other[0] - place_m, other[1] - speed_mps)
+        return found
+
+    def _settled_s(self, joint: Mapping[int, float], time_s: float) -> dict[int, float]:
+        """Return from when on heroes are settled for long enough, whose triggers both decide."""
+        wanted, found = self._asked.wanted, {}
+        for hero in self._heroes:
+            name = self._trigger(hero)
+            if (
+                name is None
+                or name == hero.sketch.knots[-1]
+                or (instant := self._asked.knot(hero.id, name)) not in joint
+            ):
+                continue
+            sense = 1.0 if hero.sketch.pieces[hero.sketch.knot_index(name)] is PieceKind.ACC else -1.0
+            back = [time_s - _LOOKED_AT_S * k for k in range(_LOOKED_BACK) if time_s >= _LOOKED_AT_S * k]
+            rates = ((at_s, sense * self.plan.profiles[hero.id].state(at_s - 1e-6)[2]) for at_s in back)
+            pulled = [at_s for at_s, rate in rates if rate > wanted.settled_mpss + _NEARLY_MPSS]
+            if pulled:
+                found[instant] = pulled[0] + wanted.settled_s
+        return found
+
+    def _open_piece(self, hero: Actor, time_s: float) -> int | None:
+        """Return the piece from which on a hero is still solved for, or None once it only carries out.
+
+        Before its trigger that is the piece it is in. After it, pieces from the first standing one on that a reactive
+        constraint speaks of, up to the moment they have begun to move again.
+        """
+        times, sketch = self.plan.profiles[hero.id].knot_times_s, hero.sketch
+        current = sum(1 for knot in sketch.knots[1:] if times.get(knot, float("inf")) <= time_s)
+        trigger = self._trigger(hero)
+        if trigger is None:
+            return None
+        if current < sketch.knot_index(trigger):
+            return current
+        reactive = self._reactive_piece(hero, sketch.knot_index(trigger))
+        return reactive if reactive is not None and current <= reactive else None
+
+    def _reactive_piece(self, hero: Actor, trigger: int) -> int | None:
+        """Return the standing piece after the trigger whose end a constraint with the ego depends on."""
+        knots = hero.sketch.knots
+        for piece in range(trigger + 1, len(hero.sketch.pieces)):
+            if hero.sketch.pieces[piece] is not PieceKind.STOP:
+                continue
+            later = {(hero.id, name) for name in knots[piece + 1 :]}
+            for constraint in self.scene.program.constraints:
+                keys = set(knots_of(constraint.formula))
+                orders = self.structure.roles[constraint.id] is Role.OUTCOME
+                if orders and keys & later and any(actor == EGO for actor, _ in keys):
+                    return piece
+        return None
 
 
-@dataclass(slots=True)
-class _EgoStates:
-    """The ego's past, as it was seen, and from now on as it is foreseen."""
-
-    samples: list[EgoSample]
-    prediction: Profile
-
-    def __call__(self, time_s: float) -> tuple[float, float, float]:
-        if time_s >= self.samples[-1][0]:
-            return self.prediction.state(time_s)
-        k = max(bisect_right(self.samples, time_s, key=lambda sample: sample[0]) - 1, 0)
-        then_s, s_m, speed, accel = self.samples[k]
-        since = time_s - then_s
-        return s_m + (speed + 0.5 * accel * since) * since, speed + accel * since, accel
-
-
-@dataclass(frozen=True, slots=True)
-class _Further:
-    """A motion that is a metre further on at an instant: ever more so from now on, or all along."""
-
-    motion: Profile
-    from_s: float
-    at_s: float
-    all_along: bool
-
-    def state(self, time_s: float) -> tuple[float, float, float]:
-        s_m, speed_mps, accel = self.motion.state(time_s)
-        if self.all_along:
-            return s_m + 1.0, speed_mps, accel
-        lasts, since = max(self.at_s - self.from_s, 0.1), max(0.0, time_s - self.from_s)
-        return s_m + (since / lasts) ** 2, speed_mps + 2.0 * since / lasts**2, accel + 2.0 / lasts**2
+def _status(solution: Solution) -> str:
+    return "sat" if solution.missed.by <= GOOD else "relaxed"

@@ -26,16 +26,16 @@ class Moment:
     constant_s: float
     unknown: int | None = None
 
-    def value(self, z: Array) -> float:
+    def value(self, z: Array | Sequence[float]) -> float:
         """Return the time (s)."""
         return self.constant_s + (0.0 if self.unknown is None else float(z[self.unknown]))
 
 
 @dataclass(frozen=True, slots=True)
 class Leg:
-    """A stretch of piece `piece`, in `cells` equal parts; its accelerations are unknowns `accels`, none where it stands.
+    """A stretch of piece `piece`, in `cells` equal parts; its accelerations are unknowns, none where it stands.
 
-    Within a cell the acceleration changes evenly; from leg to leg it may jump, unless `joined` to the one before.
+    Within a cell the acceleration changes evenly; from leg to leg it may jump, unless they share one.
     """
 
     piece: int
@@ -100,15 +100,17 @@ class Shot:
 
     def rate_at(self, time_s: float, before: bool) -> tuple[float, Array]:
         """Return the acceleration at an instant, that which begins there or that `before` it, with its derivatives."""
-        side = "left" if before else "right"
         last = len(self.time) - 1
-        node = min(max(int(np.searchsorted(self.time, time_s + (-1e-9 if before else 1e-9), side=side)) - 1, 0), last)
+        behind = np.searchsorted(self.time, time_s - 1e-9 if before else time_s + 1e-9, side="right")
+        node = min(max(int(behind) - 1, 0), last)
         if node == last:
             return 0.0, np.zeros(len(self.z))
         lasts = max(float(self.time[node + 1] - self.time[node]), 1e-6)
         share = min(max((time_s - float(self.time[node])) / lasts, 0.0), 1.0)
         da, db = self._d_accel(node)
-        return (1 - share) * float(self.accel[node]) + share * float(self.accel_after[node]), (1 - share) * da + share * db
+        return (1 - share) * float(self.accel[node]) + share * float(self.accel_after[node]), (
+            1 - share
+        ) * da + share * db
 
     def _d_accel(self, node: int) -> tuple[Array, Array]:
         da, db = np.zeros(len(self.z)), np.zeros(len(self.z))

@@ -1,6 +1,7 @@
 """Solves a planning problem: Gauss-Newton steps, one convex problem each.
 
-What enters: a `Problem` and first values. What leaves: the best values found, what they cost, and what they miss.
+What enters: a `Problem` and first values. What leaves: the best values found, what they cost, and what they miss. The
+number of steps is the only budget: the same problem has the same solution on any machine.
 """
 
 from __future__ import annotations
@@ -10,90 +11,85 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.plan.problem import Problem, Rows, steps_and_bounds
+from scenewright.plan.problem import Missed, Problem
+from scenewright.plan.rows import Rows
 
 Array = NDArray[np.float64]
-DEBUG=False
-_SOFT_ROW, _SOFT = 8, 1e-6  # how daqp is told that a row may be broken, at a high price
-_DAMPING = 0.02
-_ENOUGH = 1e-4
+
+_DAMPING = 0.02  # of a longest step: what nothing else decides stays as it is
+_ENOUGH = 1e-4  # a step that gains a smaller share is the last
 _HALVINGS = 6
+_FREE, _EXACT, _MOST_ITERATIONS = 1e30, 1e-9, 4000
 
 
 @dataclass(frozen=True, slots=True)
 class Solution:
-    """Values of all unknowns; what heroes miss most, in tight tolerances; how late the latest is that is to be first."""
+    """Values of all unknowns, what they cost and what they miss, and in how many steps they were found."""
 
     z: Array
     cost: float
-    missed: float
-    late_s: float
+    missed: Missed
     steps: int
 
 
 def solve(problem: Problem, z: Array, most_steps: int) -> Solution:
-    """Return the best that so many steps from `z` lead to."""
-    longest, low, high = steps_and_bounds(problem)
+    """Return the best that so many steps from `z` lead to; each is halved until it gains something."""
     z = problem.ordered(z)
     costs, bounds, missed = problem.rows(z)
-    merit = _merit(costs, bounds)
+    cost = _cost(costs, bounds)
     for count in range(most_steps):
-        step = _step(costs, bounds, np.maximum(low - z, -longest), np.minimum(high - z, longest), longest)
-        if DEBUG: print('   ',count,round(merit,2),missed, None if step is None else round(float(np.max(np.abs(step)/longest)),3))
+        step = _step(problem, z, costs, bounds)
         if step is None:
-            return Solution(z, merit, *missed, count)
-        share = 1.0
+            return Solution(z, cost, missed, count)
         for _ in range(_HALVINGS):
-            trial = problem.ordered(z + share * step)
+            trial = problem.ordered(z + step)
             found = problem.rows(trial)
-            better = _merit(*found[:2])
-            if better < merit:
+            better = _cost(*found[:2])
+            if better < cost:
                 break
-            share *= 0.5
+            step = 0.5 * step
         else:
-            if DEBUG: print('    no gain')
-            return Solution(z, merit, *missed, count)
-        gained, merit = merit - better, better
+            return Solution(z, cost, missed, count)
+        gained, cost = cost - better, better
         z, (costs, bounds, missed) = trial, found
-        if gained < _ENOUGH * (1.0 + merit):
-            return Solution(z, merit, *missed, count + 1)
-    return Solution(z, merit, *missed, most_steps)
+        if gained < _ENOUGH * (1.0 + cost):
+            return Solution(z, cost, missed, count + 1)
+    return Solution(z, cost, missed, most_steps)
 
 
-def _merit(costs: Rows, bounds: Rows) -> float:
+def _cost(costs: Rows, bounds: Rows) -> float:
+    """Return the sum of half the squares; of a bound what is beyond it, and from `most` on evenly."""
     over, most = np.maximum(np.array(bounds.values), 0.0), np.array(bounds.most)
     within = np.minimum(over, most)
     return 0.5 * float(np.sum(np.array(costs.values) ** 2)) + float(np.sum(within * (over - 0.5 * within)))
 
 
-def _step(costs: Rows, bounds: Rows, low: Array, high: Array, longest: Array) -> Array | None:
+def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows) -> Array | None:
+    """Return the best step for the linearised rows; None where the solver does not find it."""
     import daqp
 
-    size = len(longest)
-    residuals, slopes = np.array(costs.values), np.array(costs.slopes)
-    levels, rows = np.array(bounds.values), np.array(bounds.slopes)
-    near = (levels > -np.abs(rows) @ longest) & np.any(rows != 0.0, axis=1)
-    levels, rows, most = levels[near], rows[near], np.array(bounds.most)[near]
+    longest, size = problem.step, problem.size
+    residuals, slopes = np.array(costs.values), np.array(costs.slopes) * longest
+    levels, rows, most = np.array(bounds.values), np.array(bounds.slopes) * longest, np.array(bounds.most)
+    matters = (levels > -np.abs(rows).sum(axis=1)) & np.any(rows != 0.0, axis=1)
+    levels, rows, most = levels[matters], rows[matters], most[matters]
     softened = np.sqrt(np.minimum(1.0, most / np.maximum(levels, 1e-9)))
     levels, rows = levels * softened, rows * softened[:, None]
-    # Each row has a slack of its own, so that its price is the same here as in the merit.
-    count = len(levels)
-    slopes, rows = slopes * longest, rows * longest
-    sizes = np.maximum(np.linalg.norm(rows, axis=1), 1.0)
+    # Each row has a slack of its own, so that its price is the same here as in the cost.
+    count, sizes = len(levels), np.maximum(np.linalg.norm(rows, axis=1), 1.0)
     hessian = np.zeros((size + count, size + count))
     hessian[:size, :size] = slopes.T @ slopes + _DAMPING**2 * np.eye(size)
     hessian[size:, size:] = np.diag(sizes**2)
     scale = 1.0 / max(1.0, float(np.max(np.diag(hessian))))
-    matrix = np.hstack([rows / sizes[:, None], -np.eye(count)])
-    free = np.full(count, 1e30)
+    low, high = (np.clip((bound - z) / longest, -1.0, 1.0) for bound in (problem.low, problem.high))
     x, _, flag, _ = daqp.solve(
         scale * hessian,
         scale * np.concatenate([slopes.T @ residuals, np.zeros(count)]),
-        np.ascontiguousarray(matrix),
-        np.concatenate([high / longest, free, -levels / sizes]),
-        np.concatenate([low / longest, 0.0 * free, -free]),
+        np.ascontiguousarray(np.hstack([rows / sizes[:, None], -np.eye(count)])),
+        np.concatenate([high, np.full(count, _FREE), -levels / sizes]),
+        np.concatenate([low, np.zeros(count), np.full(count, -_FREE)]),
         np.zeros(size + 2 * count, dtype=np.int32),
-        primal_tol=1e-9,
-        iter_limit=4000,
+        primal_tol=_EXACT,
+        iter_limit=_MOST_ITERATIONS,
     )
-    return None if flag < 1 else np.clip(np.asarray(x)[:size] * longest, low, high)
+    return None if flag < 1 else np.clip(np.asarray(x)[:size], low, high) * longest

@@ -1,4 +1,4 @@
-"""What the simulator needs of whoever drives the heroes: the orchestrator's replanner, or a rival of it.
+"""What the simulator needs of whoever drives the heroes: the orchestrator's planner, or a rival of it.
 
 What enters: the ego's states, step by step. What leaves: the heroes' motions. It names the contract; it drives nobody.
 """
@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from scenewright.simulate.prediction import EgoSample
-from scenewright.simulate.replanner import Replan
+from scenewright.plan.planner import Replan
+from scenewright.plan.prediction import EgoSample
 from scenewright.solve.plan import Plan
 
 

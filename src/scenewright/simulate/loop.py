@@ -13,11 +13,11 @@ import numpy as np
 
 from scenewright.drive.protocol import VehicleState
 from scenewright.errors import PolicyError
+from scenewright.plan.planner import Replan
 from scenewright.program.types import EGO
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.heroes import HeroDriver
-from scenewright.simulate.replanner import Replan
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.plan import Plan
 from scenewright.trace.model import ActorTrace, FloatArray, Trace

@@ -7,17 +7,15 @@ from __future__ import annotations
 
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.loading import load_policy
+from scenewright.plan.prediction import ConstantSpeed, Predictor, predictor_called
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.loop import Rates
-from scenewright.simulate.prediction import ConstantSpeed, Predictor, predictor_called
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.feasibility import EgoBounds, Feasibility
 from scenewright.solve.limits import Limits, limits_on
 from scenewright.solve.parameters import settle
-from scenewright.solve.planner import DEFAULT_BUDGET_S
-from scenewright.solve.problem import Backend
 from scenewright.solve.proofs.refuters import refuter_called
 
 
@@ -32,10 +30,8 @@ class World:
         Time step, and time between re-solves.
     predictor
         Name of how the ego is foreseen.
-    budget_s
-        Wall-clock time that one re-solve may take.
-    backend, solver
-        What solves for plans, and the name of what refutes.
+    solver
+        The name of what refutes.
 
     Raises
     ------
@@ -50,21 +46,15 @@ class World:
         seed: int,
         rates: Rates,
         predictor: str = "road",
-        budget_s: float = DEFAULT_BUDGET_S,
-        backend: Backend | None = None,
         solver: str = "z3",
     ) -> None:
-        from scenewright.solve.backends.z3_backend import Z3Backend
-
         self.scene = scene
         self.rates = rates
-        self.budget_s = budget_s
         self.policy = load_policy(ego)
         guarded = GuardedPolicy(self.policy.policy, self.policy.name)
         self.ego = EgoVehicle(guarded, scene.routes[EGO], scene.road_map, seed)
         self.structure: Structure = read_structure(scene.program)
         self.limits: dict[int, Limits] = {i: limits_on(route, scene.road_map) for i, route in scene.routes.items()}
-        self.backend: Backend = backend or Z3Backend()
         self.refuter = refuter_called(solver)
         promise = guarded.envelope
         self.ego_bounds = (

@@ -18,8 +18,9 @@ from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.events import EgoBounds, Events, State
-from scenewright.solve.proofs.lowering import TIGHT, Lowering
+from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.polynomials import ZERO, Polynomial, atoms
+from scenewright.solve.tolerances import TIGHT
 
 HORIZON_S = 90.0
 _ANYBODY = Limits(60.0, 60.0, 60.0, 60.0, 60.0, 60.0)
@@ -109,9 +110,7 @@ def linear_conditions(scene: Scene, structure: Structure) -> tuple[LinearConditi
     return tuple(found)
 
 
-def _weights(
-    events: Events, left: Polynomial, owners: Mapping[int, int]
-) -> dict[int, tuple[float, float]] | None:
+def _weights(events: Events, left: Polynomial, owners: Mapping[int, int]) -> dict[int, tuple[float, float]] | None:
     """Return what a polynomial weighs each actor's position and speed with; None where it is not linear in them."""
     weights: dict[int, tuple[float, float]] = {}
     for key, factor in left.terms.items():
@@ -152,12 +151,6 @@ def _with_rest(profile: Profile) -> Iterator[Segment]:
     yield from profile.segments
     last = profile.segments[-1]
     yield Segment(last.end_s, HORIZON_S, last.end_s_m, last.end_speed_mps, 0.0)
-
-
-def hero_side(conditions: tuple[LinearCondition, ...], structure: Structure, hero: int) -> LinearCondition | None:
-    """Return the condition on the hero alone at its trigger; None where it has no side of its own."""
-    instant = structure.triggers.get(hero, frozenset())
-    return next((c for c in conditions if set(c.weights) == {hero} and c.moments <= instant), None)
 
 
 def tight_of(condition: LinearCondition, speed_mps: float) -> float:

@@ -26,8 +26,8 @@ from scenewright.program.expressions import (
 from scenewright.program.printer import print_expression
 from scenewright.program.types import Constraint, Program
 from scenewright.roads.grounding import Scene
-from scenewright.solve.lowering import compared_dimension
 from scenewright.solve.proofs.decide import Question, decide
+from scenewright.solve.tolerances import compared_dimension
 from scenewright.units import SI_SYMBOL, decimal_fraction, format_fraction
 
 _QUERY_S, _ALL_S = 0.2, 3.0

@@ -1,15 +1,12 @@
-"""How fast a vehicle may be in a turn: the condition that a stretch of motion keeps to it all through the turn.
+"""Where the turn of a route is, and how tight.
 
-What enters: positions and speeds at the ends of a stretch, where the turn lies, its top speed. What leaves: a
-condition. Speed over distance is monotone within a stretch of one acceleration, so its largest value within the turn
-is at a known place.
+What enters: a route. What leaves: the places where its turn begins and ends, and its tightest curvature.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scenewright.motion.algebra import Condition, Value, compare, conjunction, disjunction, pin
 from scenewright.roads.routes import Route
 
 
@@ -25,31 +22,6 @@ class TurnSpan:
         """Return the turn of `route`, or None where it goes straight."""
         start, end = route.landmarks.get("turn_start"), route.landmarks.get("turn_end")
         return None if route.turn == "straight" or start is None or end is None else cls(start, end)
-
-
-def keeps_to_turn_speed(
-    turn: TurnSpan, top_mps: float, x0: Value, v0: Value, x1: Value, v1: Value, braking: bool
-) -> Condition:
-    """Return the condition that speed stays at most `top_mps` (m/s) wherever a stretch lies within the turn.
-
-    Where it speeds up or holds its speed, the end is fastest. Where it brakes, the fastest place within the turn is its
-    beginning, and ``v^2`` falls linearly with distance.
-    """
-    start, end, top = pin(turn.start_m), pin(turn.end_m), pin(top_mps)
-    outside = [compare(">=", x0, end), compare("<=", x1, start)]
-    if not braking:
-        return disjunction([*outside, compare("<=", v1, top)])
-    within = conjunction([compare(">=", x0, start), compare("<=", v0, top)])
-    falling = compare("<=", (v0 * v0 - v1 * v1) * (x1 - start), (top * top - v1 * v1) * (x1 - x0))
-    entering = conjunction([compare("<", x0, start), falling])
-    return disjunction([*outside, within, entering])
-
-
-def is_slow_in_turn(turn: TurnSpan, top_mps: float, x0: Value, v0: Value, x1: Value, v1: Value) -> Condition:
-    """Return a linear condition that is enough for `keeps_to_turn_speed`: at both ends of a stretch that touches it."""
-    start, end, top = pin(turn.start_m), pin(turn.end_m), pin(top_mps)
-    slow = conjunction([compare("<=", v0, top), compare("<=", v1, top)])
-    return disjunction([compare(">=", x0, end), compare("<=", x1, start), slow])
 
 
 def tightest_curvature(route: Route) -> float:

@@ -32,16 +32,9 @@ from scenewright.solve.proofs.polynomials import (
     some,
     unknown,
 )
+from scenewright.units import pin
 
 LONGEST_S = Fraction(120)
-_PINNED_DECIMALS = 4
-
-
-def pin(value: float | Fraction) -> Fraction:
-    """Round a measured number to the rational that a solver is given (0.1 mm, 0.1 mm/s)."""
-    if isinstance(value, Fraction):
-        return value
-    return Fraction(round(float(value) * 10**_PINNED_DECIMALS), 10**_PINNED_DECIMALS)
 
 
 @dataclass(frozen=True, slots=True)

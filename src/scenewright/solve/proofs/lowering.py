@@ -13,8 +13,7 @@ from fractions import Fraction
 from scenewright.program import expressions as ex
 from scenewright.program.types import Constraint
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
-from scenewright.solve.lowering import TIGHT, compared_dimension
-from scenewright.solve.proofs.events import Events, pin
+from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.forms import (
     actors_at,
     bare_rate,
@@ -36,6 +35,8 @@ from scenewright.solve.proofs.polynomials import (
     polynomial,
     some,
 )
+from scenewright.solve.tolerances import TIGHT, compared_dimension
+from scenewright.units import pin
 
 RATE_LASTS_S = Fraction(1, 20)  # a rate at a moment is that of so much motion from there on
 

@@ -25,12 +25,13 @@ from scenewright.roads.conflicts import find_conflict
 from scenewright.roads.routes import Route
 from scenewright.solve.limits import ROOM, Limits, calm_mpss
 from scenewright.solve.plan import PlanWorld
-from scenewright.solve.proofs.events import Events, pin
+from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.forms import actors_at, free_states
 from scenewright.solve.proofs.lowering import RATE_LASTS_S, Lowering
 from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.polynomials import Formula, compare, some
 from scenewright.solve.proofs.witness import Broken, Witness
+from scenewright.units import pin
 
 SHARES = (0.985, 0.8, 0.6, 0.4, 0.2)
 _TURN_STEP_M = 0.25

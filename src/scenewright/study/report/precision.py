@@ -105,7 +105,7 @@ def run_cell(job: Job) -> Measured:
         clashes = result.feasibility.clashes if result.feasibility is not None else ()
         return {"infeasible": True, "proof": "; ".join(str(clash) for clash in clashes)}
     if not result.takes:
-        return {"fault": result.attempt.reason if result.attempt is not None else result.status}
+        return {"fault": "; ".join(map(str, result.not_held)) or result.status}
     verdict = result.takes[0].verdict
     sides = [c for c in verdict.conditions if c.kind == "trigger" and c.unit == "m"]
     errors = [abs(side.error) for side in sides if side.error is not None]

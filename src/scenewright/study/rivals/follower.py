@@ -12,10 +12,10 @@ from dataclasses import dataclass, replace
 
 from scenewright.drive.protocol import EgoMotion, VehicleState
 from scenewright.motion.profile import Profile, Segment
+from scenewright.plan.prediction import EgoSample
 from scenewright.program.types import EGO, Actor
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene
-from scenewright.simulate.prediction import EgoSample
 from scenewright.simulate.replanner import Replan, Replanner
 from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan

@@ -12,13 +12,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from scenewright.motion.profile import Profile, Segment, chain
+from scenewright.program.expressions import Compare, PieceRef, piece_of
 from scenewright.program.structure import Structure
-from scenewright.program.types import EGO, Actor
+from scenewright.program.types import EGO, Actor, Program
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
 from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan
-from scenewright.solve.stretches import rate_is_given
 from scenewright.solve.turns import TurnSpan
 
 States = Mapping[int, tuple[float, float]]
@@ -253,7 +253,7 @@ def _manoeuvre(scene: Scene, hero: Actor, profile: Profile, first: int) -> tuple
             actions.append(SpeedAction(segment.piece, segment.end_speed_mps, duration_s=segment.duration_s))
             continue
         # One that is to stop somewhere stops over a distance, unless the text says at which rate.
-        over = change < 0 and not rate_is_given(scene.program, hero, segment.piece)
+        over = change < 0 and not _rate_is_given(scene.program, hero, segment.piece)
         distance_m = segment.end_s_m - segment.s_m if over else None
         rate = abs(segment.accel_mpss)
         actions.append(SpeedAction(segment.piece, segment.end_speed_mps, rate, distance_m=distance_m))
@@ -273,3 +273,14 @@ def _slowed_for_turn(
     held_m = max(0.0, turn.start_m - (speed**2 - top**2) / (2.0 * rate) - last.end_s_m)
     moves = [(held_m / speed, 0.0, last.piece), ((speed - top) / rate, -rate, last.piece)]
     return (*approach, *chain(last.end_s, last.end_s_m, speed, moves))
+
+
+def _rate_is_given(program: Program, hero: Actor, piece: int) -> bool:
+    """Whether the program gives the acceleration of a piece of the hero's sketch."""
+    for constraint in program.constraints:
+        node = piece_of(constraint.formula) if isinstance(constraint.formula, Compare) else None
+        if node is None or node.actor != hero.id or node.order != 2 or not isinstance(node.at, PieceRef):
+            continue
+        if constraint.formula.operator == "==" and hero.sketch.piece_index(node.at.name) == piece:  # type: ignore[union-attr]
+            return True
+    return False

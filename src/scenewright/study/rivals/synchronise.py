@@ -11,8 +11,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from scenewright.motion.profile import Profile, Segment
+from scenewright.plan.prediction import EgoSample
 from scenewright.program.structure import Structure
-from scenewright.simulate.prediction import EgoSample
 from scenewright.solve.plan import Plan
 from scenewright.study.rivals.script import Script, top_speed_mps
 from scenewright.study.rivals.scripted import ScriptedHeroes

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from scenewright.motion.profile import Profile, chain
-from scenewright.simulate.prediction import EgoSample, Predictor
+from scenewright.plan.prediction import EgoSample, Predictor
 
 _HORIZON_S = 15.0
 _STANDING_MPS = 0.3

@@ -9,11 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 from scenewright.drive.speeds import following_accel
 from scenewright.motion.profile import Profile, chain
+from scenewright.plan.prediction import EgoSample
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
-from scenewright.simulate.prediction import EgoSample
 
 _HEADWAY_S, _STANDSTILL_M, _ACCEL_MPSS, _BRAKE_MPSS = 1.3, 2.0, 1.5, 2.0
 _HARDEST_MPSS = 8.0
@@ -29,6 +30,14 @@ _TELLING_MPSS = 0.3
 _FINE_STEP_S, _FINE_FOR_S, _COARSE_STEP_S, _HORIZON_S = 0.1, 4.0, 0.4, 20.0
 
 
+class Moving(Protocol):
+    """A motion along a route."""
+
+    def state(self, time_s: float, /) -> tuple[float, float, float]:
+        """Return place (m), speed (m/s) and acceleration (m/s^2) at a time."""
+        ...
+
+
 @dataclass(frozen=True, slots=True)
 class Leader:
     """A hero that drives ahead of the ego on its lane.
@@ -41,7 +50,7 @@ class Leader:
         What to add to its arc length to compare it with the ego's.
     """
 
-    motion: Profile
+    motion: Moving
     offset_m: float
 
     def ahead(self, time_s: float, s_m: float) -> tuple[float, float]:

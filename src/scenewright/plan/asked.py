@@ -1,0 +1,159 @@
+"""What a program asks of heroes, lowered once for all plans of a run, by the code that proofs and witnesses rest on.
+
+What enters: a scene. What leaves: values and slopes of all that is asked, over the states of actors at moments; of
+alternatives the one that is nearest to holding.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scenewright.plan.preferences import preferences_of
+from scenewright.program.structure import Structure, actors_of
+from scenewright.program.types import EGO
+from scenewright.roads.grounding import Scene
+from scenewright.roads.routes import Route
+from scenewright.solve.limits import Limits
+from scenewright.solve.proofs.compiled import Compiled
+from scenewright.solve.proofs.events import EgoBounds, Events
+from scenewright.solve.proofs.lowering import Lowering
+from scenewright.solve.proofs.polynomials import Atom, Polynomial
+
+Array = NDArray[np.float64]
+
+TIGHT = {"time": 0.1, "place": 0.5, "speed": 0.25, "rate": 0.25, "other": 1.0}
+_OUT_OF_WAY_M = 0.5  # between the boxes of one before a conflict zone and one in it
+_AROUND_M, _STEP_M = 3.0, 0.5  # between two nodes of a plan a car goes a few metres
+_OF_TOP = 0.97  # between two nodes a speed may be a little higher than at both
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One comparison at some values: its level in tight tolerances (at most zero, or zero), and its slopes.
+
+    `order` says that it compares nothing but times, of which one is to be the earlier.
+    """
+
+    level: float
+    slope: Array
+    equal: bool
+    order: bool
+
+
+class Asked:
+    """A scene's constraints on heroes over the unknowns of `events`."""
+
+    def __init__(self, scene: Scene, structure: Structure, limits: Mapping[int, Limits]) -> None:
+        self.scene, self.structure, self.limits = scene, structure, limits
+        self.wanted = preferences_of(scene.program.manner)
+        self.events = Events(scene, limits, EgoBounds())
+        self.lowering = Lowering(self.events)
+        constraints = tuple(c for c in scene.program.constraints if actors_of(c.formula) != {EGO})
+        lowered = self.lowering.lower(constraints)
+        self._formulas = Compiled(
+            [each.formula for each in lowered] + [rule for rule, _ in self.events.rules], self.size
+        )
+        self.narrowings = tuple(self.lowering.narrowings)
+        self.times = [number_of(time) for time in self.events.times]
+        self._scale = np.array([*(TIGHT[unknown.kind] for unknown in self.events.unknowns), 0.0])
+        atoms = self._formulas.atoms
+        self._orders = [all(self._kinds(key) in ([], ["time"]) for key in atom.left.terms) for atom in atoms]
+        self._quotients = list(self._quotients_of(atoms))
+        self.caps = {
+            hero.id: _caps(scene.routes[hero.id], limits[hero.id], self.wanted.lateral_mpss)
+            for hero in scene.program.heroes
+        }
+        self.zones_m = {}
+        for hero in scene.program.heroes:
+            conflict = scene.conflict(EGO, hero.id)
+            if conflict is not None and conflict.kind != "following":
+                self.zones_m[hero.id] = conflict.zone_b_m[0] - _OUT_OF_WAY_M
+
+    @property
+    def size(self) -> int:
+        """How many unknowns there are."""
+        return len(self.events.unknowns)
+
+    def knot(self, actor: int, name: str) -> int:
+        """Return the instant of a knot."""
+        return self.events.knot(actor, name)
+
+    def trigger(self, hero: int) -> int | None:
+        """Return the instant of a hero's trigger; None where it has none."""
+        name = self.structure.trigger_knot(hero)
+        return None if name is None else self.knot(hero, name)
+
+    def rows(self, point: Array, slopes: Array) -> Iterator[Row]:
+        """Yield what is asked at a point.
+
+        Parameters
+        ----------
+        point
+            Values of all unknowns and a one behind them, shape (size + 1,).
+        slopes
+            Their derivatives by whatever they depend on, shape (size + 1, n).
+        """
+        values, gradients = self._formulas.values(point), self._formulas.gradients(point)
+        norms = np.maximum(np.sqrt(((gradients * self._scale) ** 2).sum(axis=1)), 1e-9)
+        for k, place, speed in self._quotients:
+            # A time to arrival is off by its own tolerance, which is a shorter way the slower one is.
+            speed_mps = max(float(point[speed]), self.wanted.moves_mps)
+            norms[k] = TIGHT["time"] * speed_mps * max(abs(float(gradients[k, place])), 1e-9)
+        levels, equal = values / norms, self._formulas.equal
+        for k in self._formulas.chosen(np.where(equal, np.abs(levels), levels)):
+            slope = gradients[k] @ slopes / norms[k]
+            if np.any(slope):
+                yield Row(float(levels[k]), slope, bool(equal[k]), self._orders[k] and not equal[k])
+
+    def _kinds(self, key: tuple[int, ...]) -> list[str]:
+        return [self.events.unknowns[number].kind for number in key]
+
+    def _quotients_of(self, atoms: Sequence[Atom]) -> Iterator[tuple[int, int, int]]:
+        """Yield atoms that compare times, a place over a speed: their numbers, with those of the place and the speed."""
+        for number, atom in enumerate(atoms):
+            kinds: dict[str, int] = {}
+            for key in atom.left.terms:
+                for unknown in key:
+                    kinds.setdefault(self.events.unknowns[unknown].kind, unknown)
+            if "place" in kinds and "speed" in kinds:
+                yield number, kinds["place"], kinds["speed"]
+
+
+def number_of(value: Polynomial) -> int | None:
+    """Return which unknown a polynomial is; None for a number."""
+    return None if value.constant is not None else next(iter(value.terms))[0]
+
+
+@dataclass(frozen=True, slots=True)
+class Caps:
+    """How fast a route may be driven: at places (m), at most and in comfort (m/s)."""
+
+    places: Array
+    most: Array
+    comfortable: Array
+
+    def at(self, s_m: float) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Return both caps at a place, each with how it changes from there (1/s)."""
+        around = [s_m - _STEP_M, s_m, s_m + _STEP_M]
+        most, comfortable = (np.interp(around, self.places, caps) for caps in (self.most, self.comfortable))
+        return (float(most[1]), float(most[2] - most[0])), (
+            float(comfortable[1]),
+            float(comfortable[2] - comfortable[0]),
+        )
+
+
+def _caps(route: Route, limits: Limits, comfortable_mpss: float) -> Caps:
+    places = np.arange(0.0, route.path.length_m + _STEP_M, _STEP_M)
+    bends = np.array([abs(route.path.curvature(float(s))) for s in places])
+    around = round(_AROUND_M / _STEP_M)
+    padded = np.pad(bends, around, mode="edge")
+    sharpest = np.maximum(np.max([padded[k : k + len(bends)] for k in range(2 * around + 1)], axis=0), 1e-6)
+    top = _OF_TOP * limits.speed_max_mps
+    most, comfortable = (
+        np.minimum(np.sqrt(a / sharpest), top) for a in (_OF_TOP * limits.lateral_max_mpss, comfortable_mpss)
+    )
+    return Caps(places, most, comfortable)

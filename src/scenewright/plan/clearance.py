@@ -1,0 +1,58 @@
+"""On which side of the ego a hero keeps that shares its lane.
+
+What enters: a scene and its linear conditions. What leaves: for a hero whose trigger speaks of the distance between the
+two, whether it is the one ahead.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from scenewright.program.expressions import Derived, walk
+from scenewright.program.structure import Structure
+from scenewright.program.types import EGO, Actor
+from scenewright.roads.grounding import Scene
+from scenewright.solve.arrival import LinearCondition
+
+# A difference of places may depend on speeds too: what people drive in town tells the side.
+_TYPICAL_MPS = 10.0
+
+
+@dataclass(frozen=True, slots=True)
+class Clearance:
+    """Whether the hero is ahead, and what to add to its arc length to compare it with the ego's (m)."""
+
+    ahead: bool
+    offset_m: float
+
+    @classmethod
+    def of(
+        cls, scene: Scene, structure: Structure, conditions: Sequence[LinearCondition], hero: Actor
+    ) -> Clearance | None:
+        """Return it for a hero whose trigger speaks of the distance between the two on their lane, else None."""
+        conflict = scene.conflict(EGO, hero.id)
+        if conflict is None or conflict.kind != "following":
+            return None
+        offset_m, instant = scene.offset_m(EGO, hero.id), structure.triggers.get(hero.id, frozenset())
+        for condition in conditions:
+            if set(condition.weights) != {EGO, hero.id} or not condition.moments <= instant:
+                continue
+            formula = scene.program.constraint(condition.constraint_id).formula
+            distance = next((n for n in walk(formula) if isinstance(n, Derived) and isinstance(n.target, int)), None)
+            if distance is not None:
+                return cls(distance.actor == EGO, offset_m)  # its first actor is the one behind
+            gap_m = _gap_m(condition, hero.id, offset_m)
+            if gap_m is not None:
+                return cls(gap_m > 0.0, offset_m)
+        return None
+
+
+def _gap_m(condition: LinearCondition, hero: int, offset_m: float) -> float | None:
+    """Return how far ahead of the ego (m) the hero is where `condition` holds; None where it is about another thing."""
+    hero_metre, hero_speed = condition.weights[hero]
+    ego_metre, ego_speed = condition.weights[EGO]
+    if hero_metre == 0.0 or abs(hero_metre + ego_metre) > 1e-9:
+        return None
+    rest = condition.constant + (hero_speed + ego_speed) * _TYPICAL_MPS - hero_metre * offset_m
+    return -rest / hero_metre

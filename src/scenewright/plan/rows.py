@@ -1,0 +1,258 @@
+"""What makes one plan better than another, and what it owes: comfort, limits, manner, the ego's way.
+
+What enters: what is asked and wanted, a hero's motion as a function of unknowns. What leaves: residuals, of which the
+squares are summed, and rows that are to be at most zero; both in units of cost, with their slopes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scenewright.plan.asked import Asked
+from scenewright.plan.shooting import Leg, Moment, Shot
+from scenewright.plan.situation import Situation
+from scenewright.program.types import Actor, PieceKind
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
+from scenewright.solve.proofs.narrowing import Narrowing
+
+Array = NDArray[np.float64]
+
+SOONEST_S = 0.02  # how soon after now a knot may come
+_ANY = float("inf")
+_APART_M = VEHICLE_LENGTH_M + 1.5  # between two on one lane, before a trigger
+_STILL_MPS = 0.1  # what is as bad as a tight tolerance for one that is to stand
+_FIRM = 20.0  # of a price: what no motion exceeds
+_TIGHT_SPEED, _TIGHT_RATE, _TIGHT_LENGTH, _TIGHT_TIME = 0.25, 0.25, 0.5, 0.1
+_UNBOUNDED = 900  # bounds of laws beyond this are none
+_ROUNDING_S = 1e-6
+
+
+@dataclass(slots=True)
+class Rows:
+    """Values and slopes; `most` is from where on a row's cost grows evenly, not with the square."""
+
+    values: list[float] = field(default_factory=list)
+    slopes: list[Array] = field(default_factory=list)
+    most: list[float] = field(default_factory=list)
+
+    def add(self, value: float, slope: Array, weight: float = 1.0, most: float = _ANY) -> None:
+        """Add one row."""
+        self.values.append(weight * value)
+        self.slopes.append(weight * slope)
+        self.most.append(most)
+
+    def beyond(self, value: float, slope: Array, weight: float) -> None:
+        """Add what is unpleasant only where it is greater than zero."""
+        if value > 0.0:
+            self.add(value, slope, weight)
+
+
+@dataclass(slots=True)
+class HeroRows:
+    """Adds one hero's rows.
+
+    Attributes
+    ----------
+    moments
+        The times of all instants.
+    nodes
+        Which leg begins at an instant.
+    """
+
+    asked: Asked
+    now: Situation
+    hero: Actor
+    shot: Shot
+    moments: list[Moment]
+    nodes: Mapping[int, int]
+    costs: Rows
+    bounds: Rows
+
+    def add_all(self) -> None:
+        """Add everything that the hero owes or prefers."""
+        self._comfort()
+        self._limits()
+        self._pieces()
+        self._at_trigger()
+        self._before_trigger()
+        for narrowing in self.asked.narrowings:
+            if narrowing.actor == self.hero.id:
+                self._narrowed(narrowing)
+
+    def _unit(self, *parts: tuple[int | None, float]) -> Array:
+        """Return a slope that is what is given at some unknowns."""
+        slope = np.zeros(len(self.shot.z))
+        for unknown, value in parts:
+            if unknown is not None:
+                slope[unknown] += value
+        return slope
+
+    # -- comfort ------------------------------------------------------------------------------------------------------
+    def _comfort(self) -> None:
+        """Add what is unpleasant: jerk, and acceleration that nobody asked for."""
+        wanted, shot = self.asked.wanted, self.shot
+        usual = {PieceKind.DEC: -wanted.braking_mpss, PieceKind.ACC: wanted.speeding_up_mpss}
+        for number, leg in enumerate(shot.legs):
+            for k, (one, other) in enumerate(pairwise(leg.accels)):
+                node = shot.first_node[number] + k
+                lasts = max(float(shot.time[node + 1] - shot.time[node]), 0.02)
+                a, b = float(shot.z[one]), float(shot.z[other])
+                self.costs.add(b - a, self._unit((one, -1.0), (other, 1.0)), 1.0 / (lasts**0.5 * wanted.jerk_mpsss))
+                mean = 0.5 * (a + b) - usual.get(leg.kind, 0.0)
+                self.costs.add(mean, self._unit((one, 0.5), (other, 0.5)), lasts**0.5 / wanted.accel_mpss)
+        last = shot.legs[-1]
+        if last.accels and shot.v[shot.first_node[-2]] > 1.0:  # who drives on afterwards does so as people do there
+            self.costs.add(float(shot.v[-1]) - self._natural_mps(), shot.d_v[-1], wanted.after_speed_weight)
+
+    def _natural_mps(self) -> float:
+        return self.asked.wanted.natural_share * self.asked.limits[self.hero.id].natural_approach_speed_mps
+
+    # -- limits -------------------------------------------------------------------------------------------------------
+    def _limits(self) -> None:
+        """Add what no motion exceeds: nobody drives backwards, or faster than road and bends allow."""
+        wanted, caps = self.asked.wanted, self.asked.caps[self.hero.id]
+        natural = self.asked.limits[self.hero.id].natural_approach_speed_mps
+        for node in range(1, len(self.shot.time)):
+            s, v, d_s, d_v = self.shot.at_node(node)
+            self.bounds.add(-v, -d_v, _FIRM * wanted.price)
+            (most, slope), (comfortable, other) = caps.at(s)
+            self.bounds.add(v - most, d_v - slope * d_s, _FIRM * wanted.price)
+            self.costs.beyond(v - comfortable, d_v - other * d_s, wanted.lateral_weight)
+            self.costs.beyond(v - natural, d_v, wanted.over_limit_weight)
+
+    # -- manner -------------------------------------------------------------------------------------------------------
+    def _pieces(self) -> None:
+        """Add what makes pieces be seen for what they are, and how long they usually last."""
+        legs, price = self.shot.legs, self.asked.wanted.price
+        for number, leg in enumerate(legs[:-1]):
+            if leg.kind is PieceKind.STOP:
+                _, v, _, d_v = self.shot.at_node(self.shot.first_node[number])
+                self.costs.add(v, d_v, price / _STILL_MPS)
+            self._lasting(leg, stands_next=legs[number + 1].kind is PieceKind.STOP and number + 1 < len(legs) - 1)
+
+    def _lasting(self, leg: Leg, *, stands_next: bool) -> None:
+        asked, wanted, z = self.asked, self.asked.wanted, self.shot.z
+        instants = [asked.knot(self.hero.id, self.hero.sketch.knots[leg.piece + k]) for k in (0, 1)]
+        first, last = (self.moments[instant] for instant in instants)
+        lasts = last.value(z) - first.value(z)
+        slope = self._unit((last.unknown, 1.0), (first.unknown, -1.0))
+        if not np.any(slope):
+            return
+        firm = _FIRM * wanted.price
+        stands = leg.kind is PieceKind.STOP
+        self.bounds.add((wanted.shortest_stand_s if stands else wanted.shortest_s) - lasts, -slope, firm)
+        if leg.first.unknown is None and leg.last.unknown is not None:
+            self.bounds.add(self.now.time_s + SOONEST_S - last.value(z), -slope, firm)
+        if stands:
+            self.costs.add(lasts - wanted.stands_s, slope, wanted.stands_weight)
+        elif not stands_next and instants[1] != asked.trigger(self.hero.id):
+            self.costs.add(lasts - wanted.lasts_s, slope, wanted.lasts_weight)
+
+    def _at_trigger(self) -> None:
+        """Add that a hero drives at its trigger, is settled before it, and visibly begins what it is to do there."""
+        wanted, shot = self.asked.wanted, self.shot
+        number = self._trigger_leg()
+        if number is None or number >= len(shot.legs) - 1:
+            return
+        begins = shot.legs[number]
+        node, rate = shot.first_node[number], wanted.price / _TIGHT_RATE
+        _, v, _, d_v = shot.at_node(node)
+        if node and begins.kind is not PieceKind.STOP:
+            self.costs.add(v - self._natural_mps(), d_v, wanted.trigger_speed_weight)
+            self.bounds.add(wanted.slowest_mps - v, -d_v, wanted.slowest_price)
+            self.bounds.add(wanted.moves_mps - v, -d_v, wanted.price / _TIGHT_SPEED)
+        sense = {PieceKind.DEC: -1.0, PieceKind.ACC: 1.0}.get(begins.kind)
+        if sense is None:
+            return
+        lasts = max(float(shot.time[node + 1] - shot.time[node]), 1e-3)
+        for k, accel in enumerate(begins.accels):
+            if k * lasts < wanted.beginning_s:
+                short = wanted.beginning_mpss - sense * float(shot.z[accel])
+                self.bounds.add(short, self._unit((accel, -sense)), rate)
+        before = shot.legs[number - 1] if number else None
+        if before is not None and before.kind is PieceKind.GO:
+            begin_s, end_s = before.first.value(shot.z), before.last.value(shot.z)
+            for k, accel in enumerate(before.accels):
+                if begin_s + k * (end_s - begin_s) / before.cells > end_s - wanted.settled_s - _ROUNDING_S:
+                    over = sense * float(shot.z[accel]) - wanted.settled_mpss
+                    self.bounds.add(over, self._unit((accel, sense)), rate)
+
+    def _trigger_leg(self) -> int | None:
+        instant = self.asked.trigger(self.hero.id)
+        return None if instant is None else self.nodes.get(instant)
+
+    # -- the ego's way ------------------------------------------------------------------------------------------------
+    def _before_trigger(self) -> None:
+        """Add that until its trigger a hero is not in the ego's way, and can wait for it."""
+        wanted, shot, hero = self.asked.wanted, self.shot, self.hero.id
+        number = self._trigger_leg()
+        if number is None:
+            return
+        last = shot.first_node[number]
+        place_m, v_there, d_place, d_v_there = shot.at_node(last)
+        zone_m, until_s = self.asked.zones_m.get(hero), float(shot.time[last])
+        run_up_m, d_run_up = v_there**2 / (2.0 * wanted.sets_off_mpss), v_there / wanted.sets_off_mpss * d_v_there
+        for node in range(1 if hero in self.now.heroes else 0, last + 1):
+            s_m, v, d_s, d_v = shot.at_node(node)
+            if zone_m is not None and s_m < zone_m + 2.0:
+                self.bounds.add(s_m - zone_m, d_s, wanted.out_of_way_price, wanted.out_of_way_most)
+            if hero in self.now.waits and until_s - shot.time[node] > v_there / wanted.sets_off_mpss + wanted.waits_s:
+                beyond_m = s_m + v**2 / (2.0 * wanted.waits_mpss) + run_up_m - place_m
+                self.bounds.add(beyond_m, d_s + v / wanted.waits_mpss * d_v + d_run_up - d_place, wanted.waits_price)
+            if hero in self.now.lanes.apart:
+                self._apart(node)
+        if hero in self.now.lanes.apart:
+            self._plainly(last)
+
+    def _apart(self, node: int) -> None:
+        """Add that a hero on the ego's lane leaves room between the two."""
+        side, offset_m = self.now.lanes.apart[self.hero.id]
+        s_m, _, d_s, _ = self.shot.at_node(node)
+        ego_m, ego_mps, _ = self.now.ego(float(self.shot.time[node]))
+        room_m = side * (s_m + offset_m - ego_m) - _APART_M
+        slope = -side * (d_s - ego_mps * self.shot.d_time[node])
+        self.bounds.add(-room_m, slope, self.asked.wanted.price / _TIGHT_LENGTH)
+
+    def _plainly(self, node: int) -> None:
+        """Add that the distance changes plainly at the trigger: else it is as good as met for a long while."""
+        side, _ = self.now.lanes.apart[self.hero.id]
+        s_m, v, _, d_v = self.shot.at_node(node)
+        ego_m, ego_mps, ego_mpss = self.now.ego(float(self.shot.time[node]))
+        before_m = side * (float(self.shot.s[0]) - self.now.ego(float(self.shot.time[0]))[0])
+        opens = 1.0 if side * (s_m - ego_m) > before_m else -1.0
+        rate, slope = side * (v - ego_mps), side * (d_v - ego_mpss * self.shot.d_time[node])
+        self.bounds.add(self.asked.wanted.plain_mps - opens * rate, -opens * slope, self.asked.wanted.plain_price)
+
+    # -- narrower laws ------------------------------------------------------------------------------------------------
+    def _narrowed(self, narrowing: Narrowing) -> None:
+        """Add a narrower law, which a constraint makes of a stretch of time."""
+        shot, law = self.shot, narrowing.law
+        begin_s = max(self.moments[k].value(shot.z) for k in narrowing.begins())
+        end_s = min(self.moments[k].value(shot.z) for k in narrowing.ends())
+        for node, accel in self._within(begin_s, end_s):
+            _, v, _, d_v = shot.at_node(node)
+            for low, high, value, slope, tight in (
+                (law.speed_low, law.speed_high, v, d_v, _TIGHT_SPEED),
+                *([] if accel is None else [(law.rate_low, law.rate_high, float(shot.z[accel]), self._unit((accel, 1.0)), _TIGHT_RATE)]),
+            ):  # fmt: skip
+                if high < _UNBOUNDED:
+                    self.bounds.add(value - float(high), slope, self.asked.wanted.price / tight)
+                if low > -_UNBOUNDED:
+                    self.bounds.add(float(low) - value, -slope, self.asked.wanted.price / tight)
+
+    def _within(self, begin_s: float, end_s: float) -> Iterator[tuple[int, int | None]]:
+        """Yield nodes within a stretch of time, each with the unknown of a leg's rate there, if it is its own."""
+        shot = self.shot
+        for number, leg in enumerate(shot.legs):
+            first, behind = shot.first_node[number], shot.first_node[number + 1]
+            whole = begin_s - _ROUNDING_S <= shot.time[first] and shot.time[behind] <= end_s + _ROUNDING_S
+            for k in range(leg.cells + 1):
+                time_s = float(shot.time[first + k])
+                if begin_s - _ROUNDING_S <= time_s <= end_s + _ROUNDING_S:
+                    inside = whole or begin_s + _ROUNDING_S < time_s < end_s - _ROUNDING_S
+                    yield first + k, leg.accels[k] if leg.accels and inside else None

@@ -1,0 +1,160 @@
+"""When a trigger comes of which the ego decides: where it is at its side of it, as it is foreseen.
+
+What enters: a scene's linear conditions, and what is foreseen of the ego. What leaves: instants. It plans nothing; a
+trigger that a hero decides too is for the planning problem itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from scenewright.motion.profile import Profile
+from scenewright.program.structure import Structure
+from scenewright.program.types import EGO, Actor
+from scenewright.roads.grounding import Scene
+from scenewright.solve.arrival import TIGHT_LENGTH_M, LinearCondition, tight_of
+
+# How soon a trigger may come (s): nobody can tell what begins sooner from what has begun.
+SHORTEST_LEAD_S = 0.02
+# What is further off than this (s) is not foreseen: to know that it is will do; at first, that it comes at all.
+_LATEST_S, _FAR_S = 12.0, 40.0
+# How soon a trigger was to come (s) that the ego may have met between two ticks; how late it would come again.
+_DUE_S, _AGAIN_S, _STILL_GOOD = 0.12, 0.2, 0.8
+# An ego that hardly gets to its side (in tight tolerances) before it slows down is as good as there; by how much later
+# (s) it would have to be there for that to matter.
+_AS_GOOD, _MUCH_LATER_S, _LOOKED_AT_S = 0.7, 1.0, 0.05
+# Who does not get nearer to its place than this before it stands is there.
+_STANDS_MPS, _STANDS_THERE_M = 0.02, 0.9 * TIGHT_LENGTH_M
+
+
+@dataclass(slots=True)
+class TriggerTimes:
+    """Tells for one scene when triggers come.
+
+    Attributes
+    ----------
+    ego_began
+        The ego's position (m) and speed (m/s) when the run began.
+    """
+
+    scene: Scene
+    structure: Structure
+    conditions: tuple[LinearCondition, ...]
+    ego_began: tuple[float, float] = (0.0, 0.0)
+
+    def ego_alone(self) -> list[LinearCondition]:
+        """Conditions on the ego alone at knots that it passes by itself (not those it shares with a hero's trigger)."""
+        shared = {key for instant in self.structure.triggers.values() for key in instant}
+        first = (EGO, self.scene.program.ego.sketch.knots[0])
+        return [
+            c for c in self.conditions if set(c.weights) == {EGO} and not c.moments & shared and first not in c.moments
+        ]
+
+    def ego_side(self, hero: Actor) -> LinearCondition | None:
+        """Return the condition on the ego alone that the hero's trigger waits for; None where both decide."""
+        here = [c for c in self.conditions if c.moments <= self.structure.triggers[hero.id]]
+        known = _hero_place(hero, here)
+        for condition in here:
+            alone = condition.given(hero.id, *known) if hero.id in condition.weights and known else condition
+            if set(alone.weights) == {EGO} and alone.weights[EGO][0]:
+                return alone
+        return None
+
+    def instant_s(self, hero: Actor, time_s: float, prediction: Profile, planned_s: float | None) -> float:
+        """Return when a hero's trigger comes of which the ego decides (it has an `ego_side`).
+
+        Parameters
+        ----------
+        planned_s
+            When it comes by the plan in force; None where nothing is planned yet.
+        """
+        side = self.ego_side(hero)
+        assert side is not None
+        arrival_s = self._ego_arrival_s(side, time_s, prediction)
+        if planned_s is None:
+            return arrival_s
+        due_s = max(planned_s, time_s + SHORTEST_LEAD_S)
+        if (
+            arrival_s > due_s + _AGAIN_S
+            and planned_s < time_s + _DUE_S
+            and _miss(side, prediction, due_s) <= _STILL_GOOD
+        ):
+            return due_s  # it was there between two ticks, a moment sooner than foreseen
+        stands = _standing(side, time_s, prediction, arrival_s)
+        if stands is not None:
+            return min(max(planned_s, stands[0]), stands[1])
+        arrival_s = min(arrival_s, time_s + _LATEST_S)
+        return (
+            self._as_good_s(side, time_s, prediction, planned_s) if arrival_s > planned_s + _MUCH_LATER_S else arrival_s
+        )
+
+    def _as_good_s(self, side: LinearCondition, time_s: float, prediction: Profile, planned_s: float) -> float:
+        """Return when the ego is as good as at its side near a planned instant, else when it is there, much later."""
+        soonest_s = max(time_s + SHORTEST_LEAD_S, planned_s - _MUCH_LATER_S)
+        tries = np.arange(soonest_s, planned_s + _MUCH_LATER_S, _LOOKED_AT_S)
+        misses = [_miss(side, prediction, float(at_s)) for at_s in tries]
+        best = int(np.argmin(misses)) if misses else 0
+        if misses and misses[best] <= _AS_GOOD:
+            return float(tries[best])
+        return min(self._ego_arrival_s(side, time_s, prediction), time_s + _LATEST_S)
+
+    def _ego_arrival_s(self, condition: LinearCondition, time_s: float, prediction: Profile) -> float:
+        """Return when the ego will be at its side: at once where it is past it, late where that is not in sight."""
+        arrival = condition.first_time({EGO: prediction}, time_s)
+        if arrival is None and self._is_behind(condition, prediction.state(time_s)):
+            arrival = time_s
+        return time_s + _FAR_S if arrival is None else max(arrival, time_s + SHORTEST_LEAD_S)
+
+    def ego_knots_s(
+        self, time_s: float, prediction: Profile, past: Mapping[str, float], triggers_s: Mapping[int, float]
+    ) -> dict[str, float]:
+        """Return when the ego passes its knots: those behind it, its triggers, and those it is predicted to reach."""
+        knots = dict(past)
+        for hero, instant_s in triggers_s.items():
+            for owner, name in self.structure.triggers[hero]:
+                if owner == EGO:
+                    knots[name] = instant_s
+        latest = max([time_s, *knots.values()])
+        for condition in self.ego_alone():
+            name = next(iter(condition.moments))[1]
+            if name not in knots:
+                arrival = condition.first_time({EGO: prediction}, max(time_s, latest))
+                if arrival is None and self._is_behind(condition, prediction.state(latest)):
+                    arrival = latest  # it is past that place before it may be: nothing can come before it any more
+                if arrival is not None:
+                    knots[name] = arrival
+        return knots
+
+    def _is_behind(self, condition: LinearCondition, state: tuple[float, float, float]) -> bool:
+        """Whether the ego, in `state`, is past a place that lay ahead of it when the run began."""
+        return condition.value({EGO: self.ego_began}) * condition.value({EGO: state[:2]}) < 0.0
+
+
+def _miss(side: LinearCondition, prediction: Profile, instant_s: float) -> float:
+    """Return how far the ego will be off its side, in tight tolerances."""
+    state = prediction.state(instant_s)
+    return abs(side.value({EGO: state[:2]})) / tight_of(side, state[1])
+
+
+def _standing(side: LinearCondition, time_s: float, prediction: Profile, before_s: float) -> tuple[float, float] | None:
+    """Return from when to when (s) the ego stands so near to its place that it is there; None where it does not."""
+    per_metre, per_speed = side.weights[EGO]
+    soonest_s = time_s + SHORTEST_LEAD_S
+    for segment in prediction.segments:
+        begin_s = max(segment.start_s, soonest_s)
+        stands = segment.speed_mps < _STANDS_MPS and segment.accel_mpss <= 0.0 and segment.end_s > soonest_s
+        if stands and begin_s <= before_s and not per_speed:
+            off_m = abs(side.value({EGO: (segment.s_m, 0.0)}) / per_metre)
+            return (begin_s, segment.end_s) if off_m <= _STANDS_THERE_M else None
+    return None
+
+
+def _hero_place(hero: Actor, conditions: list[LinearCondition]) -> tuple[float, float] | None:
+    """Return position and speed of the hero at its trigger where the program fixes the position."""
+    for condition in conditions:
+        if set(condition.weights) == {hero.id} and condition.weights[hero.id][1] == 0.0:
+            return -condition.constant / condition.weights[hero.id][0], 0.0
+    return None
