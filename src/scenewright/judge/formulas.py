@@ -120,6 +120,8 @@ def _temporal(case: Case, formula: Temporal, moments: Moments, negated: bool) ->
     if not np.isfinite(start_s) or start_s > case.end_s:
         raise CannotJudge("the run ended before the stretch of time began")
     lasting = (formula.operator != "eventually") != negated
+    if end_s < start_s:  # at no instant: what holds always holds, what holds sometime does not
+        return Leaf(0.0 if lasting else np.inf, None)
     body_negated = (formula.operator == "never") != negated
 
     def body(time_s: FloatArray) -> Miss:

@@ -31,9 +31,10 @@ from scenewright.program.expressions import (
     walk,
 )
 from scenewright.program.structure import KnotKey, knots_of, synchronised
-from scenewright.program.types import PieceKind
+from scenewright.program.types import EGO, PieceKind
 
 SIGN_OF: dict[PieceKind, Sign] = {PieceKind.DEC: BRAKING, PieceKind.ACC: SPEEDING_UP}
+Group = frozenset[KnotKey]
 _TIE = 1e-3
 _PASSES = 3  # a knot may be defined by another actor's, which may be defined by a third
 
@@ -50,29 +51,46 @@ class Measured:
         Time (s) of each hero's trigger, by hero id; infinite where it has no best instant at all.
     onsets
         The braking or speeding up that begins at each hero's trigger, by hero id; None where there is none.
+    unseen
+        Knots that neither a place nor anything visible ties to a moment, those that are one moment together.
     """
 
     moments: Moments
     triggers: dict[int, float]
     onsets: dict[int, Phase | None]
+    unseen: tuple[Group, ...] = ()
 
 
-def measure(case: Case) -> Measured:
-    """Find the times of all knots."""
-    knots: dict[KnotKey, float] = {(a.id, a.sketch.knots[0]): case.start_s for a in case.program.actors}
+def measure(case: Case, told: Mapping[KnotKey, float]) -> Measured:
+    """Find the times of all knots, of which some are told."""
+    knots = dict(told)
     onsets: dict[int, Phase | None] = {}
-    for group in _groups(case):
-        chosen = _best_instant(case, group, knots)
-        if chosen is not None:
-            knots.update(dict.fromkeys(group, chosen))
+    seen = set(knots)
     for attempt in range(_PASSES):
-        _fill(case, knots, last_attempt=attempt == _PASSES - 1)
+        _fill(case, knots, seen, last_attempt=attempt == _PASSES - 1)
     triggers = {}
     for hero in case.structure.triggers:
         knot = case.structure.trigger_knot(hero)
         triggers[hero] = knots.get((hero, knot or ""), np.inf)
         onsets[hero] = onset_after(case, hero, knot or "", triggers[hero])
-    return Measured(Moments(knots, _spans(case, knots, onsets)), triggers, onsets)
+    keys = [(actor.id, knot) for actor in case.program.actors for knot in actor.sketch.knots]
+    together = [group for group in _groups(case) if not group & told.keys()]
+    alone = [frozenset({key}) for key in keys if key not in seen and not any(key in group for group in together)]
+    return Measured(Moments(knots, _spans(case, knots, onsets)), triggers, onsets, (*together, *alone))
+
+
+def best_instants(case: Case) -> dict[KnotKey, float]:
+    """Return when the knots were of which the program says that they are one moment, and what holds at it."""
+    found = _starts(case)
+    for group in _groups(case):
+        chosen = _best_instant(case, group, found)
+        if chosen is not None:
+            found.update(dict.fromkeys(group, chosen))
+    return found
+
+
+def _starts(case: Case) -> dict[KnotKey, float]:
+    return {(actor.id, actor.sketch.knots[0]): case.start_s for actor in case.program.actors}
 
 
 def conjuncts(formula: Formula) -> Iterator[Formula]:
@@ -84,7 +102,7 @@ def conjuncts(formula: Formula) -> Iterator[Formula]:
         yield formula
 
 
-def sides_of(case: Case, group: frozenset[KnotKey], known: set[KnotKey]) -> list[Formula]:
+def sides_of(case: Case, group: Group, known: set[KnotKey]) -> list[Formula]:
     """Return what the program says of an instant, given the knots whose times are known."""
     found = []
     for constraint in case.program.constraints:
@@ -109,7 +127,7 @@ def onset_after(case: Case, hero: int, knot: str, moment_s: float) -> Phase | No
     return None if sign is None else phase_at(case.timelines[hero], moment_s, sign)
 
 
-def _groups(case: Case) -> list[frozenset[KnotKey]]:
+def _groups(case: Case) -> list[Group]:
     groups: list[set[KnotKey]] = [set(instant) for instant in case.structure.triggers.values()]
     for constraint in case.program.constraints:
         for pair in synchronised(constraint.formula):
@@ -119,7 +137,7 @@ def _groups(case: Case) -> list[frozenset[KnotKey]]:
     return sorted({frozenset(group) for group in groups}, key=lambda group: (group not in triggers, sorted(group)))
 
 
-def _best_instant(case: Case, group: frozenset[KnotKey], knots: dict[KnotKey, float]) -> float | None:
+def _best_instant(case: Case, group: Group, knots: dict[KnotKey, float]) -> float | None:
     parts = sides_of(case, group, set(knots))
     grid = case.timelines[0].instants(case.start_s, case.end_s, parts=2)
 
@@ -145,7 +163,7 @@ def _best_instant(case: Case, group: frozenset[KnotKey], knots: dict[KnotKey, fl
     return min(good, key=lambda minimum: _unlikeliness(case, group, minimum)).time_s
 
 
-def _can_be_judged(case: Case, part: Formula, knots: Mapping[KnotKey, Values], group: frozenset[KnotKey]) -> bool:
+def _can_be_judged(case: Case, part: Formula, knots: Mapping[KnotKey, Values], group: Group) -> bool:
     try:
         miss_of(case, part, Moments({**knots, **dict.fromkeys(group, case.start_s)}))
     except CannotJudge:
@@ -153,7 +171,7 @@ def _can_be_judged(case: Case, part: Formula, knots: Mapping[KnotKey, Values], g
     return True
 
 
-def _unlikeliness(case: Case, group: frozenset[KnotKey], minimum: Minimum) -> tuple[float, float]:
+def _unlikeliness(case: Case, group: Group, minimum: Minimum) -> tuple[float, float]:
     score = minimum.score
     for actor, knot in group:
         sketch = case.program.actor(actor).sketch
@@ -164,17 +182,14 @@ def _unlikeliness(case: Case, group: frozenset[KnotKey], minimum: Minimum) -> tu
     return score, minimum.time_s
 
 
-def _fill(case: Case, knots: dict[KnotKey, float], last_attempt: bool) -> None:
+def _fill(case: Case, knots: dict[KnotKey, float], seen: set[KnotKey], last_attempt: bool) -> None:
+    """Put in the times of knots in the order of the sketch, and note those that are seen."""
     for actor in (*case.program.heroes, case.program.ego):
         previous = case.start_s
         for index, knot in enumerate(actor.sketch.knots):
             key = (actor.id, knot)
             if key not in knots:
-                time_s = _defined_time(case, key, previous, knots)
-                if time_s is None and not actor.is_ego:
-                    time_s = _visible_time(case, key, index, previous)
-                if time_s is None:
-                    time_s = _stated_time(case, key, knots)
+                time_s, certain = _time_of(case, key, index, previous, knots)
                 if time_s is None and last_attempt and index == len(actor.sketch.knots) - 1:
                     time_s = case.end_s
                 if time_s is None:
@@ -182,7 +197,23 @@ def _fill(case: Case, knots: dict[KnotKey, float], last_attempt: bool) -> None:
                         continue
                     break  # what follows must wait for another actor's knots
                 knots[key] = time_s
+                if certain:
+                    seen.add(key)
             previous = max(previous, knots[key])
+
+
+def _time_of(
+    case: Case, key: KnotKey, index: int, previous: float, knots: dict[KnotKey, float]
+) -> tuple[float | None, bool]:
+    """Return when a knot was, if anything tells, and whether that is the only moment that it can have been."""
+    if (found := _defined_time(case, key, previous, knots)) is not None:
+        return found
+    sketch = case.program.actor(key[0]).sketch
+    if key[0] != EGO and (time_s := _visible_time(case, key, index, previous)) is not None:
+        stands_at_last = index == len(sketch.pieces) and sketch.pieces[-1] is PieceKind.STOP
+        return time_s, not stands_at_last  # nobody needs to see how long it stands for good
+    time_s = _stated_time(case, key, knots)
+    return time_s, time_s is not None
 
 
 def _equalities(case: Case, key: KnotKey, known: set[KnotKey]) -> Iterator[Compare]:
@@ -200,12 +231,17 @@ def _level(case: Case, part: Compare, key: KnotKey, knots: Mapping[KnotKey, Valu
     return np.broadcast_to(np.where(np.isnan(level), np.inf, level), time_s.shape)
 
 
-def _defined_time(case: Case, key: KnotKey, after_s: float, knots: dict[KnotKey, float]) -> float | None:
-    """Return the time of a knot from what the program says of the actor's state there; None where it says nothing."""
+def _defined_time(
+    case: Case, key: KnotKey, after_s: float, knots: dict[KnotKey, float]
+) -> tuple[float, bool] | None:
+    """Return the time of a knot from what the program says of the actor's state there; None where it says nothing.
+
+    With it comes whether it can have been no other moment: a speed or a time to arrival may be had more than once.
+    """
     if not np.isfinite(after_s):
-        return np.inf
+        return np.inf, True
     if demands_standstill(case, key, knots):
-        return _rest_time(case, key, after_s)
+        return _rest_time(case, key, after_s), True
     parts = []
     for part in _equalities(case, key, set(knots)):
         orders = {_order_at(n, key) for n in walk(part)} - {None, 2}
@@ -214,7 +250,13 @@ def _defined_time(case: Case, key: KnotKey, after_s: float, knots: dict[KnotKey,
     if not parts:
         return None
     only_speed, part = min(parts, key=lambda item: item[0])  # a place defines a moment better than a speed
-    return (_reached_speed if only_speed else _place_time)(case, part, key, after_s, knots)
+    if only_speed:
+        return _reached_speed(case, part, key, after_s, knots), False
+    time_s = _place_time(case, part, key, after_s, knots)
+    if np.isfinite(time_s):
+        return time_s, not any(isinstance(node, Derived) for node in walk(part))  # nobody reverses
+    nearest = np.abs(_level(case, part, key, knots, np.array([case.end_s])))  # who stops just short of it is there
+    return time_s, bool(nearest[0] > TIGHT.length_m)
 
 
 def _order_at(node: object, key: KnotKey) -> int | None:

@@ -1,0 +1,104 @@
+"""Knots that nothing in a trace shows: moments are looked for at which what the program says of them holds.
+
+What enters: a `Case`. What leaves: `Measured`. A scenario happened if there are moments, in the order of the sketches,
+at which all holds that was asked for; so a knot that neither a place nor anything visible ties to a moment may have been
+any. It is moved only where more holds with it, and never from where it is seen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from scenewright.judge.case import CannotJudge, Case
+from scenewright.judge.conditions import program_conditions
+from scenewright.judge.formulas import miss_of
+from scenewright.judge.instants import minima
+from scenewright.judge.interaction import interaction_conditions
+from scenewright.judge.knots import Group, Measured, best_instants, conjuncts, measure
+from scenewright.judge.terms import Moments
+from scenewright.judge.tolerance import LOOSE, TIGHT, FloatArray, normalised
+from scenewright.program.expressions import Compare
+from scenewright.program.structure import KnotKey, knots_of
+
+_PASSES = 2  # a knot may be tied to another that is unseen, too
+_TRIED = 48  # moments between two knots, beside those at which one comparison holds best
+_AMONG_S = 0.05  # how far apart instants are among which those are looked for; they are found exactly
+
+
+class Amiss(NamedTuple):
+    """How much does not hold: how many conditions at each tolerance."""
+
+    loose: int
+    tight: int
+
+
+def measured_at_best(case: Case) -> Measured:
+    """Find the times of all knots; of those that nothing shows the ones with which most holds."""
+    told = best_instants(case)
+    found = measure(case, told)
+    groups, amiss = found.unseen, _amiss(case, found) if found.unseen else Amiss(0, 0)
+    for group in groups * _PASSES:
+        if not amiss.tight:
+            break
+        for time_s in _candidates(case, found, group):
+            other_told = {**told, **dict.fromkeys(group, time_s)}
+            other = measure(case, other_told)
+            less = _amiss(case, other)
+            if less.loose <= amiss.loose and less.tight < amiss.tight:
+                told, found, amiss = other_told, other, less
+    return replace(found, unseen=groups)
+
+
+def _amiss(case: Case, measured: Measured) -> Amiss:
+    conditions = [*program_conditions(case, measured), *interaction_conditions(case, measured)]
+    return Amiss(*(sum(not each.holds_at(tolerance) for each in conditions) for tolerance in (LOOSE, TIGHT)))
+
+
+def _candidates(case: Case, measured: Measured, group: Group) -> list[float]:
+    """Return moments that the order of the sketches leaves, likely ones first."""
+    low, high = _between(case, measured, group)
+    if not high > low:
+        return []
+    likely = [time_s for time_s in _best_of_each(case, measured.moments.knots, group, low, high) if low <= time_s <= high]
+    return list(dict.fromkeys([*likely, *np.linspace(low, high, _TRIED).tolist()]))
+
+
+def _between(case: Case, measured: Measured, group: Group) -> tuple[float, float]:
+    """Return between which seen knots those of a group lie."""
+    unseen = frozenset[KnotKey]().union(*measured.unseen)
+    low, high = case.start_s, case.end_s
+    for actor, knot in group:
+        knots = case.program.actor(actor).sketch.knots
+        for index, other in enumerate(knots):
+            time_s = measured.moments.knots.get((actor, other), np.inf)
+            if (actor, other) in unseen or not np.all(np.isfinite(time_s)):
+                continue
+            if index < knots.index(knot):
+                low = max(low, float(time_s))
+            else:
+                high = min(high, float(time_s))
+    return low, high
+
+
+def _best_of_each(
+    case: Case, knots: Mapping[KnotKey, float | FloatArray], group: Group, low: float, high: float
+) -> Iterator[float]:
+    """Yield moments at which one comparison that speaks of a group of knots holds best."""
+    grid = np.linspace(low, high, max(2, int((high - low) / _AMONG_S) + 1))
+    for constraint in case.program.constraints:
+        for part in conjuncts(constraint.formula):
+            if not isinstance(part, Compare) or not group & set(knots_of(part)):
+                continue
+
+            def score(time_s: FloatArray, part: Compare = part) -> FloatArray:
+                miss = miss_of(case, part, Moments({**knots, **dict.fromkeys(group, time_s)}))
+                return np.broadcast_to(np.asarray(normalised(miss, TIGHT), dtype=np.float64), time_s.shape)
+
+            try:
+                yield from (minimum.time_s for minimum in minima(score, grid))
+            except CannotJudge:
+                continue
