@@ -128,7 +128,7 @@ def _temporal(case: Case, formula: Temporal, moments: Moments, negated: bool) ->
         return miss_of(case, formula.body, replace(moments, now=time_s), body_negated)
 
     sign = -1.0 if lasting else 1.0
-    steps = any(isinstance(node, State) and node.order == 2 for node in walk(formula.body))
+    steps = lasting and any(isinstance(node, State) and node.order == 2 for node in walk(formula.body))
     if steps and end_s - start_s > 4 * TIGHT.time_s:
         # Accelerations step at knots, and knots are met within a time tolerance: the ends are not held against anybody.
         start_s, end_s = start_s + TIGHT.time_s, end_s - TIGHT.time_s

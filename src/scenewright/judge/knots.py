@@ -36,6 +36,7 @@ from scenewright.program.types import EGO, PieceKind
 SIGN_OF: dict[PieceKind, Sign] = {PieceKind.DEC: BRAKING, PieceKind.ACC: SPEEDING_UP}
 Group = frozenset[KnotKey]
 _TIE = 1e-3
+_NEAR_S = 1.0  # within tolerances a moment is no point
 _PASSES = 3  # a knot may be defined by another actor's, which may be defined by a third
 
 
@@ -79,18 +80,18 @@ def measure(case: Case, told: Mapping[KnotKey, float]) -> Measured:
     return Measured(Moments(knots, _spans(case, knots, onsets)), triggers, onsets, (*together, *alone))
 
 
-def best_instants(case: Case) -> dict[KnotKey, float]:
-    """Return when the knots were of which the program says that they are one moment, and what holds at it."""
-    found = _starts(case)
+def best_instants(case: Case) -> tuple[dict[KnotKey, float], tuple[Group, ...]]:
+    """Return when the knots were of which the program says that they are one moment, and what holds at it.
+
+    With them come those of them for which another moment does as well.
+    """
+    found = {(actor.id, actor.sketch.knots[0]): case.start_s for actor in case.program.actors}
+    unseen = []
     for group in _groups(case):
-        chosen = _best_instant(case, group, found)
-        if chosen is not None:
-            found.update(dict.fromkeys(group, chosen))
-    return found
-
-
-def _starts(case: Case) -> dict[KnotKey, float]:
-    return {(actor.id, actor.sketch.knots[0]): case.start_s for actor in case.program.actors}
+        if (chosen := _best_instant(case, group, found)) is not None:
+            found.update(dict.fromkeys(group, chosen[0]))
+            unseen += [group] * (not chosen[1])
+    return found, tuple(unseen)
 
 
 def conjuncts(formula: Formula) -> Iterator[Formula]:
@@ -137,7 +138,8 @@ def _groups(case: Case) -> list[Group]:
     return sorted({frozenset(group) for group in groups}, key=lambda group: (group not in triggers, sorted(group)))
 
 
-def _best_instant(case: Case, group: Group, knots: dict[KnotKey, float]) -> float | None:
+def _best_instant(case: Case, group: Group, knots: dict[KnotKey, float]) -> tuple[float, bool] | None:
+    """Return the instant at which what the program says of it holds best, and whether it holds at no other."""
     parts = sides_of(case, group, set(knots))
     grid = case.timelines[0].instants(case.start_s, case.end_s, parts=2)
 
@@ -153,7 +155,12 @@ def _best_instant(case: Case, group: Group, knots: dict[KnotKey, float]) -> floa
         return None
     found = minima(score, grid)
     if not found:
-        return np.inf
+        return np.inf, True
+    chosen = _likeliest(case, group, judged, found)
+    return chosen, not np.any((score(grid) <= 1) & (np.abs(grid - chosen) > _NEAR_S))
+
+
+def _likeliest(case: Case, group: Group, judged: list[Formula], found: list[Minimum]) -> float:
     if not any(isinstance(part, Compare) and part.operator == "==" for part in judged):
         # "while ..." holds over stretches: the piece that follows shows which instant of them was meant.
         return min(found, key=lambda m: (m.score > 1, m.score if m.score > 1 else 0.0, m.time_s)).time_s
@@ -206,12 +213,15 @@ def _time_of(
     case: Case, key: KnotKey, index: int, previous: float, knots: dict[KnotKey, float]
 ) -> tuple[float | None, bool]:
     """Return when a knot was, if anything tells, and whether that is the only moment that it can have been."""
+    pieces = case.program.actor(key[0]).sketch.pieces
+    visible = None if key[0] == EGO else _visible_time(case, key, index, previous)
+    if index and pieces[index - 1] is PieceKind.STOP and visible is not None and np.isfinite(visible):
+        return visible, index < len(pieces)  # while it stands all that a place says holds
     if (found := _defined_time(case, key, previous, knots)) is not None:
         return found
-    sketch = case.program.actor(key[0]).sketch
-    if key[0] != EGO and (time_s := _visible_time(case, key, index, previous)) is not None:
-        stands_at_last = index == len(sketch.pieces) and sketch.pieces[-1] is PieceKind.STOP
-        return time_s, not stands_at_last  # nobody needs to see how long it stands for good
+    if visible is not None:
+        stands_at_last = index == len(pieces) and pieces[-1] is PieceKind.STOP
+        return visible, not stands_at_last  # nobody needs to see how long it stands for good
     time_s = _stated_time(case, key, knots)
     return time_s, time_s is not None
 

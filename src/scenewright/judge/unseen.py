@@ -38,13 +38,14 @@ class Amiss(NamedTuple):
 
 def measured_at_best(case: Case) -> Measured:
     """Find the times of all knots; of those that nothing shows the ones with which most holds."""
-    told = best_instants(case)
+    told, several = best_instants(case)
     found = measure(case, told)
-    groups, amiss = found.unseen, _amiss(case, found) if found.unseen else Amiss(0, 0)
+    groups = (*several, *found.unseen)
+    amiss = _amiss(case, found) if groups else Amiss(0, 0)
     for group in groups * _PASSES:
         if not amiss.tight:
             break
-        for time_s in _candidates(case, found, group):
+        for time_s in _candidates(case, replace(found, unseen=groups), group):
             other_told = {**told, **dict.fromkeys(group, time_s)}
             other = measure(case, other_told)
             less = _amiss(case, other)

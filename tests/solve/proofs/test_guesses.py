@@ -8,7 +8,7 @@ from planted import T, limits_of
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
 from scenewright.solve.proofs.events import EgoBounds, Events
-from scenewright.solve.proofs.guesses import first_guess, told_values
+from scenewright.solve.proofs.guesses import first_guess
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.polynomials import compare, every, some, unknown
 

@@ -31,6 +31,7 @@ from scenewright.solve.proofs.search import Search
 from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
 
 Array = NDArray[np.float64]
+Owed = Literal["throughout", "at first", "nothing"]
 _ROUNDS = 14  # how often one motion is mended before another is looked for
 _GUESSES = (4, 5, 12)  # how many first guesses are tried before each time that a proof is looked for
 _PROOF_S = (0.15, 0.5, 1.0)
@@ -40,7 +41,9 @@ _RANGES = {
     "place": "where the routes end",
 }
 _WIDER = 1000  # a range so much wider is none
-_WITH_MANNER = 3  # so many guesses owe the manner; a motion that cannot be told by its looks is possible all the same
+# What guesses owe of the manner, in turn: a motion that cannot be told by its looks is possible all the same.
+_OWED: tuple[Owed, ...] = ("throughout", "throughout", "at first", "nothing")
+_KEEN = 12  # so many guesses are made for a motion that can, where there is one that cannot
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +91,7 @@ class Question:
 class _Case:
     """One scene's events with what was added to them, grown as motions show the need."""
 
-    def __init__(self, question: Question, manner: bool = False, plan: bool = True) -> None:
+    def __init__(self, question: Question, owed: Owed = "nothing", plan: bool = True) -> None:
         self.scene, self.structure, self.limits = question.scene, question.structure, question.limits
         self.events = Events(question.scene, question.limits, question.ego, question.drive, question.freed)
         self.lowering = Lowering(self.events, Fraction(1) if question.drive else ZERO)
@@ -97,8 +100,8 @@ class _Case:
         self.more = Refinement(self.events, self.lowering, question.limits)
         if plan:
             self.more.lasting_rates()
-        if manner:
-            self.more.manner(question.structure)
+        if owed != "nothing":
+            self.more.manner(throughout=owed == "throughout")
 
     def formulas(self) -> list[Formula]:
         """Return all that a plan owes."""
@@ -131,16 +134,23 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     left_out = {each.constraint.id: each.refused for each in plain.lowered if each.refused}
     generator = np.random.default_rng(0)
     amiss: tuple[Broken, ...] = ()
-    tried = 0
+    tried, kept = 0, None
     for guesses, proof_s in zip(_GUESSES, _PROOF_S, strict=True):
         for _ in range(0 if left_out or question.drive else guesses):
-            case = _Case(question, manner=tried < _WITH_MANNER)
-            found, amiss = _witness(case, generator if tried else None, until)
+            owed = _OWED[tried % len(_OWED)] if tried < len(_OWED) or kept is not None else "nothing"
+            if kept is None or owed != "nothing":
+                found, amiss = _witness(_Case(question, owed), generator if tried else None, until)
+                if found is not None and owed != "nothing":
+                    return Decision("feasible", found)
+                kept = kept or found
             tried += 1
-            if found is not None:
-                return Decision("feasible", found)
-            if time.monotonic() > until:
+            over = time.monotonic() > until
+            if kept is not None and (over or tried >= _KEEN):
+                return Decision("feasible", kept)
+            if over:
                 return Decision("undecided", amiss=amiss)
+        if kept is not None:
+            continue
         formulas = plain.relaxation()
         answer = z3_engine.ask(plain.events.unknowns, formulas, min(proof_s, until - time.monotonic()))
         if answer.kind == "refuted":
@@ -149,8 +159,7 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
         if answer.kind == "met" and (left_out or question.drive):
             break
         if answer.kind == "met":
-            case = _Case(question, manner=tried < _WITH_MANNER)
-            found, amiss = _mended(case, np.array(answer.values), until, None)
+            found, amiss = _mended(_Case(question), np.array(answer.values), until, None)
             if found is not None:
                 return Decision("feasible", found)
     return Decision("undecided", left_out=left_out, amiss=amiss)

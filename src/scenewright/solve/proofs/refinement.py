@@ -14,10 +14,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from scenewright.motion.laws import ANY
+from scenewright.motion.laws import ANY, Law
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import moments_of_worst
-from scenewright.program.structure import Structure
 from scenewright.program.types import Actor, PieceKind
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import find_conflict
@@ -28,7 +27,7 @@ from scenewright.solve.proofs.events import Events, pin
 from scenewright.solve.proofs.forms import actors_at, free_states
 from scenewright.solve.proofs.lowering import RATE_LASTS_S, Lowering
 from scenewright.solve.proofs.narrowing import Narrowing
-from scenewright.solve.proofs.polynomials import Formula, compare, some
+from scenewright.solve.proofs.polynomials import ZERO, Formula, compare, every, some
 from scenewright.solve.proofs.witness import Broken, Witness
 
 SHARES = (0.985, 0.8, 0.6, 0.4, 0.2)
@@ -40,6 +39,9 @@ SETTLED_S, SETTLED_MPSS = Fraction(1, 2), Fraction(45, 100)
 BEGINS_S, BEGINS_MPSS = Fraction(2, 5), Fraction(3, 4)
 SEEN_MPSS, FAINT_MPSS = Fraction(55, 100), Fraction(1, 20)
 STANDS_S = Fraction(35, 100)
+BETWEEN_SAMPLES_S = Fraction(1, 20)  # a trace shows a beginning up to so much early
+_HALF = Fraction(45, 100)
+_ROLLS_MPS = Fraction(1, 2)
 
 
 @dataclass(slots=True)
@@ -67,36 +69,20 @@ class Refinement:
             self.owed.append(compare("==", b.speed - a.speed, rate * RATE_LASTS_S))
             self.owed.append(compare("==", (b.place - a.place) * 2, (a.speed + b.speed) * RATE_LASTS_S))
 
-    def manner(self, structure: Structure) -> None:
-        """Let pieces be seen for what they are, heroes be settled before their trigger and begin at it."""
-        events, program = self.events, self.events.scene.program
-        for actor in program.heroes:
-            self._seen_pieces(actor)
-        for hero in structure.triggers:
-            knot = structure.trigger_knot(hero)
-            sketch = program.actor(hero).sketch
-            if knot is None or knot not in sketch.knots[:-1]:
-                continue
-            number = sketch.knot_index(knot)
-            kind = sketch.pieces[number]
-            if kind not in (PieceKind.DEC, PieceKind.ACC) or (number and sketch.pieces[number - 1] is PieceKind.STOP):
-                continue
-            sign = -1 if kind is PieceKind.DEC else 1
-            trigger, end = events.knot(hero, knot), events.knot(hero, sketch.knots[number + 1])
-            now = events.times[trigger]
-            shown = events.moment(now + BEGINS_S, "begins")
-            events.state(hero, shown)
-            begun = replace(ANY, rate_high=-BEGINS_MPSS) if sign < 0 else replace(ANY, rate_low=BEGINS_MPSS)
-            self.narrowings.append(Narrowing(hero, trigger, shown, begun))
-            self.owed.append(compare("<=", events.times[shown], events.times[end]))
-            if number and sketch.pieces[number - 1] is PieceKind.GO:
-                settled = events.moment(now - SETTLED_S, "settled")
-                events.state(hero, settled)
-                calm = replace(ANY, rate_low=-SETTLED_MPSS) if sign < 0 else replace(ANY, rate_high=SETTLED_MPSS)
-                self.narrowings.append(Narrowing(hero, settled, trigger, calm))
+    def manner(self, *, throughout: bool) -> None:
+        """Let pieces begin where they should and not before, and turns lie ahead.
 
-    def _seen_pieces(self, actor: Actor) -> None:
-        """Let braking and speeding up last as long as their pieces and no longer; let who stops stand for a while."""
+        With `throughout` braking and speeding up are also plain all through their pieces, and over with them.
+        """
+        for actor in self.events.scene.program.heroes:
+            self._seen_pieces(actor, throughout)
+        for each in self.events.scene.program.actors:
+            marks = self.events.scene.landmarks_m[each.id]
+            if "turn_end" in marks:  # whoever is past most of a turn shows no longer where it came from
+                halfway = pin(0.5 * (marks["turn_start"] + marks["turn_end"]))
+                self.owed.append(compare("<=", self.events.state(each.id, self.events.start).place, halfway))
+
+    def _seen_pieces(self, actor: Actor, throughout: bool) -> None:
         events, kinds = self.events, actor.sketch.pieces
         knots = [events.knot(actor.id, name) for name in actor.sketch.knots]
         for number, kind in enumerate(kinds):
@@ -105,21 +91,36 @@ class Refinement:
                 self.owed.append(compare(">=", events.times[ends] - events.times[begins], STANDS_S))
             if kind not in (PieceKind.DEC, PieceKind.ACC):
                 continue
-            seen = replace(ANY, rate_high=-SEEN_MPSS) if kind is PieceKind.DEC else replace(ANY, rate_low=SEEN_MPSS)
-            self.narrowings.append(Narrowing(actor.id, begins, ends, seen))
+            if number and kinds[number - 1] is not PieceKind.STOP:
+                self._begins(actor.id, kind, begins, ends)
+            if throughout:
+                self.narrowings.append(Narrowing(actor.id, begins, ends, _at_least(kind, SEEN_MPSS)))
             if kinds[number + 1 : number + 2] in ((), (PieceKind.GO,)):
-                self._over(actor.id, kind, ends, knots[number + 2 : number + 3])
+                self._over(actor.id, kind, ends, knots[number + 2 : number + 3], throughout)
 
-    def _over(self, actor: int, kind: PieceKind, ends: int, following: list[int]) -> None:
+    def _begins(self, actor: int, kind: PieceKind, begins: int, ends: int) -> None:
+        """Let an actor be settled before it begins, and begin plainly: by more than twice what it did before."""
+        events = self.events
+        now = events.times[begins]
+        shown = events.moment(now + BEGINS_S, "begins")
+        settled = events.moment(now - SETTLED_S - BETWEEN_SAMPLES_S, "settled")
+        for instant in (shown, settled):
+            events.state(actor, instant)
+        self.narrowings.append(Narrowing(actor, begins, shown, _at_least(kind, BEGINS_MPSS)))
+        self.owed.append(compare("<=", events.times[shown], events.times[ends]))
+        self.narrowings.append(Narrowing(actor, settled, begins, _at_most(kind, min(SETTLED_MPSS, BEGINS_MPSS * _HALF))))
+
+    def _over(self, actor: int, kind: PieceKind, ends: int, following: list[int], throughout: bool) -> None:
         """Let what was done in a piece be over for a while; who has come to a standstill stays there."""
         events = self.events
         over = events.moment(events.times[ends] + STANDS_S, "over")
         now, then = events.state(actor, ends), events.state(actor, over)
-        past = replace(ANY, rate_low=-FAINT_MPSS) if kind is PieceKind.DEC else replace(ANY, rate_high=FAINT_MPSS)
-        self.narrowings.append(Narrowing(actor, ends, over, past))
+        if throughout:
+            self.narrowings.append(Narrowing(actor, ends, over, _at_most(kind, FAINT_MPSS)))
         self.owed += [compare("<=", events.times[over], events.times[knot]) for knot in following]
         if kind is PieceKind.DEC:
-            self.owed.append(compare("<=", then.place - now.place, now.speed * STANDS_S))
+            stays = every([compare("<=", then.place - now.place, ZERO), compare("<=", then.speed, ZERO)])
+            self.owed.append(some([compare(">=", now.speed, _ROLLS_MPS), stays]))
 
     def mend(self, broken: list[Broken], witness: Witness) -> bool:
         """Add what each thing amiss asks for; False where nothing can be added."""
@@ -235,6 +236,16 @@ class Refinement:
         from scenewright.roads.conflicts import shared_offset_m
 
         return shared_offset_m(self.events.scene.routes[actor], self.events.scene.routes[other])
+
+
+def _at_least(kind: PieceKind, rate: Fraction) -> Law:
+    """Return the law of braking, or of speeding up, by so much or more."""
+    return replace(ANY, rate_high=-rate) if kind is PieceKind.DEC else replace(ANY, rate_low=rate)
+
+
+def _at_most(kind: PieceKind, rate: Fraction) -> Law:
+    """Return the law of doing by no more than so much what a piece is about."""
+    return replace(ANY, rate_low=-rate) if kind is PieceKind.DEC else replace(ANY, rate_high=rate)
 
 
 @lru_cache(maxsize=256)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scenewright.motion.laws import ANY, Law
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.narrowing import Narrowing
-from scenewright.solve.proofs.polynomials import All, Atom, Formula, Some
+from scenewright.solve.proofs.polynomials import All, Atom, Formula, Some, told_values
 
 Array = NDArray[np.float64]
 
@@ -28,6 +28,7 @@ _SOFT_ROW = 8  # how daqp is told that a row may be broken at a price
 _LOOKED_AT = 12.0  # in longest steps: what holds by more than this cannot matter within one
 _STRICT = 1e-3  # by how much a strict comparison is to hold, in units of its scaled row
 _MOST_STEPS = 40
+_CLEAR = 1e-4  # more than rounding
 _TRUST = 4.0
 
 
@@ -75,6 +76,9 @@ class Search:
         self.narrowings = narrowings
         self.steps = 0
         self._index: list[Atom] = []
+        self.events.learn_from(iter(formulas))
+        self._least = self.events.least_differences()
+        self._told = told_values(formulas)
         self._trees = [self._tree(formula) for formula in self.formulas]
         size = len(self.events.unknowns)
         self._size = size
@@ -95,7 +99,21 @@ class Search:
             case All(parts=parts):
                 return _Tree("all", parts=[self._tree(part) for part in parts])
             case Some(parts=parts):
-                return _Tree("some", parts=[self._tree(part) for part in parts])
+                possible = [part for part in parts if not self._ruled_out(part)]
+                return _Tree("some", parts=[self._tree(part) for part in possible or parts])
+
+    def _ruled_out(self, part: Formula) -> bool:
+        """Whether an alternative contradicts the order of moments or values that are told: it is never the nearest."""
+        match part:
+            case All(parts=parts):
+                return any(self._ruled_out(each) for each in parts)
+            case Some(parts=parts):
+                return all(self._ruled_out(each) for each in parts)
+            case Atom(left=left, relation=relation):
+                if all(unknown in self._told for key in left.terms for unknown in key):
+                    value = left.value(self._told)
+                    return abs(value) > _CLEAR if relation == "==" else value > _CLEAR
+                return self.events.impossible(part, self._least)
 
     # -- the steps ----------------------------------------------------------------------------------------------------
     def run(
@@ -121,8 +139,10 @@ class Search:
             else:
                 stale += 1
                 trust = max(0.25, 0.6 * trust)
+                if worst < NEARLY_DONE and stale > 1:  # soft rows leave so much
+                    return point[:-1]
                 if stale > 8:
-                    return point[:-1] if worst < NEARLY_DONE else None
+                    return None
             step = self._step(point, rows, levels, equal, trust)
             if step is None:
                 return None

@@ -31,6 +31,7 @@ from scenewright.solve.proofs.search import Search
 Array = NDArray[np.float64]
 _TOLERANCE = 2e-3  # mm, ms, mm/s: twice what a search is exact to
 _STEP_S = 0.05
+_BODY_STEP_S = 0.02  # two that meet head on come 0.5 m nearer meanwhile
 _RATE_SLACK = 1e-2
 _SHORTEST_S = 1e-4  # in so short a time a rounded speed makes any rate
 
@@ -133,13 +134,12 @@ def _too_fast(scene: Scene, limits: Limits, witness: Witness, actor: int) -> lis
 def _touching(scene: Scene, structure: Structure, witness: Witness) -> list[Broken]:
     """Return pairs whose boxes touch before the last trigger."""
     found = []
-    triggers = [
-        witness.profiles[hero].knot_times_s.get(knot, 0.0)
-        for hero in structure.triggers
-        if (knot := structure.trigger_knot(hero)) is not None
-    ]
+    triggers = []
+    for hero in scene.program.heroes:  # who has no trigger may touch nobody at all
+        knot = structure.trigger_knot(hero.id)
+        triggers.append(witness.end_s if knot is None else witness.profiles[hero.id].knot_times_s.get(knot, 0.0))
     until = max(triggers, default=witness.end_s)
-    times = np.arange(0.0, until, _STEP_S)
+    times = np.arange(0.0, until, _BODY_STEP_S)
     boxes = {}
     for actor in scene.program.actors:
         places = np.array([witness.profiles[actor.id].state(float(t))[0] for t in times])
