@@ -33,8 +33,8 @@ from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
 Array = NDArray[np.float64]
 Owed = Literal["throughout", "at first", "nothing"]
 _ROUNDS = 14  # how often one motion is mended before another is looked for
-_GUESSES = (4, 5, 12)  # how many first guesses are tried before each time that a proof is looked for
-_PROOF_S = (0.15, 0.5, 1.0)
+_GUESSES = (4, 5, 12, 1000)  # how many first guesses are tried before each time that a proof is looked for
+_PROOF_S = (0.15, 0.5, 1.0, 0.1)
 _RANGES = {
     "time": f"everything happens within {float(LONGEST_S):g} s of the start",
     "speed": "how fast anybody may be",
@@ -96,12 +96,20 @@ class _Case:
         self.events = Events(question.scene, question.limits, question.ego, question.drive, question.freed)
         self.lowering = Lowering(self.events, Fraction(1) if question.drive else ZERO)
         self.constraints = question.constraints()
-        self.lowered: list[Lowered] = self.lowering.lower(self.constraints)
+        self._sizes = (0, 0)
+        self.lowered: list[Lowered] = []
+        self.lower()
         self.more = Refinement(self.events, self.lowering, question.limits)
         if plan:
             self.more.lasting_rates()
         if owed != "nothing":
             self.more.manner(throughout=owed == "throughout")
+
+    def lower(self) -> None:
+        """Lower the constraints over the moments that there are now, if there are more of them."""
+        sizes = len(self.events.times), len(self.events.states)
+        if sizes != self._sizes:
+            self.lowered, self._sizes = self.lowering.lower(self.constraints), sizes
 
     def formulas(self) -> list[Formula]:
         """Return all that a plan owes."""
@@ -113,13 +121,12 @@ class _Case:
 
     def search(self) -> Search:
         """Return a search over what there is now."""
-        self.lowered = self.lowering.lower(self.constraints)
+        self.lower()
         return Search(self.events, self.formulas(), [*self.lowering.narrowings, *self.more.narrowings])
 
     def relaxation(self) -> list[Named]:
         """Return what a refutation rests on."""
-        self.lowered = self.lowering.lower(self.constraints)
-        self.lowering.narrowings += self.more.narrowings
+        self.lower()
         return relaxation(self.events, self.lowering, self.lowered)
 
 
@@ -201,7 +208,7 @@ def _mended(
             return witness, ()
         if time.monotonic() > until or not case.more.mend(list(amiss), witness):
             return None, tuple(amiss)
-        case.lowering.lower(case.constraints)
+        case.lower()
         times = _times(case.events, witness)
         guess = carried_over(case.events, point, witness.profiles, times)
     return None, tuple(amiss)

@@ -125,6 +125,7 @@ class Events:
     _places: dict[tuple[int, Fraction], int] = field(default_factory=dict)
     _ahead: dict[tuple[int, int], Fraction] = field(default_factory=dict)
     _learned: dict[tuple[int, int], Fraction] = field(default_factory=dict)
+    _instant_of: dict[tuple[int, ...], int] = field(default_factory=dict)  # by its unknown
 
     def __post_init__(self) -> None:
         for name, value in self.scene.parameters.items():
@@ -148,6 +149,7 @@ class Events:
     def instant(self, name: str) -> int:
         """Return a new instant, at a time that is to be found."""
         self.times.append(self.new(f"T_{name}", ZERO, LONGEST_S, "time"))
+        self._instant_of[(len(self.unknowns) - 1,)] = len(self.times) - 1
         return len(self.times) - 1
 
     def clock(self, time_s: Fraction) -> int:
@@ -316,7 +318,6 @@ class Events:
 
     def learn_from(self, formulas: Iterator[Formula]) -> None:
         """Note what comparisons of two times, and places that are known, say of the order of instants."""
-        by_unknown = {key: number for number, time in enumerate(self.times) for key in time.terms if key != ()}
         places = {key: where for where, state in self.states.items() for key in state.place.terms if key != ()}
         known: dict[tuple[int, int], Fraction] = {}
         open_parts = list(formulas)
@@ -328,7 +329,7 @@ class Events:
             if not isinstance(part, Atom) or part.left.degree != 1:
                 continue
             terms = {key: value for key, value in part.left.terms.items() if key != ()}
-            if (found := self._difference(part.left, by_unknown)) is not None:
+            if (found := self._difference(part.left)) is not None:
                 early, late, most_s = found
                 self._note(late, early, -most_s)
                 if part.relation == "==":
@@ -345,18 +346,15 @@ class Events:
         """Whether something contradicts what is certain of the order of instants."""
         if not isinstance(part, Atom) or part.relation == "==" or part.left.degree != 1:
             return False
-        by_unknown = {key: number for number, time in enumerate(self.times) for key in time.terms if key != ()}
-        found = self._difference(part.left, by_unknown)
+        found = self._difference(part.left)
         if found is None:
             return False
         early, late, most_s = found
         return bool(least[early, late] > float(most_s) - (1e-9 if part.relation == "<" else -1e-9))
 
-    def _difference(
-        self, left: Polynomial, by_unknown: Mapping[tuple[int, ...], int]
-    ) -> tuple[int, int, Fraction] | None:
+    def _difference(self, left: Polynomial) -> tuple[int, int, Fraction] | None:
         """Return `early`, `late` and `most_s` where ``left <= 0`` says that ``late - early <= most_s``."""
-        parts = [(by_unknown[key], factor) for key, factor in left.terms.items() if key in by_unknown]
+        parts = [(self._instant_of[key], factor) for key, factor in left.terms.items() if key in self._instant_of]
         size = abs(parts[0][1]) if parts else ZERO
         if not 1 <= len(parts) <= 2 or len(parts) + (() in left.terms) != len(left.terms):
             return None

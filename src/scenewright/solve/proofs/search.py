@@ -272,14 +272,16 @@ class _Line:
         width = len(point)
         rows = np.zeros((kinds, count, width))
         pair = np.arange(count)
-        for k in range(kinds):
-            g1, g2, gd, gx = slopes[k]
-            np.add.at(rows[k], (pair, self.speed[early]), g1)
-            np.add.at(rows[k], (pair, self.speed[late]), g2)
-            np.add.at(rows[k], (pair, self.time[late]), gd * self.time_factor[late])
-            np.add.at(rows[k], (pair, self.time[early]), -gd * self.time_factor[early])
-            np.add.at(rows[k], (pair, self.place[late]), gx)
-            np.add.at(rows[k], (pair, self.place[early]), -gx)
+        g1, g2, gd, gx = np.moveaxis(slopes, 1, 0)
+        for column, slope in (
+            (self.speed[early], g1),
+            (self.speed[late], g2),
+            (self.time[late], gd * self.time_factor[late]),
+            (self.time[early], -gd * self.time_factor[early]),
+            (self.place[late], gx),
+            (self.place[early], -gx),
+        ):
+            rows[:, pair, column] += slope
         flat = rows.reshape(kinds * count, width)[:, :-1] * scale
         norms = np.sqrt((flat * flat).sum(axis=1))
         keep = keep.reshape(-1) & (norms > 1e-9)
