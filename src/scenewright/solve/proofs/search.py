@@ -89,7 +89,9 @@ class Search:
         free = np.array([each.kind == "other" for each in self.events.unknowns])
         self._scale = np.where(free, np.maximum(1.0, 0.25 * (self._high - self._low)), self._scale)
         self._liking: Array = np.ones(0)
-        self._actors = [_Line.of(self.events, actor.id, size) for actor in self.events.scene.program.actors]
+        self._actors = [
+            _Line.of(self.events, actor.id, size, self._least) for actor in self.events.scene.program.actors
+        ]
 
     def _tree(self, formula: Formula) -> _Tree:
         match formula:
@@ -126,7 +128,7 @@ class Search:
         self._liking = np.ones(len(self._index))
         if generator is not None:
             self._liking = np.exp(2.0 * generator.standard_normal(len(self._index)))
-        point = np.append(np.clip(guess, self._low, self._high), 1.0)
+        point = np.append(np.clip(self._in_order(guess), self._low, self._high), 1.0)
         trust, best, stale = _TRUST, np.inf, 0
         for _ in range(most_steps):
             self.steps += 1
@@ -148,6 +150,19 @@ class Search:
                 return None
             point[:-1] = np.clip(point[:-1] + step, self._low, self._high)
         return None
+
+    def _in_order(self, guess: Array) -> Array:
+        """Return a guess in which each moment comes as late after others as is certain."""
+        times = np.array([time.value(guess) for time in self.events.times])
+        fixed = np.array([time.constant is not None for time in self.events.times])
+        latest = (times[None, :] - self._least)[:, fixed].min(axis=1)
+        times = np.where(fixed, times, np.minimum(times, latest))
+        times = np.where(fixed, times, (times[:, None] + self._least).max(axis=0))
+        moved = guess.copy()
+        for number, time in enumerate(self.events.times):
+            if not fixed[number]:
+                moved[next(iter(time.terms))[0]] = times[number]
+        return moved
 
     def _step(self, point: Array, rows: Array, levels: Array, equal: NDArray[np.bool_], trust: float) -> Array | None:
         """Return the least step that meets the linearised rows as well as can be."""
@@ -214,11 +229,11 @@ class _Line:
     time_factor: Array
     place: NDArray[np.intp]
     speed: NDArray[np.intp]
-    knots: list[int]  # positions, in the order of the sketch
+    before: NDArray[np.bool_]  # which certainly come before which; everything before itself
     laws: list[tuple[int, Law]]  # position of the first moment of each stretch, and its law
 
     @classmethod
-    def of(cls, events: Events, actor: int, size: int) -> _Line:
+    def of(cls, events: Events, actor: int, size: int, least: Array) -> _Line:
         """Collect the moments of an actor."""
         instants = events.instants_of(actor)
         where = {instant: k for k, instant in enumerate(instants)}
@@ -228,8 +243,6 @@ class _Line:
             time.append(size if constant is not None else next(iter(events.times[instant].terms))[0])
             factor.append(1.0 if constant is None else float(constant))
         states = [events.state(actor, instant) for instant in instants]
-        sketch = events.scene.program.actor(actor).sketch
-        knots = list(dict.fromkeys(where[events.knot(actor, name)] for name in sketch.knots))
         laws = [(where[stretch.first], stretch.law) for stretch in events.stretches[actor]]
         return cls(
             actor,
@@ -238,19 +251,16 @@ class _Line:
             np.array(factor),
             np.array([next(iter(state.place.terms))[0] for state in states], dtype=np.intp),
             np.array([next(iter(state.speed.terms))[0] for state in states], dtype=np.intp),
-            knots,
+            least[np.ix_(instants, instants)] >= 0.0,
             laws,
         )
 
     def sorted(self, point: Array) -> list[int]:
-        """Return positions in the order of time; knots keep the order of the sketch."""
+        """Return positions in the order of time; what is certain of their order stays."""
         times = self.time_factor * point[self.time]
-        latest = -np.inf
-        rank = np.full(len(times), len(self.knots))
-        for number, knot in enumerate(self.knots):
-            latest = times[knot] = max(times[knot], latest)
-            rank[knot] = number
-        return sorted(range(len(times)), key=lambda k: (times[k], rank[k], k))
+        latest = np.where(self.before, times[:, None], -np.inf).max(axis=0)
+        rank = self.before.sum(axis=0)
+        return sorted(range(len(times)), key=lambda k: (latest[k], rank[k], k))
 
     def rows(
         self, point: Array, scale: Array, narrowings: Sequence[Narrowing]
