@@ -114,10 +114,9 @@ class _Reader:
         if term.order == 1:
             return timeline.speed(time_s)
         if isinstance(term.at, ex.Knot | ex.Elapsed):
-            # An acceleration steps at a knot, and the one meant is that of the piece which begins there, if one does.
-            ends = term.at == ex.Knot(self.case.program.actor(term.actor).sketch.knots[-1])
-            sample = np.searchsorted(timeline.time_s, time_s, side="left" if ends else "right") - ends
-            time_s = timeline.time_s[np.clip(sample, 0, len(timeline.time_s) - 1)]
+            # An acceleration steps at a knot, and the one meant is that of the piece which begins there.
+            later = np.searchsorted(timeline.time_s, time_s, side="right")
+            time_s = timeline.time_s[np.minimum(later, len(timeline.time_s) - 1)]
         return timeline.acceleration(time_s)
 
     def _span(self, actor: int, piece: ex.PieceRef) -> Span:

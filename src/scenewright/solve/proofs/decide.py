@@ -34,7 +34,7 @@ Array = NDArray[np.float64]
 Owed = Literal["throughout", "at first", "nothing"]
 _ROUNDS = 14  # how often one motion is mended before another is looked for
 _GUESSES = (4, 5, 12, 1000)  # how many first guesses are tried before each time that a proof is looked for
-_PROOF_S = (0.15, 0.5, 1.0, 0.1)
+_PROOF_S = (0.15, 0.3, 0.5, 0.1)
 _RANGES = {
     "time": f"everything happens within {float(LONGEST_S):g} s of the start",
     "speed": "how fast anybody may be",

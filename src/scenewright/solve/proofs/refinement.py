@@ -60,12 +60,8 @@ class Refinement:
         """Let every rate at a moment last for a moment."""
         events = self.events
         for (actor, instant), rate in list(self.lowering.rates.items()):
-            knots = [events.knot(actor, name) for name in events.scene.program.actor(actor).sketch.knots]
-            before = instant == knots[-1]
-            now = events.times[instant]
-            other = events.moment(now - RATE_LASTS_S if before else now + RATE_LASTS_S, "lasts")
-            first, last = (other, instant) if before else (instant, other)
-            a, b = events.state(actor, first), events.state(actor, last)
+            lasts = events.moment(events.times[instant] + RATE_LASTS_S, "lasts")
+            a, b = events.state(actor, instant), events.state(actor, lasts)
             self.owed.append(compare("==", b.speed - a.speed, rate * RATE_LASTS_S))
             self.owed.append(compare("==", (b.place - a.place) * 2, (a.speed + b.speed) * RATE_LASTS_S))
 
@@ -212,25 +208,21 @@ class Refinement:
     # -- apart --------------------------------------------------------------------------------------------------------
     def _keep_apart(self, broken: Broken, witness: Witness) -> bool:
         """Let two that touch be apart at that moment: one before the stretch that both need, or past it."""
-        events, scene = self.events, self.events.scene
-        for other in witness.profiles:
-            if other == broken.actor:
-                continue
-            conflict = find_conflict(scene.routes[other], scene.routes[broken.actor])
-            made = self._between(broken.time_s, witness)
-            mine, theirs = events.state(broken.actor, made), events.state(other, made)
-            choices = []
-            if conflict is not None and conflict.kind == "crossing":
-                for place, (low, high) in ((theirs.place, conflict.zone_a_m), (mine.place, conflict.zone_b_m)):
-                    choices += [compare("<=", place, pin(low)), compare(">=", place, pin(high))]
-            elif (offset := self._offset(broken.actor, other)) is not None:
-                gap = theirs.place + pin(offset) - mine.place
-                length = pin(VEHICLE_LENGTH_M) + _ROOM_M
-                choices = [compare(">=", gap, length), compare("<=", gap, -length)]
-            if choices:
-                self.owed.append(some(choices))
-                return True
-        return False
+        events, scene, other = self.events, self.events.scene, broken.other
+        conflict = find_conflict(scene.routes[other], scene.routes[broken.actor])
+        made = self._between(broken.time_s, witness)
+        mine, theirs = events.state(broken.actor, made), events.state(other, made)
+        choices = []
+        if conflict is not None and conflict.kind == "crossing":
+            for place, (low, high) in ((theirs.place, conflict.zone_a_m), (mine.place, conflict.zone_b_m)):
+                choices += [compare("<=", place, pin(low)), compare(">=", place, pin(high))]
+        elif (offset := self._offset(broken.actor, other)) is not None:
+            gap = theirs.place + pin(offset) - mine.place
+            length = pin(VEHICLE_LENGTH_M) + _ROOM_M
+            choices = [compare(">=", gap, length), compare("<=", gap, -length)]
+        if choices:
+            self.owed.append(some(choices))
+        return bool(choices)
 
     def _offset(self, actor: int, other: int) -> float | None:
         from scenewright.roads.conflicts import shared_offset_m

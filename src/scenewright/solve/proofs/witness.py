@@ -38,12 +38,13 @@ _SHORTEST_S = 1e-4  # in so short a time a rounded speed makes any rate
 
 @dataclass(frozen=True, slots=True)
 class Broken:
-    """Something amiss: a constraint's id, ``law``, ``turn`` or ``apart``; whose, when (s), by how much (SI)."""
+    """Something amiss: a constraint's id, ``law``, ``turn`` or ``apart`` (from another); whose, when (s), how much (SI)."""
 
     what: str
     actor: int
     time_s: float
     by: float
+    other: int = EGO
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,5 +152,7 @@ def _touching(
         for b in actors[number + 1 :]:
             touch = overlap(boxes[a], boxes[b], CAR, CAR)
             if touch.any():
-                found.append(Broken("apart", b, float(often[int(np.argmax(touch))]), 1.0))
+                apart = np.hypot(*(boxes[a] - boxes[b]).T[:2])
+                deepest = int(np.argmin(np.where(touch, apart, np.inf)))
+                found.append(Broken("apart", b, float(often[deepest]), 1.0, a))
     return found
