@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -35,7 +36,9 @@ from scenewright.program.types import EGO, PieceKind
 
 SIGN_OF: dict[PieceKind, Sign] = {PieceKind.DEC: BRAKING, PieceKind.ACC: SPEEDING_UP}
 Group = frozenset[KnotKey]
+Tie = Literal["fixed", "visible", "free"]
 _TIE = 1e-3
+_LOOK_S = 0.25  # shorter than any phase
 _NEAR_S = 1.0  # within tolerances a moment is no point
 _PASSES = 3  # a knot may be defined by another actor's, which may be defined by a third
 
@@ -52,32 +55,36 @@ class Measured:
         Time (s) of each hero's trigger, by hero id; infinite where it has no best instant at all.
     onsets
         The braking or speeding up that begins at each hero's trigger, by hero id; None where there is none.
-    unseen
+    free
         Knots that neither a place nor anything visible ties to a moment, those that are one moment together.
+    visible
+        Knots that are where one piece visibly gives way to the next, which may be seen more than once.
     """
 
     moments: Moments
     triggers: dict[int, float]
     onsets: dict[int, Phase | None]
-    unseen: tuple[Group, ...] = ()
+    free: tuple[Group, ...] = ()
+    visible: tuple[Group, ...] = ()
 
 
 def measure(case: Case, told: Mapping[KnotKey, float]) -> Measured:
     """Find the times of all knots, of which some are told."""
     knots = dict(told)
-    onsets: dict[int, Phase | None] = {}
-    seen = set(knots)
+    ties: dict[KnotKey, Tie] = dict.fromkeys(told, "fixed")
     for attempt in range(_PASSES):
-        _fill(case, knots, seen, last_attempt=attempt == _PASSES - 1)
-    triggers = {}
+        _fill(case, knots, ties, last_attempt=attempt == _PASSES - 1)
+    triggers: dict[int, float] = {}
+    onsets: dict[int, Phase | None] = {}
     for hero in case.structure.triggers:
         knot = case.structure.trigger_knot(hero)
         triggers[hero] = knots.get((hero, knot or ""), np.inf)
         onsets[hero] = onset_after(case, hero, knot or "", triggers[hero])
-    keys = [(actor.id, knot) for actor in case.program.actors for knot in actor.sketch.knots]
     together = [group for group in _groups(case) if not group & told.keys()]
-    alone = [frozenset({key}) for key in keys if key not in seen and not any(key in group for group in together)]
-    return Measured(Moments(knots, _spans(case, knots, onsets)), triggers, onsets, (*together, *alone))
+    keys = {(actor.id, knot): "free" for actor in case.program.actors for knot in actor.sketch.knots} | ties
+    alone = [(frozenset({key}), tie) for key, tie in keys.items() if not any(key in group for group in together)]
+    free, visible = (tuple(group for group, tie in alone if tie == wanted) for wanted in ("free", "visible"))
+    return Measured(Moments(knots, _spans(case, knots, onsets)), triggers, onsets, (*together, *free), visible)
 
 
 def best_instants(case: Case) -> tuple[dict[KnotKey, float], tuple[Group, ...]]:
@@ -189,41 +196,38 @@ def _unlikeliness(case: Case, group: Group, minimum: Minimum) -> tuple[float, fl
     return score, minimum.time_s
 
 
-def _fill(case: Case, knots: dict[KnotKey, float], seen: set[KnotKey], last_attempt: bool) -> None:
-    """Put in the times of knots in the order of the sketch, and note those that are seen."""
+def _fill(case: Case, knots: dict[KnotKey, float], ties: dict[KnotKey, Tie], last_attempt: bool) -> None:
+    """Put in the times of knots in the order of the sketch, and what ties them to these."""
     for actor in (*case.program.heroes, case.program.ego):
         previous = case.start_s
         for index, knot in enumerate(actor.sketch.knots):
             key = (actor.id, knot)
             if key not in knots:
-                time_s, certain = _time_of(case, key, index, previous, knots)
+                time_s, tie = _time_of(case, key, index, previous, knots)
                 if time_s is None and last_attempt and index == len(actor.sketch.knots) - 1:
                     time_s = case.end_s
                 if time_s is None:
                     if last_attempt:
                         continue
                     break  # what follows must wait for another actor's knots
-                knots[key] = time_s
-                if certain:
-                    seen.add(key)
+                knots[key], ties[key] = time_s, tie
             previous = max(previous, knots[key])
 
 
 def _time_of(
     case: Case, key: KnotKey, index: int, previous: float, knots: dict[KnotKey, float]
-) -> tuple[float | None, bool]:
-    """Return when a knot was, if anything tells, and whether that is the only moment that it can have been."""
+) -> tuple[float | None, Tie]:
+    """Return when a knot was, if anything tells, and what ties it to that."""
     pieces = case.program.actor(key[0]).sketch.pieces
     visible = None if key[0] == EGO else _visible_time(case, key, index, previous)
-    if index and pieces[index - 1] is PieceKind.STOP and visible is not None and np.isfinite(visible):
-        return visible, index < len(pieces)  # while it stands all that a place says holds
-    if (found := _defined_time(case, key, previous, knots)) is not None:
-        return found
-    if visible is not None:
-        stands_at_last = index == len(pieces) and pieces[-1] is PieceKind.STOP
-        return visible, not stands_at_last  # nobody needs to see how long it stands for good
-    time_s = _stated_time(case, key, knots)
-    return time_s, time_s is not None
+    stood = index > 0 and pieces[index - 1] is PieceKind.STOP
+    if not (stood and visible is not None and np.isfinite(visible)):  # all the time that it stands it is at one place
+        if (found := _defined_time(case, key, previous, knots)) is not None:
+            return found
+        if visible is None:
+            time_s = _stated_time(case, key, knots)
+            return time_s, "free" if time_s is None else "fixed"
+    return visible, "free" if stood and index == len(pieces) else "visible"  # it may stand for longer than it has to
 
 
 def _equalities(case: Case, key: KnotKey, known: set[KnotKey]) -> Iterator[Compare]:
@@ -241,17 +245,15 @@ def _level(case: Case, part: Compare, key: KnotKey, knots: Mapping[KnotKey, Valu
     return np.broadcast_to(np.where(np.isnan(level), np.inf, level), time_s.shape)
 
 
-def _defined_time(
-    case: Case, key: KnotKey, after_s: float, knots: dict[KnotKey, float]
-) -> tuple[float, bool] | None:
+def _defined_time(case: Case, key: KnotKey, after_s: float, knots: dict[KnotKey, float]) -> tuple[float, Tie] | None:
     """Return the time of a knot from what the program says of the actor's state there; None where it says nothing.
 
-    With it comes whether it can have been no other moment: a speed or a time to arrival may be had more than once.
+    A speed or a time to arrival may be had more than once, so they do not tie it.
     """
     if not np.isfinite(after_s):
-        return np.inf, True
+        return np.inf, "fixed"
     if demands_standstill(case, key, knots):
-        return _rest_time(case, key, after_s), True
+        return _rest_time(case, key, after_s), "fixed"
     parts = []
     for part in _equalities(case, key, set(knots)):
         orders = {_order_at(n, key) for n in walk(part)} - {None, 2}
@@ -261,12 +263,12 @@ def _defined_time(
         return None
     only_speed, part = min(parts, key=lambda item: item[0])  # a place defines a moment better than a speed
     if only_speed:
-        return _reached_speed(case, part, key, after_s, knots), False
+        return _reached_speed(case, part, key, after_s, knots), "free"
     time_s = _place_time(case, part, key, after_s, knots)
     if np.isfinite(time_s):
-        return time_s, not any(isinstance(node, Derived) for node in walk(part))  # nobody reverses
+        return time_s, "free" if any(isinstance(node, Derived) for node in walk(part)) else "fixed"
     nearest = np.abs(_level(case, part, key, knots, np.array([case.end_s])))  # who stops just short of it is there
-    return time_s, bool(nearest[0] > TIGHT.length_m)
+    return time_s, "fixed" if nearest[0] > TIGHT.length_m else "free"
 
 
 def _order_at(node: object, key: KnotKey) -> int | None:
@@ -356,6 +358,15 @@ def _visible_time(case: Case, key: KnotKey, index: int, after_s: float) -> float
         phase = phase_at(timeline, after_s, SIGN_OF[before])
         return None if phase is None else phase.end_s
     return None
+
+
+def visible_times(case: Case, key: KnotKey, low_s: float, high_s: float) -> list[float]:
+    """Return all moments between two at which the piece before a knot may visibly have given way to the next."""
+    if key[0] == EGO:
+        return []
+    index = case.program.actor(key[0]).sketch.knot_index(key[1])
+    looked = (_visible_time(case, key, index, float(t)) for t in np.arange(low_s, high_s, _LOOK_S))
+    return sorted({time_s for time_s in looked if time_s is not None and low_s <= time_s <= high_s})
 
 
 def _stated_time(case: Case, key: KnotKey, knots: dict[KnotKey, float]) -> float | None:

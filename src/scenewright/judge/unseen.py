@@ -1,14 +1,13 @@
-"""Knots that nothing in a trace shows: moments are looked for at which what the program says of them holds.
+"""Knots that a trace does not show: moments are looked for at which what the program says of them holds.
 
 What enters: a `Case`. What leaves: `Measured`. A scenario happened if there are moments, in the order of the sketches,
-at which all holds that was asked for; so a knot that neither a place nor anything visible ties to a moment may have been
-any. It is moved only where more holds with it, and never from where it is seen.
+at which all holds that was asked for. So a knot that neither a place nor anything visible ties to a moment may have
+been any, and one that something visible ties to it may be wherever that is seen. It is moved only where more holds.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -18,7 +17,7 @@ from scenewright.judge.conditions import program_conditions
 from scenewright.judge.formulas import miss_of
 from scenewright.judge.instants import minima
 from scenewright.judge.interaction import interaction_conditions
-from scenewright.judge.knots import Group, Measured, best_instants, conjuncts, measure
+from scenewright.judge.knots import Group, Measured, best_instants, conjuncts, measure, visible_times
 from scenewright.judge.terms import Moments
 from scenewright.judge.tolerance import LOOSE, TIGHT, FloatArray, normalised
 from scenewright.program.expressions import Compare
@@ -37,21 +36,23 @@ class Amiss(NamedTuple):
 
 
 def measured_at_best(case: Case) -> Measured:
-    """Find the times of all knots; of those that nothing shows the ones with which most holds."""
+    """Find the times of all knots; of those that are not tied to one moment the ones with which most holds."""
     told, several = best_instants(case)
-    found = measure(case, told)
-    groups = (*several, *found.unseen)
-    amiss = _amiss(case, found) if groups else Amiss(0, 0)
-    for group in groups * _PASSES:
+    first = found = measure(case, told)
+    free = (*several, *first.free)
+    loose = (*first.visible, *free)
+    amiss = _amiss(case, found) if loose else Amiss(0, 0)
+    for group in loose * _PASSES:
         if not amiss.tight:
             break
-        for time_s in _candidates(case, replace(found, unseen=groups), group):
+        low, high = _between(case, found, group, frozenset[KnotKey]().union(*free))
+        for time_s in _candidates(case, found, group, low, high, group in first.visible):
             other_told = {**told, **dict.fromkeys(group, time_s)}
             other = measure(case, other_told)
             less = _amiss(case, other)
             if less.loose <= amiss.loose and less.tight < amiss.tight:
                 told, found, amiss = other_told, other, less
-    return replace(found, unseen=groups)
+    return found
 
 
 def _amiss(case: Case, measured: Measured) -> Amiss:
@@ -59,29 +60,28 @@ def _amiss(case: Case, measured: Measured) -> Amiss:
     return Amiss(*(sum(not each.holds_at(tolerance) for each in conditions) for tolerance in (LOOSE, TIGHT)))
 
 
-def _candidates(case: Case, measured: Measured, group: Group) -> list[float]:
-    """Return moments that the order of the sketches leaves, likely ones first."""
-    low, high = _between(case, measured, group)
+def _candidates(
+    case: Case, measured: Measured, group: Group, low: float, high: float, visible: bool
+) -> Iterable[float]:
+    """Return moments between two, likely ones first."""
     if not high > low:
-        return []
-    likely = [time_s for time_s in _best_of_each(case, measured.moments.knots, group, low, high) if low <= time_s <= high]
-    return list(dict.fromkeys([*likely, *np.linspace(low, high, _TRIED).tolist()]))
+        return ()
+    if visible:
+        return [time_s for key in group for time_s in visible_times(case, key, low, high)]
+    likely = _best_of_each(case, measured.moments.knots, group, low, high)
+    return dict.fromkeys([*likely, *np.linspace(low, high, _TRIED).tolist()])
 
 
-def _between(case: Case, measured: Measured, group: Group) -> tuple[float, float]:
-    """Return between which seen knots those of a group lie."""
-    unseen = frozenset[KnotKey]().union(*measured.unseen)
+def _between(case: Case, measured: Measured, group: Group, free: Group) -> tuple[float, float]:
+    """Return between which knots that are tied to a moment those of a group lie."""
     low, high = case.start_s, case.end_s
     for actor, knot in group:
         knots = case.program.actor(actor).sketch.knots
         for index, other in enumerate(knots):
-            time_s = measured.moments.knots.get((actor, other), np.inf)
-            if (actor, other) in unseen or not np.all(np.isfinite(time_s)):
+            time_s = float(np.max(measured.moments.knots.get((actor, other), np.inf)))
+            if other == knot or (actor, other) in free or not np.isfinite(time_s):
                 continue
-            if index < knots.index(knot):
-                low = max(low, float(time_s))
-            else:
-                high = min(high, float(time_s))
+            low, high = (max(low, time_s), high) if index < knots.index(knot) else (low, min(high, time_s))
     return low, high
 
 

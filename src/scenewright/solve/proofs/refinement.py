@@ -104,7 +104,9 @@ class Refinement:
             events.state(actor, instant)
         self.narrowings.append(Narrowing(actor, begins, shown, _at_least(kind, BEGINS_MPSS)))
         self.owed.append(compare("<=", events.times[shown], events.times[ends]))
-        self.narrowings.append(Narrowing(actor, settled, begins, _at_most(kind, min(SETTLED_MPSS, BEGINS_MPSS * _HALF))))
+        self.narrowings.append(
+            Narrowing(actor, settled, begins, _at_most(kind, min(SETTLED_MPSS, BEGINS_MPSS * _HALF)))
+        )
 
     def _over(self, actor: int, kind: PieceKind, ends: int, following: list[int], throughout: bool) -> None:
         """Let what was done in a piece be over for a while; who has come to a standstill stays there."""

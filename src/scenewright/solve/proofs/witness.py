@@ -38,7 +38,7 @@ _SHORTEST_S = 1e-4  # in so short a time a rounded speed makes any rate
 
 @dataclass(frozen=True, slots=True)
 class Broken:
-    """Something amiss: a constraint's id, ``law``, ``turn`` or ``apart`` (from another); whose, when (s), how much (SI)."""
+    """Something amiss: a constraint's id, ``law``, ``turn`` or ``apart``; whose, when (s), how much (SI); from whom."""
 
     what: str
     actor: int
