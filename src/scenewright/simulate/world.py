@@ -5,6 +5,8 @@ What enters: a scene and how it is to be run. What leaves: a `World`. Nothing is
 
 from __future__ import annotations
 
+from functools import cached_property
+
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.loading import load_policy
 from scenewright.program.structure import Structure, read_structure
@@ -50,8 +52,6 @@ class World:
         budget_s: float = DEFAULT_BUDGET_S,
         backend: Backend | None = None,
     ) -> None:
-        from scenewright.solve.backends.z3_backend import Z3Backend
-
         self.scene = scene
         self.rates = rates
         self.budget_s = budget_s
@@ -60,7 +60,7 @@ class World:
         self.ego = EgoVehicle(guarded, scene.routes[EGO], scene.road_map, seed)
         self.structure: Structure = read_structure(scene.program)
         self.limits: dict[int, Limits] = {i: limits_on(route, scene.road_map) for i, route in scene.routes.items()}
-        self.backend: Backend = backend or Z3Backend()
+        self._backend = backend
         promise = guarded.envelope
         self.ego_bounds = (
             EgoBounds(promise.speed_max_mps, promise.accel_max_mpss, -promise.accel_min_mpss, promise.holds_speed)
@@ -71,6 +71,13 @@ class World:
         # Who has promised to hold its speed needs no foresight, and where nobody looks again it would be in vain.
         steady = rates.replan_s is None or self.ego_bounds.holds_speed
         self.predictor: Predictor = ConstantSpeed() if steady else chosen
+
+    @cached_property
+    def backend(self) -> Backend:
+        """The solver, the usual one where none was given; it is slow to import, and a witness needs none."""
+        from scenewright.solve.backends.z3_backend import Z3Backend
+
+        return self._backend or Z3Backend()
 
     def choose_and_check(self) -> Feasibility:
         """Give open parameters values, and ask whether the scenario can happen with them."""

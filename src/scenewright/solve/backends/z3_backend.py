@@ -15,6 +15,8 @@ import z3
 
 from scenewright.solve.problem import Problem, Result, Satisfiable, Unknown, Unsatisfiable
 
+z3.set_param("ctrl_c", False)  # its own handler would take Ctrl-C for an answer
+
 _ALGEBRAIC_DIGITS = 12
 _STEPS = ("simplify", "solve-eqs", "simplify", "propagate-ineqs", "qfnra-nlsat")
 

@@ -20,7 +20,6 @@ from scenewright.program.structure import Structure, actors_of
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
-from scenewright.solve.proofs import z3_engine
 from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, EgoDrive, Events, Unknown
 from scenewright.solve.proofs.guesses import carried_over, first_guess
 from scenewright.solve.proofs.lowering import Lowered, Lowering
@@ -158,6 +157,8 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
                 return Decision("undecided", amiss=amiss)
         if kept is not None:
             continue
+        from scenewright.solve.proofs import z3_engine  # seldom needed, and slow to import
+
         formulas = plain.relaxation()
         answer = z3_engine.ask(plain.events.unknowns, formulas, min(proof_s, until - time.monotonic()))
         if answer.kind == "refuted":
@@ -174,6 +175,8 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
 
 def _core(unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> tuple[str, ...]:
     """Return what clashes, and which ranges of single numbers it takes for that."""
+    from scenewright.solve.proofs import z3_engine
+
     core = z3_engine.core(unknowns, formulas, 1.0)
     clashing = [each for each in formulas if each.origin in core]
     ranges = []

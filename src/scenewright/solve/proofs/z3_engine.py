@@ -18,6 +18,8 @@ from scenewright.solve.proofs.events import Unknown
 from scenewright.solve.proofs.polynomials import All, Atom, Formula, Polynomial, Some
 from scenewright.solve.proofs.relaxation import Named
 
+z3.set_param("ctrl_c", False)  # its own handler would take Ctrl-C for an answer
+
 _STEPS = ("simplify", "solve-eqs", "simplify", "propagate-ineqs", "qfnra-nlsat")
 
 
