@@ -294,9 +294,8 @@ def _is_standstill(case: Case, part: Compare, key: KnotKey, knots: Mapping[KnotK
     if {_order_at(n, key) for n in walk(part)} - {None} != {1}:
         return False
     timeline = case.timelines[key[0]]
-    sample = timeline.time_s[
-        :: max(1, len(timeline.time_s) // 64)
-    ]  # equal to the speed at all of these: it is the speed
+    # Equal to the speed at all of these: it is the speed.
+    sample = timeline.time_s[:: max(1, len(timeline.time_s) // 64)]
     try:
         level = _level(case, part, key, knots, sample)
     except CannotJudge:
@@ -315,7 +314,9 @@ def _rest_time(case: Case, key: KnotKey, after_s: float) -> float:
 
 
 def _reached_speed(case: Case, part: Compare, key: KnotKey, after_s: float, knots: dict[KnotKey, float]) -> float:
-    grid = case.timelines[key[0]].instants(after_s, case.end_s)
+    later = case.program.actor(key[0]).sketch.knots[case.program.actor(key[0]).sketch.knot_index(key[1]) + 1 :]
+    before_s = min((knots.get((key[0], knot), np.inf) for knot in later), default=np.inf)
+    grid = case.timelines[key[0]].instants(after_s, min(before_s, case.end_s))
     reached = first_crossing(lambda t: _level(case, part, key, knots, t), grid)
     # A speed that is approached and never quite met is judged where it was met best.
     return float(grid[np.argmin(np.abs(_level(case, part, key, knots, grid)))]) if reached is None else reached
