@@ -152,12 +152,13 @@ class Search:
         return None
 
     def _in_order(self, guess: Array) -> Array:
-        """Return a guess in which each moment comes as late after others as is certain."""
+        """Return a guess in which each moment comes as late after others as is certain; what precedes it moves along."""
         times = np.array([time.value(guess) for time in self.events.times])
         fixed = np.array([time.constant is not None for time in self.events.times])
-        latest = (times[None, :] - self._least)[:, fixed].min(axis=1)
-        times = np.where(fixed, times, np.minimum(times, latest))
-        times = np.where(fixed, times, (times[:, None] + self._least).max(axis=0))
+        latest = np.where(fixed, times, (times[None, :] - self._least)[:, fixed].min(axis=1))
+        late = (np.minimum(times, latest)[:, None] + self._least).max(axis=0) - times
+        moved_s = np.where(self._least >= 0.0, late[None, :], 0.0).max(axis=1)
+        times = (np.minimum(times + moved_s, latest)[:, None] + self._least).max(axis=0)
         moved = guess.copy()
         for number, time in enumerate(self.events.times):
             if not fixed[number]:
