@@ -32,8 +32,8 @@ from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
 Array = NDArray[np.float64]
 Owed = Literal["throughout", "at first", "nothing"]
 _ROUNDS = 14  # how often one motion is mended before another is looked for
-_GUESSES = (4, 5, 12, 1000)  # how many first guesses are tried before each time that a proof is looked for
-_PROOF_S = (0.15, 0.3, 0.5, 0.1)
+_GUESSES = (4, 12, 1000)  # how many first guesses are tried before each time that a proof is looked for
+_PROOF_S = (0.15, 0.4, 0.1)
 _RANGES = {
     "time": f"everything happens within {float(LONGEST_S):g} s of the start",
     "speed": "how fast anybody may be",
@@ -140,6 +140,7 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     left_out = {each.constraint.id: each.refused for each in plain.lowered if each.refused}
     generator = np.random.default_rng(0)
     amiss: tuple[Broken, ...] = ()
+    formulas: list[Named] = []
     tried, kept = 0, None
     for guesses, proof_s in zip(_GUESSES, _PROOF_S, strict=True):
         for _ in range(0 if left_out or question.drive else guesses):
@@ -159,7 +160,7 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
             continue
         from scenewright.solve.proofs import z3_engine  # seldom needed, and slow to import
 
-        formulas = plain.relaxation()
+        formulas = formulas or plain.relaxation()
         answer = z3_engine.ask(plain.events.unknowns, formulas, min(proof_s, until - time.monotonic()))
         if answer.kind == "refuted":
             core = _core(plain.events.unknowns, formulas) if explain else ()

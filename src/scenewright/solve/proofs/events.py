@@ -341,6 +341,11 @@ class Events:
             for (other, second), b in known.items():
                 if actor == other and a < b:
                     self._note(first, second, (b - a) / self.law_of(actor).speed_high)
+        knots = {(actor, instant) for (actor, _), instant in self._knots.items()}
+        for (actor, place), made in self._places.items():  # the start or the end where it is never passed
+            for (other, knot), at in known.items():
+                if actor == other and at != place and (actor, knot) in knots:
+                    self._note(*((knot, made) if at < place else (made, knot)), ZERO)
 
     def impossible(self, part: Formula, least: NDArray[np.float64]) -> bool:
         """Whether something contradicts what is certain of the order of instants."""

@@ -152,7 +152,7 @@ class Search:
         return None
 
     def _in_order(self, guess: Array) -> Array:
-        """Return a guess in which each moment comes as late after others as is certain; what precedes it moves along."""
+        """Return a guess in which moments come as late after others as is certain; what precedes them moves along."""
         times = np.array([time.value(guess) for time in self.events.times])
         fixed = np.array([time.constant is not None for time in self.events.times])
         latest = np.where(fixed, times, (times[None, :] - self._least)[:, fixed].min(axis=1))
