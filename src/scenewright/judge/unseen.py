@@ -20,8 +20,9 @@ from scenewright.judge.interaction import interaction_conditions
 from scenewright.judge.knots import Group, Measured, best_instants, conjuncts, measure, visible_times
 from scenewright.judge.terms import Moments
 from scenewright.judge.tolerance import LOOSE, TIGHT, FloatArray, normalised
-from scenewright.program.expressions import Compare
+from scenewright.program.expressions import Compare, PieceRef, State, walk
 from scenewright.program.structure import KnotKey, knots_of
+from scenewright.program.types import EGO
 
 _PASSES = 2  # a knot may be tied to another that is unseen, too
 _TRIED = 48  # moments between two knots, beside those at which one comparison holds best
@@ -29,10 +30,10 @@ _AMONG_S = 0.05  # how far apart instants are among which those are looked for; 
 
 
 class Amiss(NamedTuple):
-    """How much does not hold: how many conditions at each tolerance."""
+    """What does not hold: how many conditions at the loose tolerance, and which at the tight one."""
 
     loose: int
-    tight: int
+    tight: tuple[str, ...]
 
 
 def measured_at_best(case: Case) -> Measured:
@@ -41,23 +42,40 @@ def measured_at_best(case: Case) -> Measured:
     first = found = measure(case, told)
     free = (*several, *first.free)
     loose = (*first.visible, *free)
-    amiss = _amiss(case, found) if loose else Amiss(0, 0)
+    amiss = _amiss(case, found) if loose else Amiss(0, ())
     for group in loose * _PASSES:
-        if not amiss.tight:
-            break
+        if not _concerned(case, amiss, group):
+            continue
         low, high = _between(case, found, group, frozenset[KnotKey]().union(*free))
         for time_s in _candidates(case, found, group, low, high, group in first.visible):
             other_told = {**told, **dict.fromkeys(group, time_s)}
             other = measure(case, other_told)
             less = _amiss(case, other)
-            if less.loose <= amiss.loose and less.tight < amiss.tight:
+            if less.loose <= amiss.loose and len(less.tight) < len(amiss.tight):
                 told, found, amiss = other_told, other, less
     return found
 
 
 def _amiss(case: Case, measured: Measured) -> Amiss:
     conditions = [*program_conditions(case, measured), *interaction_conditions(case, measured)]
-    return Amiss(*(sum(not each.holds_at(tolerance) for each in conditions) for tolerance in (LOOSE, TIGHT)))
+    tight = tuple(each.id for each in conditions if not each.holds_at(TIGHT))
+    return Amiss(sum(not each.holds_at(LOOSE) for each in conditions), tight)
+
+
+def _concerned(case: Case, amiss: Amiss, group: Group) -> bool:
+    """Whether anything that does not hold speaks of a group of knots, or of a piece that begins or ends at one."""
+    actors = {actor for actor, _ in group}
+    formulas = {constraint.id: constraint.formula for constraint in case.program.constraints}
+    for name in amiss.tight:
+        formula = formulas.get(name)
+        if formula is None:  # what a sketch says of a hero
+            if actors - {EGO}:
+                return True
+        elif group & set(knots_of(formula)) or any(
+            isinstance(node, State) and isinstance(node.at, PieceRef) and node.actor in actors for node in walk(formula)
+        ):
+            return True
+    return False
 
 
 def _candidates(
