@@ -66,6 +66,10 @@ check: $(VENV)/dev.stamp docs ## Types, style, import contract, documentation
 docs: $(VENV)/dev.stamp ## Build the documentation, warnings as errors
 	$(BIN)/sphinx-build --quiet --builder html --nitpicky --fail-on-warning --keep-going docs docs/_build/html
 
+.PHONY: forms
+forms: $(VENV)/dev.stamp ## Ask anew what each stage does with every form of constraint (docs/forms.md, minutes)
+	$(PY) tools/forms_table.py
+
 .PHONY: lock
 lock: ## Resolve both locks again (needs uv; LOCK_ARGS=--upgrade moves to newer versions)
 	$(lock_command) --all-extras --group dev -o requirements-dev.lock

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import signal
+import sys
 from pathlib import Path
 
 # One test process runs on each core: numpy's own threads would only be in each other's way.
@@ -19,6 +20,8 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 
 ROOT = Path(__file__).resolve().parents[1]
+# Import mode `importlib` puts no folder on the path: these hold what several tests share, and tools that are tested.
+sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "tools")]
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 # The same examples every time where a failure must be repeatable by others; fresh ones where somebody is looking.

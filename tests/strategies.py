@@ -24,6 +24,7 @@ from scenewright.program.expressions import (
     Temporal,
     Term,
 )
+from scenewright.program.manner import NUMBERS, Manner
 from scenewright.program.types import (
     Actor,
     Constraint,
@@ -104,6 +105,10 @@ routes = st.one_of(
     ),
 )
 
+manners = st.builds(
+    Manner, **{name: st.fractions(of.low, of.high, max_denominator=900) for name, of in NUMBERS.items()}
+)
+
 
 @st.composite
 def sketches(draw: st.DrawFn) -> Sketch:
@@ -138,4 +143,5 @@ def programs(draw: st.DrawFn) -> Program:
         tuple(draw(parameters(name)) for name in declared),
         draw(names),
         description,
+        draw(manners),
     )

@@ -16,6 +16,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from scenewright.judge.tolerance import LOOSE, TIGHT, dimension_of
 from scenewright.program.check import check_values
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene, ground
@@ -28,6 +29,7 @@ from scenewright.simulate.rehearsal import Rehearsed
 from scenewright.simulate.replanner import Replanner
 from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
+from scenewright.solve.holding import NotHeld, not_held
 from scenewright.solve.limits import Limits
 from scenewright.solve.planner import Attempt
 from scenewright.solve.problem import Backend
@@ -65,7 +67,7 @@ _SLOW_PACE = 0.43
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What a user asks for: the command line of ``scenewright run``, as data."""
+    """What a user asks for: the command line of ``scenewright run``, as data; `solver` is what refutes."""
 
     source: str
     parameters: Mapping[str, float | str] = field(default_factory=dict)
@@ -80,6 +82,7 @@ class Request:
     budget_s: float = 0.25
     predictor: str = "road"
     takes: int = 3
+    solver: str = "z3"
     translation: TranslatorSettings = field(default_factory=TranslatorSettings)
 
 
@@ -100,6 +103,8 @@ class Result:
     ----------
     status
         ``success`` or ``failure`` are verdicts; ``failed`` and ``interrupted`` runs were cut short.
+    not_held
+        What the first plan breaks beyond the loose tolerance; nothing was driven then.
     hindsight
         For a run that missed: the proof that against the ego as it drove no hero could have done it, if there is one.
     run_directory
@@ -115,6 +120,7 @@ class Result:
     translation: Translation | None = None
     feasibility: Feasibility | None = None
     attempt: Attempt | None = None
+    not_held: tuple[NotHeld, ...] = ()
     run: Run | None = None
     hindsight: Feasibility | None = None
     verdict: Verdict | None = None
@@ -132,6 +138,8 @@ def orchestrate(
     backend: Backend | None = None,
 ) -> Result:
     """Carry out `request`.
+
+    What the first plan breaks of the program, with the ego as foreseen, ends it before anything is driven.
 
     Parameters
     ----------
@@ -163,8 +171,12 @@ def orchestrate(
         planned = first_plan(world, world.predictor)
         assert planned is not None
         result.attempt = planned[2]
-    if result.attempt.plan is None or until == "plan":
-        result.status = "success" if result.attempt.plan is not None else "gave up"
+    if result.attempt.plan is not None:
+        profiles = result.attempt.plan.profiles
+        result.not_held = tuple(not_held(world.scene, profiles, dimension_of, LOOSE.of))
+    planless = result.attempt.plan is None or bool(result.not_held)
+    if planless or until == "plan":
+        result.status = "gave up" if planless else "success"
         return result
     _drive(request, result, world, planned, stages, progress)
     result = _rehearse(request, result, world, stages, progress)
@@ -257,8 +269,6 @@ def _slower_than_mps(result: Result, began_mps: float) -> float:
 
 def _missed(result: Result) -> list[Condition]:
     """Return the conditions that a take missed even at the loose tolerance."""
-    from scenewright.judge.tolerance import LOOSE
-
     assert result.verdict is not None
     return [condition for condition in result.verdict.conditions if not condition.holds_at(LOOSE)]
 
@@ -279,7 +289,8 @@ def set_up(request: Request, stages: Stages, backend: Backend | None = None) -> 
         scene = ground(program, load_map(request.map_name or program.map_name), request.parameters)
         check_values(program, scene.parameters, name=program.name)
     rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
-    world = World(scene, request.ego, request.seed, rates, request.predictor, request.budget_s, backend)
+    ego, seed, predictor = request.ego, request.seed, request.predictor
+    world = World(scene, ego, seed, rates, predictor, request.budget_s, backend, request.solver)
     return world, translation
 
 
@@ -287,7 +298,6 @@ def set_up(request: Request, stages: Stages, backend: Backend | None = None) -> 
 def judge_run(request: Request, result: Result, world: World, stages: Stages, hindsight: bool = True) -> None:
     """Judge the run; where it missed, ask whether the ego left any room (if `hindsight` is asked for)."""
     from scenewright.judge.judgement import judge
-    from scenewright.judge.tolerance import LOOSE, TIGHT
 
     run = result.run
     assert run is not None

@@ -142,6 +142,18 @@ def test_directions(headings: tuple[str, ...], holds: bool) -> None:
     assert judge(case).condition("route_hero_directions").holds_at(TIGHT) == holds
 
 
+@pytest.mark.parametrize(("bent_rad", "holds"), [(0.0, True), (1.0, True), (1.1, False), (-2.0, False)])
+def test_directions_are_those_of_the_line_where_it_is_known(bent_rad: float, holds: bool) -> None:
+    """A road that is called eastbound where it begins may go north further on: who follows it is not to blame."""
+
+    class Bent(Line):
+        def poses(self, s_m: FloatArray, /) -> FloatArray:
+            return super().poses(s_m) + np.array([0.0, 0.0, bent_rad])
+
+    case = replace(YIELDS.case(), paths={"hero": Bent(0.0)}, expected_headings={"hero": ("E",)})
+    assert judge(case).condition("route_hero_directions").holds_at(TIGHT) == holds
+
+
 def test_directions_after_the_turn() -> None:
     case = YIELDS.with_hero(pieces=[]).case()
     for headings, holds in ((("S", "S"), True), (("S", "W"), False)):

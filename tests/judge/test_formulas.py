@@ -33,6 +33,11 @@ def judged(play: Play, formula: str) -> Condition:
         ("A1a(6.0) == -2.571", True, True),
         ("A1a(6.0) == -3", False, True),
         ("A1a(t1) == -2.571", True, True),
+        ("A1a(t2) == -2.571", True, True),  # of the piece that ends there
+        ("A1v(t1) / A0v(t1) <= 1.52", True, True),
+        ("A1v(t1) / A0v(t1) <= 1.48", True, True),  # 12 by 8 is 1.5: off by 0.16 m/s
+        ("A1v(t1) / A0v(t1) <= 1.4", False, True),
+        ("1.3 >= A1v(t1) / A0v(t1)", False, False),
         ("A1v(A0(t1)) == 12", True, True),
         ("A1(t2) - A1(t1) == 4.667", True, True),
         ("A1(t2) == A1(t1) + 5", False, True),

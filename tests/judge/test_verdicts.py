@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from plays import AHEAD, BRAKES, GOES_AFTER, NOT_YIELDING, PLAYS, YIELDS, Motion, Play, on_line
+from plays import AHEAD, BRAKES, CROSSING, GOES_AFTER, NOT_YIELDING, PLAYS, YIELDS, Motion, Play, on_line, text
 
 from scenewright.judge.judgement import judge
 from scenewright.judge.tolerance import LOOSE, TIGHT, Tolerance
@@ -228,6 +228,40 @@ def test_reversed_order_is_wrong_by_any_margin() -> None:
         condition = verdict.condition("c6")
         assert condition.measured is not None
         assert condition.holds_at(LOOSE) == (condition.measured >= 0) == condition.holds_at(TIGHT)
+
+
+MEETS = Play(
+    text=text(
+        "[t0, go, t1, go, t2]", "A0(t1) == A1(t1)\nA0x(t1) == conflict_point\nA1x(t1) == conflict_point\nA1v(t1) == 12"
+    ),
+    ego=Motion(0.0, 10.0, []),
+    hero=Motion(16.0, 12.0, []),
+    trigger_s=7.0,
+    hero_line=CROSSING,
+    duration_s=9.0,
+)
+
+
+def test_contact_that_is_asked_for_is_no_failure() -> None:
+    verdict = judge(MEETS.case())
+    assert not failed(verdict, TIGHT)
+    hit = verdict.facts["pairs"]["ego, hero"]["collision_time_s"]
+    assert 6.0 < hit < 7.0, "it is a fact all the same"
+
+
+@pytest.mark.parametrize("unsaid", ["A1x(t1) == conflict_point\n", "A0x(t1) == conflict_point\n"])
+def test_contact_at_a_trigger_that_does_not_say_where_both_are_is_one(unsaid: str) -> None:
+    assert unsaid in MEETS.text
+    assert "no_collision" in failed(judge(replace(MEETS, text=MEETS.text.replace(unsaid, "")).case()), LOOSE)
+
+
+def test_contact_that_is_over_before_the_trigger_is_one() -> None:
+    """The hero crosses right before the ego's nose once, and is where it was asked to be only later."""
+    later = replace(MEETS, text=MEETS.text.replace("A1x(t1) == conflict_point", "A1x(t1) == conflict_point + 8"))
+    over = later.with_hero(s_m=24.0).with_ego(s_m=-0.0)
+    through = replace(over, hero_line=(62.0, 100.0, -np.pi / 2))
+    verdict = judge(through.case())
+    assert "no_collision" in failed(verdict, LOOSE)
 
 
 def test_collision_before_the_trigger_fails_and_later_is_a_fact() -> None:

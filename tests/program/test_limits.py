@@ -175,6 +175,7 @@ def test_the_documentation_has_the_same_limits() -> None:
         "actors": limits.ACTORS,
         "knots of an actor": limits.KNOTS,
         "parameters": limits.PARAMETERS,
+        "lines of the manner": limits.MANNER_LINES,
         "constraints": limits.CONSTRAINTS,
         "words, numbers and signs of a line": limits.LINE_PARTS,
         "levels of nesting, and terms of a sum": limits.DEPTH,

@@ -218,7 +218,7 @@ def test_broken_frames(text: str, place: str, words: str) -> None:
 def test_what_could_have_stood_there_is_said_in_words() -> None:
     with pytest.raises(ProgramError) as caught:
         parse_program("a description")
-    assert caught.value.expected == "'Actor 0:', 'parameters:', description, map, scenario"
+    assert caught.value.expected == "'Actor 0:', 'parameters:', 'manner:', description, map, scenario"
     with pytest.raises(ProgramError) as caught:
         parse_program('scenario "x"\n')
     assert caught.value.found == "the end of the text"

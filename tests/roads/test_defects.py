@@ -225,6 +225,14 @@ def test_sections_out_of_order_are_read_in_order(tmp_path: Path) -> None:
     assert any("in order of s" in note for note in road_map.notes)
 
 
+def test_a_road_ends_where_its_junction_was_cut_away(tmp_path: Path) -> None:
+    text = load_map("t_intersection").source.read_text(encoding="utf-8")
+    source = tmp_path / "cut.xodr"
+    source.write_text(re.sub(r'(elementType="junction" elementId=)"[^"]*"', r'\1"99"', text, count=1), encoding="utf-8")
+    (note,) = load_map(source).notes
+    assert re.fullmatch(r"roads end where they are linked to junctions .*: road \w+ to junction 99", note)
+
+
 def test_links_to_what_is_not_there_are_told_once_for_all(tmp_path: Path) -> None:
     text = load_map("t_intersection").source.read_text(encoding="utf-8")
     text = re.sub(r'<laneLink from="(-?1)" to="-?1"/>', r'<laneLink from="\1" to="-4"/>', text)

@@ -39,7 +39,7 @@ def led(condition: LinearCondition, top_mps: float = TOP_MPS) -> list[Led]:
     state = HeroState(NOW_S, MOTION.state(NOW_S)[0], HERO_MPS, 0, {}, MOTION)
     alone = ConstantAcceleration(cruise_mps=CRUISE_MPS).predict(past)
     return ways_to_lead(
-        HERO, state, condition, alone, past, offset_m=0.0, top_mps=top_mps, cruise_mps=CRUISE_MPS
+        HERO, state, condition, alone, past, offset_m=0.0, top_mps=top_mps, cruise_mps=CRUISE_MPS, settled_s=0.5
     )  # fmt: skip
 
 

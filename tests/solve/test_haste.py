@@ -12,7 +12,7 @@ from scenarios import NOT_YIELDING, YIELDS, YIELDS_THEN_GOES, Example, limits_of
 from scenewright.program.types import PieceKind
 from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.haste import Errand
-from scenewright.solve.limits import COUNTER_QUICK, FIRM_QUICK, WHOLE, Manner
+from scenewright.solve.limits import COUNTER_QUICK, FIRM_QUICK, WHOLE, Style
 
 DEC, STOP, ACC, GO = PieceKind.DEC, PieceKind.STOP, PieceKind.ACC, PieceKind.GO
 LIMITS = limits_of(YIELDS.scene())[1]
@@ -40,23 +40,23 @@ def test_errands_are_read_off_programs() -> None:
     brake_m=st.floats(1.0, 40.0),
     go_m=st.floats(1.0, 60.0),
     shares=st.tuples(*[st.floats(0.0, 1.0)] * 3),
-    manner=st.sampled_from([WHOLE, FIRM_QUICK, COUNTER_QUICK]),
+    style=st.sampled_from([WHOLE, FIRM_QUICK, COUNTER_QUICK]),
 )
-def test_no_motion_is_faster(brake_m: float, go_m: float, shares: tuple[float, ...], manner: Manner) -> None:
-    low, high = manner.dec_mpss
+def test_no_motion_is_faster(brake_m: float, go_m: float, shares: tuple[float, ...], style: Style) -> None:
+    low, high = style.dec_mpss
     brake = low + shares[0] * (high - low)
     speed = math.sqrt(2.0 * brake * brake_m)
-    if speed > manner.top_speeds_mps(LIMITS)[0]:
+    if speed > style.top_speeds_mps(LIMITS)[0]:
         return
-    accel = manner.acc_mpss[0] + shares[1] * (manner.acc_mpss[1] - manner.acc_mpss[0])
-    top = min(manner.top_speeds_mps(LIMITS))
-    stand_s = manner.stop_s[0] + shares[2]
+    accel = style.acc_mpss[0] + shares[1] * (style.acc_mpss[1] - style.acc_mpss[0])
+    top = min(style.top_speeds_mps(LIMITS))
+    stand_s = style.stop_s[0] + shares[2]
     go_s = math.sqrt(2.0 * go_m / accel)
     if accel * go_s > top:
         go_s = top / accel + (go_m - top * top / (2.0 * accel)) / top
     takes_s = 2.0 * brake_m / speed + stand_s + go_s
     errand = Errand(((DEC, brake_m), (STOP, 0.0), (ACC, go_m)), "t2")
-    assert errand.least_s(manner, LIMITS) <= takes_s + 1e-9
+    assert errand.least_s(style, LIMITS) <= takes_s + 1e-9
 
 
 def test_the_fastest_motion_is_hardly_slower() -> None:

@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 
 from scenarios import YIELDS, limits_of, read_structure
 from scenewright.motion.profile import Profile, chain
+from scenewright.orchestrate import Request, orchestrate
 from scenewright.program.types import PieceKind
 from scenewright.solve.arrival import LinearCondition, linear_conditions
-from scenewright.solve.limits import COUNTER, FIRM, GENTLE, URGENT, WHOLE, Manner
+from scenewright.solve.limits import COUNTER, FIRM, GENTLE, URGENT, WHOLE, Style
 from scenewright.solve.reach import Approach, Prospects, Task, least_miss
 from scenewright.solve.situation import HeroState, Situation
 from scenewright.solve.stretches import approach_rates, timed_approach
@@ -67,16 +68,16 @@ def test_who_hurries_and_who_holds_back_bound_the_place() -> None:
     assert approach.within(1.0, 1.0).fastest(0.0, 6.0) == pytest.approx((6.5 + 7.125, 7.25))
 
 
-@pytest.mark.parametrize("manner", [FIRM, WHOLE, COUNTER], ids=["firm", "whole", "counter"])
+@pytest.mark.parametrize("style", [FIRM, WHOLE, COUNTER], ids=["firm", "whole", "counter"])
 @pytest.mark.parametrize("rest_s", [Fraction(1, 10), Fraction(1, 2), Fraction(3, 5), Fraction(3)])
-def test_the_last_half_second_is_settled_however_little_is_left(manner: Manner, rest_s: Fraction) -> None:
+def test_the_last_half_second_is_settled_however_little_is_left(style: Style, rest_s: Fraction) -> None:
     left = rest_s
-    for stretch in timed_approach(manner, 0, rest_s, "t1"):
-        up, down = approach_rates(manner, stretch, PieceKind.DEC)
+    for stretch in timed_approach(style, 0, rest_s, "t1"):
+        up, down = approach_rates(style, stretch, PieceKind.DEC)
         left -= stretch.duration_s or 0
         if left < Fraction(1, 2) and stretch.end_knot:
             assert down <= Fraction(1, 4)
-            assert up <= Fraction(9, 20) or manner is COUNTER
+            assert up <= Fraction(9, 20) or style is COUNTER
     assert left == 0
 
 
@@ -157,3 +158,21 @@ def test_waits_where_it_can_still_be_fast_enough() -> None:
     reached = [v for v in speeds if found.wait.place_m + v * v / 8.0 <= -(side.constant + per_speed * v) / per_metre]
     assert reached
     assert max(reached) >= 1.0
+
+
+@pytest.mark.parametrize(
+    ("first", "at_the_trigger", "sketch"),
+    [
+        ("gap(A0, A1, t0) == 20", "A1v(t1) == 8", "t0, go, t1, go, t2"),
+        ("A0x(t0) == stop_line - 150", "headway(A0, A1, t1) == 1.5 and A1v(t1) == 8", "t0, go, t1, dec, t2"),
+    ],
+)
+def test_a_side_that_is_a_speed_and_no_place_is_planned_for(first: str, at_the_trigger: str, sketch: str) -> None:
+    """A hero that is only to be so fast at its trigger has no place to wait at."""
+    head = "Actor 0 (ego):\n- W\n- [t0, go, t1, go, t2]\n\nActor 1 (hero):\n- W\n"
+    text = (
+        f"{head}- [{sketch}]\n\nConstraints:\n{first}\nA0(t1) == A1(t1)\nA0x(t1) == stop_line - 60\n{at_the_trigger}\n"
+    )
+    result = orchestrate(Request(text, ego="idm", takes=1))
+    assert result.run is not None
+    assert result.run.status == "finished"

@@ -1,4 +1,4 @@
-"""`maps` and `egos`: what there is to drive on, and what to drive with.
+"""`maps`, `egos` and `solvers`: what there is to drive on, to drive with, and to refute with.
 
 What enters: a map's name or file, or nothing. What leaves: lists and tables, for people or as JSON.
 """
@@ -61,6 +61,23 @@ def egos(as_json: AsJson = False) -> None:
             return
         stdout().print(tables.facts(described.items()))
         stdout().print("\nYour own: --ego module:Class, a class with reset(start) and step(observation, dt_s).")
+
+
+def solvers(as_json: AsJson = False) -> None:
+    """List the solvers that check --solver can name: what each can do, or what it misses."""
+    with told(as_json):
+        from scenewright.cli import tables
+        from scenewright.solve.proofs.refuters import known, refuter_called
+
+        described = {
+            name: refuter_called(name).capabilities.words() if missing is None else f"{missing.message}: {missing.fix}"
+            for name, missing in known().items()
+        }
+        if as_json:
+            print_json(described)
+            return
+        stdout().print(tables.facts(described.items()))
+        stdout().print("\nYour own: a package with an entry point in the group scenewright.solvers.")
 
 
 def describe(road_map: RoadMap) -> dict[str, Any]:

@@ -91,6 +91,13 @@ def complete_translator(incomplete: str) -> list[str]:
     return [name for name in names if name.startswith(incomplete)]
 
 
+def complete_solver(incomplete: str) -> list[str]:
+    """Offer the solvers that refute and miss nothing."""
+    from scenewright.solve.proofs.refuters import known
+
+    return [name for name, missing in known().items() if missing is None and name.startswith(incomplete)]
+
+
 def complete_run_directory(incomplete: str) -> list[str]:
     """Offer run directories here and under `runs`."""
     found = [path.parent for folder in (Path(), Path("runs")) for path in sorted(folder.glob("*/manifest.json"))]
@@ -150,6 +157,8 @@ _TRANSLATOR_HELP = (
 Translator = Annotated[
     str, typer.Option("--translator", metavar="NAME", help=_TRANSLATOR_HELP, autocompletion=complete_translator)
 ]
+_SOLVER_HELP = "What refutes; `scenewright solvers` lists what there is."
+Solver = Annotated[str, typer.Option("--solver", metavar="NAME", help=_SOLVER_HELP, autocompletion=complete_solver)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout and nothing else there.")]
 ModeOption = Annotated[
     Mode, typer.Option("--mode", help="Re-solve while the ego drives (closed), or carry out the first plan (open).")

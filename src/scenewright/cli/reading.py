@@ -177,7 +177,7 @@ def solve(asked: Asked, out: PlanFile = None, as_json: AsJson = False) -> None:
             print_json({**data_without_a_run(request, result, status), "plan": data})
         elif plan is not None:
             rows = tables.parameters(result.scene, request.parameters)
-            stdout().print(tables.facts([*rows, ("manner", plan.manner)]))
+            stdout().print(tables.facts([*rows, ("style", plan.style)]))
             stdout().print(tables.knots(result.scene, plan))
         if not as_json:
             tell_no_plan(stderr(), result)

@@ -218,6 +218,11 @@ def tell_no_plan(console: Console, result: Result) -> None:
         console.print(result.feasibility.explain(), soft_wrap=True)
     elif result.status == "gave up" and result.attempt is None:
         console.print(f"Undecided: {tried(result)}", soft_wrap=True)
+    elif result.not_held:
+        console.print("The planner cannot hold these yet, so nothing was driven:", soft_wrap=True)
+        for each in result.not_held:
+            console.print(f"  - {each}", soft_wrap=True, markup=False)
+        console.print("`scenewright check` tells whether it can happen.", soft_wrap=True)
     elif result.status == "gave up":
         console.print(f"gave up: {tried(result)}", soft_wrap=True)
         console.print("Neither a plan nor a proof that there is none was found; more of --budget-ms may help.")
@@ -233,6 +238,8 @@ def tried(result: Result) -> str | None:
     """Return what was tried before giving up; None where nothing was given up."""
     if result.status != "gave up":
         return None
+    if result.not_held:
+        return "the planner cannot hold yet: " + "; ".join(map(str, result.not_held))
     if result.attempt is not None:
         attempt = result.attempt
         return f"{attempt.tries} ways to move in {attempt.wall_s:.1f} s; the last: {attempt.reason or attempt.status}"

@@ -11,7 +11,7 @@ from fractions import Fraction
 import numpy as np
 
 from scenewright.judge.case import CannotJudge, Case, NotReached
-from scenewright.judge.formulas import instants_of_piece, is_order, miss_of
+from scenewright.judge.formulas import error_of, instants_of_piece, is_order, miss_of
 from scenewright.judge.knots import Measured
 from scenewright.judge.terms import Moments, sides
 from scenewright.judge.tolerance import TIGHT, Leaf, Values, dimension_of, normalised, unit_symbol
@@ -101,7 +101,9 @@ def _comparison(case: Case, moments: Moments, name: str, kind: Kind, text: str, 
         return Condition(name, kind, note, 0.0, margin, max(0.0, -margin), unit, miss)
     error = value - required
     if compare.operator != "==":
-        error = float(normalised(miss, TIGHT)) * TIGHT.of(dimension_of(compare))
+        dimension = dimension_of(compare)
+        worst = error_of(compare.operator, left, right)
+        error = float(normalised(miss, TIGHT)) * TIGHT.of(dimension) if dimension else float(np.max(worst))
     return Condition(name, kind, text, required, value, error, unit, miss)
 
 

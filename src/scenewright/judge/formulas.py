@@ -13,7 +13,7 @@ import numpy as np
 
 from scenewright.judge.case import CannotJudge, Case
 from scenewright.judge.instants import sharpen
-from scenewright.judge.terms import Moments, piece_span, sides
+from scenewright.judge.terms import Moments, divisor, piece_span, sides
 from scenewright.judge.tolerance import (
     TIGHT,
     Every,
@@ -25,6 +25,7 @@ from scenewright.judge.tolerance import (
     Throughout,
     Values,
     dimension_of,
+    dimension_of_dividend,
     normalised,
 )
 from scenewright.program.expressions import Compare, Elapsed, Formula, Logic, PieceRef, State, Temporal, walk
@@ -109,7 +110,11 @@ def _leaf(case: Case, compare: Compare, moments: Moments, negated: bool) -> Leaf
     if negated and compare.operator == "==":
         return Leaf(np.where(error_of("==", left, right) > 0, 0.0, np.inf), dimension)
     operator = _OPPOSITE[compare.operator] if negated else compare.operator
-    return Leaf(error_of(operator, left, right), dimension)
+    error = error_of(operator, left, right)
+    if dimension is None and not is_order(compare) and (by := divisor(case, compare, moments)) is not None:
+        # A quotient without a unit has no tolerance of its own: it is what is divided that may be off by one.
+        return Leaf(error * np.abs(by), dimension_of_dividend(compare))
+    return Leaf(error, dimension)
 
 
 def _temporal(case: Case, formula: Temporal, moments: Moments, negated: bool) -> Miss:

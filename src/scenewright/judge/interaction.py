@@ -13,13 +13,10 @@ import numpy as np
 
 from scenewright.judge.case import Case
 from scenewright.judge.knots import SIGN_OF, Measured, demands_standstill
-from scenewright.judge.phases import STILL_MPS, move_off_after, rest_after
+from scenewright.judge.phases import move_off_after, rest_after
 from scenewright.judge.verdict import Condition, bounded, unjudged
 from scenewright.program.types import Actor, PieceKind
 
-SETTLED_MPSS = 0.5
-SETTLED_FOR_S = 0.5
-STANDS_S = 0.3
 _VERBS = {PieceKind.DEC: "brake", PieceKind.ACC: "speed up"}
 
 
@@ -65,7 +62,10 @@ def interaction_facts(case: Case, measured: Measured) -> dict[str, Any]:
 
 def _beginning(case: Case, measured: Measured, hero: Actor, kind: PieceKind) -> Iterator[Condition]:
     moment, phase, verb = measured.triggers[hero.id], measured.onsets.get(hero.id), _VERBS[kind]
-    begins = f"{hero.name} begins to {verb} at the trigger"
+    manner = case.program.manner
+    settled_mpss, settled_s = float(manner.settled_mpss), float(manner.settled_s)
+    seen = f"by {float(manner.begins_mpss):g} m/s^2 or half of its most, for {float(manner.begins_s):g} s"
+    begins = f"{hero.name} begins to {verb} at the trigger ({seen})"
     if phase is None or not np.isfinite(moment):
         reason = f"{hero.name} never began to {verb}" if np.isfinite(moment) else "there was no trigger"
         yield unjudged(f"{hero.name}_onset", "interaction", begins, reason)
@@ -77,13 +77,13 @@ def _beginning(case: Case, measured: Measured, hero: Actor, kind: PieceKind) -> 
     timeline = case.timelines[hero.id]
     times = timeline.time_s
     until = min(moment, phase.start_s)
-    before = (times[:-1] >= until - SETTLED_FOR_S) & (times[1:] <= until + 1e-9)
+    before = (times[:-1] >= until - settled_s) & (times[1:] <= until + 1e-9)
     pull = SIGN_OF[kind] * timeline.slopes()[before]
     worst = max(0.0, float(np.max(pull, initial=0.0)))
     yield bounded(
         f"{hero.name}_settled", "interaction",
-        f"in the half second before, {hero.name} does not {verb} by more than {SETTLED_MPSS} m/s^2",
-        required=SETTLED_MPSS, measured=worst, error=max(0.0, worst - SETTLED_MPSS), dimension="acceleration",
+        f"in the {settled_s:g} s before, {hero.name} does not {verb} by more than {settled_mpss:g} m/s^2",
+        required=settled_mpss, measured=worst, error=max(0.0, worst - settled_mpss), dimension="acceleration",
     )  # fmt: skip
 
 
@@ -127,21 +127,23 @@ def _ends_standing(case: Case, measured: Measured, hero: Actor, index: int) -> b
 
 
 def _stands(case: Case, hero: Actor, since_s: float) -> Condition:
-    text = f"{hero.name} comes to a standstill that lasts"
-    rest = rest_after(case.timelines[hero.id], since_s)
+    manner = case.program.manner
+    stands_s = float(manner.stands_s)
+    text = f"{hero.name} comes to a standstill (slower than {float(manner.stands_mps):g} m/s) that lasts {stands_s:g} s"
+    rest = rest_after(case.timelines[hero.id], since_s, manner)
     if rest is None:
         return unjudged(f"{hero.name}_standstill", "interaction", text, f"{hero.name} never stood still")
     lasted = rest.end_s - rest.start_s
     to_the_end = rest.end_s >= case.end_s - 1e-9
     return bounded(
-        f"{hero.name}_standstill", "interaction", f"{text} to the end of the run" if to_the_end else text,
-        required=STANDS_S, measured=lasted, error=0.0 if to_the_end else max(0.0, STANDS_S - lasted), dimension="time",
+        f"{hero.name}_standstill", "interaction", f"{text}, or to the end of the run" if to_the_end else text,
+        required=stands_s, measured=lasted, error=0.0 if to_the_end else max(0.0, stands_s - lasted), dimension="time",
     )  # fmt: skip
 
 
 def _goes_again(case: Case, hero: Actor, since_s: float) -> Condition:
-    text = f"{hero.name} moves off again after standing (faster than {STILL_MPS} m/s)"
-    moved = move_off_after(case.timelines[hero.id], since_s)
+    text = f"{hero.name} moves off again after standing (faster than {float(case.program.manner.stands_mps):g} m/s)"
+    moved = move_off_after(case.timelines[hero.id], since_s, case.program.manner)
     if moved is None:
         return unjudged(f"{hero.name}_goes_again", "interaction", text, f"{hero.name} stood to the end of the run")
     return bounded(

@@ -132,7 +132,7 @@ def onset_after(case: Case, hero: int, knot: str, moment_s: float) -> Phase | No
     if knot not in sketch.knots[:-1] or not np.isfinite(moment_s):
         return None
     sign = SIGN_OF.get(sketch.pieces[sketch.knot_index(knot)])
-    return None if sign is None else phase_at(case.timelines[hero], moment_s, sign)
+    return None if sign is None else phase_at(case.timelines[hero], moment_s, sign, case.program.manner)
 
 
 def _groups(case: Case) -> list[Group]:
@@ -306,7 +306,7 @@ def _is_standstill(case: Case, part: Compare, key: KnotKey, knots: Mapping[KnotK
 def _rest_time(case: Case, key: KnotKey, after_s: float) -> float:
     """Return when a demanded standstill began, or where there is none, when the actor was slowest."""
     timeline = case.timelines[key[0]]
-    rest = rest_after(timeline, after_s)
+    rest = rest_after(timeline, after_s, case.program.manner)
     if rest is not None:
         return rest.start_s
     later = timeline.instants(after_s, timeline.end_s)
@@ -342,21 +342,22 @@ def _was_past(case: Case, part: Compare, key: KnotKey, knots: dict[KnotKey, floa
 def _visible_time(case: Case, key: KnotKey, index: int, after_s: float) -> float | None:
     """Return when the piece before a knot visibly gave way to the next."""
     sketch, timeline = case.program.actor(key[0]).sketch, case.timelines[key[0]]
+    manner = case.program.manner
     if not np.isfinite(after_s):
         return np.inf
     before = sketch.pieces[index - 1]
     after = sketch.pieces[index] if index < len(sketch.pieces) else None
     if before is PieceKind.STOP:
-        moved = move_off_after(timeline, after_s)
+        moved = move_off_after(timeline, after_s, manner)
         return np.inf if moved is None else moved
     if after is PieceKind.STOP:
-        rest = rest_after(timeline, after_s)
+        rest = rest_after(timeline, after_s, manner)
         return np.inf if rest is None else rest.start_s
     if after in SIGN_OF:
-        phase = phase_at(timeline, after_s, SIGN_OF[after])
+        phase = phase_at(timeline, after_s, SIGN_OF[after], manner)
         return np.inf if phase is None else phase.start_s
     if before in SIGN_OF:
-        phase = phase_at(timeline, after_s, SIGN_OF[before])
+        phase = phase_at(timeline, after_s, SIGN_OF[before], manner)
         return None if phase is None else phase.end_s
     return None
 

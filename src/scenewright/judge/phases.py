@@ -1,7 +1,7 @@
 """Phases of one actor's motion, read from its speeds: it begins to brake or speed up, stands still, moves off again.
 
-What enters: a `Timeline` and where to look. What leaves: instants between samples. It knows nothing of programs: what
-a phase should have been is asked elsewhere.
+What enters: a `Timeline`, where to look, and the `Manner` that says what counts. What leaves: instants between samples.
+It knows nothing else of programs: what a phase should have been is asked elsewhere.
 """
 
 from __future__ import annotations
@@ -14,17 +14,15 @@ from numpy.typing import NDArray
 
 from scenewright.judge.timeline import Timeline
 from scenewright.judge.tolerance import FloatArray
+from scenewright.program.manner import Manner
 
 Sign = Literal[-1, 1]
 BRAKING: Sign = -1
 SPEEDING_UP: Sign = 1
 
-STILL_MPS = 0.1  # slower than this is standing
-_REST_MPS = 0.005
-_FAINT_MPSS = 0.1  # weaker is no phase at all
-_PLAIN_MPSS = 0.5  # a settled driver may correct by this much without "beginning" anything
+# How sampled speeds are read; what the words mean is in the manner.
+_REST_MPS = 0.005  # no motion but rounding: the instant of a stop is looked for where the speed first is that small
 _JOIN_S = 0.1  # a shorter pause does not end a phase
-_LASTING_S = 0.3
 _AFTER_S = 0.05  # a phase that has ended by now was not begun by what happens now
 
 
@@ -44,31 +42,31 @@ class Rest:
     end_s: float
 
 
-def phase_at(timeline: Timeline, moment_s: float, sign: Sign) -> Phase | None:
+def phase_at(timeline: Timeline, moment_s: float, sign: Sign, manner: Manner) -> Phase | None:
     """Return the first phase of that sign that is still on, or begins, after `moment_s`.
 
-    It begins where the acceleration first exceeds 0.5 m/s^2, or half of what the phase reaches where that is less,
-    and stays there; the instant is found between samples, where the two straight lines of speed meet.
+    It begins where the acceleration first exceeds `manner.begins_mpss`, or half of what the phase reaches where that is
+    less, and stays there; the instant is found between samples, where the two straight lines of speed meet.
     """
     pull = sign * timeline.slopes()
     times = timeline.time_s
     found: list[tuple[int, int]] = []
-    for first, last in _runs(pull > _FAINT_MPSS, times):
-        threshold = min(_PLAIN_MPSS, 0.5 * float(np.max(pull[first : last + 1])))
+    for first, last in _runs(pull > float(manner.faint_mpss), times):
+        threshold = min(float(manner.begins_mpss), 0.5 * float(np.max(pull[first : last + 1])))
         strong = np.zeros(len(pull), dtype=bool)
         strong[first : last + 1] = pull[first : last + 1] > threshold
         found += [run for run in _runs(strong, times) if times[run[1] + 1] > moment_s + _AFTER_S]
-    lasting = [run for run in found if _lasts(timeline, run)]
+    lasting = [run for run in found if _lasts(timeline, run, manner)]
     if not found:
         return None
     first, last = (lasting or found)[0]
     return Phase(_meeting(timeline, pull * sign, first, last), float(times[last + 1]))
 
 
-def rest_after(timeline: Timeline, moment_s: float) -> Rest | None:
-    """Return the first standstill (slower than 0.1 m/s) at or after `moment_s`, or None."""
+def rest_after(timeline: Timeline, moment_s: float, manner: Manner) -> Rest | None:
+    """Return the first standstill (slower than `manner.stands_mps`) at or after `moment_s`, or None."""
     times, speeds = timeline.time_s, timeline.states.speed_mps
-    still = (np.abs(speeds) < STILL_MPS) & (times >= moment_s)
+    still = (np.abs(speeds) < float(manner.stands_mps)) & (times >= moment_s)
     if not still.any():
         return None
     first = int(np.argmax(still))
@@ -80,10 +78,10 @@ def rest_after(timeline: Timeline, moment_s: float) -> Rest | None:
     return Rest(max(_stop_before(timeline, index), moment_s), float(times[last]))
 
 
-def move_off_after(timeline: Timeline, moment_s: float) -> float | None:
+def move_off_after(timeline: Timeline, moment_s: float, manner: Manner) -> float | None:
     """Return the instant after `moment_s` at which a standing actor begins to move, or None where it does not."""
     times, speeds = timeline.time_s, timeline.states.speed_mps
-    moving = np.flatnonzero((speeds > STILL_MPS) & (times > moment_s))
+    moving = np.flatnonzero((speeds > float(manner.stands_mps)) & (times > moment_s))
     if not len(moving):
         return None
     resting = np.flatnonzero((speeds[: moving[0]] <= _REST_MPS) & (times[: moving[0]] >= moment_s))
@@ -108,11 +106,11 @@ def _runs(mask: NDArray[np.bool_], times: FloatArray) -> list[tuple[int, int]]:
     return runs
 
 
-def _lasts(timeline: Timeline, run: tuple[int, int]) -> bool:
+def _lasts(timeline: Timeline, run: tuple[int, int], manner: Manner) -> bool:
     first, last = run
     times = timeline.time_s
-    to_the_end = last + 2 >= len(times) or abs(timeline.states.speed_mps[last + 1]) < STILL_MPS
-    return bool(times[last + 1] - times[first] >= _LASTING_S or to_the_end)
+    to_the_end = last + 2 >= len(times) or abs(timeline.states.speed_mps[last + 1]) < float(manner.stands_mps)
+    return bool(times[last + 1] - times[first] >= float(manner.begins_s) or to_the_end)
 
 
 def _meeting(timeline: Timeline, slopes: FloatArray, first: int, last: int) -> float:

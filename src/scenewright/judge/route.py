@@ -61,16 +61,23 @@ def _slip_angle(states: ActorTrace) -> float:
 
 
 def _headings(case: Case, actor: Actor, expected: tuple[str, ...]) -> Condition:
-    """Compare the first direction at the start and, once the turn is behind the actor, the last one."""
+    """Compare every direction with that of the route's own line: a road may bend away from what its route is called.
+
+    Without the map the first direction is compared at the start and, once the turn is behind the actor, the last one.
+    """
     states = case.timelines[actor.id].states
+    text, limit = f"{actor.name} is headed {', then '.join(expected)}", float(MAX_HEADING_RAD)
+    if actor.name in case.paths:
+        line = case.paths[actor.name].poses(states.s_m)[:, 2]
+        worst = float(np.max(np.abs(_wrapped(states.heading_rad - line))))
+        return _limit(f"route_{actor.name}_directions", f"{text}, along the line of its route", limit, worst, "rad")
     off = [_off(states.heading_rad[:1], expected[0])]
     try:
         turned = states.s_m >= case.landmark_m("turn_end", actor.id)
         off.append(_off(states.heading_rad[turned], expected[-1]))
     except CannotJudge:
         pass  # a route without a turn has one direction
-    text = f"{actor.name} is headed {', then '.join(expected)}"
-    return _limit(f"route_{actor.name}_directions", text, float(MAX_HEADING_RAD), max(off), "rad")
+    return _limit(f"route_{actor.name}_directions", text, limit, max(off), "rad")
 
 
 def _off(headings: FloatArray, cardinal: str) -> float:

@@ -1,7 +1,8 @@
 """What happened between the vehicles: collisions, distances, times to collision, post-encroachment time.
 
 What enters: a `Case` and what was measured. What leaves: facts, and one condition: a crash before the trigger means
-that the situation asked for did not come about. A crash after it is what the test is for: a fact about the ego.
+that the situation asked for did not come about. A crash after it is what the test is for: a fact about the ego. So is
+one that the situation consists of: where the program says of both where they are at the trigger, and they touch.
 """
 
 from __future__ import annotations
@@ -17,6 +18,8 @@ from scenewright.judge.case import CannotJudge, Case
 from scenewright.judge.instants import first_crossing
 from scenewright.judge.knots import Measured
 from scenewright.judge.verdict import Condition, bounded
+from scenewright.program.expressions import Compare, Derived, State, walk
+from scenewright.program.structure import KnotKey, knots_of
 
 _SUB_STEPS = 5  # the samples, and four instants between each two
 
@@ -27,10 +30,14 @@ def safety_facts(case: Case) -> dict[str, Any]:
 
 
 def no_collision(case: Case, measured: Measured, facts: dict[str, Any]) -> Condition:
-    """Judge that nobody collides before the trigger."""
+    """Judge that nobody collides before the trigger, unless the program puts them into each other there."""
     over_s = _trigger_time_s(case, measured)
-    times = [pair["collision_time_s"] for pair in facts.values() if pair["collision_time_s"] is not None]
-    first = min(times, default=None)
+    times = [
+        facts[f"{case.name(a)}, {case.name(b)}"]["collision_time_s"]
+        for a, b in _pairs(case)
+        if not _contact_is_asked_for(case, measured, a, b)
+    ]
+    first = min((time_s for time_s in times if time_s is not None), default=None)
     early = max(0.0, over_s - first) if first is not None else 0.0
     return bounded(
         "no_collision", "safety", "no collision before the trigger",
@@ -50,6 +57,35 @@ def _trigger_time_s(case: Case, measured: Measured) -> float:
         time_s = float(np.max(measured.moments.knots.get((hero.id, knot or ""), np.inf)))
         times.append(min(time_s, case.end_s))
     return max(times, default=case.end_s)
+
+
+def _contact_is_asked_for(case: Case, measured: Measured, a: int, b: int) -> bool:
+    """Whether two touch at a trigger that says where both of them are, and not before they come to it."""
+    for instant in case.structure.triggers.values():
+        known = measured.moments.knots
+        until_s = max((float(np.max(known[key])) for key in instant if key in known), default=np.inf)
+        if {a, b} <= _placed(case, instant) and np.isfinite(until_s):
+            instants = case.timelines[a].instants(case.start_s, until_s, parts=_SUB_STEPS)
+            boxes = (moving_box(case.timelines[actor].states, case.box(actor), instants) for actor in (a, b))
+            touch = overlapping(*boxes)
+            if touch[-1] and np.count_nonzero(np.diff(touch.astype(int))) <= 1:  # one contact, still on at the trigger
+                return True
+    return False
+
+
+def _placed(case: Case, instant: frozenset[KnotKey]) -> set[int]:
+    """Return the actors of whom the program says where they are at an instant, on the road or from each other."""
+    found: set[int] = set()
+    for constraint in case.program.constraints:
+        formula = constraint.formula
+        if not (isinstance(formula, Compare) and formula.operator == "==" and set(knots_of(formula)) <= instant):
+            continue
+        for node in walk(formula):
+            if isinstance(node, State) and node.order == 0:
+                found.add(node.actor)
+            elif isinstance(node, Derived) and node.kind == "gap" and isinstance(node.target, int):
+                found |= {node.actor, node.target}
+    return found
 
 
 def _pair(case: Case, a: int, b: int) -> dict[str, Any]:

@@ -114,10 +114,17 @@ class _Reader:
         if term.order == 1:
             return timeline.speed(time_s)
         if isinstance(term.at, ex.Knot | ex.Elapsed):
-            # An acceleration steps at a knot, and the one meant is that of the piece which begins there.
-            later = np.searchsorted(timeline.time_s, time_s, side="right")
-            time_s = timeline.time_s[np.minimum(later, len(timeline.time_s) - 1)]
+            # An acceleration steps at a knot: that of the piece which begins there is meant, or of the last one's end.
+            if self._is_last_knot(term.actor, term.at):
+                sample = np.searchsorted(timeline.time_s, time_s, side="left") - 1
+            else:
+                sample = np.searchsorted(timeline.time_s, time_s, side="right")
+            time_s = timeline.time_s[np.clip(sample, 0, len(timeline.time_s) - 1)]
         return timeline.acceleration(time_s)
+
+    def _is_last_knot(self, actor: int, at: ex.Knot | ex.Elapsed) -> bool:
+        owner, knot = (actor, at.name) if isinstance(at, ex.Knot) else (at.actor, at.knot)
+        return owner == actor and knot == self.case.program.actor(actor).sketch.knots[-1]
 
     def _span(self, actor: int, piece: ex.PieceRef) -> Span:
         return piece_span(self.case, self.moments, actor, piece)
@@ -153,6 +160,14 @@ class _Reader:
             names = f"{self.case.name(actor)} and {self.case.name(other)}"
             raise CannotJudge(f"{names} share no lane on which to compare their places")
         return offset
+
+
+def divisor(case: Case, compare: ex.Compare, moments: Moments) -> Values | None:
+    """Return what is divided by where one side of a comparison is a quotient, else None."""
+    for side in (compare.left, compare.right):
+        if isinstance(side, ex.Arithmetic) and side.operator == "/":
+            return _Reader(case, moments).value(side.right)
+    return None
 
 
 def piece_span(case: Case, moments: Moments, actor: int, piece: ex.PieceRef) -> Span:

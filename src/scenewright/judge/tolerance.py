@@ -131,6 +131,14 @@ def dimension_of(node: Compare) -> Dimension | None:
     return None if exponents is None else _NAMES.get(exponents)
 
 
+def dimension_of_dividend(node: Compare) -> Dimension | None:
+    """Return the dimension of what is divided in a quotient that is one side of a comparison."""
+    for side in (node.left, node.right):
+        if isinstance(side, Arithmetic) and side.operator == "/":
+            return _NAMES.get(_exponents(side.left) or (0, 0))
+    return None
+
+
 def unit_symbol(dimension: Dimension | None) -> str:
     """Return the SI symbol, or nothing for what has no dimension."""
     return "" if dimension is None else SI_SYMBOL[dimension]

@@ -1,6 +1,6 @@
 """Concrete motion along one axis: what a plan or a prediction says an actor does.
 
-What enters: a start state and accelerations with durations. What leaves: position, speed and acceleration at any
+What enters: a start state and accelerations, even or changing evenly, with durations. What leaves: position, speed and acceleration at any
 instant, when a place is passed, and bounds over spans. Speed is continuous by construction; it never reverses.
 """
 
@@ -8,14 +8,18 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 STANDSTILL_MPS = 1e-6
+_HALVINGS = 40
 
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """A stretch of constant acceleration: from `start_s` on for `duration_s`, beginning with `s_m` and `speed_mps`."""
+    """A stretch of evenly changing acceleration: from `start_s` on for `duration_s`, beginning with a state.
+
+    `accel_mpss` is the acceleration at its beginning; it changes by `jerk_mpsss` each second.
+    """
 
     start_s: float
     duration_s: float
@@ -23,6 +27,7 @@ class Segment:
     speed_mps: float
     accel_mpss: float
     piece: int = 0
+    jerk_mpsss: float = 0.0
 
     @property
     def end_s(self) -> float:
@@ -32,12 +37,26 @@ class Segment:
     @property
     def end_speed_mps(self) -> float:
         """Speed at the end of the segment (m/s)."""
-        return max(0.0, self.speed_mps + self.accel_mpss * self.duration_s)
+        return max(0.0, self.after(self.duration_s)[1])
 
     @property
     def end_s_m(self) -> float:
         """Arc length at the end of the segment (m)."""
-        return self.s_m + (self.speed_mps + 0.5 * self.accel_mpss * self.duration_s) * self.duration_s
+        return self.after(self.duration_s)[0]
+
+    def after(self, elapsed_s: float) -> tuple[float, float, float]:
+        """Return position (m), speed (m/s) and acceleration (m/s^2) so long after the beginning."""
+        jerk, accel = self.jerk_mpsss * elapsed_s, self.accel_mpss
+        return (
+            self.s_m + (self.speed_mps + (0.5 * accel + jerk / 6.0) * elapsed_s) * elapsed_s,
+            self.speed_mps + (accel + 0.5 * jerk) * elapsed_s,
+            accel + jerk,
+        )
+
+    def part(self, from_s: float, to_s: float) -> Segment:
+        """Return the stretch between two instants within this one."""
+        s_m, speed_mps, accel_mpss = self.after(from_s - self.start_s)
+        return Segment(from_s, to_s - from_s, s_m, max(0.0, speed_mps), accel_mpss, self.piece, self.jerk_mpsss)
 
 
 class Profile:
@@ -79,9 +98,8 @@ class Profile:
         segment = self.segments[index]
         elapsed = time_s - segment.start_s
         if elapsed < segment.duration_s:
-            speed = segment.speed_mps + segment.accel_mpss * elapsed
-            position = segment.s_m + (segment.speed_mps + 0.5 * segment.accel_mpss * elapsed) * elapsed
-            return position, max(0.0, speed), segment.accel_mpss
+            position, speed, accel = segment.after(elapsed)
+            return position, max(0.0, speed), accel
         speed = segment.end_speed_mps
         return segment.end_s_m + speed * (elapsed - segment.duration_s), speed, 0.0
 
@@ -93,7 +111,7 @@ class Profile:
         for segment in self.segments:
             if segment.end_s <= begin or segment.end_s_m < s_m:
                 continue
-            return segment.start_s + _reach(s_m - segment.s_m, segment.speed_mps, segment.accel_mpss)
+            return segment.start_s + _reach(s_m, segment)
         last = self.segments[-1]
         if last.end_speed_mps <= STANDSTILL_MPS:
             return None
@@ -101,16 +119,16 @@ class Profile:
 
     def cut(self, time_s: float) -> Profile:
         """Return the same motion from `time_s` on, beginning with a segment that starts exactly there."""
-        position, speed, accel = self.state(time_s)
         rest: list[Segment] = []
         for segment in self.segments:
             if segment.end_s <= time_s:
                 continue
             if segment.start_s <= time_s:
-                rest.append(Segment(time_s, segment.end_s - time_s, position, speed, accel, segment.piece))
+                rest.append(segment.part(time_s, segment.end_s))
             else:
                 rest.append(segment)
         if not rest:
+            position, speed, _ = self.state(time_s)
             rest.append(Segment(time_s, 0.0, position, speed, 0.0, self.segments[-1].piece))
         return Profile(tuple(rest), self.knot_times_s)
 
@@ -124,21 +142,18 @@ class Profile:
         after = [segment for segment in self.segments if segment.start_s >= at_s - 1e-9]
         if before and before[-1].end_s > at_s + 1e-9:
             whole = before[-1]
-            piece, accel = whole.piece, whole.accel_mpss
-            before[-1] = Segment(whole.start_s, at_s - whole.start_s, whole.s_m, whole.speed_mps, accel, piece)
-            after.insert(0, Segment(at_s, whole.end_s - at_s, position, speed, accel, piece))
+            before[-1] = whole.part(whole.start_s, at_s)
+            after.insert(0, whole.part(at_s, whole.end_s))
         piece = before[-1].piece if before else after[0].piece
         held = Segment(at_s, for_s, position, speed, 0.0, piece)
-        moved = [
-            Segment(s.start_s + for_s, s.duration_s, s.s_m + speed * for_s, s.speed_mps, s.accel_mpss, s.piece)
-            for s in after
-        ]
+        moved = [replace(s, start_s=s.start_s + for_s, s_m=s.s_m + speed * for_s) for s in after]
         times = {knot: time_s + for_s * (time_s >= at_s - 1e-9) for knot, time_s in self.knot_times_s.items()}
         return Profile((*before, held, *moved), times)
 
     def accelerations(self) -> tuple[float, float]:
         """Return the smallest and largest acceleration of the whole profile (m/s^2)."""
-        values = [segment.accel_mpss for segment in self.segments]
+        ends = [(0.0, segment.duration_s) for segment in self.segments]
+        values = [s.after(t)[2] for s, pair in zip(self.segments, ends, strict=True) for t in pair]
         return min(values), max(values)
 
 
@@ -169,8 +184,15 @@ def chain(start_s: float, s_m: float, speed_mps: float, moves: list[tuple[float,
     return tuple(segments)
 
 
-def _reach(distance_m: float, speed_mps: float, accel_mpss: float) -> float:
-    """Return the time to cover `distance_m` >= 0 from `speed_mps` at constant acceleration (known to be reached)."""
+def _reach(s_m: float, segment: Segment) -> float:
+    """Return how long after its beginning a segment is at `s_m`, which it is known to reach."""
+    distance_m, speed_mps, accel_mpss = s_m - segment.s_m, segment.speed_mps, segment.accel_mpss
+    if segment.jerk_mpsss:
+        low, high = 0.0, segment.duration_s
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if segment.after(middle)[0] < s_m else (low, middle)
+        return high
     root = math.sqrt(max(0.0, speed_mps * speed_mps + 2.0 * accel_mpss * distance_m))
     denominator = speed_mps + root
     return 2.0 * distance_m / denominator if denominator > 0.0 else 0.0

@@ -21,6 +21,7 @@ from fractions import Fraction
 from scenewright.errors import ProgramError, Span
 from scenewright.program.check import check_constraint, check_program
 from scenewright.program.expressions import ParameterRef
+from scenewright.program.manner import USUAL, manner_of
 from scenewright.program.printer import print_program
 from scenewright.program.quantities import (
     Computed,
@@ -115,6 +116,7 @@ class Scenario:
         self._actors: list[Actor] = []
         self._parameters: list[Parameter] = []
         self._constraints: list[Constraint] = []
+        self._manner = USUAL
 
     def ego(
         self,
@@ -182,6 +184,16 @@ class Scenario:
         self._parameters.append(parameter)
         return Computed(ParameterRef(name))
 
+    def manner(self, **numbers: Figure) -> None:
+        """Say what "begins", "settled" and "stands" mean here, in SI units; the rest is as usual (see `Manner`).
+
+        Raises
+        ------
+        ProgramError
+            For a name that a manner does not have, or a number out of its range.
+        """
+        self._manner = manner_of((name, exact(value), None) for name, value in numbers.items())
+
     def require(self, condition: Condition, id: str | None = None, words: str | None = None) -> str:
         """Require `condition` and return its id.
 
@@ -230,7 +242,8 @@ class Scenario:
 
     def _draft(self, constraints: tuple[Constraint, ...]) -> Program:
         actors = tuple(sorted(self._actors, key=lambda actor: actor.id))
-        return Program(self._name, actors, constraints, tuple(self._parameters), self._map, self._description)
+        parameters = tuple(self._parameters)
+        return Program(self._name, actors, constraints, parameters, self._map, self._description, self._manner)
 
     def _add_actor(
         self,

@@ -64,6 +64,7 @@ class _Checker:
         check_size(self.program, self.name)
         self._check_actors()
         self._check_parameters()
+        self.program.manner.check(Place(self.name))
         seen: set[str] = set()
         for constraint in self.program.constraints:
             if constraint.id in seen:

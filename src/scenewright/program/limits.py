@@ -19,6 +19,7 @@ TEXT_CHARACTERS = 1_000_000
 ACTORS = 100
 KNOTS = 100  # of one actor
 PARAMETERS = 500
+MANNER_LINES = 50
 CONSTRAINTS = 2_000
 LINE_PARTS = 1_000  # words, numbers and signs of one line
 DESCRIPTION_CHARACTERS = 5_000  # what is to be understood, not what a program quotes
@@ -45,6 +46,7 @@ class _Section(NamedTuple):
 
 _SECTIONS = {
     "parameters": _Section("parameters", PARAMETERS + 1),  # the head's own line counts too
+    "manner": _Section("lines of the manner", MANNER_LINES + 1),
     "constraints": _Section("constraints", CONSTRAINTS + 1),
 }
 
@@ -129,7 +131,7 @@ class _Scan:
 
     def _begin_line(self, part: re.Match[str]) -> None:
         word = part[0].lower()
-        if word in _SECTIONS:
+        if word in _SECTIONS and self.section is not _SECTIONS["constraints"]:  # which come last; it is a label there
             self.section = _SECTIONS[word]
         elif word == "actor":
             self.section = None

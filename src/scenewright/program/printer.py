@@ -6,6 +6,7 @@ What enters: a `Program` or one of its expressions. What leaves: text. It decide
 from __future__ import annotations
 
 from scenewright.program import expressions as ex
+from scenewright.program.manner import NUMBERS
 from scenewright.program.types import (
     Actor,
     Constraint,
@@ -29,6 +30,8 @@ def print_program(program: Program) -> str:
     if program.parameters:
         lines += ["", "parameters:"]
         lines += [_parameter(parameter) for parameter in program.parameters]
+    lines += ["", "manner:"]
+    lines += [f"- {name} = {format_fraction(getattr(program.manner, name))}" for name in NUMBERS]
     for actor in program.actors:
         lines += ["", *_actor(actor)]
     lines += ["", "Constraints:"]

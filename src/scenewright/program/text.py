@@ -39,6 +39,7 @@ from scenewright.program.expressions import (
     walk,
 )
 from scenewright.program.limits import check_depth, check_text
+from scenewright.program.manner import manner_of, unit_of
 from scenewright.program.syntax_errors import syntax_error
 from scenewright.program.types import (
     DEFAULT_MAP,
@@ -52,7 +53,7 @@ from scenewright.program.types import (
     Program,
     Sketch,
 )
-from scenewright.units import UNITS, unit_of_name
+from scenewright.units import UNITS, Unit, unit_of_name
 
 __all__ = ["JUST_BEFORE_M", "negate", "parse_program"]
 
@@ -132,7 +133,7 @@ class _Builder(Transformer[Token, Any]):
 
     def map(self, meta: Meta, items: list[Any]) -> tuple[str, str]:
         token = items[0]
-        return "map", _unquote(token) if token.type == "STRING" else str(token)
+        return "map_name", _unquote(token) if token.type == "STRING" else str(token)
 
     def description(self, meta: Meta, items: list[Any]) -> tuple[str, str]:
         quoted = next(item for item in items if item is not None and item.type == "STRING")
@@ -144,18 +145,27 @@ class _Builder(Transformer[Token, Any]):
     def parameter(self, meta: Meta, items: list[Any]) -> Parameter:
         name, value, low, high = items
         span = Span(name.start_pos, name.end_pos)
-        own = [None if n is None else self._in_own_unit(str(name), n, span) for n in (value, low, high)]
+        unit = unit_of_name(name)
+        own = [None if n is None else self._in_unit(unit, f"parameter {name}", n, span) for n in (value, low, high)]
         return Parameter(str(name), own[0], own[1], own[2], span)
 
-    def _in_own_unit(self, name: str, number: tuple[Fraction, str | None], span: Span) -> Fraction:
+    def manner(self, meta: Meta, items: list[Any]) -> tuple[str, list[tuple[str, Fraction, Place]]]:
+        return "manner", [item for item in items if isinstance(item, tuple)]
+
+    def manner_number(self, meta: Meta, items: list[Any]) -> tuple[str, Fraction, Place]:
+        name, number = items
+        span = Span(name.start_pos, name.end_pos)
+        unit = unit_of(str(name), self._place(span))
+        return str(name), self._in_unit(unit, f"{name} of the manner", number, span), self._place(span)
+
+    def _in_unit(self, own: Unit | None, what: str, number: tuple[Fraction, str | None], span: Span) -> Fraction:
         value, symbol = number
-        own = unit_of_name(name)
         if symbol is None or own is None:
             return value
         unit = UNITS[symbol]
         if unit.dimension != own.dimension:
             raise ProgramError(
-                f"parameter {name} is a {own.dimension}, its value is a {unit.dimension}",
+                f"{what} is a {own.dimension}, its value is a {unit.dimension}",
                 place=self._place(span),
                 found=symbol,
                 expected=f"a unit of {own.dimension}, such as {own.symbol}",
@@ -358,15 +368,18 @@ class _Builder(Transformer[Token, Any]):
 
     # -- the whole --------------------------------------------------------------------------------------------------
     def start(self, meta: Meta, items: list[Any]) -> Program:
-        fields: dict[str, Any] = {"name": self._name, "map": DEFAULT_MAP, "description": None}
+        fields: dict[str, Any] = {"name": self._name, "map_name": DEFAULT_MAP}
         declared: list[Parameter] = []
         rows: list[tuple[Any, ...]] = []
+        numbers: list[tuple[str, Fraction, Place]] = []
         actors: list[Actor] = []
         for item in items:
             if isinstance(item, Actor):
                 actors.append(item)
             elif isinstance(item, tuple) and item[0] == "parameters":
                 declared = item[1]
+            elif isinstance(item, tuple) and item[0] == "manner":
+                numbers += item[1]
             elif isinstance(item, tuple) and item[0] == "constraints":
                 rows = item[1]
             elif isinstance(item, tuple):
@@ -375,8 +388,13 @@ class _Builder(Transformer[Token, Any]):
             Constraint(label or f"c{index}", formula, source, span)
             for index, (label, formula, source, span) in enumerate(rows, start=1)
         )
-        parameters = _with_used_parameters(declared, constraints)
-        return Program(fields["name"], tuple(actors), constraints, parameters, fields["map"], fields["description"])
+        return Program(
+            actors=tuple(actors),
+            constraints=constraints,
+            parameters=_with_used_parameters(declared, constraints),
+            manner=manner_of(numbers),
+            **fields,
+        )
 
 
 def _with_used_parameters(declared: list[Parameter], constraints: tuple[Constraint, ...]) -> tuple[Parameter, ...]:

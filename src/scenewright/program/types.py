@@ -13,6 +13,7 @@ from typing import Literal
 
 from scenewright.errors import Span
 from scenewright.program.expressions import Formula
+from scenewright.program.manner import USUAL, Manner
 from scenewright.units import PLAUSIBLE_RANGE, Unit, unit_of_name
 
 EGO = 0
@@ -153,6 +154,7 @@ class Program:
     parameters: tuple[Parameter, ...] = ()
     map_name: str = DEFAULT_MAP
     description: str | None = None
+    manner: Manner = USUAL
     heroes: tuple[Actor, ...] = field(init=False, compare=False, repr=False)  # the actors that are orchestrated
 
     def __post_init__(self) -> None:

@@ -24,6 +24,7 @@ End = Literal["start", "end"]
 _Arcs = dict[tuple[str, str], None]  # lane ids (before, after), in the order of the file
 
 _NO_ROAD = "roads end where they are linked to roads that are not in the file"
+_NO_JUNCTION = "roads end where they are linked to junctions that are not in the file, or join nothing"
 _NO_CONNECTION = "connections of junctions with roads that are not in the file are left out"
 _NO_LANE = "links to lanes that are not in the file are left out"
 _NO_MEETING = "lanes are linked in the file, but do not meet, and are not joined"
@@ -187,10 +188,13 @@ def _section_touches(record: OpenDriveRecord) -> Iterator[tuple[_Port, _Port]]:
 def _road_touches(
     record: OpenDriveRecord, roads: dict[str, RoadRecord], defects: Defects
 ) -> Iterator[tuple[_Port, _Port]]:
+    junctions = {each.junction_id for each in record.connections}
     for road in record.roads:
         ends: tuple[End, End] = ("start", "end")
         for end in ends:
             link = road.predecessor if end == "start" else road.successor
+            if link is not None and link.element_type == "junction" and link.element_id not in junctions:
+                defects.add(_NO_JUNCTION, f"road {road.id} to junction {link.element_id}")
             if link is None or link.element_type != "road":
                 continue
             other = roads.get(link.element_id)

@@ -41,6 +41,12 @@ def first_plan(
     pace
         The share of their speed at which heroes come to their triggers.
     """
+    import os
+
+    if os.environ.get("SCENEWRIGHT_PLANNER") == "convex":
+        from scenewright.plan.beginning import first_plan as convex
+
+        return convex(world, predictor, slower_than_mps, pace)  # type: ignore[return-value]
     limits = {actor: own if actor == EGO else own.at_pace(pace) for actor, own in world.limits.items()}
     conditions = linear_conditions(world.scene, world.structure)
     best: tuple[Replanner, EgoFirstState, Attempt] | None = None
@@ -93,7 +99,7 @@ def _quality(attempt: Attempt) -> int:
     if attempt.plan is None:
         return 0
     promised = _PROMISED if attempt.status == "sat" and attempt.promises_outcome else 0
-    return promised + _GENTLENESS[attempt.plan.manner]
+    return promised + _GENTLENESS[attempt.plan.style]
 
 
 def _is_better(scene: Scene, attempt: Attempt, other: Attempt) -> bool:

@@ -23,8 +23,8 @@ from scenewright.solve.situation import HeroState
 
 # By how much (m/s) and how hard (m/s^2) a hero changes its speed to lead the ego.
 _CHANGES_MPS, _CHANGE_MPSS = (0.0, 0.7, 1.5, 2.5, 4.0, 6.0, -0.7, -1.5, -2.5, -4.0), 1.5
-# How long it holds its new speed before the trigger may come, and at most (s).
-_SETTLED_S, _LONGEST_S = 0.6, 12.0
+# How long it holds its new speed before the trigger may come, in times it is to be settled for; at most (s).
+_SETTLED_TIMES, _LONGEST_S = 1.2, 12.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +45,7 @@ def ways_to_lead(
     offset_m: float,
     top_mps: float,
     cruise_mps: float,
+    settled_s: float,
 ) -> list[Led]:
     """Return when `condition` comes true if the hero changes its speed evenly and holds it, the soonest first.
 
@@ -60,6 +61,8 @@ def ways_to_lead(
         What to add to the hero's arc length to compare it with the ego's.
     top_mps, cruise_mps
         How fast the hero may be; how fast people drive where the ego does.
+    settled_s
+        For how long a hero is to be settled before its trigger.
     """
     past = [segment for segment in state.history.segments if segment.start_s < state.time_s - 1e-9]
     found: list[Led] = []
@@ -72,7 +75,7 @@ def ways_to_lead(
         motion = Profile(chain(state.time_s, state.s_m, state.speed_mps, moves))
         leader = Leader(Profile((*past, *motion.segments)), offset_m)
         ego = foresee_follower(alone, history, leader, cruise_mps)
-        from_s = motion.segments[-1].start_s + _SETTLED_S
+        from_s = motion.segments[-1].start_s + _SETTLED_TIMES * settled_s
         instant_s = condition.first_time({EGO: ego, hero: motion}, from_s)
         if instant_s is not None and instant_s < from_s + _LONGEST_S:
             found.append(Led(instant_s, ego))

@@ -30,9 +30,8 @@ _DEAD_BAND_S = 0.003
 _DEAD_BAND_SHARE = 0.02
 # By how much (s) a hero may begin too soon or too late.
 _ONSET_S = 0.05
-# In the last half second of a trigger whose moment is free.
+# While one is to be settled for a trigger whose moment is free.
 _DEAD_BAND_LAST_S = 0.03
-_SETTLE_S = 0.5
 # How long an ego must have driven evenly for a jump in its acceleration to be a change of mind.
 _EVEN_S = 0.1
 _LATE_MISS, _EARLY_MISS = 0.5, 0.12
@@ -43,7 +42,7 @@ _RETRY_EVERY = 3
 _PATIENCE_S = 3.0
 # How often a first plan is made again, for an ego that reacts to the one before.
 _SECOND_THOUGHTS = 2
-# How many ways in which a hero may lead the ego are asked for; in which manners it would rather not drive ahead of it.
+# How many ways in which a hero may lead the ego are asked for; in which styles it would rather not drive ahead of it.
 _MOST_LED, _HARD = 3, (WHOLE.name, URGENT.name)
 
 
@@ -83,10 +82,12 @@ class Replanner:
     _failures: int = field(init=False, default=0)
     _first_trigger_s: float = field(init=False, default=0.0)
     _times: TriggerTimes = field(init=False)
+    _settled_s: float = field(init=False)  # for how long a hero is to be settled before its trigger
 
     def __post_init__(self) -> None:
         cruise_mps = self.planner.limits[EGO].natural_approach_speed_mps
         self._times = TriggerTimes(self.scene, self.structure, self.conditions, self.predictor, cruise_mps)
+        self._settled_s = float(self.scene.program.manner.settled_s)
 
     # -- the first plan ---------------------------------------------------------------------------------------------
     def begin(self, ego: EgoSample) -> Attempt:
@@ -198,6 +199,7 @@ class Replanner:
             offset_m=clearance.offset_m,
             top_mps=self.planner.limits[hero_id].approach_speed_max_mps,
             cruise_mps=self.planner.limits[EGO].natural_approach_speed_mps,
+            settled_s=self._settled_s,
         )
         return [
             self._situation(time_s, way.ego, self.ego_knots_s, heroes, {hero_id: way.instant_s})
@@ -217,13 +219,13 @@ class Replanner:
         for hero in self.scene.program.heroes:
             profile, knot = self.plan.profiles[hero.id], self.structure.trigger_knot(hero.id)
             planned = profile.knot_times_s.get(knot or "", -1.0)
-            if time_s < planned < time_s + _SETTLE_S and self._times.ego_side(hero) is None:
-                later = {**self.plan.profiles, hero.id: profile.held(planned, _SETTLE_S)}
+            if time_s < planned < time_s + self._settled_s and self._times.ego_side(hero) is None:
+                later = {**self.plan.profiles, hero.id: profile.held(planned, self._settled_s)}
                 self.plan = replace(self.plan, profiles=later)
 
     def _record(self, time_s: float, attempt: Attempt) -> Replan:
         tolerance = attempt.plan.tolerance if attempt.plan else self.plan.tolerance
-        reason = attempt.reason or (attempt.plan.manner if attempt.plan else "")
+        reason = attempt.reason or (attempt.plan.style if attempt.plan else "")
         status = attempt.status if attempt.plan else f"{attempt.status}, last plan goes on"
         return Replan(time_s, status, self.planner.backend.name, attempt.wall_s, tolerance, reason)
 
@@ -240,7 +242,7 @@ class Replanner:
                         last.start_s, new.start_s - last.start_s, last.s_m, last.speed_mps, last.accel_mpss, last.piece
                     )
             profiles[hero.id] = Profile((*past, *new.segments), new.knot_times_s)
-        return Plan(profiles, plan.tolerance, plan.manner, plan.parameters)
+        return Plan(profiles, plan.tolerance, plan.style, plan.parameters)
 
     def ego_stood_s(self, time_s: float) -> float:
         """Return for how long the ego has not moved (s)."""
@@ -398,14 +400,15 @@ class Replanner:
         off_s = abs(situation.trigger_s[hero.id] - planned)
         left_s = max(0.0, planned - time_s)
         miss = self._times.joint_miss(hero, situation.ego, planned, self.plan.profiles[hero.id])
-        settled = left_s <= _SETTLE_S and self.plan.tolerance <= _LATE_MISS
+        last = left_s <= self._settled_s
+        settled = last and self.plan.tolerance <= _LATE_MISS
         if miss > (_LATE_MISS if settled else _EARLY_MISS * (1.0 + left_s)):
             return False
         if settled and self._times.ego_side(hero) is None:
             return off_s <= _DEAD_BAND_LAST_S
         if self._times.ego_side(hero) is not None:
-            # Within the last half second the hero stays settled for as long as that is good enough.
-            miss, tolerance = (_LATE_MISS, _LATE_MISS) if left_s <= _SETTLE_S else (_EARLY_MISS, 0.0)
+            # While it is to be settled the hero stays so for as long as that is good enough.
+            miss, tolerance = (_LATE_MISS, _LATE_MISS) if last else (_EARLY_MISS, 0.0)
             near = off_s <= _ONSET_S and self._times.ego_miss(hero, situation.ego, planned) <= miss
             if near and self.plan.tolerance <= tolerance:
                 return True
@@ -419,4 +422,4 @@ class Replanner:
 
 def _is_hard(attempt: Attempt) -> bool:
     """Whether there is no plan, or only one that takes a hero's whole authority."""
-    return attempt.plan is None or attempt.plan.manner in _HARD
+    return attempt.plan is None or attempt.plan.style in _HARD

@@ -18,7 +18,7 @@ from scenewright.simulate.prediction import ConstantSpeed, Predictor
 from scenewright.solve.arrival import TIGHT_LENGTH_M, LinearCondition, hero_side, tight_of
 from scenewright.solve.clearance import Clearance
 from scenewright.solve.lags import Lag
-from scenewright.solve.limits import SETTLED_MPSS
+from scenewright.solve.limits import ROOM
 from scenewright.solve.situation import SHORTEST_LEAD_S, HeroState
 
 _LONGEST_SLACK_S = 1.0
@@ -39,8 +39,7 @@ _NEARLY_THERE_S, _MOST_PATIENCE_S = 1.5, 4.0
 _DUE_S, _AGAIN_S, _STILL_GOOD = 0.12, 0.2, 0.8
 # Who does not get nearer to its place than this before it stands is there.
 _STANDS_MPS, _STANDS_THERE_M = 0.02, 0.9 * TIGHT_LENGTH_M
-# How long a hero is to be seen settled (s).
-_SEEN_SETTLED_S, _ROUNDING_S = 0.5, 1e-6
+_ROUNDING_S = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
@@ -197,12 +196,14 @@ class TriggerTimes:
         knots = hero.sketch.knots
         begins = hero.sketch.pieces[knots.index(self.structure.trigger_knot(hero.id) or knots[0])]
         sense = 1.0 if begins is PieceKind.ACC else -1.0
+        manner = self.scene.program.manner
+        settled_mpss = float(manner.stricter(ROOM).settled_mpss)
         moved = [
             min(segment.end_s, state.time_s)
             for segment in state.history.segments
-            if sense * segment.accel_mpss > SETTLED_MPSS and segment.start_s < state.time_s - _ROUNDING_S
+            if sense * segment.accel_mpss > settled_mpss and segment.start_s < state.time_s - _ROUNDING_S
         ]
-        return moved[-1] + _SEEN_SETTLED_S if moved else -math.inf
+        return moved[-1] + float(manner.settled_s) if moved else -math.inf
 
     def earliest_s(
         self, hero: Actor, time_s: float, prediction: Profile, expected_s: float

@@ -20,6 +20,7 @@ from scenewright.solve.limits import Limits, limits_on
 from scenewright.solve.parameters import settle
 from scenewright.solve.planner import DEFAULT_BUDGET_S
 from scenewright.solve.problem import Backend
+from scenewright.solve.proofs.refuters import refuter_called
 
 
 class World:
@@ -35,11 +36,13 @@ class World:
         Name of how the ego is foreseen.
     budget_s
         Wall-clock time that one re-solve may take.
+    backend, solver
+        What solves for plans, and the name of what refutes.
 
     Raises
     ------
     ScenewrightError
-        Where there is no such policy or predictor.
+        Where there is no such policy, predictor or solver.
     """
 
     def __init__(
@@ -51,6 +54,7 @@ class World:
         predictor: str = "road",
         budget_s: float = DEFAULT_BUDGET_S,
         backend: Backend | None = None,
+        solver: str = "z3",
     ) -> None:
         self.scene = scene
         self.rates = rates
@@ -61,6 +65,7 @@ class World:
         self.structure: Structure = read_structure(scene.program)
         self.limits: dict[int, Limits] = {i: limits_on(route, scene.road_map) for i, route in scene.routes.items()}
         self._backend = backend
+        self.refuter = refuter_called(solver)
         promise = guarded.envelope
         self.ego_bounds = (
             EgoBounds(promise.speed_max_mps, promise.accel_max_mpss, -promise.accel_min_mpss, promise.holds_speed)
@@ -81,5 +86,5 @@ class World:
 
     def choose_and_check(self) -> Feasibility:
         """Give open parameters values, and ask whether the scenario can happen with them."""
-        self.scene, answer = settle(self.scene, self.structure, self.limits, self.ego_bounds)
+        self.scene, answer = settle(self.scene, self.structure, self.limits, self.ego_bounds, self.refuter)
         return answer

@@ -10,19 +10,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from fractions import Fraction
 
-from scenewright.motion.algebra import Symbol, Value
 from scenewright.motion.profile import Profile, Segment
-from scenewright.motion.sketched import ONE, Ratio
-from scenewright.program.expressions import Compare, Elapsed
-from scenewright.program.structure import KnotKey, Structure, actors_of, knots_of
+from scenewright.program.expressions import Compare
+from scenewright.program.structure import KnotKey, Structure, knots_of
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
-from scenewright.solve.lowering import TIGHT, Lowering, NotYet
+from scenewright.solve.limits import Limits
+from scenewright.solve.proofs.events import EgoBounds, Events, State
+from scenewright.solve.proofs.lowering import TIGHT, Lowering
+from scenewright.solve.proofs.polynomials import ZERO, Polynomial, atoms
 
 HORIZON_S = 90.0
-_LINEAR_SLACK = 1e-9
+_ANYBODY = Limits(60.0, 60.0, 60.0, 60.0, 60.0, 60.0)
 TIGHT_LENGTH_M = float(TIGHT["length"])
 TIGHT_TIME_S = float(TIGHT["time"])
 
@@ -89,6 +89,8 @@ class LinearCondition:
 
 def linear_conditions(scene: Scene, structure: Structure) -> tuple[LinearCondition, ...]:
     """Return the program's equalities over states at one moment that are linear in positions and speeds."""
+    events = Events(scene, {actor.id: _ANYBODY for actor in scene.program.actors}, EgoBounds())
+    lowering = Lowering(events)
     found: list[LinearCondition] = []
     for constraint in scene.program.constraints:
         formula = constraint.formula
@@ -97,70 +99,35 @@ def linear_conditions(scene: Scene, structure: Structure) -> tuple[LinearConditi
         moments = frozenset(knots_of(formula))
         if not moments or not (len(moments) == 1 or any(moments <= instant for instant in structure.instants)):
             continue
-        if any(isinstance(n, Elapsed) for n in (formula.left, formula.right)):
-            continue
-        condition = _linearised(scene, structure, constraint.id, formula, moments)
-        if condition is not None:
-            found.append(condition)
+        (lowered,) = lowering.lower((constraint,))
+        owners = {number: actor for (actor, _), state in events.states.items() for number in _numbers(state)}
+        equality = next((atom for atom in atoms(lowered.formula) if atom.relation == "=="), None)
+        weights = None if equality is None else _weights(events, equality.left, owners)
+        if equality is not None and weights:
+            constant = float(equality.left.terms.get((), ZERO))
+            found.append(LinearCondition(constraint.id, moments, constant, weights))
     return tuple(found)
 
 
-def _linearised(
-    scene: Scene, structure: Structure, constraint_id: str, formula: Compare, moments: frozenset[KnotKey]
-) -> LinearCondition | None:
-    actors = sorted(actors_of(formula))
-    zero = dict.fromkeys(actors, (0, 0))
-    origin = _probe(scene, structure, formula, zero)
-    if origin is None or not actors:
-        return None
+def _weights(
+    events: Events, left: Polynomial, owners: Mapping[int, int]
+) -> dict[int, tuple[float, float]] | None:
+    """Return what a polynomial weighs each actor's position and speed with; None where it is not linear in them."""
     weights: dict[int, tuple[float, float]] = {}
-    for actor in actors:
-        metre = _probe(scene, structure, formula, zero | {actor: (1, 0)})
-        speed = _probe(scene, structure, formula, zero | {actor: (0, 1)})
-        if metre is None or speed is None:
+    for key, factor in left.terms.items():
+        if key == ():
+            continue
+        if len(key) != 1 or key[0] not in owners:
             return None
-        if metre != origin or speed != origin:
-            weights[actor] = (float(metre - origin), float(speed - origin))
-    # Different for every actor, so that a product of two actors' states cannot pass for a sum.
-    states = {actor: (3 + 4 * k, 2 + 3 * k) for k, actor in enumerate(actors)}
-    everything = _probe(scene, structure, formula, states)
-    expected = float(origin) + sum(m * states[actor][0] + v * states[actor][1] for actor, (m, v) in weights.items())
-    if everything is None or abs(float(everything) - expected) > _LINEAR_SLACK or not weights:
-        return None
-    return LinearCondition(constraint_id, moments, float(origin), weights)
+        actor, speed = owners[key[0]], events.unknowns[key[0]].kind == "speed"
+        per_metre, per_speed = weights.get(actor, (0.0, 0.0))
+        weights[actor] = (per_metre, float(factor)) if speed else (float(factor), per_speed)
+    return weights
 
 
-class _Probe:
-    """A motion that is in one given state at every moment; probing tells a linear condition's weights."""
-
-    def __init__(self, s_m: int, speed_mps: int) -> None:
-        self._states = (Fraction(s_m), Fraction(speed_mps))
-
-    def time(self, knot: str) -> Value | None:
-        return None
-
-    def at_knot(self, knot: str, order: int) -> Ratio | None:
-        return (self._states[order], ONE) if order < 2 else None
-
-    def at_time(self, time: Value, order: int) -> Value | None:
-        return None
-
-    def on_piece(self, piece: int, order: int) -> Ratio | None:
-        return None
-
-
-def _probe(
-    scene: Scene, structure: Structure, formula: Compare, states: Mapping[int, tuple[int, int]]
-) -> Fraction | int | None:
-    motions = {actor: _Probe(*state) for actor, state in states.items()}
-    lowering = Lowering(scene, structure, motions, scene.parameters)
-    try:
-        left_num, left_den = lowering.term(formula.left)
-        right_num, right_den = lowering.term(formula.right)
-        value = left_num * right_den - right_num * left_den
-    except (NotYet, KeyError):
-        return None
-    return None if isinstance(value, Symbol) else value
+def _numbers(state: State) -> Iterator[int]:
+    for value in (state.place, state.speed):
+        yield from (key[0] for key in value.terms if key != ())
 
 
 def _common_stretches(

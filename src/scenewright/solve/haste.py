@@ -1,7 +1,7 @@
 """How soon a hero can have done, at the earliest, what comes after its trigger: by arithmetic, without a solver.
 
-What enters: a hero's sketch with the places that the program gives, a manner. What leaves: a time that no motion within
-that manner beats.
+What enters: a hero's sketch with the places that the program gives, a style. What leaves: a time that no motion within
+that style beats.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from scenewright.program.expressions import Compare, Elapsed
 from scenewright.program.structure import Role, Structure
 from scenewright.program.types import EGO, Actor, PieceKind, Program
 from scenewright.solve.arrival import LinearCondition
-from scenewright.solve.limits import Limits, Manner
+from scenewright.solve.limits import Limits, Style
 from scenewright.solve.stretches import rate_is_given
 
 
@@ -64,20 +64,20 @@ class Errand:
         ways = [None if a is None or b is None else b - a for a, b in pairwise(places)]
         return cls(tuple(zip(hero.sketch.pieces[first:last], ways, strict=True)), order.right.knot)
 
-    def least_s(self, manner: Manner, limits: Limits) -> float:
-        """Return the shortest time (s) that the errand takes in `manner`, never more than any motion in it takes."""
-        fastest = max(manner.top_speeds_mps(limits)[0], manner.top_speed_after_mps(limits))
-        cruise = min(manner.top_speeds_mps(limits))
+    def least_s(self, style: Style, limits: Limits) -> float:
+        """Return the shortest time (s) that the errand takes in `style`, never more than any motion in it takes."""
+        fastest = max(style.top_speeds_mps(limits)[0], style.top_speed_after_mps(limits))
+        cruise = min(style.top_speeds_mps(limits))
         total_s, standing = 0.0, False
         for k, (kind, way_m) in enumerate(self.pieces):
             stops = k + 1 < len(self.pieces) and self.pieces[k + 1][0] is PieceKind.STOP
             if kind is PieceKind.STOP:
-                total_s += manner.stop_s[0]
+                total_s += style.stop_s[0]
             elif way_m is not None and way_m > 0.0:
                 if kind is PieceKind.DEC and stops:
-                    total_s += max(2.0 * way_m / fastest, math.sqrt(2.0 * way_m / manner.dec_mpss[1]))
+                    total_s += max(2.0 * way_m / fastest, math.sqrt(2.0 * way_m / style.dec_mpss[1]))
                 elif kind is PieceKind.ACC and standing:
-                    total_s += _from_a_stand_s(way_m, manner.acc_mpss[1], cruise)
+                    total_s += _from_a_stand_s(way_m, style.acc_mpss[1], cruise)
                 else:
                     total_s += way_m / fastest
             standing = kind is PieceKind.STOP

@@ -1,6 +1,6 @@
 """Builds the problem of one re-solve: the rest of every hero's motion, given where all are and where the ego will be.
 
-What enters: a scene, a `Situation`, a `Manner`. What leaves: a `Problem` and how to read a model of it back as
+What enters: a scene, a `Situation`, a `Style`. What leaves: a `Problem` and how to read a model of it back as
 profiles. History is fixed, the ego is a prediction, and what of a hero's motion has a known duration makes linear
 conditions.
 """
@@ -20,7 +20,7 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition, hero_side
 from scenewright.solve.clearance import APART_M, Clearance, out_of_way_mps
-from scenewright.solve.limits import BRAKE_MAX_MPSS, CLOSE, MOVING_MPS, Limits, Manner
+from scenewright.solve.limits import BRAKE_MAX_MPSS, MOVING_MPS, ROOM, Limits, Style
 from scenewright.solve.lowering import Lowering, NotYet
 from scenewright.solve.problem import Problem
 from scenewright.solve.readiness import readiness
@@ -56,7 +56,7 @@ class HeroProblem:
         structure: Structure,
         limits: Mapping[int, Limits],
         situation: Situation,
-        manner: Manner,
+        style: Style,
         tolerance: Fraction = Fraction(0),
         conditions: tuple[LinearCondition, ...] = (),
     ) -> None:
@@ -65,7 +65,7 @@ class HeroProblem:
         self.structure = structure
         self.limits = limits
         self.situation = situation
-        self.manner = manner
+        self.style = style
         self.tolerance = tolerance
         self.problem = Problem()
         self.asserted: list[Constraint] = []
@@ -91,7 +91,7 @@ class HeroProblem:
     def _add_hero(self, hero: Actor) -> MotionView:
         state = self.situation.heroes.get(hero.id)
         stretches = Division(
-            self.scene.program, self.structure, self.limits[hero.id], self.situation, self.manner, self.conditions
+            self.scene.program, self.structure, self.limits[hero.id], self.situation, self.style, self.conditions
         ).stretches(hero)
         self._stretches[hero.id] = stretches
         problem, prefix = self.problem, f"a{hero.id}"
@@ -118,9 +118,10 @@ class HeroProblem:
                 begun = state is not None and stretch.piece == state.piece
                 shortest = Fraction(0)
                 if not begun and not stretch.cruise:
-                    shortest = shortest_s(self.manner, hero, stretch.piece, self.structure.trigger_knot(hero.id), side)
-                    if self.manner.steps == 1 and rate_is_given(self.scene.program, hero, stretch.piece):
-                        shortest = min(shortest, pin(CLOSE.seen_s))  # who is slow has soon done what it is told
+                    shortest = shortest_s(self.style, hero, stretch.piece, self.structure.trigger_knot(hero.id), side)
+                    if self.style.steps == 1 and rate_is_given(self.scene.program, hero, stretch.piece):
+                        # Who is slow has soon done what it is told.
+                        shortest = min(shortest, self.scene.program.manner.stricter(ROOM).begins_s)
                 problem.bound(duration, shortest, _LONGEST_S, f"{hero.name}'s pieces take some time")
             else:
                 duration = stretch.duration_s
@@ -138,7 +139,7 @@ class HeroProblem:
                 self.problem.require(kept, label)
             if isinstance(now, Fraction) and stretch.approach and stretch.end_knot is None:
                 for condition, reason in readiness(
-                    self.situation, self.manner, side, hero.id, float(now), next_position, next_speed
+                    self.situation, self.style, side, hero.id, float(now), next_position, next_speed
                 ):
                     self.problem.require(condition, f"{hero.name} {reason}")
             if clearance is not None and stretch.approach and stretch.end_knot is not None:
@@ -167,8 +168,8 @@ class HeroProblem:
         return clearance if clearance.is_kept(ego, now_s, state.s_m) else None
 
     def _require_opening(self, hero: Actor, clearance: Clearance, speed: Symbol) -> None:
-        """Require that the distance between hero and ego grows at the trigger, where the manner asks for it."""
-        instant_s, opening_mps = self.situation.trigger_s.get(hero.id), self.manner.opening_mps
+        """Require that the distance between hero and ego grows at the trigger, where the style asks for it."""
+        instant_s, opening_mps = self.situation.trigger_s.get(hero.id), self.style.opening_mps
         if opening_mps is None or instant_s is None or not clearance.ahead or clearance.closing:
             return
         least = pin(self.situation.ego.state(instant_s)[1] + opening_mps)
@@ -195,7 +196,7 @@ class HeroProblem:
         latest = None if turn is None else pin(0.5 * (turn.start_m + turn.end_m))
         self.problem.bound(position, pin(_START_MARGIN_M), latest, f"{hero.name} starts on its route, before its turn")
         self._bound_speed(hero, speed)
-        if self.manner.steps <= 3:
+        if self.style.steps <= 3:
             self.problem.bound(speed, pin(MOVING_MPS), None, f"{hero.name} drives when the scenario begins")
         return Fraction(0), position, speed
 
@@ -222,9 +223,9 @@ class HeroProblem:
         elif kind is PieceKind.STOP:
             self._bound_standing(hero, stretch, v0, v1, duration)
         elif stretch.to_top:
-            top = pin(min(self.manner.top_speeds_mps(self.limits[hero.id])))
+            top = pin(min(self.style.top_speeds_mps(self.limits[hero.id])))
             self.problem.require(compare("==", v1, top), f"{hero.name} goes at {float(top):.1f} m/s")
-            rate = pin(self.manner.acc_mpss[1])
+            rate = pin(self.style.acc_mpss[1])
             self._require_rate(v1 - v0, duration, rate, rate, f"{hero.name} accelerates at {float(rate):g} m/s^2")
         else:
             self._bound_speeding(hero, stretch, v1 - v0, duration)
@@ -233,7 +234,7 @@ class HeroProblem:
         """Bound a stretch on the way to the trigger."""
         if stretch.waiting:
             self.problem.require(compare("==", v1, Fraction(0)), f"{hero.name} waits on its way")
-        up, down = approach_rates(self.manner, stretch, following_piece(hero, stretch.piece))
+        up, down = approach_rates(self.style, stretch, following_piece(hero, stretch.piece))
         self._require_rate(change, duration, -down, up, f"{hero.name}'s acceleration limits")
         if stretch.end_knot is not None:
             self._bound_trigger_speed(hero, stretch.piece, v1)
@@ -243,14 +244,14 @@ class HeroProblem:
         require, label = self.problem.require, f"{hero.name}'s {PieceKind.STOP} piece"
         require(compare("==", v0, Fraction(0)), label)
         require(compare("==", v1, Fraction(0)), label)
-        low, high = self.manner.stop_s
+        low, high = self.style.stop_s
         require(compare(">=", duration, self._stop_rest(hero, stretch, low)), label)
         require(compare("<=", duration, pin(high)), label)
 
     def _bound_speeding(self, hero: Actor, stretch: Stretch, change: Value, duration: Value) -> None:
-        """Bound a braking or accelerating stretch: as the manner says, unless the program gives its rate."""
+        """Bound a braking or accelerating stretch: as the style says, unless the program gives its rate."""
         braking = hero.sketch.pieces[stretch.piece] is PieceKind.DEC
-        low, high = self.manner.dec_mpss if braking else self.manner.acc_mpss
+        low, high = self.style.dec_mpss if braking else self.style.acc_mpss
         if rate_is_given(self.scene.program, hero, stretch.piece):
             low, high = 0.05, BRAKE_MAX_MPSS if braking else self.limits[hero.id].accel_max_mpss
         sign = -1 if braking else 1
@@ -275,8 +276,8 @@ class HeroProblem:
 
     def _bound_speed(self, hero: Actor, speed: Symbol, after: bool = False) -> None:
         limits = self.limits[hero.id]
-        top = self.manner.top_speed_after_mps(limits) if after else self._top_mps(hero)
-        reserved = self.manner.steps <= 3 and self.manner.opening_mps is None
+        top = self.style.top_speed_after_mps(limits) if after else self._top_mps(hero)
+        reserved = self.style.steps <= 3 and self.style.opening_mps is None
         if hero.id not in self.situation.heroes and reserved and not after:
             # Who starts as fast as it may drive can never catch up with an ego that is early.
             top = min(top, _RESERVE * limits.approach_speed_max_mps)
@@ -284,8 +285,8 @@ class HeroProblem:
 
     def _bound_in_turn(self, hero: Actor, stretch: Stretch, x0: Value, v0: Value, x1: Symbol, v1: Symbol) -> None:
         turn = TurnSpan.of(self.scene.routes[hero.id])
-        turn_top = self.manner.top_speeds_mps(self.limits[hero.id])[1]
-        top = self.manner.top_speed_after_mps(self.limits[hero.id])
+        turn_top = self.style.top_speeds_mps(self.limits[hero.id])[1]
+        top = self.style.top_speed_after_mps(self.limits[hero.id])
         if turn is None or turn_top >= top:
             return
         if stretch.approach and stretch.end_knot is None:
@@ -304,7 +305,7 @@ class HeroProblem:
 
     def _bound_trigger_speed(self, hero: Actor, piece: int, speed: Symbol) -> None:
         clear_mps = out_of_way_mps(self.scene, self.structure, self.conditions, hero)
-        least = trigger_speed_mps(self.manner, hero, piece, self._is_timed(hero, piece + 1), clear_mps)
+        least = trigger_speed_mps(self.style, hero, piece, self._is_timed(hero, piece + 1), clear_mps)
         self.problem.bound(speed, pin(least), None, f"{hero.name} moves at {least:g} m/s or more at its trigger")
 
     # -- the program's constraints ----------------------------------------------------------------------------------
@@ -328,10 +329,10 @@ class HeroProblem:
 
         That is some time, and where asked as long as the ego takes from where the two could touch to its knot.
         """
-        margin = self.manner.outcome_margin_s
+        margin = self.style.outcome_margin_s
         keys = set(knots_of(constraint.formula))
         heroes = [actor for actor, _ in keys if actor != EGO]
-        if not self.manner.clear or not heroes:
+        if not self.style.clear or not heroes:
             return margin
         conflict = self.scene.conflict(EGO, heroes[0])
         for actor, knot in keys:
@@ -354,7 +355,7 @@ class HeroProblem:
     def _concerns(self, constraint: Constraint) -> bool:
         """Whether `constraint` still says something about a hero's motion to come."""
         role = self.structure.roles[constraint.id]
-        if role is Role.OUTCOME and not self.manner.outcome and _speaks_of_ego(constraint.formula):
+        if role is Role.OUTCOME and not self.style.outcome and _speaks_of_ego(constraint.formula):
             return False
         if actors_of(constraint.formula) == {EGO}:
             return False  # the ego's own side is the prediction's affair: it is what sets the trigger's instant
@@ -414,7 +415,7 @@ class HeroProblem:
         stretches = self._stretches[hero.id]
         count = next((k + 1 for k, stretch in enumerate(stretches) if stretch.end_knot is not None), 0)
         way, turn = stretches[:count], TurnSpan.of(self.scene.routes[hero.id])
-        if self.manner.ready or hero.id in self._led or not all(s.approach and s.duration_s for s in way):
+        if self.style.ready or hero.id in self._led or not all(s.approach and s.duration_s for s in way):
             return moves
         if any(stretch.waiting for stretch in way):
             return moves
@@ -422,11 +423,11 @@ class HeroProblem:
             rest_s = sum(duration_s for duration_s, _, _ in moves[:count])
             if Profile(chain(0.0, s_m, speed_mps, moves)).state(rest_s)[0] > turn.start_m:
                 return moves
-        rates = (approach_rates(self.manner, stretch, following_piece(hero, stretch.piece)) for stretch in way)
+        rates = (approach_rates(self.style, stretch, following_piece(hero, stretch.piece)) for stretch in way)
         return smoothed(moves, [(-float(down), float(up)) for up, down in rates], speed_mps, self._top_mps(hero))
 
     def _top_mps(self, hero: Actor) -> float:
-        return self.manner.top_speeds_mps(self.limits[hero.id])[0]
+        return self.style.top_speeds_mps(self.limits[hero.id])[0]
 
 
 def _turns_before_trigger(turn: TurnSpan | None, side: LinearCondition | None, hero: int) -> bool:

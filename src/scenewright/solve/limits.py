@@ -1,6 +1,6 @@
 """What a vehicle can do, and what it would do of itself: bounds in steps from natural to its whole authority.
 
-What enters: a route and its speed limits. What leaves: `Limits` (never exceeded) and `Manner`s (how gently to try
+What enters: a route and its speed limits. What leaves: `Limits` (never exceeded) and `Style`s (how gently to try
 first).
 """
 
@@ -11,6 +11,7 @@ from fractions import Fraction
 
 from scenewright.motion.algebra import pin
 from scenewright.motion.laws import Law
+from scenewright.program.manner import USUAL, Manner
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route
 from scenewright.solve.turns import tightest_curvature
@@ -24,13 +25,19 @@ _SLOWEST_TOP_MPS = 8.0
 _SLOWEST_PACE_MPS = 4.0
 # Slower than this, "begins to brake" cannot be seen and "drives" is not driving.
 MOVING_MPS = 1.0
-STANDSTILL_MIN_S = 0.34
-# Who is settled does not accelerate visibly, and half of that at most in the sense of what is to begin.
-SETTLED_MPSS = 0.45
-BEGINNING_MPSS = 0.25
 _ROUNDING_S = 1e-3
+# What a motion that is planned keeps of each number of the program's manner on the safe side: the judge sees samples.
+ROOM = Fraction(1, 10)
 # How one brakes that is to wait on its way.
 WAIT_BRAKE_MPSS = 3.0
+
+
+def calm_mpss(manner: Manner) -> Fraction:
+    """Return how hard (m/s^2) one who is settled may do what is about to begin, so that it is seen to begin only then.
+
+    What begins is seen from half of what it comes to, where that is little.
+    """
+    return min(manner.stricter(ROOM).settled_mpss, manner.begins_mpss / 2)
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +103,7 @@ class Wait:
 
 
 @dataclass(frozen=True, slots=True)
-class Manner:
+class Style:
     """How an actor may move in one attempt at a plan; each list of attempts goes from natural to whole authority.
 
     Attributes
@@ -105,9 +112,9 @@ class Manner:
         While it works its way to the trigger.
     steps
         Stretches of constant acceleration before the trigger; the last is a settled one where `settle` is set.
-    counter_mpss, settle_s
-        In a settled stretch: how hard it may do the opposite of what begins at the trigger; how long it is. A little
-        longer than the half second that is asked for: the trigger may come a little sooner than planned.
+    counter_mpss, early_mpss, settle_s
+        In a settled stretch: how hard it may do the opposite of what begins at the trigger, and the same; how long it
+        is. Longer than what is asked for, where there is time: the trigger may come a little sooner than planned.
     wait
         How one waits on its way that would otherwise only creep; None for one that does not.
     dec_mpss, acc_mpss, stop_s
@@ -149,7 +156,8 @@ class Manner:
     outcome: bool = True
     outcome_margin_s: float = 0.3
     clear: bool = True
-    counter_mpss: float = SETTLED_MPSS
+    counter_mpss: float = float(USUAL.stricter(ROOM).settled_mpss)
+    early_mpss: float = float(calm_mpss(USUAL))
     settle_s: float = 0.75
     wait: Wait | None = None
     seen_s: float = 0.6
@@ -158,6 +166,21 @@ class Manner:
     ready: bool = False
     waiting_place_m: float | None = None
     sets_off_s: float = 0.0
+
+    def kept_to(self, manner: Manner) -> Style:
+        """Return the style for a program of that manner: what is asked for comes before what is preferred."""
+        kept = manner.stricter(ROOM)
+        begins_mpss, longer_s = float(kept.begins_mpss), max(0.0, float(kept.stands_s) - self.stop_s[0])
+        return replace(
+            self,
+            counter_mpss=max(self.counter_mpss, float(kept.settled_mpss)),
+            early_mpss=float(calm_mpss(manner)),
+            settle_s=max(self.settle_s, float(kept.settled_s)),
+            seen_s=max(self.seen_s, float(kept.begins_s)),
+            dec_mpss=(max(self.dec_mpss[0], begins_mpss), max(self.dec_mpss[1], begins_mpss)),
+            acc_mpss=(max(self.acc_mpss[0], begins_mpss), max(self.acc_mpss[1], begins_mpss)),
+            stop_s=(self.stop_s[0] + longer_s, self.stop_s[1] + longer_s),
+        )
 
     def top_speeds_mps(self, limits: Limits) -> tuple[float, float]:
         """Return the top speed on the way to the trigger and in a turn, for an actor within `limits`."""
@@ -170,25 +193,25 @@ class Manner:
         return limits.natural_speed_mps if self.natural_speed else limits.speed_max_mps
 
 
-STEADY = Manner("steady", 0.0, 0.0, 1, True, (1.2, 2.4), (1.2, 2.5), (0.6, 1.2), 2.0, True)
+STEADY = Style("steady", 0.0, 0.0, 1, True, (1.2, 2.4), (1.2, 2.5), (0.6, 1.2), 2.0, True)
 # Where the moment is free and holding the speed leads to one: only rounding is made up for.
-COASTING = Manner("steady", 0.02, 0.02, 1, True, (0.6, 8.0), (0.8, 4.0), (0.5, 3.0), MOVING_MPS, False)
-GENTLE = Manner("gentle", 1.0, 1.2, 2, True, (0.9, 4.0), (1.0, 2.5), (0.6, 1.5), 1.5, True)
-FIRM = Manner("firm", 2.5, 3.0, 3, True, (0.7, 6.0), (0.8, 3.5), (0.5, 3.0), MOVING_MPS, False)
-WHOLE = Manner("whole", ACCEL_MAX_MPSS, BRAKE_MAX_MPSS, 5, True, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)
-URGENT = Manner(
-    "urgent", ACCEL_MAX_MPSS, 8.0, 4, False, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False, seen_s=0.35,
+COASTING = Style("steady", 0.02, 0.02, 1, True, (0.6, 8.0), (0.8, 4.0), (0.5, 3.0), MOVING_MPS, False)
+GENTLE = Style("gentle", 1.0, 1.2, 2, True, (0.9, 4.0), (1.0, 2.5), (0.6, 1.5), 1.5, True)
+FIRM = Style("firm", 2.5, 3.0, 3, True, (0.7, 6.0), (0.8, 3.5), (0.5, 3.0), MOVING_MPS, False)
+WHOLE = Style("whole", ACCEL_MAX_MPSS, BRAKE_MAX_MPSS, 5, True, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False)
+URGENT = Style(
+    "urgent", ACCEL_MAX_MPSS, 8.0, 4, False, (0.6, 8.0), (0.6, 4.0), (0.5, 90.0), MOVING_MPS, False, seen_s=0.0,
     out_of_way=False,
 )  # fmt: skip
 # Who is about to brake may still speed up, and the other way round: nothing that was asked for has begun by that.
 COUNTER = replace(WHOLE, counter_mpss=6.0, trigger_speed_mps=0.5)
-# As little time as can just be seen, before the trigger and after it.
-CLOSE = replace(COUNTER, settle_s=0.58, seen_s=0.35, dec_mpss=(0.52, 8.0), out_of_way=False)
+# As little as can just be seen, before the trigger and after it: the manner says how little that is.
+CLOSE = replace(COUNTER, settle_s=0.0, seen_s=0.0, dec_mpss=(0.0, 8.0), out_of_way=False)
 
 # Where the hero is to be first, whatever the ego does: it loses no time after its trigger.
 GENTLE_QUICK = replace(GENTLE, dec_mpss=(1.8, 4.0), acc_mpss=(1.0, 3.5), stop_s=(0.5, 0.6), outcome_margin_s=1.5)
 FIRM_QUICK = replace(FIRM, dec_mpss=(2.0, 6.0), acc_mpss=(0.8, 4.0), stop_s=(0.5, 0.6), outcome_margin_s=1.0)
-HASTE = replace(FIRM, dec_mpss=(2.0, 8.0), acc_mpss=(0.8, 4.0), stop_s=(STANDSTILL_MIN_S, 0.5), seen_s=0.35)
+HASTE = replace(FIRM, dec_mpss=(2.0, 8.0), acc_mpss=(0.8, 4.0), stop_s=(0.0, 0.17), seen_s=0.0)
 WHOLE_QUICK = replace(WHOLE, dec_mpss=(2.0, 8.0), stop_s=(0.5, 0.6), outcome_margin_s=0.7)
 COUNTER_QUICK = replace(WHOLE_QUICK, counter_mpss=COUNTER.counter_mpss, trigger_speed_mps=COUNTER.trigger_speed_mps)
 CLOSE_QUICK = replace(COUNTER_QUICK, settle_s=CLOSE.settle_s, seen_s=CLOSE.seen_s, out_of_way=False)

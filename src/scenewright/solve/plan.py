@@ -15,6 +15,7 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene
 
 SCHEMA_VERSION = 1
+_SAME_MOMENT_S = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,13 +26,13 @@ class Plan:
     ----------
     tolerance
         By how many tight tolerances the trigger had to be given up (0: met exactly).
-    manner
+    style
         How far from natural the motion had to go.
     """
 
     profiles: Mapping[int, Profile]
     tolerance: float = 0.0
-    manner: str = ""
+    style: str = ""
     parameters: Mapping[str, float] = field(default_factory=dict)
 
     def as_dict(self, scene: Scene) -> dict[str, object]:
@@ -58,7 +59,7 @@ class Plan:
             actors[actor.name] = {"knots": knots, "segments": segments}
         return {
             "schema_version": SCHEMA_VERSION,
-            "manner": self.manner,
+            "style": self.style,
             "tolerance": self.tolerance,
             "actors": actors,
         }
@@ -73,8 +74,12 @@ class PlanWorld:
         self._parameters = parameters
 
     def state(self, actor: int, order: Order, time_s: float) -> float:
-        """Return position, speed or acceleration of `actor` at an instant."""
-        return self._profiles[actor].state(time_s)[order]
+        """Return position, speed or acceleration of `actor` at an instant; at its last knot that of what ends there."""
+        profile = self._profiles[actor]
+        last = self._scene.program.actor(actor).sketch.knots[-1]
+        if order == 2 and abs(time_s - profile.knot_times_s.get(last, math.inf)) < _SAME_MOMENT_S:
+            time_s -= 2 * _SAME_MOMENT_S
+        return profile.state(time_s)[order]
 
     def piece_span_s(self, actor: int, piece: str) -> tuple[float, float]:
         """Return when a piece begins and ends; infinite where that is not known."""

@@ -1,4 +1,4 @@
-"""Plans: tries manners from natural to whole authority, then the tightest tolerance that admits a solution.
+"""Plans: tries styles from natural to whole authority, then the tightest tolerance that admits a solution.
 
 What enters: situations, one after another. What leaves: attempts, each a checked `Plan` or the reason why there is
 none. Every model is evaluated against the program by `program.evaluate` before it is returned; the solver's word is
@@ -24,13 +24,13 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition, hero_side
 from scenewright.solve.clearance import Clearance
 from scenewright.solve.hero_problem import HeroProblem
-from scenewright.solve.limits import HASTE, Limits, Manner
+from scenewright.solve.limits import HASTE, Limits, Style
 from scenewright.solve.lowering import TIGHT, compared_dimension
 from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.solve.problem import Backend, Satisfiable, Unknown
 from scenewright.solve.reach import Prospects
 from scenewright.solve.situation import SHORTEST_LEAD_S, Situation
-from scenewright.solve.trials import COAST, EXACT, Trial, first_trials, hasty, off, opening, relaxed, trials
+from scenewright.solve.trials import COAST, EXACT, Trial, first_trials, hasty, kept_to, off, opening, relaxed, trials
 
 _TRIES_A_TICK = 5
 # How finely the best for an outcome in doubt is searched: one that is promised by no more than this (s). What comes
@@ -93,7 +93,7 @@ class Planner:
     conditions
         The scene's linear conditions (see `solve.arrival.linear_conditions`).
     budget_s
-        Wall-clock time that one re-solve may take; the search for a better manner or tolerance stops there.
+        Wall-clock time that one re-solve may take; the search for a better style or tolerance stops there.
     """
 
     def __init__(
@@ -115,24 +115,30 @@ class Planner:
         clearances = [Clearance.of(scene, structure, conditions, hero) for hero in scene.program.heroes]
         self._leads = any(c is not None and c.ahead and not c.closing for c in clearances)
         self._prospects = Prospects(scene, structure, limits, conditions)
-        self.trials = trials(self._outcome)
+        self.trials = self._kept(trials(self._outcome))
+        self._coast = self._kept(COAST)
         # One that is timed at its trigger is near it where it is slow, and has less to brake.
         sides = [(hero.id, hero_side(conditions, structure, hero.id)) for hero in scene.program.heroes]
         timed = any(side is not None and side.weights[hero][1] for hero, side in sides)
-        self._hasty = hasty(self._outcome and not timed)
-        self._held = self.trials[0].manner
+        self._hasty = self._kept(hasty(self._outcome and not timed))
+        self._held = self.trials[0].style
         self._replans = 0
         self._position = 0
         self._searching = False
 
+    def _kept(self, trials: Iterable[Trial]) -> tuple[Trial, ...]:
+        """Return the same trials in the manner of the program."""
+        return kept_to(self.scene.program.manner, trials)
+
     def first_plan(self, situations: Sequence[Situation], budget_s: float = 10.0) -> Attempt:
         """Plan from the start, with the heroes' first states free; `situations` differ in the trigger's instant."""
-        exact = (*first_trials(self._outcome), *self.trials)
+        first = self._kept(first_trials(self._outcome))
+        exact = (*first, *self.trials)
         # Where both decide when: rather soon and less evenly than late, when the ego may have changed its pace.
         soon = [s for s in situations if min(s.trigger_s.values(), default=0.0) <= _SOON_S or len(situations) == 1]
         later = [s for s in situations if s not in soon]
-        drawing_away = opening(first_trials(self._outcome), _OPENINGS_MPS) if self._leads else ()
-        groups = ((exact, soon), (exact, later), (off(), situations))
+        drawing_away = opening(first, _OPENINGS_MPS) if self._leads else ()
+        groups = ((exact, soon), (exact, later), (self._kept(off()), situations))
         ways = [(trial, situation) for situation in soon for trial in drawing_away]
         ways += [(trial, situation) for trials_, some in groups for trial in trials_ for situation in some]
         attempt, found = self._search(ways, budget_s, 2 * len(ways))
@@ -143,8 +149,8 @@ class Planner:
 
         From a step to the next it may be a second, and what is not needed here may be missing when the ego makes haste.
         """
-        margin_s = trial.manner.outcome_margin_s
-        doubtful = trial.manner.outcome and not trial.tolerance and (margin_s <= _DOUBTFUL_S or situation.pressed)
+        margin_s = trial.style.outcome_margin_s
+        doubtful = trial.style.outcome and not trial.tolerance and (margin_s <= _DOUBTFUL_S or situation.pressed)
         if attempt.plan is None or not doubtful or trial not in self.trials:
             return attempt
         knots = [knot_s for profile in attempt.plan.profiles.values() for knot_s in profile.knot_times_s.values()]
@@ -152,14 +158,15 @@ class Planner:
         soon = situation.pressed or any(now_s < knot_s <= now_s + JUST_BEFORE_S for knot_s in knots)
         if not situation.trigger_s and not soon:
             return attempt
-        low, high = self.trials[self.trials.index(trial) - 1].manner.outcome_margin_s, margin_s
+        low, high = self.trials[self.trials.index(trial) - 1].style.outcome_margin_s, margin_s
         if situation.pressed:
-            low, trial = margin_s + _MOST_HASTE_S, Trial(replace(HASTE, clear=False))
+            low = margin_s + _MOST_HASTE_S
+            trial = Trial(replace(HASTE, clear=False).kept_to(self.scene.program.manner))
         while low - high > _FINELY_S:
             middle = 0.5 * (low + high)
-            manner = replace(trial.manner, outcome_margin_s=middle)
-            timed = self._timed(Trial(manner), situation)
-            found = None if timed is None else self._solve(timed, manner, Fraction(0), DEFAULT_BUDGET_S, effort)
+            style = replace(trial.style, outcome_margin_s=middle)
+            timed = self._timed(Trial(style), situation)
+            found = None if timed is None else self._solve(timed, style, Fraction(0), DEFAULT_BUDGET_S, effort)
             if isinstance(found, Plan):
                 high, attempt = middle, replace(attempt, plan=found)
             else:
@@ -185,7 +192,7 @@ class Planner:
         elif tried[0] >= len(preferred):
             self._position = first + tried[0] - len(preferred)
         if attempt.plan is not None and tried is not None:
-            self._held = tried[1].manner
+            self._held = tried[1].style
             attempt = self._soonest(attempt, tried[1], tried[2], _EFFORT)
         return attempt
 
@@ -198,10 +205,10 @@ class Planner:
     ]:
         """Return what to try, in order: what is tried at every tick, what is exact, and, from some number on, the rest.
 
-        Every manner at the planned instant comes before any at a later one: who puts off its trigger to move a little
+        Every style at the planned instant comes before any at a later one: who puts off its trigger to move a little
         more gently may put it off for ever.
         """
-        preferred = [(trial, situation) for trial in COAST for situation in situations if situation.coasting]
+        preferred = [(trial, situation) for trial in self._coast for situation in situations if situation.coasting]
         preferred += [(trial, situation) for trial in self._hasty for situation in situations if situation.earliest_s]
         situations = [situation for situation in situations if not situation.coasting]
         near, far = situations[:_NEAR], situations[_NEAR:]
@@ -214,19 +221,20 @@ class Planner:
         def last(first: int) -> Iterator[tuple[Trial, Situation]]:
             trials = off()
             if len(situations) == 1:
-                trials = relaxed(self._held, lambda manner: self._least_tolerance(manner, situations[0]))
-            yield from [(trial, situation) for trial in trials for situation in near][first:]
+                manner = self.scene.program.manner
+                trials = relaxed(self._held, lambda style: self._least_tolerance(style.kept_to(manner), situations[0]))
+            yield from [(trial, situation) for trial in self._kept(trials) for situation in near][first:]
 
         return preferred, exact, last
 
-    def _least_tolerance(self, manner: Manner, situation: Situation) -> float:
+    def _least_tolerance(self, style: Style, situation: Situation) -> float:
         """Return the smallest tolerance with which there is hope, by arithmetic: a lower bound of what is needed."""
         low, high = 0.0, _FARTHEST
-        if self._timed(Trial(manner), situation) is not None:
+        if self._timed(Trial(style), situation) is not None:
             return low
         for _ in range(_HALVINGS):
             middle = 0.5 * (low + high) if low else 0.15 * high
-            if self._timed(Trial(manner, Fraction(middle)), situation) is None:
+            if self._timed(Trial(style, Fraction(middle)), situation) is None:
                 low = middle
             else:
                 high = middle
@@ -238,7 +246,7 @@ class Planner:
         shifts = _SHIFTS if trial.tolerance <= _LITTLE_OFF else _SHIFTS[-1:]
         for share in shifts if trial.tolerance else (0,):
             timed = retimed(situation, trial.tolerance * share)
-            if self._prospects.least_miss(timed, trial.manner, allowed) <= allowed:
+            if self._prospects.least_miss(timed, trial.style, allowed) <= allowed:
                 return timed
         return None
 
@@ -255,7 +263,7 @@ class Planner:
                 continue
             # To ask twice for each would leave no time for those further on.
             gently = tries == 0
-            for manner in self._prospects.versions(timed, trial.manner, float(trial.tolerance), gently):
+            for style in self._prospects.versions(timed, trial.style, float(trial.tolerance), gently):
                 wall_s = time.perf_counter() - started
                 if wall_s >= budget_s:
                     return Attempt(None, "timeout", "time budget", wall_s, tries), (number, trial, situation)
@@ -263,10 +271,10 @@ class Planner:
                     return Attempt(None, "unsat", reason, wall_s, tries), (number, trial, situation)
                 tries += 1
                 effort = _EFFORT if most_tries == _TRIES_A_TICK else _FIRST_EFFORT
-                found = self._solve(timed, manner, trial.tolerance, budget_s - wall_s, effort)
+                found = self._solve(timed, style, trial.tolerance, budget_s - wall_s, effort)
                 if isinstance(found, Plan):
                     status = "sat" if trial.tolerance == 0 else "relaxed"
-                    promises = trial.manner.outcome and trial.manner.outcome_margin_s > 0
+                    promises = trial.style.outcome and trial.style.outcome_margin_s > 0
                     wall_s = time.perf_counter() - started
                     return Attempt(found, status, "", wall_s, tries, promises), (number, trial, situation)
                 reason = found
@@ -287,14 +295,14 @@ class Planner:
         return None
 
     def _solve(
-        self, situation: Situation, manner: Manner, tolerance: Fraction, timeout_s: float, effort: int = _FIRST_EFFORT
+        self, situation: Situation, style: Style, tolerance: Fraction, timeout_s: float, effort: int = _FIRST_EFFORT
     ) -> Plan | str:
-        built = HeroProblem(self.scene, self.structure, self.limits, situation, manner, tolerance, self.conditions)
+        built = HeroProblem(self.scene, self.structure, self.limits, situation, style, tolerance, self.conditions)
         result = self.backend.solve(built.problem, timeout_s, effort=effort)
         if isinstance(result, Unknown):
             return _TOO_HARD if result.reason == "timeout" else result.reason
         if not isinstance(result, Satisfiable):
-            return f"{manner.name} motion cannot meet the trigger"
+            return f"{style.name} motion cannot meet the trigger"
         profiles: dict[int, Profile] = dict(built.profiles(result.model))
         profiles[EGO] = Profile(situation.ego.segments, dict(situation.ego_knots_s))
         parameters = {name: float(value) for name, value in self.scene.parameters.items()}
@@ -304,7 +312,7 @@ class Planner:
             return f"the model fails its check: {fault}"
         if situation.time_s == 0.0 and (fault := self._left_out(profiles, parameters, built.asserted, tolerance)):
             return f"no plan is made for it: {fault}"
-        return Plan(profiles, float(tolerance), manner.name, parameters)
+        return Plan(profiles, float(tolerance), style.name, parameters)
 
     def _left_out(
         self,

@@ -17,7 +17,7 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import TIGHT_LENGTH_M, TIGHT_TIME_S, LinearCondition, hero_side
 from scenewright.solve.clearance import out_of_way_mps
 from scenewright.solve.haste import Errand
-from scenewright.solve.limits import ACCEL_MAX_MPSS, SETTLED_MPSS, WAIT_BRAKE_MPSS, Limits, Manner, Wait
+from scenewright.solve.limits import ACCEL_MAX_MPSS, ROOM, WAIT_BRAKE_MPSS, Limits, Style, Wait
 from scenewright.solve.situation import Situation
 from scenewright.solve.stretches import (
     approach_rates,
@@ -180,6 +180,7 @@ class Prospects:
         program = scene.program
         self._heroes = {hero.id: hero for hero in program.heroes}
         self._limits = limits
+        self._settled_mpss = float(program.manner.stricter(ROOM).settled_mpss)
         self._out_of_way_mps = {hero.id: out_of_way_mps(scene, structure, conditions, hero) for hero in program.heroes}
         self._tasks: dict[int, Task] = {}
         errands = {hero.id: Errand.of(program, structure, conditions, hero) for hero in program.heroes}
@@ -189,69 +190,69 @@ class Prospects:
             if task is not None:
                 self._tasks[hero.id] = task
 
-    def least_miss(self, situation: Situation, manner: Manner, tolerance: float = 0.0) -> float:
+    def least_miss(self, situation: Situation, style: Style, tolerance: float = 0.0) -> float:
         """Return how far off its side some hero must be at the least, in tight tolerances, when it moves so.
 
         Without end where it then comes too late for what is to come of it. `tolerance` is what it may be off.
         """
-        if manner.outcome and self._comes_too_late(situation, manner):
+        if style.outcome and self._comes_too_late(situation, style):
             return math.inf
-        return max((least_miss(*way) for way in self._ways(situation, manner, tolerance)), default=0.0)
+        return max((least_miss(*way) for way in self._ways(situation, style, tolerance)), default=0.0)
 
-    def _comes_too_late(self, situation: Situation, manner: Manner) -> bool:
+    def _comes_too_late(self, situation: Situation, style: Style) -> bool:
         """Whether no hero that moves so can be first where it is to be, with the margin that is asked for."""
         for hero, trigger_s in situation.trigger_s.items():
             errand = self._errands.get(hero)
             latest_s = situation.ego_knots_s.get(errand.ego_knot) if errand else None
             if errand is None or latest_s is None:
                 continue
-            soonest_s = trigger_s + errand.least_s(manner, self._limits[hero]) + manner.outcome_margin_s
+            soonest_s = trigger_s + errand.least_s(style, self._limits[hero]) + style.outcome_margin_s
             if soonest_s > latest_s + _LATE_SLACK_S:
                 return True
         return False
 
-    def versions(self, situation: Situation, manner: Manner, tolerance: float, gently: bool) -> tuple[Manner, ...]:
-        """Return how to carry out a manner, best first: waiting where it has the time, gently, with all it allows."""
-        waits = self.waiting(situation, manner)
-        if manner.ready:
-            return self._ready(situation, manner, waits)
-        gentled = self.gentled(situation, manner, tolerance) if gently else manner
-        found = (gentled,) if gentled == manner else (gentled, manner)
+    def versions(self, situation: Situation, style: Style, tolerance: float, gently: bool) -> tuple[Style, ...]:
+        """Return how to carry out a style, best first: waiting where it has the time, gently, with all it allows."""
+        waits = self.waiting(situation, style)
+        if style.ready:
+            return self._ready(situation, style, waits)
+        gentled = self.gentled(situation, style, tolerance) if gently else style
+        found = (gentled,) if gentled == style else (gentled, style)
         return found if waits is None else (waits, *found)
 
-    def _ready(self, situation: Situation, manner: Manner, waits: Manner | None) -> tuple[Manner, ...]:
+    def _ready(self, situation: Situation, style: Style, waits: Style | None) -> tuple[Style, ...]:
         """Return how a hero that is about to brake is ready for whatever the ego does; nothing for any other."""
-        ways = self._ways(situation, manner)
-        if len(ways) != 1 or self._tasks[ways[0][1]].following is not PieceKind.DEC:
+        way = self._way_to_a_place(situation, style)
+        if way is None or self._tasks[way[1]].following is not PieceKind.DEC:
             return ()
-        _, _, _, s_m, speed_mps = ways[0]
-        places = self._waiting_places(ways[0], manner, hasty=True)
+        _, _, _, s_m, speed_mps = way
+        places = self._waiting_places(way, style, hasty=True)
         stops_m = s_m + speed_mps * speed_mps / (2.0 * _BRAKES_AT_MOST_MPSS)
         place_m, go_s, _ = next((place for place in places if place[0] >= stops_m), places[-1])
-        ready = replace(manner, waiting_place_m=place_m, sets_off_s=_SOMEWHAT_FASTER * go_s)
+        ready = replace(style, waiting_place_m=place_m, sets_off_s=_SOMEWHAT_FASTER * go_s)
         found = (self._calmer(situation, ready), ready)
         return found if waits is None else (waits, *found)
 
-    def _calmer(self, situation: Situation, manner: Manner) -> Manner:
-        """Return `manner` with some of its authority: a little more than it takes where the ego comes as foreseen."""
-        least = self.gentled(situation, manner, 0.0)
+    def _calmer(self, situation: Situation, style: Style) -> Style:
+        """Return `style` with some of its authority: a little more than it takes where the ego comes as foreseen."""
+        least = self.gentled(situation, style, 0.0)
         up, down = least.approach_accel_mpss, least.approach_brake_mpss
         return replace(
-            manner,
-            approach_accel_mpss=up + _CALM_SHARE * (manner.approach_accel_mpss - up),
-            approach_brake_mpss=down + _CALM_SHARE * (manner.approach_brake_mpss - down),
+            style,
+            approach_accel_mpss=up + _CALM_SHARE * (style.approach_accel_mpss - up),
+            approach_brake_mpss=down + _CALM_SHARE * (style.approach_brake_mpss - down),
         )
 
-    def gentled(self, situation: Situation, manner: Manner, tolerance: float) -> Manner:
-        """Return `manner` with no more authority on the way to the trigger than it takes to come as near as that.
+    def gentled(self, situation: Situation, style: Style, tolerance: float) -> Style:
+        """Return `style` with no more authority on the way to the trigger than it takes to come as near as that.
 
         What is left is a reserve for when the ego drives otherwise than foreseen.
         """
-        settled = replace(manner, counter_mpss=min(manner.counter_mpss, SETTLED_MPSS))
-        if settled != manner and self.least_miss(situation, settled, tolerance) <= tolerance:
-            manner = settled
-        ways = self._ways(situation, manner, tolerance)
-        up, down = manner.approach_accel_mpss, manner.approach_brake_mpss
+        settled = replace(style, counter_mpss=min(style.counter_mpss, self._settled_mpss))
+        if settled != style and self.least_miss(situation, settled, tolerance) <= tolerance:
+            style = settled
+        ways = self._ways(situation, style, tolerance)
+        up, down = style.approach_accel_mpss, style.approach_brake_mpss
         low, high = 0.0, 1.0
         for _ in range(_HALVINGS):
             share = 0.5 * (low + high)
@@ -262,30 +263,30 @@ class Prospects:
             low, high = (low, share) if enough else (share, high)
         share = min(1.0, _AMPLE * high + _AT_LEAST)
         if not ways or share >= 1.0:
-            return manner
-        return replace(manner, approach_accel_mpss=share * up, approach_brake_mpss=share * down)
+            return style
+        return replace(style, approach_accel_mpss=share * up, approach_brake_mpss=share * down)
 
-    def waiting(self, situation: Situation, manner: Manner) -> Manner | None:
-        """Return `manner` with a wait on the way where it would only creep to the trigger; None where it would not.
+    def waiting(self, situation: Situation, style: Style) -> Style | None:
+        """Return `style` with a wait on the way where it would only creep to the trigger; None where it would not.
 
         Who waits can still be early or late; who creeps ever nearer can only be early. One waits as near as it can and
         still be fast enough at its trigger, for the ego may make haste.
         """
-        ways = self._ways(situation, manner)
-        if len(ways) != 1 or manner.natural_speed:
+        way = self._way_to_a_place(situation, style)
+        if way is None or style.natural_speed:
             return None
-        side, hero, approach, s_m, speed_mps = ways[0]
+        side, hero, approach, s_m, speed_mps = way
         rest_s = situation.trigger_s[hero] - situation.time_s
         creeps_mps = _CREEPS_WHEN_HASTY_MPS if situation.earliest_s else _CREEPS_MPS
         if approach.place_m(side, hero) - s_m > creeps_mps * rest_s:
             return None
-        for place_m, go_s, room_m in self._waiting_places(ways[0], manner, bool(situation.earliest_s)):
+        for place_m, go_s, room_m in self._waiting_places(way, style, bool(situation.earliest_s)):
             wait = _drive_up(s_m, speed_mps, place_m, room_m, _SOMEWHAT_FASTER * go_s)
             if wait is not None and wait.shortest_s < rest_s:
-                return replace(manner, wait=wait)
+                return replace(style, wait=wait)
         return None
 
-    def _waiting_places(self, way: _Way, manner: Manner, hasty: bool) -> list[tuple[float, float, float]]:
+    def _waiting_places(self, way: _Way, style: Style, hasty: bool) -> list[tuple[float, float, float]]:
         """Return from where (m) a hero that stands can be at its side, how long (s) that takes, and the room (m) there.
 
         The best come first. The farther it is, the more it can make up for on its way; the nearer, the sooner it is
@@ -302,39 +303,44 @@ class Prospects:
         places = []
         for speed, rate, room_m in found:
             go_s, run_m = speed / rate, speed * speed / (2.0 * rate)
-            if speed and (not brakes or manner.counter_mpss < _SETS_OFF_MPSS):
-                go_s, run_m = go_s + manner.settle_s, run_m + speed * manner.settle_s
+            if speed and (not brakes or style.counter_mpss < _SETS_OFF_MPSS):
+                go_s, run_m = go_s + style.settle_s, run_m + speed * style.settle_s
             place_m = -(side.constant + per_speed * speed) / per_metre - run_m
             places.append((place_m, max(go_s, _SHORTEST_GO_S), room_m))
         return places
 
-    def _ways(self, situation: Situation, manner: Manner, tolerance: float = 0.0) -> list[_Way]:
+    def _way_to_a_place(self, situation: Situation, style: Style) -> _Way | None:
+        """Return the way of the only hero that is on one, where its side is a place and not a speed alone."""
+        ways = self._ways(situation, style)
+        return ways[0] if len(ways) == 1 and ways[0][0].weights[ways[0][1]][0] else None
+
+    def _ways(self, situation: Situation, style: Style, tolerance: float = 0.0) -> list[_Way]:
         """Return, for every hero with a side of its own and a timed way to it, what `least_miss` takes."""
         found = []
         for hero_id, state in situation.heroes.items():
             task = self._tasks.get(hero_id)
             if task is not None and hero_id in situation.trigger_s and state.piece == task.piece:
-                approach = self._approach(hero_id, task, situation, manner, tolerance)
+                approach = self._approach(hero_id, task, situation, style, tolerance)
                 if approach is not None:
                     found.append((task.side, hero_id, approach, state.s_m, state.speed_mps))
         return found
 
     def _approach(
-        self, hero_id: int, task: Task, situation: Situation, manner: Manner, tolerance: float
+        self, hero_id: int, task: Task, situation: Situation, style: Style, tolerance: float
     ) -> Approach | None:
         """Return the way to the trigger; None where no time is left."""
         rest_s = pin(situation.trigger_s[hero_id]) - pin(situation.time_s)
         stretches = []
-        for stretch in timed_approach(manner, task.piece, rest_s, task.knot, situation.heroes[hero_id].speed_mps):
-            up, down = approach_rates(manner, stretch, task.following)
+        for stretch in timed_approach(style, task.piece, rest_s, task.knot, situation.heroes[hero_id].speed_mps):
+            up, down = approach_rates(style, stretch, task.following)
             stretches.append((float(stretch.duration_s or 0), float(up), float(down)))
         if not stretches:
             return None
         timed = bool(task.side.weights[hero_id][1])
-        least = trigger_speed_mps(manner, self._heroes[hero_id], task.piece, timed, self._out_of_way_mps[hero_id])
-        brakes_s = float(shortest_s(manner, self._heroes[hero_id], task.piece + 1, task.knot, task.side))
-        least = max(least, task.least_mps(manner.dec_mpss, brakes_s, tolerance))
-        return Approach(tuple(stretches), manner.top_speeds_mps(self._limits[hero_id])[0], least)
+        least = trigger_speed_mps(style, self._heroes[hero_id], task.piece, timed, self._out_of_way_mps[hero_id])
+        brakes_s = float(shortest_s(style, self._heroes[hero_id], task.piece + 1, task.knot, task.side))
+        least = max(least, task.least_mps(style.dec_mpss, brakes_s, tolerance))
+        return Approach(tuple(stretches), style.top_speeds_mps(self._limits[hero_id])[0], least)
 
 
 def _drive_up(s_m: float, speed_mps: float, place_m: float, room_m: float, go_s: float) -> Wait | None:

@@ -1,6 +1,6 @@
 """A hero that is ready: in time if the ego suddenly makes haste, and not too far on if it stops.
 
-What enters: a situation, a manner, where a hero is at some moment on its way to its trigger. What leaves: linear
+What enters: a situation, a style, where a hero is at some moment on its way to its trigger. What leaves: linear
 conditions.
 """
 
@@ -13,7 +13,7 @@ import numpy as np
 
 from scenewright.motion.algebra import Condition, Symbol, compare, pin
 from scenewright.solve.arrival import LinearCondition
-from scenewright.solve.limits import Manner
+from scenewright.solve.limits import Style
 from scenewright.solve.situation import Situation
 
 # How a hero follows an ego that makes haste: not at once, and with some reserve.
@@ -24,14 +24,14 @@ _STOPS_MPSS, _CHORDS_MPS = 5.0, (0, 3, 6, 10, 15, 22)
 
 def readiness(
     situation: Situation,
-    manner: Manner,
+    style: Style,
     side: LinearCondition | None,
     hero: int,
     now_s: float,
     position: Symbol,
     speed: Symbol,
 ) -> Iterator[tuple[Condition, str]]:
-    """Yield what it takes to be ready at `now_s`, with why; nothing where the manner does not ask for it.
+    """Yield what it takes to be ready at `now_s`, with why; nothing where the style does not ask for it.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ def readiness(
         Of the hero at `now_s`.
     """
     earliest = situation.earliest_s.get(hero)
-    if manner.waiting_place_m is None or not earliest or side is None:
+    if style.waiting_place_m is None or not earliest or side is None:
         return
     arrival_s = float(np.interp(now_s, [pair[0] for pair in earliest], [pair[1] for pair in earliest]))
     rest = pin(max(0.0, arrival_s - now_s - _REACTION_S))
@@ -51,10 +51,10 @@ def readiness(
     place = position + speed * rest + rate * rest * rest / 2
     value = sign * pin(side.constant) + per_metre * place + per_speed * (speed + rate * rest)
     yield compare(">=", value, 0), "is ready for an ego in haste"
-    if now_s > situation.trigger_s[hero] - manner.sets_off_s:
+    if now_s > situation.trigger_s[hero] - style.sets_off_s:
         return  # it is on its way, whatever happens
     # The way to a stand, by chords of the square of the speed.
-    latest = pin(manner.waiting_place_m)
+    latest = pin(style.waiting_place_m)
     for low, high in pairwise(_CHORDS_MPS):
         stop = ((low + high) * speed - low * high) * pin(0.5 / _STOPS_MPSS)
         yield compare("<=", position + stop, latest), "is ready for an ego that stops"

@@ -1,6 +1,6 @@
 """Divides what is left of a hero's sketch into stretches of one acceleration each.
 
-What enters: a sketch, a `Situation`, a `Manner`. What leaves: stretches, in order. Where the instant of the trigger is
+What enters: a sketch, a `Situation`, a `Style`. What leaves: stretches, in order. Where the instant of the trigger is
 given, those on the way to it have known durations, which keeps the problem linear. It bounds nothing.
 """
 
@@ -14,7 +14,7 @@ from scenewright.program.expressions import Compare, Formula, PieceRef, State, w
 from scenewright.program.structure import Structure
 from scenewright.program.types import Actor, PieceKind, Program
 from scenewright.solve.arrival import LinearCondition
-from scenewright.solve.limits import BEGINNING_MPSS, COASTING, Limits, Manner, Wait
+from scenewright.solve.limits import COASTING, Limits, Style, Wait
 from scenewright.solve.situation import Situation
 
 _WALKING_MPS = 2.0
@@ -41,7 +41,7 @@ class Stretch:
 
 @dataclass(frozen=True, slots=True)
 class Division:
-    """How one hero's motion is divided, in one manner.
+    """How one hero's motion is divided, in one style.
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ class Division:
     structure: Structure
     limits: Limits
     situation: Situation
-    manner: Manner
+    style: Style
     conditions: tuple[LinearCondition, ...]
 
     def stretches(self, hero: Actor) -> list[Stretch]:
@@ -72,7 +72,7 @@ class Division:
             planned = self.situation.trigger_s.get(hero.id)
             if approach and piece + 1 == trigger_index and piece == first and planned is not None:
                 speed_mps = state.speed_mps if state else 0.0
-                found += timed_approach(self.manner, piece, pin(planned) - pin(self.situation.time_s), knot, speed_mps)
+                found += timed_approach(self.style, piece, pin(planned) - pin(self.situation.time_s), knot, speed_mps)
             elif approach:
                 found += [Stretch(piece, None, None, True), Stretch(piece, None, knot, True, True)]
             elif sketch.pieces[piece] is PieceKind.ACC and self._cruises(hero, piece):
@@ -93,9 +93,9 @@ class Division:
         )
         if end is None or begin is None or rate_is_given(self.program, hero, piece):
             return False
-        top = min(self.manner.top_speeds_mps(self.limits))
-        start_mps = 0.0 if piece and hero.sketch.pieces[piece - 1] is PieceKind.STOP else self.manner.trigger_speed_mps
-        return (top * top - start_mps * start_mps) / (2 * self.manner.acc_mpss[1]) < end - begin
+        top = min(self.style.top_speeds_mps(self.limits))
+        start_mps = 0.0 if piece and hero.sketch.pieces[piece - 1] is PieceKind.STOP else self.style.trigger_speed_mps
+        return (top * top - start_mps * start_mps) / (2 * self.style.acc_mpss[1]) < end - begin
 
     def _place_of(self, hero: Actor, knot: str) -> float | None:
         """Return where the program puts `hero` at `knot`: exactly, or for a time to arrival at walking pace."""
@@ -108,7 +108,7 @@ class Division:
         return None
 
 
-def timed_approach(manner: Manner, piece: int, rest_s: Fraction, knot: str, speed_mps: float = 0.0) -> list[Stretch]:
+def timed_approach(style: Style, piece: int, rest_s: Fraction, knot: str, speed_mps: float = 0.0) -> list[Stretch]:
     """Divide the time that is left before the trigger into steps, the last one settled where that is asked for.
 
     Parameters
@@ -116,17 +116,17 @@ def timed_approach(manner: Manner, piece: int, rest_s: Fraction, knot: str, spee
     speed_mps
         Of the hero now: the first step leaves it the time to come to a stand and no more.
     """
-    stops_s = pin(speed_mps / manner.approach_brake_mpss) if manner.approach_brake_mpss else Fraction(0)
-    if manner.wait is not None and rest_s > pin(manner.wait.shortest_s):
-        return _waiting_approach(manner.wait, pin(manner.settle_s), piece, rest_s, knot)
-    steps, settle = manner.steps, manner.settle
+    stops_s = pin(speed_mps / style.approach_brake_mpss) if style.approach_brake_mpss else Fraction(0)
+    if style.wait is not None and rest_s > pin(style.wait.shortest_s):
+        return _waiting_approach(style.wait, pin(style.settle_s), piece, rest_s, knot)
+    steps, settle = style.steps, style.settle
     if rest_s <= 0:
         return []
     if steps == 1 or rest_s < Fraction(1, 5):
         return [Stretch(piece, rest_s, knot, True, settle)]
     if not settle:
         return _divided(piece, rest_s, steps, knot, stops_s)
-    settle_s = pin(manner.settle_s)
+    settle_s = pin(style.settle_s)
     if rest_s <= settle_s * Fraction(11, 10):
         return [Stretch(piece, rest_s, knot, True, True)]
     hold_s = max(settle_s, rest_s * Fraction(2, 5)) if steps == 2 else settle_s
@@ -153,18 +153,18 @@ def following_piece(hero: Actor, piece: int) -> PieceKind:
     return pieces[piece + 1] if piece + 1 < len(pieces) else PieceKind.GO
 
 
-def approach_rates(manner: Manner, stretch: Stretch, following: PieceKind) -> tuple[Fraction, Fraction]:
+def approach_rates(style: Style, stretch: Stretch, following: PieceKind) -> tuple[Fraction, Fraction]:
     """Return how hard (m/s^2) the hero may speed up and brake in a stretch on the way to its trigger.
 
     Before its trigger it settles. The gentlest shapes hold their speed; the others do not begin early what `following`
-    is to begin, and do the opposite no harder than the manner says: who is about to brake may still speed up.
+    is to begin, and do the opposite no harder than the style says: who is about to brake may still speed up.
     """
-    up, down = pin(manner.approach_accel_mpss), pin(manner.approach_brake_mpss)
+    up, down = pin(style.approach_accel_mpss), pin(style.approach_brake_mpss)
     if not stretch.settled:
         return up, down
-    if manner.steps <= 2:
-        return (up, down) if manner == COASTING else (Fraction(0), Fraction(0))
-    early, counter = pin(BEGINNING_MPSS), pin(manner.counter_mpss)
+    if style.steps <= 2:
+        return (up, down) if style.approach_accel_mpss == COASTING.approach_accel_mpss else (Fraction(0), Fraction(0))
+    early, counter = pin(style.early_mpss), pin(style.counter_mpss)
     if following is PieceKind.DEC:
         return min(up, counter), min(down, early)
     if following is PieceKind.ACC:
@@ -173,7 +173,7 @@ def approach_rates(manner: Manner, stretch: Stretch, following: PieceKind) -> tu
 
 
 def shortest_s(
-    manner: Manner, hero: Actor, piece: int, trigger_knot: str | None, side: LinearCondition | None
+    style: Style, hero: Actor, piece: int, trigger_knot: str | None, side: LinearCondition | None
 ) -> Fraction:
     """Return how long a piece must last at least: long enough to be seen where it is what was asked for.
 
@@ -182,23 +182,23 @@ def shortest_s(
     side
         The hero's side of its trigger, if it has one of its own.
     """
-    if hero.sketch.pieces[piece] not in (PieceKind.DEC, PieceKind.ACC) or not manner.settle:
+    if hero.sketch.pieces[piece] not in (PieceKind.DEC, PieceKind.ACC) or not style.settle:
         return _SHORTEST_S
     if side is not None and hero.sketch.knots[piece] == trigger_knot and all(side.weights[hero.id]):
         # Who is half a second from a place and speeds up is there before that.
         away_s = pin(side.weights[hero.id][1] / side.weights[hero.id][0])
-        return min(pin(manner.seen_s), max(_SHORTEST_S, away_s * _OF_TIME_TO_ARRIVAL))
-    return pin(manner.seen_s)
+        return min(pin(style.seen_s), max(_SHORTEST_S, away_s * _OF_TIME_TO_ARRIVAL))
+    return pin(style.seen_s)
 
 
-def trigger_speed_mps(manner: Manner, hero: Actor, piece: int, timed: bool, out_of_way_mps: float = 0.0) -> float:
+def trigger_speed_mps(style: Style, hero: Actor, piece: int, timed: bool, out_of_way_mps: float = 0.0) -> float:
     """Return the smallest speed (m/s) at the trigger that ends `piece`.
 
     One that is to speed up may wait at its place and set off when the moment comes, unless the program times it there
     (`timed`), as a time to arrival does: then it cannot stand.
     """
-    waits = following_piece(hero, piece) is PieceKind.ACC and not manner.natural_speed and not timed
-    return 0.0 if waits else max(manner.trigger_speed_mps, out_of_way_mps if manner.out_of_way else 0.0)
+    waits = following_piece(hero, piece) is PieceKind.ACC and not style.natural_speed and not timed
+    return 0.0 if waits else max(style.trigger_speed_mps, out_of_way_mps if style.out_of_way else 0.0)
 
 
 def _divided(piece: int, rest_s: Fraction, steps: int, knot: str | None, stops_s: Fraction) -> list[Stretch]:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from scenewright.program.manner import Manner
 from scenewright.solve.limits import (
     CLOSE,
     CLOSE_QUICK,
@@ -24,7 +25,7 @@ from scenewright.solve.limits import (
     URGENT,
     WHOLE,
     WHOLE_QUICK,
-    Manner,
+    Style,
 )
 
 
@@ -32,7 +33,7 @@ from scenewright.solve.limits import (
 class Trial:
     """One way to try: how to move, and how far off the trigger may be (in tight tolerances)."""
 
-    manner: Manner
+    style: Style
     tolerance: Fraction = Fraction(0)
 
 
@@ -40,19 +41,19 @@ COAST = (Trial(COASTING), Trial(COASTING, Fraction(1, 2)))
 # Where the ego may make haste: to its place and wait there, or at least never far from it.
 _READY = Trial(replace(COUNTER, ready=True))
 _READY_QUICK = Trial(replace(COUNTER_QUICK, outcome_margin_s=0.3, ready=True))
-EXACT = tuple(Trial(manner) for manner in (GENTLE, FIRM, WHOLE, COUNTER, CLOSE))
+EXACT = tuple(Trial(style) for style in (GENTLE, FIRM, WHOLE, COUNTER, CLOSE))
 # Where the prediction denies the outcome, the hero does the most it can for it: the ego may still give way.
-_QUICK = tuple(Trial(manner) for manner in (GENTLE_QUICK, FIRM_QUICK, WHOLE_QUICK, COUNTER_QUICK, CLOSE_QUICK))
+_QUICK = tuple(Trial(style) for style in (GENTLE_QUICK, FIRM_QUICK, WHOLE_QUICK, COUNTER_QUICK, CLOSE_QUICK))
 # Before a gentler way that the prediction promises no more than just: the same haste, as much of it as there is.
-_JUST_QUICK = tuple(Trial(replace(trial.manner, outcome_margin_s=0.3)) for trial in _QUICK)
+_JUST_QUICK = tuple(Trial(replace(trial.style, outcome_margin_s=0.3)) for trial in _QUICK)
 _IN_HASTE = tuple(Trial(replace(HASTE, outcome_margin_s=margin_s, clear=False)) for margin_s in (0.7, 0.5, 0.3))
 _FOR_OUTCOME = tuple(
     Trial(replace(HASTE, outcome_margin_s=-late_s, clear=False))
     for late_s in (-0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0)
 )
 _WITHOUT_OUTCOME = (
-    *(Trial(replace(manner, outcome=False, acc_mpss=(2.5, 4.0))) for manner in (FIRM_QUICK, COUNTER_QUICK)),
-    *(Trial(replace(manner, outcome=False)) for manner in (FIRM, COUNTER)),
+    *(Trial(replace(style, outcome=False, acc_mpss=(2.5, 4.0))) for style in (FIRM_QUICK, COUNTER_QUICK)),
+    *(Trial(replace(style, outcome=False)) for style in (FIRM, COUNTER)),
 )
 # How far beyond the least miss that arithmetic gives the solver is asked: as ``factor * miss + rest``.
 _BEYOND = ((1.05, 0.03), (1.3, 0.15), (2.0, 0.6))
@@ -78,7 +79,7 @@ def hasty(outcome: bool) -> tuple[Trial, ...]:
     return (_READY_QUICK, _READY) if outcome else (_READY,)
 
 
-def relaxed(held: Manner, least: Callable[[Manner], float]) -> tuple[Trial, ...]:
+def relaxed(held: Style, least: Callable[[Style], float]) -> tuple[Trial, ...]:
     """Return what to try where nothing meets the trigger exactly, the nearest first.
 
     A hero that is settled but a little off is worth more than one that is exact and begins early.
@@ -86,9 +87,9 @@ def relaxed(held: Manner, least: Callable[[Manner], float]) -> tuple[Trial, ...]
     Parameters
     ----------
     held
-        The manner of the plan that is held: what follows the trigger stays as it is there, where that is possible.
+        The style of the plan that is held: what follows the trigger stays as it is there, where that is possible.
     least
-        Returns the least miss (tight tolerances) that a manner can have.
+        Returns the least miss (tight tolerances) that a style can have.
     """
     quick = replace(CLOSE_QUICK, outcome=held.outcome, outcome_margin_s=held.outcome_margin_s, clear=held.clear)
     free = replace(_FREE, acc_mpss=held.acc_mpss)
@@ -106,13 +107,18 @@ def off() -> tuple[Trial, ...]:
     return _OFF
 
 
-def _trial(manner: Manner, tolerance: float) -> Trial:
-    return Trial(manner, Fraction(round(min(tolerance, _WORST), 2)).limit_denominator(100))
+def _trial(style: Style, tolerance: float) -> Trial:
+    return Trial(style, Fraction(round(min(tolerance, _WORST), 2)).limit_denominator(100))
+
+
+def kept_to(manner: Manner, trials: Iterable[Trial]) -> tuple[Trial, ...]:
+    """Return the same trials for a program of that manner."""
+    return tuple(replace(trial, style=trial.style.kept_to(manner)) for trial in trials)
 
 
 def opening(trials: tuple[Trial, ...], by_mps: Iterable[float]) -> tuple[Trial, ...]:
     """Return the same trials for one that the ego follows, drawing away from it at its trigger, the fastest first."""
-    return tuple(replace(trial, manner=replace(trial.manner, opening_mps=mps)) for mps in by_mps for trial in trials)
+    return tuple(replace(trial, style=replace(trial.style, opening_mps=mps)) for mps in by_mps for trial in trials)
 
 
 def first_trials(outcome: bool) -> tuple[Trial, ...]:

@@ -174,6 +174,7 @@ def record_of(case: BenchCase, row: BenchmarkRow, result: Result) -> CaseRecord:
         return replace(record, cause=cause, first_cause=cause, proof=proof)
     if not result.takes or result.verdict is None:
         tried = result.attempt.reason if result.attempt is not None else ""
+        tried = "; ".join(map(str, result.not_held)) or tried
         return replace(record, cause="gave up", first_cause="gave up", message=tried)
     return _with_takes(record, row, result)
 

@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from fractions import Fraction
+
 import numpy as np
+import pytest
 from planted import EGO, T, limits_of
 
+from scenewright.program.manner import USUAL, Manner
 from scenewright.program.structure import read_structure
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
 from scenewright.solve.proofs.decide import Question, decide
-from scenewright.solve.proofs.refinement import BEGINS_MPSS, BEGINS_S, SETTLED_MPSS, SETTLED_S
 from scenewright.solve.proofs.witness import Witness
 
 HEAD = "Actor 0 (ego):\n- W\n- [t0, go, t1, go, t2]\n\nActor 1 (hero):\n- {}\n- [t0, go, t1, {}, t2]\n\nConstraints:\n"
 
 
-def answered(route: str, piece: str, *constraints: str) -> tuple[Question, Witness]:
-    scene = ground(parse_program(HEAD.format(route, piece) + "\n".join(constraints) + "\n"), T)
+def answered(route: str, piece: str, *constraints: str, manner: Manner = USUAL) -> tuple[Question, Witness]:
+    program = parse_program(HEAD.format(route, piece) + "\n".join(constraints) + "\n")
+    scene = ground(replace(program, manner=manner), T)
     question = Question(scene, read_structure(scene.program), limits_of(scene), EGO)
     witness = decide(question).witness
     assert witness is not None
@@ -42,14 +47,27 @@ def test_what_holds_all_along_holds_between_moments() -> None:
     assert max(hero.state(t)[1] - ego.state(t)[1] for t in times) <= -1 + 5e-3
 
 
-def test_a_hero_is_settled_and_then_shows_what_begins() -> None:
-    _, witness = answered("E, N", "dec", "A0(t1) == A1(t1)", "A1x(t1) == conflict_point - 25", "A1v(t2) == 0")
+@pytest.mark.parametrize(
+    "manner",
+    [
+        USUAL,
+        replace(USUAL, settled_s=Fraction(3, 2), settled_mpss=Fraction(1, 5)),
+        replace(USUAL, begins_mpss=Fraction(2), begins_s=Fraction(1), stands_s=Fraction(2), stands_mps=Fraction(1, 50)),
+    ],
+    ids=["usual", "long settled", "begins hard, stands long"],
+)
+def test_a_hero_is_settled_and_then_shows_what_begins_and_stands(manner: Manner) -> None:
+    constraints = ("A0(t1) == A1(t1)", "A1x(t1) == conflict_point - 25", "A1v(t2) == 0")
+    _, witness = answered("E, N", "dec", *constraints, manner=manner)
     hero = witness.profiles[1]
-    trigger = hero.knot_times_s["t1"]
-    before = [hero.state(t)[2] for t in np.arange(trigger - float(SETTLED_S) + 0.01, trigger - 0.01, 0.01)]
-    after = [hero.state(t)[2] for t in np.arange(trigger + 0.01, trigger + float(BEGINS_S) - 0.01, 0.01)]
-    assert min(before) >= -float(SETTLED_MPSS) - 1e-3
-    assert max(after) <= -float(BEGINS_MPSS) + 1e-3
+    trigger, stop = hero.knot_times_s["t1"], hero.knot_times_s["t2"]
+
+    def during(first: float, last: float) -> list[tuple[float, float, float]]:
+        return [hero.state(float(t)) for t in np.arange(first + 0.005, last - 0.004, 0.005)]
+
+    assert min(rate for *_, rate in during(trigger - float(manner.settled_s), trigger)) >= -float(manner.settled_mpss)
+    assert max(rate for *_, rate in during(trigger, trigger + float(manner.begins_s))) <= -float(manner.begins_mpss)
+    assert max(speed for _, speed, _ in during(stop, stop + float(manner.stands_s))) <= float(manner.stands_mps)
 
 
 def test_two_in_one_lane_do_not_touch_before_the_trigger() -> None:
@@ -64,11 +82,11 @@ def test_two_in_one_lane_do_not_touch_before_the_trigger() -> None:
 def test_braking_that_cannot_be_plain_all_along_begins_plainly() -> None:
     _, witness = answered(
         "W", "dec", "A0(t1) == A1(t1)", "A1x(t1) == 100", "A1v(t1) == 4", "A1v(t2) == 0", "A1x(t2) == 118"
-    )  # 0.55 m/s^2 all along would lead no further than 14.5 m
+    )  # plain all along it would lead no further than 16 m
     hero = witness.profiles[1]
     trigger = hero.knot_times_s["t1"]
-    after = [hero.state(t)[2] for t in np.arange(trigger + 0.01, trigger + float(BEGINS_S) - 0.01, 0.01)]
-    assert max(after) <= -float(BEGINS_MPSS) + 1e-3
+    after = [hero.state(t)[2] for t in np.arange(trigger + 0.01, trigger + float(USUAL.begins_s) - 0.01, 0.01)]
+    assert max(after) <= -float(USUAL.begins_mpss) + 1e-3
 
 
 def test_whoever_has_a_turn_ahead_starts_before_it() -> None:

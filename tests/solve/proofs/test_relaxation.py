@@ -8,11 +8,26 @@ from fractions import Fraction
 import pytest
 from planted import Planted, limits_of, lowered, plant
 
-from scenewright.solve.proofs import z3_engine
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.polynomials import violation
-from scenewright.solve.proofs.relaxation import relaxation
+from scenewright.solve.proofs.refuters import core, refuter_called
+from scenewright.solve.proofs.relaxation import Named, relaxation, resting_on
+
+HEAD = """Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (hero):
+- E, N
+- [t0, go, t1, dec, t2]
+
+Constraints:
+A0(t1) == A1(t1)
+A0x(t1) == conflict_point - 30
+A1x(t1) == conflict_point - 25
+A1v(t2) == 0
+"""
 
 
 def values_of(planted: Planted, events: Events, lowering: Lowering) -> list[float]:
@@ -77,4 +92,34 @@ def test_contradictory_orders_of_moments_are_refuted_and_not_believed() -> None:
     scene = Planted(text, planted.motions, planted.knots).scene()
     events, lowering = lowered(scene)
     formulas = relaxation(events, lowering, lowering.lower(scene.program.constraints))
-    assert z3_engine.ask(events.unknowns, formulas, 5.0).kind == "refuted"
+    assert refuter_called().ask(events.unknowns, formulas, 5.0).kind == "refuted"
+
+
+def test_a_law_that_a_constraint_makes_narrower_rests_on_both() -> None:
+    """`always` of a speed is no formula of its own: without its id in the core the proof would not name it."""
+    head = HEAD.replace("A1v(t2) == 0", "A1v(t2) == 4")
+    scene = Planted(f"{head}c: always[A1(t1), A1(t2)] (A1v <= 5)\n", {}, {}).scene()
+    events, lowering = lowered(scene)
+    formulas = relaxation(events, lowering, lowering.lower(scene.program.constraints))
+    narrower = [each for each in formulas if "c" in each.besides]
+    assert narrower
+    origin = narrower[0].origin
+    assert narrower[0].origins == (origin, "c")
+    (left,) = resting_on(narrower[:1], {origin})
+    assert left == Named(narrower[0].without, origin)
+    assert left.formula != narrower[0].formula
+    assert resting_on(narrower[:1], {"c"}) == []
+    assert resting_on(narrower[:1], {origin, "c"}) == narrower[:1]
+
+
+@pytest.mark.parametrize(
+    "constraint", ["always[A1(t1), A1(t2)] (A1v >= 9)", "A1v(dec) >= 9", "A1v(dec) >= 9 and A1v(t1) <= 12"]
+)
+def test_cores_name_what_makes_a_law_narrower(constraint: str) -> None:
+    scene = Planted(f"{HEAD}probe: {constraint}\n", {}, {}).scene()
+    events, lowering = lowered(scene)
+    formulas = relaxation(events, lowering, lowering.lower(scene.program.constraints))
+    found = core(refuter_called(), events.unknowns, formulas, 5.0)
+    assert "probe" in found
+    clashing = resting_on(formulas, found)
+    assert refuter_called().ask(events.unknowns, clashing, 5.0).kind == "refuted", "what is named clashes by itself"

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from talk import GOOD, PROGRAM, READINGS, TEXT, reply_to
 
 from scenewright.errors import MapError, ProgramError, ScenewrightError, TranslationError
+from scenewright.program.manner import USUAL
 from scenewright.program.printer import print_program
 from scenewright.roads.load import load_map
 from scenewright.study.benchmark import BenchmarkRow, benchmark_rows
@@ -25,10 +26,11 @@ def verified(text: str = TEXT, **reply: Any) -> Verified:
     return verify(read_reply(json.dumps(reply_to(**reply))), text, "mine", MAP)
 
 
-def test_name_map_and_description_are_ours_to_say() -> None:
-    head = 'scenario "evil"\nmap "/etc/passwd"\ndescription:\n"another"\n\n'
+def test_name_map_description_and_manner_are_ours_to_say() -> None:
+    head = 'scenario "evil"\nmap "/etc/passwd"\ndescription:\n"another"\nmanner:\n- settled_mpss = 3\n\n'
     program = verified(program=head + PROGRAM).program
     assert (program.name, program.map_name, program.description) == ("mine", "t_intersection", TEXT)
+    assert program.manner == USUAL
 
 
 def test_constraints_point_at_the_words_they_came_from() -> None:

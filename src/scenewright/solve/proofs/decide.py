@@ -1,8 +1,8 @@
 """Proof, witness or undecided: whether a scenario can happen with any ego that keeps its promises.
 
 What enters: a scene and bounds on everybody's motion. What leaves: a `Decision`. Search and proof are two engines over
-one lowering: Newton steps find nearly all witnesses in a few milliseconds, z3 is left with refutations. What is found
-is realised and looked at by an evaluator of its own before it is called feasible.
+one lowering: Newton steps find nearly all witnesses in a few milliseconds, a solver is left with refutations. What is
+found is realised and looked at by an evaluator of its own before it is called feasible.
 """
 
 from __future__ import annotations
@@ -25,7 +25,8 @@ from scenewright.solve.proofs.guesses import carried_over, first_guess
 from scenewright.solve.proofs.lowering import Lowered, Lowering
 from scenewright.solve.proofs.polynomials import ZERO, Atom, Formula, Some
 from scenewright.solve.proofs.refinement import Refinement
-from scenewright.solve.proofs.relaxation import Named, relaxation
+from scenewright.solve.proofs.refuters import Refuter, core, refuter_called, taken
+from scenewright.solve.proofs.relaxation import Named, relaxation, resting_on
 from scenewright.solve.proofs.search import Search
 from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
 
@@ -57,6 +58,8 @@ class Decision:
         Constraints that the answer does not rest on, by id, and why.
     amiss
         What was still amiss with the best motion found, where undecided.
+    doubted_by
+        The solver that found it infeasible, where undecided because what that solver refutes is no proof.
     """
 
     answer: Literal["feasible", "infeasible", "undecided"]
@@ -64,6 +67,7 @@ class Decision:
     core: tuple[str, ...] = ()
     left_out: Mapping[str, str] = field(default_factory=dict)
     amiss: tuple[Broken, ...] = ()
+    doubted_by: str = ""
 
     def __post_init__(self) -> None:
         if (self.answer == "feasible") != (self.witness is not None):
@@ -72,7 +76,7 @@ class Decision:
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """What is asked: a scene, who is bounded how; what is freed, or how the ego drove, where that matters."""
+    """What is asked: a scene, who is bounded how; what is freed, or how the ego drove, where that matters; of whom."""
 
     scene: Scene
     structure: Structure
@@ -80,6 +84,7 @@ class Question:
     ego: EgoBounds = field(default_factory=EgoBounds)
     freed: Mapping[str, tuple[Fraction, Fraction]] = field(default_factory=dict)
     drive: EgoDrive | None = None
+    refuter: Refuter = field(default_factory=refuter_called)
 
     def constraints(self) -> tuple[Constraint, ...]:
         """Return the constraints to be met; what the ego did alone is a fact, where its drive is given."""
@@ -158,34 +163,32 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
                 return Decision("undecided", amiss=amiss)
         if kept is not None:
             continue
-        from scenewright.solve.proofs import z3_engine  # seldom needed, and slow to import
-
-        formulas = formulas or plain.relaxation()
-        answer = z3_engine.ask(plain.events.unknowns, formulas, min(proof_s, until - time.monotonic()))
+        formulas = formulas or taken(question.refuter, plain.relaxation())
+        answer = question.refuter.ask(plain.events.unknowns, formulas, min(proof_s, until - time.monotonic()))
+        if answer.kind == "refuted" and not question.refuter.capabilities.exact:
+            return Decision("undecided", left_out=left_out, amiss=amiss, doubted_by=question.refuter.name)
         if answer.kind == "refuted":
-            core = _core(plain.events.unknowns, formulas) if explain else ()
-            return Decision("infeasible", core=core, left_out=left_out)
+            clashing = _core(question.refuter, plain.events.unknowns, formulas) if explain else ()
+            return Decision("infeasible", core=clashing, left_out=left_out)
         if answer.kind == "met" and (left_out or question.drive):
             break
-        if answer.kind == "met":
+        if answer.kind == "met" and answer.values:
             found, amiss = _mended(_Case(question), np.array(answer.values), until, None)
             if found is not None:
                 return Decision("feasible", found)
     return Decision("undecided", left_out=left_out, amiss=amiss)
 
 
-def _core(unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> tuple[str, ...]:
+def _core(refuter: Refuter, unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> tuple[str, ...]:
     """Return what clashes, and which ranges of single numbers it takes for that."""
-    from scenewright.solve.proofs import z3_engine
-
-    core = z3_engine.core(unknowns, formulas, 1.0)
-    clashing = [each for each in formulas if each.origin in core]
+    origins = core(refuter, unknowns, formulas, 1.0)
+    clashing = resting_on(formulas, origins)
     ranges = []
     for kind, words in _RANGES.items():
         wider = [replace(each, high=_WIDER * each.high) if each.kind == kind else each for each in unknowns]
-        if z3_engine.ask(wider, clashing, 0.2).kind == "met":
+        if refuter.ask(wider, clashing, 0.2).kind == "met":
             ranges.append(words)
-    return (*core, *ranges)
+    return (*origins, *ranges)
 
 
 def _witness(

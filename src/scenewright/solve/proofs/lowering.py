@@ -81,7 +81,7 @@ class Lowering:
         self.narrowings.clear()
         for constraint in constraints:
             self._make_moments(constraint.formula)
-            self.narrowings += narrowings_of(self, constraint.formula)
+            self.narrowings += (replace(each, origin=constraint.id) for each in narrowings_of(self, constraint.formula))
         return [self._lowered(constraint) for constraint in constraints]
 
     def _lowered(self, constraint: Constraint) -> Lowered:

@@ -43,6 +43,7 @@ class Narrowing:
     place: int | None = None  # the moment at a place that it holds from, or up to, within first and last
     up_to_place: bool = False
     even: bool = False  # whether a plan keeps to one rate between each two moments
+    origin: str = ""  # the constraint that it comes from, by id
 
     def begins(self) -> tuple[int, ...]:
         """Return the moments of which the latest is its beginning."""

@@ -17,11 +17,12 @@ import numpy as np
 from scenewright.motion.laws import ANY, Law
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import moments_of_worst
+from scenewright.program.manner import Manner
 from scenewright.program.types import Actor, PieceKind
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import find_conflict
 from scenewright.roads.routes import Route
-from scenewright.solve.limits import Limits
+from scenewright.solve.limits import ROOM, Limits, calm_mpss
 from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.events import Events, pin
 from scenewright.solve.proofs.forms import actors_at, free_states
@@ -34,13 +35,7 @@ SHARES = (0.985, 0.8, 0.6, 0.4, 0.2)
 _TURN_STEP_M = 0.25
 _SAFETY = 0.999  # rounding of places and speeds within a turn
 _ROOM_M = Fraction(1, 20)
-# How a hero shows what begins at its trigger, for a motion that is to be judged: docs/verdict.md.
-SETTLED_S, SETTLED_MPSS = Fraction(1, 2), Fraction(45, 100)
-BEGINS_S, BEGINS_MPSS = Fraction(2, 5), Fraction(3, 4)
-SEEN_MPSS, FAINT_MPSS = Fraction(55, 100), Fraction(1, 20)
-STANDS_S = Fraction(35, 100)
-BETWEEN_SAMPLES_S = Fraction(1, 20)  # a trace shows a beginning up to so much early
-_HALF = Fraction(45, 100)
+_STILL_M = Fraction(1, 1000)  # who moves no farther stands, and a search has somewhere to go
 _ROLLS_MPS = Fraction(1, 2)
 
 
@@ -79,45 +74,48 @@ class Refinement:
                 self.owed.append(compare("<=", self.events.state(each.id, self.events.start).place, halfway))
 
     def _seen_pieces(self, actor: Actor, throughout: bool) -> None:
+        kept = self.events.scene.program.manner.stricter(ROOM)
         events, kinds = self.events, actor.sketch.pieces
         knots = [events.knot(actor.id, name) for name in actor.sketch.knots]
         for number, kind in enumerate(kinds):
             begins, ends = knots[number], knots[number + 1]
             if kind is PieceKind.STOP:
-                self.owed.append(compare(">=", events.times[ends] - events.times[begins], STANDS_S))
+                self.owed.append(compare(">=", events.times[ends] - events.times[begins], kept.stands_s))
             if kind not in (PieceKind.DEC, PieceKind.ACC):
                 continue
             if number and kinds[number - 1] is not PieceKind.STOP:
-                self._begins(actor.id, kind, begins, ends)
+                self._begins(actor.id, kind, begins, ends, kept)
             if throughout:
-                self.narrowings.append(Narrowing(actor.id, begins, ends, _at_least(kind, SEEN_MPSS)))
+                self.narrowings.append(Narrowing(actor.id, begins, ends, _pulling(kind, kept.begins_mpss)))
             if kinds[number + 1 : number + 2] in ((), (PieceKind.GO,)):
-                self._over(actor.id, kind, ends, knots[number + 2 : number + 3], throughout)
+                self._over(actor.id, kind, ends, knots[number + 2 : number + 3], kept, throughout)
 
-    def _begins(self, actor: int, kind: PieceKind, begins: int, ends: int) -> None:
-        """Let an actor be settled before it begins, and begin plainly: by more than twice what it did before."""
+    def _begins(self, actor: int, kind: PieceKind, begins: int, ends: int, kept: Manner) -> None:
+        """Let an actor be settled before it begins, and begin plainly."""
         events = self.events
         now = events.times[begins]
-        shown = events.moment(now + BEGINS_S, "begins")
-        settled = events.moment(now - SETTLED_S - BETWEEN_SAMPLES_S, "settled")
+        shown = events.moment(now + kept.begins_s, "begins")
+        settled = events.moment(now - kept.settled_s, "settled")
         for instant in (shown, settled):
             events.state(actor, instant)
-        self.narrowings.append(Narrowing(actor, begins, shown, _at_least(kind, BEGINS_MPSS)))
+        self.narrowings.append(Narrowing(actor, begins, shown, _pulling(kind, kept.begins_mpss)))
         self.owed.append(compare("<=", events.times[shown], events.times[ends]))
-        self.narrowings.append(
-            Narrowing(actor, settled, begins, _at_most(kind, min(SETTLED_MPSS, BEGINS_MPSS * _HALF)))
-        )
+        calm = _not_pulling(kind, calm_mpss(events.scene.program.manner))
+        self.narrowings.append(Narrowing(actor, settled, begins, calm))
 
-    def _over(self, actor: int, kind: PieceKind, ends: int, following: list[int], throughout: bool) -> None:
+    def _over(
+        self, actor: int, kind: PieceKind, ends: int, following: list[int], kept: Manner, throughout: bool
+    ) -> None:
         """Let what was done in a piece be over for a while; who has come to a standstill stays there."""
         events = self.events
-        over = events.moment(events.times[ends] + STANDS_S, "over")
+        lasts_s = kept.stands_s if kind is PieceKind.DEC else kept.begins_s
+        over = events.moment(events.times[ends] + lasts_s, "over")
         now, then = events.state(actor, ends), events.state(actor, over)
         if throughout:
-            self.narrowings.append(Narrowing(actor, ends, over, _at_most(kind, FAINT_MPSS)))
+            self.narrowings.append(Narrowing(actor, ends, over, _not_pulling(kind, Fraction(0))))
         self.owed += [compare("<=", events.times[over], events.times[knot]) for knot in following]
         if kind is PieceKind.DEC:
-            stays = every([compare("<=", then.place - now.place, ZERO), compare("<=", then.speed, ZERO)])
+            stays = every([compare("<=", then.place - now.place, _STILL_M), compare("<=", then.speed, ZERO)])
             self.owed.append(some([compare(">=", now.speed, _ROLLS_MPS), stays]))
 
     def mend(self, broken: list[Broken], witness: Witness) -> bool:
@@ -232,14 +230,14 @@ class Refinement:
         return shared_offset_m(self.events.scene.routes[actor], self.events.scene.routes[other])
 
 
-def _at_least(kind: PieceKind, rate: Fraction) -> Law:
-    """Return the law of braking, or of speeding up, by so much or more."""
-    return replace(ANY, rate_high=-rate) if kind is PieceKind.DEC else replace(ANY, rate_low=rate)
+def _pulling(kind: PieceKind, rate_mpss: Fraction) -> Law:
+    """Return the law of who brakes or speeds up by at least a rate."""
+    return replace(ANY, rate_high=-rate_mpss) if kind is PieceKind.DEC else replace(ANY, rate_low=rate_mpss)
 
 
-def _at_most(kind: PieceKind, rate: Fraction) -> Law:
-    """Return the law of doing by no more than so much what a piece is about."""
-    return replace(ANY, rate_low=-rate) if kind is PieceKind.DEC else replace(ANY, rate_high=rate)
+def _not_pulling(kind: PieceKind, rate_mpss: Fraction) -> Law:
+    """Return the law of who does not brake, or speed up, by more than a rate."""
+    return replace(ANY, rate_low=-rate_mpss) if kind is PieceKind.DEC else replace(ANY, rate_high=rate_mpss)
 
 
 @lru_cache(maxsize=256)

@@ -7,7 +7,7 @@ known to lie within the scenario.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -35,10 +35,35 @@ _CERTAIN = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Named:
-    """A formula, and what it rests on: a constraint's id, or a law in words."""
+    """A formula, and what it rests on: a constraint's id, or a law in words.
+
+    Attributes
+    ----------
+    besides
+        Ids of constraints that it rests on, too: those that make a law narrower.
+    without
+        What is left of it without them.
+    """
 
     formula: Formula
     origin: str
+    besides: tuple[str, ...] = ()
+    without: Formula = TRUE
+
+    @property
+    def origins(self) -> tuple[str, ...]:
+        """All that it rests on."""
+        return (self.origin, *self.besides)
+
+
+def resting_on(formulas: Sequence[Named], origins: Collection[str]) -> list[Named]:
+    """Return the formulas that rest on `origins` alone, or what is left of them then."""
+    found = []
+    for each in formulas:
+        if each.origin in origins:
+            whole = all(other in origins for other in each.besides)
+            found.append(each if whole else Named(each.without, each.origin))
+    return found
 
 
 def relaxation(events: Events, lowering: Lowering, constraints: Sequence[Lowered]) -> list[Named]:
@@ -79,8 +104,10 @@ def _motion(events: Events, lowering: Lowering, actor: int, least: NDArray[np.fl
                     continue
                 if _parted(inside, stretch, early, late, least):
                     continue
-                law = _narrowed(lowering, actor, stretch.law, early, late, least)
-                yield Named(_between(events, actor, stretch, early, late, law, least), origin)
+                law, besides = _narrowed(lowering, actor, stretch.law, early, late, least)
+                held = _between(events, actor, stretch, early, late, law, least)
+                free = _between(events, actor, stretch, early, late, stretch.law, least) if besides else TRUE
+                yield Named(held, origin, besides, free)
 
 
 def _possibly_inside(stretch: Stretch, instant: int, least: NDArray[np.float64]) -> bool:
@@ -106,15 +133,19 @@ def _parted(inside: list[int], stretch: Stretch, early: int, late: int, least: N
     return False
 
 
-def _narrowed(lowering: Lowering, actor: int, law: Law, early: int, late: int, least: NDArray[np.float64]) -> Law:
-    """Return the law between two moments, made narrower by what holds all the time between them for certain."""
+def _narrowed(
+    lowering: Lowering, actor: int, law: Law, early: int, late: int, least: NDArray[np.float64]
+) -> tuple[Law, tuple[str, ...]]:
+    """Return the law between two moments, made narrower by what holds between them for certain, and who says so."""
+    origins = []
     for narrowing in lowering.narrowings:
         if narrowing.actor != actor or narrowing.proven is None:
             continue
         begun = all(least[instant, early] >= 0 for instant in narrowing.begins())
         if begun and all(least[late, instant] >= 0 for instant in narrowing.ends()):
             law = law.meet(narrowing.proven)
-    return law
+            origins.append(narrowing.origin)
+    return law, tuple(dict.fromkeys(origins))
 
 
 def _speeds(events: Events, actor: int, stretch: Stretch, instant: int, least: NDArray[np.float64]) -> Formula:

@@ -14,6 +14,7 @@ from scenewright.errors import Place, ProgramError, Span, TranslationError
 from scenewright.program.check import check_program
 from scenewright.program.evaluate import landmark_owner
 from scenewright.program.expressions import Compare, Derived, Landmark, walk
+from scenewright.program.manner import USUAL
 from scenewright.program.printer import print_expression
 from scenewright.program.structure import actors_of, synchronised
 from scenewright.program.text import parse_program
@@ -55,8 +56,8 @@ def verify(reply: Reply, description: str, name: str, road_map: RoadMap) -> Veri
     """
     text = reply.program or ""
     program = _parsed(text)
-    # Name, map and description are ours to say: a reply could name any file as its map.
-    program = replace(program, name=name, map_name=road_map.name, description=description)
+    # Name, map, description and manner are ours to say: a reply could name any file as its map, or let anything pass.
+    program = replace(program, name=name, map_name=road_map.name, description=description, manner=USUAL)
     check_program(program, text)
     _no_turn_on_straight_routes(ground(program, road_map))
     readings = tuple(_located(reply, description))

@@ -1,0 +1,1 @@
+"""Plans the heroes' motion: few discrete choices, and one convex problem a tick."""

@@ -1,0 +1,198 @@
+"""One hero's motion from now on as a function of unknowns: accelerations at nodes, times of knots, perhaps a start.
+
+What enters: legs, each a stretch of one piece between two instants. What leaves: states at nodes and at any instant,
+with their derivatives, and the motion as a `Profile`. Speed and place are exact integrals: whatever the unknowns are,
+the motion is one that can be driven.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scenewright.motion.profile import Profile, Segment
+from scenewright.program.types import PieceKind
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """A time that is ``constant_s`` after an unknown instant, or after zero where `unknown` is None."""
+
+    constant_s: float
+    unknown: int | None = None
+
+    def value(self, z: Array) -> float:
+        """Return the time (s)."""
+        return self.constant_s + (0.0 if self.unknown is None else float(z[self.unknown]))
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """A stretch of piece `piece`, in `cells` equal parts; its accelerations are unknowns `accels`, none where it stands.
+
+    Within a cell the acceleration changes evenly; from leg to leg it may jump, unless `joined` to the one before.
+    """
+
+    piece: int
+    kind: PieceKind
+    first: Moment
+    last: Moment
+    cells: int
+    accels: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """The state that a motion begins with: numbers, or the unknowns `place` and `speed`."""
+
+    s_m: float = 0.0
+    speed_mps: float = 0.0
+    place: int | None = None
+    speed: int | None = None
+
+
+@dataclass(slots=True)
+class Shot:
+    """A motion with its derivatives by all unknowns: one row of `d_...` for each node."""
+
+    legs: Sequence[Leg]
+    time: Array
+    s: Array
+    v: Array
+    accel: Array  # that which begins at a node
+    accel_after: Array  # that at the end of the cell that begins at a node
+    d_time: Array
+    d_s: Array
+    d_v: Array
+    first_node: list[int]  # of each leg; the last is that behind all legs
+    z: Array
+
+    def at_node(self, node: int) -> tuple[float, float, Array, Array]:
+        """Return place and speed at a node, and their derivatives."""
+        return float(self.s[node]), float(self.v[node]), self.d_s[node], self.d_v[node]
+
+    def at(self, time_s: float, d_time: Array) -> tuple[float, float, Array, Array]:
+        """Return place and speed at an instant, and their derivatives."""
+        last = len(self.time) - 1
+        node = min(max(int(np.searchsorted(self.time, time_s, side="right")) - 1, 0), last)
+        since, d_since = time_s - float(self.time[node]), d_time - self.d_time[node]
+        v, dv = float(self.v[node]), self.d_v[node]
+        if node == last:
+            return float(self.s[node]) + v * since, v, self.d_s[node] + since * dv + v * d_since, dv
+        lasts = max(float(self.time[node + 1] - self.time[node]), 1e-6)
+        d_lasts = self.d_time[node + 1] - self.d_time[node]
+        a, b = float(self.accel[node]), float(self.accel_after[node])
+        da, db = self._d_accel(node)
+        share = since / lasts
+        jerk = (b - a) / lasts
+        now = a + jerk * since
+        speed = v + a * since + 0.5 * jerk * since**2
+        place = float(self.s[node]) + v * since + 0.5 * a * since**2 + jerk * since**3 / 6.0
+        d_jerk_s = (db - da) * share - jerk * share * d_lasts  # derivative of the jerk, times `since`
+        d_speed = dv + since * da + 0.5 * since * d_jerk_s + now * d_since
+        d_place = self.d_s[node] + since * dv + 0.5 * since**2 * da + since**2 * d_jerk_s / 6.0 + speed * d_since
+        return place, speed, d_place, d_speed
+
+    def rate_at(self, time_s: float, before: bool) -> tuple[float, Array]:
+        """Return the acceleration at an instant, that which begins there or that `before` it, with its derivatives."""
+        side = "left" if before else "right"
+        last = len(self.time) - 1
+        node = min(max(int(np.searchsorted(self.time, time_s + (-1e-9 if before else 1e-9), side=side)) - 1, 0), last)
+        if node == last:
+            return 0.0, np.zeros(len(self.z))
+        lasts = max(float(self.time[node + 1] - self.time[node]), 1e-6)
+        share = min(max((time_s - float(self.time[node])) / lasts, 0.0), 1.0)
+        da, db = self._d_accel(node)
+        return (1 - share) * float(self.accel[node]) + share * float(self.accel_after[node]), (1 - share) * da + share * db
+
+    def _d_accel(self, node: int) -> tuple[Array, Array]:
+        da, db = np.zeros(len(self.z)), np.zeros(len(self.z))
+        leg = int(np.searchsorted(self.first_node, node, side="right")) - 1
+        if leg < len(self.legs) and self.legs[leg].accels:
+            k = node - self.first_node[leg]
+            da[self.legs[leg].accels[k]] = 1.0
+            db[self.legs[leg].accels[k + 1]] = 1.0
+        return da, db
+
+
+def shoot(legs: Sequence[Leg], start: Start, z: Array) -> Shot:
+    """Return the motion that the unknowns `z` stand for."""
+    size = len(z)
+    count = sum(leg.cells for leg in legs) + 1
+    time, s, v = np.zeros(count), np.zeros(count), np.zeros(count)
+    accel, after = np.zeros(count), np.zeros(count)
+    d_time, d_s, d_v = np.zeros((count, size)), np.zeros((count, size)), np.zeros((count, size))
+    s[0] = start.s_m if start.place is None else z[start.place]
+    v[0] = start.speed_mps if start.speed is None else z[start.speed]
+    if start.place is not None:
+        d_s[0, start.place] = 1.0
+    if start.speed is not None:
+        d_v[0, start.speed] = 1.0
+    node, first_node = 0, []
+    for leg in legs:
+        first_node.append(node)
+        begin, lasts = leg.first.value(z), (leg.last.value(z) - leg.first.value(z)) / leg.cells
+        d_begin, d_lasts = np.zeros(size), np.zeros(size)
+        if leg.first.unknown is not None:
+            d_begin[leg.first.unknown] = 1.0
+            d_lasts[leg.first.unknown] -= 1.0 / leg.cells
+        if leg.last.unknown is not None:
+            d_lasts[leg.last.unknown] += 1.0 / leg.cells
+        time[node], d_time[node] = begin, d_begin
+        for k in range(leg.cells):
+            a, b = (z[leg.accels[k]], z[leg.accels[k + 1]]) if leg.accels else (0.0, 0.0)
+            accel[node], after[node] = a, b
+            time[node + 1], d_time[node + 1] = begin + (k + 1) * lasts, d_begin + (k + 1) * d_lasts
+            mean, way = 0.5 * (a + b), (2.0 * a + b) / 6.0
+            v[node + 1] = v[node] + mean * lasts
+            s[node + 1] = s[node] + v[node] * lasts + way * lasts**2
+            d_v[node + 1] = d_v[node] + mean * d_lasts
+            d_s[node + 1] = d_s[node] + lasts * d_v[node] + (v[node] + 2.0 * way * lasts) * d_lasts
+            if leg.accels:
+                d_v[node + 1, leg.accels[k]] += 0.5 * lasts
+                d_v[node + 1, leg.accels[k + 1]] += 0.5 * lasts
+                d_s[node + 1, leg.accels[k]] += lasts**2 / 3.0
+                d_s[node + 1, leg.accels[k + 1]] += lasts**2 / 6.0
+            node += 1
+    first_node.append(node)
+    return Shot(legs, time, s, v, accel, after, d_time, d_s, d_v, first_node, z)
+
+
+def profile_of(shot: Shot, knots_s: dict[str, float], past: Sequence[Segment]) -> Profile:
+    """Return a motion, with what was driven before it, as a profile. Who stands does so exactly."""
+    segments = list(past)
+    s, v = float(shot.s[0]), max(0.0, float(shot.v[0]))
+    for number, leg in enumerate(shot.legs):
+        for node in range(shot.first_node[number], shot.first_node[number + 1]):
+            lasts = float(shot.time[node + 1] - shot.time[node])
+            if lasts <= 1e-9:
+                continue
+            begin, a, b = float(shot.time[node]), float(shot.accel[node]), float(shot.accel_after[node])
+            if not leg.accels:
+                v = 0.0
+            for segment in _forwards(begin, lasts, s, v, a, b, leg.piece):
+                segments.append(segment)
+                s, v = segment.end_s_m, segment.end_speed_mps
+    return Profile(tuple(segments), knots_s)
+
+
+def _forwards(begin_s: float, lasts_s: float, s_m: float, v: float, a: float, b: float, piece: int) -> list[Segment]:
+    """Return one cell as segments; where rounding would have it roll back it stands instead."""
+    segment = Segment(begin_s, lasts_s, s_m, v, a, piece, (b - a) / lasts_s)
+    lowest = v + 0.5 * (a + b) * lasts_s
+    if a < 0.0 < b:
+        lowest = min(lowest, v - 0.5 * a * a * lasts_s / (b - a))
+    if lowest >= -1e-9:
+        return [segment]
+    low, high = 0.0, lasts_s
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        falling = all(segment.after(share * middle)[1] >= 0.0 for share in (0.25, 0.5, 0.75, 1.0))
+        low, high = (middle, high) if falling else (low, middle)
+    stopped = segment.part(begin_s, begin_s + low)
+    return [stopped, Segment(begin_s + low, lasts_s - low, stopped.end_s_m, 0.0, 0.0, piece)]

@@ -1,0 +1,97 @@
+"""Whether a first plan holds what the program asks for: what it breaks is told by name before anything is driven.
+
+What enters: a scene, and the motions of everybody, the ego's as foreseen. What leaves: the constraints that these
+motions break, and by how much. It knows no planner, and looks with the program's own evaluator.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+
+from scenewright.motion.profile import Profile
+from scenewright.program import expressions as ex
+from scenewright.program.evaluate import term_value, violation
+from scenewright.program.printer import print_expression
+from scenewright.program.structure import actors_of, knots_of
+from scenewright.program.types import EGO, Constraint
+from scenewright.roads.grounding import Scene
+from scenewright.solve.plan import PlanWorld
+from scenewright.units import SI_SYMBOL, Dimension
+
+_ROUNDED = 1e-2  # what a plan may be off by where no tolerance is given for what is compared
+
+
+@dataclass(frozen=True, slots=True)
+class NotHeld:
+    """A constraint that a plan breaks, and by how much: in `unit`, infinite where no number says it."""
+
+    constraint: Constraint
+    words: str | None
+    by: float
+    unit: str
+
+    def __str__(self) -> str:
+        words = f'  ("{self.words}")' if self.words else ""
+        off = f", off by {self.by:.3g} {self.unit}".rstrip() if math.isfinite(self.by) else ""
+        whose = "; the ego is nobody's to hold to it" if actors_of(self.constraint.formula) == {EGO} else ""
+        return f"{self.constraint.id}: {print_expression(self.constraint.formula)}{words}{off}{whose}"
+
+
+def not_held(
+    scene: Scene,
+    profiles: Mapping[int, Profile],
+    dimension_of: Callable[[ex.Compare], Dimension | None],
+    allowed: Callable[[Dimension | None], float],
+) -> Iterator[NotHeld]:
+    """Yield the constraints that motions break by more than is `allowed` of the dimension of what they compare.
+
+    Who comes before the ego is not asked about: it may still give way. Nor is what speaks of a knot of the ego that
+    nobody foresees.
+    """
+    parameters = {name: float(value) for name, value in scene.parameters.items()}
+    world = PlanWorld(scene, profiles, parameters)
+    passed = Profile(
+        profiles[EGO].segments, {**profiles[EGO].knot_times_s, **dict(_passed_s(scene, profiles[EGO], world))}
+    )
+    world = PlanWorld(scene, {**profiles, EGO: passed}, parameters)
+    for constraint in scene.program.constraints:
+        for part in _asked(constraint.formula):
+            if any(actor == EGO and math.isinf(world.knot_time_s(EGO, knot)) for actor, knot in knots_of(part)):
+                continue
+            by = violation(part, world)
+            dimensions = {dimension_of(node) for node in ex.walk(part) if isinstance(node, ex.Compare)}
+            if not by <= max(_ROUNDED, *map(allowed, dimensions)):
+                dimension = dimensions.pop() if len(dimensions) == 1 else None
+                unit = SI_SYMBOL[dimension] if dimension else ""
+                yield NotHeld(constraint, scene.program.words_of(constraint), by, unit)
+                break
+
+
+def _passed_s(scene: Scene, ego: Profile, world: PlanWorld) -> Iterator[tuple[str, float]]:
+    """Yield when the ego passes each knot that the program puts at a place: a plan need not know of all of them."""
+    for constraint in scene.program.constraints:
+        match constraint.formula:
+            case ex.Compare("==", ex.State(actor=0, order=0, at=ex.Knot(name=knot), frame=None), place) if not any(
+                isinstance(node, ex.State | ex.Derived | ex.Elapsed) for node in ex.walk(place)
+            ):
+                time_s = ego.time_at(term_value(place, world))
+                if time_s is not None:
+                    yield knot, time_s
+
+
+def _asked(formula: ex.Formula) -> Iterator[ex.Formula]:
+    """Yield the parts that all must hold, without those in which it matters who comes before the ego."""
+    if isinstance(formula, ex.Logic) and formula.operator == "and":
+        for operand in formula.operands:
+            yield from _asked(operand)
+    elif not any(isinstance(node, ex.Compare) and _is_order(node) for node in ex.walk(formula)):
+        yield formula
+
+
+def _is_order(formula: ex.Compare) -> bool:
+    """Whether a comparison says of moments, the ego's among them, that one comes before another."""
+    if formula.operator == "==" or EGO not in actors_of(formula):
+        return False
+    return not any(isinstance(node, ex.State | ex.Derived) for node in ex.walk(formula))

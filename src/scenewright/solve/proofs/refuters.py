@@ -1,0 +1,179 @@
+"""Solvers that refute, or find values: what each can do, and how it is found by name.
+
+What enters: a name. What leaves: a solver that answers whether formulas can hold at once, imported then and not before.
+A package offers one by an entry point of the group ``scenewright.solvers``, a class without arguments. What its library
+needs besides is an extra of that package.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from importlib.metadata import EntryPoint
+from typing import Literal, Protocol, cast
+
+from scenewright.errors import InputError, MissingExtraError, SolverError
+from scenewright.plugins import missing_extra, named, points
+from scenewright.solve.proofs.events import Unknown
+from scenewright.solve.proofs.polynomials import All, Atom, atoms
+from scenewright.solve.proofs.relaxation import Named, resting_on
+
+GROUP = "scenewright.solvers"
+_OURS = tuple(
+    EntryPoint(name, f"scenewright.solve.proofs.{value}", GROUP)
+    for name, value in {
+        "z3": "z3_engine:Z3",
+        "cvc5": "cvc5_engine:Cvc5 [cvc5]",
+        "scip": "scip_engine:Scip [scip]",
+    }.items()
+)
+_LIBRARIES = {"cvc5": "cvc5", "scip": "pyscipopt"}
+_SHRINK_S = 0.5  # for each question whether a core does without one of its members
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What a solver says.
+
+    Attributes
+    ----------
+    kind
+        ``refuted`` (nothing meets all formulas), ``met``, ``timeout``, or ``unknown`` where it gave up by itself.
+    core
+        Where refuted: origins of formulas that already clash, if the solver tells.
+    values
+        Where met: a value for every unknown, as near as a float comes, if the solver tells.
+    """
+
+    kind: Literal["refuted", "met", "timeout", "unknown"]
+    core: tuple[str, ...] = ()
+    values: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Capabilities:
+    """What can be expected of a solver.
+
+    Attributes
+    ----------
+    exact
+        Whether it reckons with rationals: only then is its ``refuted`` a proof.
+    cores
+        Whether it tells which formulas clash.
+    quadratic
+        Whether it takes products of two unknowns; else it is asked about linear formulas alone.
+    keeps_time
+        Whether it keeps its time limit by itself; one that does not is run where it can be stopped.
+    """
+
+    exact: bool
+    cores: bool
+    quadratic: bool
+    keeps_time: bool
+
+    def words(self) -> str:
+        """Say it in a line."""
+        return ", ".join(
+            [
+                "exact: what it refutes is proven" if self.exact else "numeric: a cross-check, no proof",
+                "cores" if self.cores else "no cores",
+                "quadratic" if self.quadratic else "linear only",
+                "keeps its time limit" if self.keeps_time else "is stopped where it takes too long",
+            ]
+        )
+
+
+class Refuter(Protocol):
+    """A solver of named formulas over unknowns with ranges."""
+
+    name: str
+    capabilities: Capabilities
+
+    def ask(
+        self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float, want_core: bool = False
+    ) -> Answer:
+        """Ask whether all `formulas` can hold at once; timeouts are answers, never exceptions."""
+        ...
+
+
+# -- by name --------------------------------------------------------------------------------------------------------
+def known() -> dict[str, MissingExtraError | None]:
+    """Return the solvers that can be named, each with what it misses; nothing is imported for that."""
+    return {name: missing_extra(point, "refutes", _LIBRARIES) for name, point in points(GROUP, _OURS).items()}
+
+
+def refuter_called(name: str = "z3") -> Refuter:
+    """Return the solver of that name.
+
+    Raises
+    ------
+    InputError
+        Where there is none.
+    MissingExtraError
+        Where it needs something that is not installed.
+    SolverError
+        Where it cannot be imported.
+    """
+    point = named(name.lower(), GROUP, _OURS)
+    if point is None:
+        raise InputError(
+            "there is no such solver",
+            found=repr(name),
+            expected=", ".join(known()),
+            fix="scenewright solvers lists them",
+        )
+    missing = missing_extra(point, "refutes", _LIBRARIES)
+    if missing is not None:
+        raise missing
+    try:
+        return cast("Refuter", point.load()())
+    except Exception as error:  # whatever a plug-in does at import is its fault, and the user should read it
+        raise SolverError(
+            f"the solver {name!r} cannot be imported",
+            found=f"{type(error).__name__}: {error}".splitlines()[0],
+            expected=f"a class without arguments in {point.value}",
+            fix="repair or reinstall the package that offers it",
+        ) from error
+
+
+# -- what all of them need --------------------------------------------------------------------------------------------
+def taken(refuter: Refuter, formulas: Sequence[Named]) -> list[Named]:
+    """Return the formulas that a solver takes; without the others a refutation is harder to find, never false."""
+    most = 2 if refuter.capabilities.quadratic else 1
+    return [each for each in formulas if all(part.left.degree <= most for part in atoms(each.formula))]
+
+
+def core(refuter: Refuter, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float) -> tuple[str, ...]:
+    """Return origins that already clash, each of them needed as far as that could be told in time."""
+    origins = list(dict.fromkeys(origin for each in formulas for origin in each.origins))
+    if refuter.capabilities.cores:
+        told = refuter.ask(unknowns, formulas, timeout_s, want_core=True)
+        origins = [origin for origin in origins if origin in told.core or told.kind != "refuted"]
+    until = time.monotonic() + timeout_s
+    for origin in list(origins):
+        rest = resting_on(formulas, {other for other in origins if other != origin})
+        if time.monotonic() < until and refuter.ask(unknowns, rest, _SHRINK_S).kind == "refuted":
+            origins.remove(origin)
+    return tuple(origins)
+
+
+def tightened(unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> list[Unknown]:
+    """Return the unknowns with the ranges that comparisons of one of them with a number leave."""
+    found = list(unknowns)
+    open_parts = [each.formula for each in formulas]
+    while open_parts:
+        part = open_parts.pop()
+        if isinstance(part, All):
+            open_parts += part.parts
+        elif isinstance(part, Atom) and part.left.degree == 1 and len(part.left.terms) - (() in part.left.terms) == 1:
+            ((key, factor),) = ((key, value) for key, value in part.left.terms.items() if key)
+            bound, number = -part.left.terms.get((), Fraction(0)) / factor, key[0]
+            low, high = found[number].low, found[number].high
+            if part.relation == "==" or factor < 0:
+                low = max(low, bound)
+            if part.relation == "==" or factor > 0:
+                high = min(high, bound)
+            found[number] = replace(found[number], low=low, high=high)
+    return found

@@ -1,0 +1,78 @@
+"""Each number of a program's manner, and no other, says what its word means: another number, another verdict."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+import pytest
+from plays import BRAKES, GOES_AFTER, Play
+
+from scenewright.judge.judgement import judge
+from scenewright.judge.tolerance import TIGHT
+from scenewright.judge.verdict import Verdict
+from scenewright.program.manner import NUMBERS
+
+
+def judged(play: Play, *numbers: str) -> Verdict:
+    manner = "".join(f"- {number}\n" for number in numbers)
+    return judge(replace(play, text=play.text.replace("description:", f"manner:\n{manner}description:", 1)).case())
+
+
+def braking(*pieces: tuple[float, float]) -> Play:
+    return BRAKES.with_hero(pieces=pieces)
+
+
+# The trigger is at 7.5 s. What the hero does around it, which condition changes, and the number that changes it from
+# failed to held or back.
+TOUCHES = GOES_AFTER.with_hero(pieces=[*GOES_AFTER.hero.pieces[:2], (0.5, 0.0), (4.0, 2.0)])
+CASES: dict[str, tuple[Play, str, bool, str]] = {
+    "stands half a second": (TOUCHES, "hero_standstill", True, "stands_s = 1"),
+    "rolls on at 0.2 m/s": (
+        BRAKES.with_hero(pieces=[(7.5, 0.0), (1.95, -4.0)]), "hero_standstill", False, "stands_mps = 0.3",
+    ),
+    "brakes at 2 m/s^2 for a moment before": (
+        braking((7.0, 0.0), (0.2, -2.0), (0.3, 0.0), (5.0, -4.0)), "hero_settled", False, "settled_mpss = 2.5",
+    ),
+    "has let go again 0.3 s before": (
+        braking((7.0, 0.0), (0.2, -2.0), (0.3, 0.0), (5.0, -4.0)), "hero_settled", False, "settled_s = 0.25",
+    ),
+    "brakes at 0.7 m/s^2 before": (
+        braking((6.9, 0.0), (0.6, -0.7), (5.0, -4.0)), "hero_onset", False, "begins_mpss = 1",
+    ),
+    "brakes for 0.2 s, then lasting": (
+        braking((7.5, 0.0), (0.2, -4.0), (0.5, 0.0), (5.0, -4.0)), "hero_onset", False, "begins_s = 0.15",
+    ),
+    "rolls out at 0.15 m/s^2, then brakes at 0.25": (
+        braking((6.5, 0.0), (1.0, -0.15), (30.0, -0.25)), "hero_onset", False, "faint_mpss = 0.2",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_a_number_of_the_manner_changes_the_verdict(case: str) -> None:
+    play, condition, usually, number = CASES[case]
+    before, after = judged(play).condition(condition), judged(play, number).condition(condition)
+    assert before.holds_at(TIGHT) is usually
+    assert after.holds_at(TIGHT) is not usually
+
+
+def test_every_number_changes_some_verdict() -> None:
+    assert {number.partition(" ")[0] for *_, number in CASES.values()} == set(NUMBERS)
+
+
+@pytest.mark.parametrize(
+    ("play", "condition", "numbers"),
+    [
+        (BRAKES, "hero_onset", ["begins_mpss = 0.75", "begins_s = 0.45"]),
+        (BRAKES, "hero_settled", ["settled_s = 0.75", "settled_mpss = 1.25"]),
+        (TOUCHES, "hero_standstill", ["stands_s = 0.4", "stands_mps = 0.25"]),
+        (GOES_AFTER, "hero_goes_again", ["stands_mps = 0.25"]),
+    ],
+)
+def test_a_condition_names_the_numbers_that_it_was_judged_by(
+    play: Play, condition: str, numbers: Sequence[str]
+) -> None:
+    text = judged(play, *numbers).condition(condition).text
+    assert {number.split(" = ")[1] for number in numbers} <= set(re.findall(r"\d+(?:\.\d+)?", text))
