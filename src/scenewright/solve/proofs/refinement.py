@@ -55,8 +55,11 @@ class Refinement:
         """Let every rate at a moment last for a moment."""
         events = self.events
         for (actor, instant), rate in list(self.lowering.rates.items()):
-            lasts = events.moment(events.times[instant] + RATE_LASTS_S, "lasts")
-            a, b = events.state(actor, instant), events.state(actor, lasts)
+            knots = [events.knot(actor, name) for name in events.scene.program.actor(actor).sketch.knots]
+            ends, now = instant == knots[-1], events.times[instant]
+            lasts = events.moment(now - RATE_LASTS_S if ends else now + RATE_LASTS_S, "lasts")
+            first, last = (lasts, instant) if ends else (instant, lasts)
+            a, b = events.state(actor, first), events.state(actor, last)
             self.owed.append(compare("==", b.speed - a.speed, rate * RATE_LASTS_S))
             self.owed.append(compare("==", (b.place - a.place) * 2, (a.speed + b.speed) * RATE_LASTS_S))
 
