@@ -10,6 +10,9 @@ from scenewright.judge.judgement import judge
 from scenewright.judge.tolerance import TIGHT
 from scenewright.orchestrate import case_of
 from scenewright.program.structure import read_structure
+from scenewright.program.text import parse_program
+from scenewright.roads.grounding import ground
+from scenewright.roads.load import load_map
 from scenewright.simulate.witnessed import run_of_witness
 from scenewright.solve.feasibility import check_feasibility
 
@@ -28,3 +31,18 @@ def test_moves_as_the_witness_says(case: Example) -> None:
         assert np.allclose([trace.position(float(t)) for t in middle], told, atol=5e-3)
         assert run.trace.duration_s >= max(profile.knot_times_s.values()) - 1e-9
     assert judge(case_of(scene, run, limits)).holds_at(TIGHT)
+
+
+def test_what_follows_ends_before_a_crash() -> None:
+    text = (
+        "Actor 0 (ego):\n- W\n- [t0, go, t1]\n\nActor 1 (hero):\n- W\n- [t0, dec, t1]\n\nConstraints:\n"
+        "A0(t1) == 2 s\nA1v(t1) == 0\nA1(t1) == 2 s\ngap(A0, A1, t1) == 9\nA0v(t1) == 8\n"
+    )
+    scene = ground(parse_program(text), load_map("t_intersection"))
+    limits = limits_of(scene)
+    witness = check_feasibility(scene, read_structure(scene.program), limits).witness
+    assert witness is not None
+    run = run_of_witness(scene, limits, witness)
+    assert witness.end_s - 1e-9 <= run.trace.duration_s < witness.end_s + 1.0
+    verdict = judge(case_of(scene, run, limits))
+    assert verdict.condition("no_collision").holds_at(TIGHT)

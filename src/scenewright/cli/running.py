@@ -127,9 +127,6 @@ def carry_out(request: Request, until: Stop = "end", quiet: bool = False) -> Res
 @contextmanager
 def _interruptible() -> Iterator[_Shield]:
     """Let Ctrl-C through while something is being worked out, and not while its results are being written."""
-    import z3
-
-    z3.set_param("ctrl_c", False)  # its own handler would swallow the signal and say "unknown"
     shield = _Shield()
     try:
         yield shield

@@ -125,13 +125,15 @@ def _temporal(case: Case, formula: Temporal, moments: Moments, negated: bool) ->
     if not np.isfinite(start_s) or start_s > case.end_s:
         raise CannotJudge("the run ended before the stretch of time began")
     lasting = (formula.operator != "eventually") != negated
+    if end_s < start_s:  # at no instant: what holds always holds, what holds sometime does not
+        return Leaf(0.0 if lasting else np.inf, None)
     body_negated = (formula.operator == "never") != negated
 
     def body(time_s: FloatArray) -> Miss:
         return miss_of(case, formula.body, replace(moments, now=time_s), body_negated)
 
     sign = -1.0 if lasting else 1.0
-    steps = any(isinstance(node, State) and node.order == 2 for node in walk(formula.body))
+    steps = lasting and any(isinstance(node, State) and node.order == 2 for node in walk(formula.body))
     if steps and end_s - start_s > 4 * TIGHT.time_s:
         # Accelerations step at knots, and knots are met within a time tolerance: the ends are not held against anybody.
         start_s, end_s = start_s + TIGHT.time_s, end_s - TIGHT.time_s

@@ -14,9 +14,9 @@ from scenewright.judge.conditions import program_conditions
 from scenewright.judge.encounter import encounter_facts
 from scenewright.judge.interaction import interaction_conditions, interaction_facts
 from scenewright.judge.kinematics import kinematic_conditions, kinematic_facts
-from scenewright.judge.knots import measure
 from scenewright.judge.route import route_conditions
 from scenewright.judge.safety import no_collision, safety_facts
+from scenewright.judge.unseen import measured_at_best
 from scenewright.judge.verdict import Condition, Verdict
 from scenewright.program.types import EGO
 
@@ -43,7 +43,7 @@ def judge(case: Case) -> Verdict:
 
 
 def _judge(case: Case) -> Verdict:
-    measured = measure(case)
+    measured = measured_at_best(case)
     pairs = safety_facts(case)
     conditions: list[Condition] = [
         *route_conditions(case),

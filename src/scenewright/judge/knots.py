@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -31,10 +32,14 @@ from scenewright.program.expressions import (
     walk,
 )
 from scenewright.program.structure import KnotKey, knots_of, synchronised
-from scenewright.program.types import PieceKind
+from scenewright.program.types import EGO, PieceKind
 
 SIGN_OF: dict[PieceKind, Sign] = {PieceKind.DEC: BRAKING, PieceKind.ACC: SPEEDING_UP}
+Group = frozenset[KnotKey]
+Tie = Literal["fixed", "visible", "free"]
 _TIE = 1e-3
+_LOOK_S = 0.25  # shorter than any phase
+_NEAR_S = 1.0  # within tolerances a moment is no point
 _PASSES = 3  # a knot may be defined by another actor's, which may be defined by a third
 
 
@@ -50,29 +55,50 @@ class Measured:
         Time (s) of each hero's trigger, by hero id; infinite where it has no best instant at all.
     onsets
         The braking or speeding up that begins at each hero's trigger, by hero id; None where there is none.
+    free
+        Knots that neither a place nor anything visible ties to a moment, those that are one moment together.
+    visible
+        Knots that are where one piece visibly gives way to the next, which may be seen more than once.
     """
 
     moments: Moments
     triggers: dict[int, float]
     onsets: dict[int, Phase | None]
+    free: tuple[Group, ...] = ()
+    visible: tuple[Group, ...] = ()
 
 
-def measure(case: Case) -> Measured:
-    """Find the times of all knots."""
-    knots: dict[KnotKey, float] = {(a.id, a.sketch.knots[0]): case.start_s for a in case.program.actors}
-    onsets: dict[int, Phase | None] = {}
-    for group in _groups(case):
-        chosen = _best_instant(case, group, knots)
-        if chosen is not None:
-            knots.update(dict.fromkeys(group, chosen))
+def measure(case: Case, told: Mapping[KnotKey, float]) -> Measured:
+    """Find the times of all knots, of which some are told."""
+    knots = dict(told)
+    ties: dict[KnotKey, Tie] = dict.fromkeys(told, "fixed")
     for attempt in range(_PASSES):
-        _fill(case, knots, last_attempt=attempt == _PASSES - 1)
-    triggers = {}
+        _fill(case, knots, ties, last_attempt=attempt == _PASSES - 1)
+    triggers: dict[int, float] = {}
+    onsets: dict[int, Phase | None] = {}
     for hero in case.structure.triggers:
         knot = case.structure.trigger_knot(hero)
         triggers[hero] = knots.get((hero, knot or ""), np.inf)
         onsets[hero] = onset_after(case, hero, knot or "", triggers[hero])
-    return Measured(Moments(knots, _spans(case, knots, onsets)), triggers, onsets)
+    together = [group for group in _groups(case) if not group & told.keys()]
+    keys = {(actor.id, knot): "free" for actor in case.program.actors for knot in actor.sketch.knots} | ties
+    alone = [(frozenset({key}), tie) for key, tie in keys.items() if not any(key in group for group in together)]
+    free, visible = (tuple(group for group, tie in alone if tie == wanted) for wanted in ("free", "visible"))
+    return Measured(Moments(knots, _spans(case, knots, onsets)), triggers, onsets, (*together, *free), visible)
+
+
+def best_instants(case: Case) -> tuple[dict[KnotKey, float], tuple[Group, ...]]:
+    """Return when the knots were of which the program says that they are one moment, and what holds at it.
+
+    With them come those of them for which another moment does as well.
+    """
+    found = {(actor.id, actor.sketch.knots[0]): case.start_s for actor in case.program.actors}
+    unseen = []
+    for group in _groups(case):
+        if (chosen := _best_instant(case, group, found)) is not None:
+            found.update(dict.fromkeys(group, chosen[0]))
+            unseen += [group] * (not chosen[1])
+    return found, tuple(unseen)
 
 
 def conjuncts(formula: Formula) -> Iterator[Formula]:
@@ -84,7 +110,7 @@ def conjuncts(formula: Formula) -> Iterator[Formula]:
         yield formula
 
 
-def sides_of(case: Case, group: frozenset[KnotKey], known: set[KnotKey]) -> list[Formula]:
+def sides_of(case: Case, group: Group, known: set[KnotKey]) -> list[Formula]:
     """Return what the program says of an instant, given the knots whose times are known."""
     found = []
     for constraint in case.program.constraints:
@@ -109,7 +135,7 @@ def onset_after(case: Case, hero: int, knot: str, moment_s: float) -> Phase | No
     return None if sign is None else phase_at(case.timelines[hero], moment_s, sign, case.program.manner)
 
 
-def _groups(case: Case) -> list[frozenset[KnotKey]]:
+def _groups(case: Case) -> list[Group]:
     groups: list[set[KnotKey]] = [set(instant) for instant in case.structure.triggers.values()]
     for constraint in case.program.constraints:
         for pair in synchronised(constraint.formula):
@@ -119,7 +145,8 @@ def _groups(case: Case) -> list[frozenset[KnotKey]]:
     return sorted({frozenset(group) for group in groups}, key=lambda group: (group not in triggers, sorted(group)))
 
 
-def _best_instant(case: Case, group: frozenset[KnotKey], knots: dict[KnotKey, float]) -> float | None:
+def _best_instant(case: Case, group: Group, knots: dict[KnotKey, float]) -> tuple[float, bool] | None:
+    """Return the instant at which what the program says of it holds best, and whether it holds at no other."""
     parts = sides_of(case, group, set(knots))
     grid = case.timelines[0].instants(case.start_s, case.end_s, parts=2)
 
@@ -135,7 +162,12 @@ def _best_instant(case: Case, group: frozenset[KnotKey], knots: dict[KnotKey, fl
         return None
     found = minima(score, grid)
     if not found:
-        return np.inf
+        return np.inf, True
+    chosen = _likeliest(case, group, judged, found)
+    return chosen, not np.any((score(grid) <= 1) & (np.abs(grid - chosen) > _NEAR_S))
+
+
+def _likeliest(case: Case, group: Group, judged: list[Formula], found: list[Minimum]) -> float:
     if not any(isinstance(part, Compare) and part.operator == "==" for part in judged):
         # "while ..." holds over stretches: the piece that follows shows which instant of them was meant.
         return min(found, key=lambda m: (m.score > 1, m.score if m.score > 1 else 0.0, m.time_s)).time_s
@@ -145,7 +177,7 @@ def _best_instant(case: Case, group: frozenset[KnotKey], knots: dict[KnotKey, fl
     return min(good, key=lambda minimum: _unlikeliness(case, group, minimum)).time_s
 
 
-def _can_be_judged(case: Case, part: Formula, knots: Mapping[KnotKey, Values], group: frozenset[KnotKey]) -> bool:
+def _can_be_judged(case: Case, part: Formula, knots: Mapping[KnotKey, Values], group: Group) -> bool:
     try:
         miss_of(case, part, Moments({**knots, **dict.fromkeys(group, case.start_s)}))
     except CannotJudge:
@@ -153,7 +185,7 @@ def _can_be_judged(case: Case, part: Formula, knots: Mapping[KnotKey, Values], g
     return True
 
 
-def _unlikeliness(case: Case, group: frozenset[KnotKey], minimum: Minimum) -> tuple[float, float]:
+def _unlikeliness(case: Case, group: Group, minimum: Minimum) -> tuple[float, float]:
     score = minimum.score
     for actor, knot in group:
         sketch = case.program.actor(actor).sketch
@@ -164,25 +196,38 @@ def _unlikeliness(case: Case, group: frozenset[KnotKey], minimum: Minimum) -> tu
     return score, minimum.time_s
 
 
-def _fill(case: Case, knots: dict[KnotKey, float], last_attempt: bool) -> None:
+def _fill(case: Case, knots: dict[KnotKey, float], ties: dict[KnotKey, Tie], last_attempt: bool) -> None:
+    """Put in the times of knots in the order of the sketch, and what ties them to these."""
     for actor in (*case.program.heroes, case.program.ego):
         previous = case.start_s
         for index, knot in enumerate(actor.sketch.knots):
             key = (actor.id, knot)
             if key not in knots:
-                time_s = _defined_time(case, key, previous, knots)
-                if time_s is None and not actor.is_ego:
-                    time_s = _visible_time(case, key, index, previous)
-                if time_s is None:
-                    time_s = _stated_time(case, key, knots)
+                time_s, tie = _time_of(case, key, index, previous, knots)
                 if time_s is None and last_attempt and index == len(actor.sketch.knots) - 1:
                     time_s = case.end_s
                 if time_s is None:
                     if last_attempt:
                         continue
                     break  # what follows must wait for another actor's knots
-                knots[key] = time_s
+                knots[key], ties[key] = time_s, tie
             previous = max(previous, knots[key])
+
+
+def _time_of(
+    case: Case, key: KnotKey, index: int, previous: float, knots: dict[KnotKey, float]
+) -> tuple[float | None, Tie]:
+    """Return when a knot was, if anything tells, and what ties it to that."""
+    pieces = case.program.actor(key[0]).sketch.pieces
+    visible = None if key[0] == EGO else _visible_time(case, key, index, previous)
+    stood = index > 0 and pieces[index - 1] is PieceKind.STOP
+    if not (stood and visible is not None and np.isfinite(visible)):  # all the time that it stands it is at one place
+        if (found := _defined_time(case, key, previous, knots)) is not None:
+            return found
+        if visible is None:
+            time_s = _stated_time(case, key, knots)
+            return time_s, "free" if time_s is None else "fixed"
+    return visible, "free" if stood and index == len(pieces) else "visible"  # it may stand for longer than it has to
 
 
 def _equalities(case: Case, key: KnotKey, known: set[KnotKey]) -> Iterator[Compare]:
@@ -200,12 +245,15 @@ def _level(case: Case, part: Compare, key: KnotKey, knots: Mapping[KnotKey, Valu
     return np.broadcast_to(np.where(np.isnan(level), np.inf, level), time_s.shape)
 
 
-def _defined_time(case: Case, key: KnotKey, after_s: float, knots: dict[KnotKey, float]) -> float | None:
-    """Return the time of a knot from what the program says of the actor's state there; None where it says nothing."""
+def _defined_time(case: Case, key: KnotKey, after_s: float, knots: dict[KnotKey, float]) -> tuple[float, Tie] | None:
+    """Return the time of a knot from what the program says of the actor's state there; None where it says nothing.
+
+    A speed or a time to arrival may be had more than once, so they do not tie it.
+    """
     if not np.isfinite(after_s):
-        return np.inf
+        return np.inf, "fixed"
     if demands_standstill(case, key, knots):
-        return _rest_time(case, key, after_s)
+        return _rest_time(case, key, after_s), "fixed"
     parts = []
     for part in _equalities(case, key, set(knots)):
         orders = {_order_at(n, key) for n in walk(part)} - {None, 2}
@@ -214,7 +262,13 @@ def _defined_time(case: Case, key: KnotKey, after_s: float, knots: dict[KnotKey,
     if not parts:
         return None
     only_speed, part = min(parts, key=lambda item: item[0])  # a place defines a moment better than a speed
-    return (_reached_speed if only_speed else _place_time)(case, part, key, after_s, knots)
+    if only_speed:
+        return _reached_speed(case, part, key, after_s, knots), "free"
+    time_s = _place_time(case, part, key, after_s, knots)
+    if np.isfinite(time_s):
+        return time_s, "free" if any(isinstance(node, Derived) for node in walk(part)) else "fixed"
+    nearest = np.abs(_level(case, part, key, knots, np.array([case.end_s])))  # who stops just short of it is there
+    return time_s, "fixed" if nearest[0] > TIGHT.length_m else "free"
 
 
 def _order_at(node: object, key: KnotKey) -> int | None:
@@ -240,9 +294,8 @@ def _is_standstill(case: Case, part: Compare, key: KnotKey, knots: Mapping[KnotK
     if {_order_at(n, key) for n in walk(part)} - {None} != {1}:
         return False
     timeline = case.timelines[key[0]]
-    sample = timeline.time_s[
-        :: max(1, len(timeline.time_s) // 64)
-    ]  # equal to the speed at all of these: it is the speed
+    # Equal to the speed at all of these: it is the speed.
+    sample = timeline.time_s[:: max(1, len(timeline.time_s) // 64)]
     try:
         level = _level(case, part, key, knots, sample)
     except CannotJudge:
@@ -261,7 +314,9 @@ def _rest_time(case: Case, key: KnotKey, after_s: float) -> float:
 
 
 def _reached_speed(case: Case, part: Compare, key: KnotKey, after_s: float, knots: dict[KnotKey, float]) -> float:
-    grid = case.timelines[key[0]].instants(after_s, case.end_s)
+    later = case.program.actor(key[0]).sketch.knots[case.program.actor(key[0]).sketch.knot_index(key[1]) + 1 :]
+    before_s = min((knots.get((key[0], knot), np.inf) for knot in later), default=np.inf)
+    grid = case.timelines[key[0]].instants(after_s, min(before_s, case.end_s))
     reached = first_crossing(lambda t: _level(case, part, key, knots, t), grid)
     # A speed that is approached and never quite met is judged where it was met best.
     return float(grid[np.argmin(np.abs(_level(case, part, key, knots, grid)))]) if reached is None else reached
@@ -305,6 +360,15 @@ def _visible_time(case: Case, key: KnotKey, index: int, after_s: float) -> float
         phase = phase_at(timeline, after_s, SIGN_OF[before], manner)
         return None if phase is None else phase.end_s
     return None
+
+
+def visible_times(case: Case, key: KnotKey, low_s: float, high_s: float) -> list[float]:
+    """Return all moments between two at which the piece before a knot may visibly have given way to the next."""
+    if key[0] == EGO:
+        return []
+    index = case.program.actor(key[0]).sketch.knot_index(key[1])
+    looked = (_visible_time(case, key, index, float(t)) for t in np.arange(low_s, high_s, _LOOK_S))
+    return sorted({time_s for time_s in looked if time_s is not None and low_s <= time_s <= high_s})
 
 
 def _stated_time(case: Case, key: KnotKey, knots: dict[KnotKey, float]) -> float | None:

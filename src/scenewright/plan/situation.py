@@ -44,7 +44,7 @@ class Lanes:
     Attributes
     ----------
     apart
-        For each hero: 1 where it keeps ahead, -1 behind; what to add to its arc length to compare it with the ego's (m).
+        For each hero: 1 where it keeps ahead, -1 behind; what to add to its arc length there (m).
     answers
         For each hero that the ego follows, how.
     """

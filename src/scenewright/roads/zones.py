@@ -19,7 +19,7 @@ Zone = tuple[float, float]
 _STEP_M = 0.1
 _REACH_M = 60.0  # how far from the place is looked at first
 _FURTHEST_M = 240.0  # lanes that merge as flat as that are one road long before
-_ROWS = 512  # compared at a time, for the sake of memory
+_ROWS = 64  # compared at a time: so few are near each other, and far from most of the other path
 
 
 def touching(
@@ -94,16 +94,17 @@ def _unbroken(touched: NDArray[np.bool_], middle: int) -> tuple[int, int]:
 def boxes_touch(poses_a: FloatArray, poses_b: FloatArray, body_a: Body, body_b: Body) -> NDArray[np.bool_]:
     """Return whether the boxes of every pair of poses overlap (separating axes of both boxes), shape (A, B)."""
     touch = np.zeros((len(poses_a), len(poses_b)), dtype=bool)
-    # Most pairs are far apart; only rows and columns with a near pair need the full test.
+    # Most pairs are far apart; only near ones need the full test.
     reach_m = body_a.reach_m() + body_b.reach_m()
+    places_b = poses_b[:, :2]
     for first in range(0, len(poses_a), _ROWS):
         block = poses_a[first : first + _ROWS]
-        dx = poses_b[None, :, 0] - block[:, None, 0]
-        dy = poses_b[None, :, 1] - block[:, None, 1]
-        near = dx * dx + dy * dy <= reach_m**2
-        rows, columns = np.flatnonzero(near.any(axis=1)), np.flatnonzero(near.any(axis=0))
-        if len(rows):
-            touch[np.ix_(first + rows, columns)] = overlap(block[rows, None], poses_b[None, columns], body_a, body_b)
+        low, high = block[:, :2].min(axis=0) - reach_m, block[:, :2].max(axis=0) + reach_m
+        columns = np.flatnonzero(np.all((places_b >= low) & (places_b <= high), axis=1))
+        apart = places_b[None, columns] - block[:, None, :2]
+        row, column = np.nonzero((apart * apart).sum(axis=2) <= reach_m**2)
+        column = columns[column]
+        touch[first + row, column] = overlap(block[row], poses_b[column], body_a, body_b)
     return touch
 
 

@@ -8,12 +8,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from itertools import combinations
 
 import numpy as np
 
 from scenewright.motion.profile import Profile, Segment
+from scenewright.roads.bodies import CAR
 from scenewright.roads.grounding import Scene
 from scenewright.roads.routes import Route
+from scenewright.roads.zones import overlap
 from scenewright.simulate.loop import DEFAULT_STEP_S, Run
 from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan
@@ -32,7 +35,7 @@ def run_of_witness(scene: Scene, limits: Mapping[int, Limits], witness: Witness)
         profiles[hero.id] = _driven_on(scene.routes[hero.id], profiles[hero.id], limits[hero.id], until_s)
     ends_s = [_end_s(scene.routes[actor], profile) for actor, profile in profiles.items()]
     ends_s += [profiles[hero.id].end_s for hero in scene.program.heroes]
-    until_s = max(min(until_s, *ends_s), witness.end_s)
+    until_s = _apart_until(scene, profiles, witness.end_s, max(min(until_s, *ends_s), witness.end_s))
     time_s = DEFAULT_STEP_S * np.arange(int(np.ceil(until_s / DEFAULT_STEP_S - 1e-9)) + 1, dtype=np.float64)
     actors = {actor.name: _trace(scene.routes[actor.id], profiles[actor.id], time_s) for actor in scene.program.actors}
     plan = Plan(profiles, style="a witness", parameters=witness.parameters)
@@ -61,6 +64,18 @@ def _driven_on(route: Route, profile: Profile, limits: Limits, until_s: float) -
         now, place = now + _ON_STEP_S, place + (speed + 0.5 * rate * _ON_STEP_S) * _ON_STEP_S
         speed += rate * _ON_STEP_S
     return Profile(tuple(segments), profile.knot_times_s)
+
+
+def _apart_until(scene: Scene, profiles: Mapping[int, Profile], from_s: float, until_s: float) -> float:
+    """Return until when nobody touches anybody after the last moment: what comes then is nobody's doing."""
+    times = np.arange(from_s, until_s, DEFAULT_STEP_S)
+    boxes = {}
+    for actor, profile in profiles.items():
+        s_m = np.array([profile.state(float(t))[0] for t in times])
+        boxes[actor] = scene.routes[actor].path.poses(s_m) if len(times) else np.zeros((0, 3))
+    touch = [np.flatnonzero(overlap(a, b, CAR, CAR)) for a, b in combinations(boxes.values(), 2)]
+    first = min((int(found[0]) for found in touch if len(found)), default=None)
+    return until_s if first is None else float(times[max(0, first - 2)])  # a trace ends up to a step later
 
 
 def _end_s(route: Route, profile: Profile) -> float:

@@ -118,11 +118,8 @@ def run_bench_case(case: BenchCase) -> CaseRecord:
 
 def carry_out_case(case: BenchCase, row: BenchmarkRow) -> tuple[CaseRecord, Request, Result]:
     """Run one case; raises `ScenewrightError` where the request is wrong."""
-    import z3
-
     from scenewright.study.rivals import run_method
 
-    z3.set_param("ctrl_c", False)  # its own handler would take Ctrl-C for an answer
     request = case.request(row)
     started = time.perf_counter()
     result = run_method(case.method, request, None)

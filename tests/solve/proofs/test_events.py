@@ -89,3 +89,21 @@ def test_unknowns_have_ranges() -> None:
     assert (place.kind, float(place.low)) == ("place", 0.0)
     assert abs(float(place.high) - end) < 1e-3
     assert events.new("mine", Fraction(1), Fraction(2), "other").terms == unknown(len(events.unknowns) - 1).terms
+
+
+def test_what_contradicts_the_order_is_impossible() -> None:
+    events = events_of()
+    first, second = (events.times[events.knot(1, name)] for name in ("t1", "t2"))
+    events.learn_from(iter([compare(">=", second - first, 3)]))
+    least = events.least_differences()
+    for formula, impossible in (
+        (compare("<", second, first), True),
+        (compare("<=", second - first, Fraction(29, 10)), True),
+        (compare("<=", second - first, 3), False),
+        (compare("<", second - first, 3), True),
+        (compare(">", second, first), False),
+        (compare("<", first, 0), True),
+        (compare("<=", first, 0), False),
+        (compare("<=", events.state(1, events.start).place, -1), False),  # of places it knows nothing
+    ):
+        assert events.impossible(formula, least) == impossible, formula

@@ -5,7 +5,7 @@ What enters: formulas over numbered unknowns. What leaves: arrays over their com
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -34,10 +34,20 @@ class Compiled:
         The comparisons.
     equal, strict
         Which of them are equalities, and which strict.
+
+    Parameters
+    ----------
+    size
+        The number of unknowns.
+    ruled_out
+        Tells of an alternative whether it is never to be taken, while there is another.
     """
 
-    def __init__(self, formulas: Sequence[Formula], size: int) -> None:
+    def __init__(
+        self, formulas: Sequence[Formula], size: int, ruled_out: Callable[[Formula], bool] = lambda _: False
+    ) -> None:
         self.atoms: list[Atom] = []
+        self._ruled_out = ruled_out
         self._trees = [self._tree(formula) for formula in formulas]
         owner, factor, left, right = [], [], [], []
         for number, atom in enumerate(self.atoms):
@@ -79,7 +89,8 @@ class Compiled:
             case All(parts=parts):
                 return _Tree("all", parts=[self._tree(part) for part in parts])
             case Some(parts=parts):
-                return _Tree("some", parts=[self._tree(part) for part in parts])
+                possible = [part for part in parts if not self._ruled_out(part)]
+                return _Tree("some", parts=[self._tree(part) for part in possible or parts])
 
 
 def _choose(tree: _Tree, errors: Array, chosen: list[int]) -> None:

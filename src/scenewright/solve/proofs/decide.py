@@ -31,16 +31,19 @@ from scenewright.solve.proofs.search import Search
 from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
 
 Array = NDArray[np.float64]
+Owed = Literal["throughout", "at first", "nothing"]
 _ROUNDS = 14  # how often one motion is mended before another is looked for
-_GUESSES = (4, 5, 12)  # how many first guesses are tried before each time that a proof is looked for
-_PROOF_S = (0.15, 0.5, 1.0)
+_GUESSES = (4, 12, 1000)  # how many first guesses are tried before each time that a proof is looked for
+_PROOF_S = (0.15, 0.4, 0.1)
 _RANGES = {
     "time": f"everything happens within {float(LONGEST_S):g} s of the start",
     "speed": "how fast anybody may be",
     "place": "where the routes end",
 }
 _WIDER = 1000  # a range so much wider is none
-_WITH_MANNER = 3  # so many guesses owe the manner; a motion that cannot be told by its looks is possible all the same
+# What guesses owe of the manner, in turn: a motion that cannot be told by its looks is possible all the same.
+_OWED: tuple[Owed, ...] = ("throughout", "throughout", "at first", "nothing")
+_KEEN = 12  # so many guesses are made for a motion that can, where there is one that cannot
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,17 +95,25 @@ class Question:
 class _Case:
     """One scene's events with what was added to them, grown as motions show the need."""
 
-    def __init__(self, question: Question, manner: bool = False, plan: bool = True) -> None:
+    def __init__(self, question: Question, owed: Owed = "nothing", plan: bool = True) -> None:
         self.scene, self.structure, self.limits = question.scene, question.structure, question.limits
         self.events = Events(question.scene, question.limits, question.ego, question.drive, question.freed)
         self.lowering = Lowering(self.events, Fraction(1) if question.drive else ZERO)
         self.constraints = question.constraints()
-        self.lowered: list[Lowered] = self.lowering.lower(self.constraints)
+        self._sizes = (0, 0)
+        self.lowered: list[Lowered] = []
+        self.lower()
         self.more = Refinement(self.events, self.lowering, question.limits)
         if plan:
             self.more.lasting_rates()
-        if manner:
-            self.more.manner(question.structure)
+        if owed != "nothing":
+            self.more.manner(throughout=owed == "throughout")
+
+    def lower(self) -> None:
+        """Lower the constraints over the moments that there are now, if there are more of them."""
+        sizes = len(self.events.times), len(self.events.states)
+        if sizes != self._sizes:
+            self.lowered, self._sizes = self.lowering.lower(self.constraints), sizes
 
     def formulas(self) -> list[Formula]:
         """Return all that a plan owes."""
@@ -114,13 +125,12 @@ class _Case:
 
     def search(self) -> Search:
         """Return a search over what there is now."""
-        self.lowered = self.lowering.lower(self.constraints)
+        self.lower()
         return Search(self.events, self.formulas(), [*self.lowering.narrowings, *self.more.narrowings])
 
     def relaxation(self) -> list[Named]:
         """Return what a refutation rests on."""
-        self.lowered = self.lowering.lower(self.constraints)
-        self.lowering.narrowings += self.more.narrowings
+        self.lower()
         return relaxation(self.events, self.lowering, self.lowered)
 
 
@@ -135,17 +145,25 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     left_out = {each.constraint.id: each.refused for each in plain.lowered if each.refused}
     generator = np.random.default_rng(0)
     amiss: tuple[Broken, ...] = ()
-    tried = 0
+    formulas: list[Named] = []
+    tried, kept = 0, None
     for guesses, proof_s in zip(_GUESSES, _PROOF_S, strict=True):
         for _ in range(0 if left_out or question.drive else guesses):
-            case = _Case(question, manner=tried < _WITH_MANNER)
-            found, amiss = _witness(case, generator if tried else None, until)
+            owed = _OWED[tried % len(_OWED)] if tried < len(_OWED) or kept is not None else "nothing"
+            if kept is None or owed != "nothing":
+                found, amiss = _witness(_Case(question, owed), generator if tried else None, until)
+                if found is not None and owed != "nothing":
+                    return Decision("feasible", found)
+                kept = kept or found
             tried += 1
-            if found is not None:
-                return Decision("feasible", found)
-            if time.monotonic() > until:
+            over = time.monotonic() > until
+            if kept is not None and (over or tried >= _KEEN):
+                return Decision("feasible", kept)
+            if over:
                 return Decision("undecided", amiss=amiss)
-        formulas = taken(question.refuter, plain.relaxation())
+        if kept is not None:
+            continue
+        formulas = formulas or taken(question.refuter, plain.relaxation())
         answer = question.refuter.ask(plain.events.unknowns, formulas, min(proof_s, until - time.monotonic()))
         if answer.kind == "refuted" and not question.refuter.capabilities.exact:
             return Decision("undecided", left_out=left_out, amiss=amiss, doubted_by=question.refuter.name)
@@ -155,8 +173,7 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
         if answer.kind == "met" and (left_out or question.drive):
             break
         if answer.kind == "met" and answer.values:
-            case = _Case(question, manner=tried < _WITH_MANNER)
-            found, amiss = _mended(case, np.array(answer.values), until, None)
+            found, amiss = _mended(_Case(question), np.array(answer.values), until, None)
             if found is not None:
                 return Decision("feasible", found)
     return Decision("undecided", left_out=left_out, amiss=amiss)
@@ -198,7 +215,7 @@ def _mended(
             return witness, ()
         if time.monotonic() > until or not case.more.mend(list(amiss), witness):
             return None, tuple(amiss)
-        case.lowering.lower(case.constraints)
+        case.lower()
         times = _times(case.events, witness)
         guess = carried_over(case.events, point, witness.profiles, times)
     return None, tuple(amiss)

@@ -118,6 +118,7 @@ class Events:
     _places: dict[tuple[int, Fraction], int] = field(default_factory=dict)
     _ahead: dict[tuple[int, int], Fraction] = field(default_factory=dict)
     _learned: dict[tuple[int, int], Fraction] = field(default_factory=dict)
+    _instant_of: dict[tuple[int, ...], int] = field(default_factory=dict)  # by its unknown
 
     def __post_init__(self) -> None:
         for name, value in self.scene.parameters.items():
@@ -141,6 +142,7 @@ class Events:
     def instant(self, name: str) -> int:
         """Return a new instant, at a time that is to be found."""
         self.times.append(self.new(f"T_{name}", ZERO, LONGEST_S, "time"))
+        self._instant_of[(len(self.unknowns) - 1,)] = len(self.times) - 1
         return len(self.times) - 1
 
     def clock(self, time_s: Fraction) -> int:
@@ -309,7 +311,6 @@ class Events:
 
     def learn_from(self, formulas: Iterator[Formula]) -> None:
         """Note what comparisons of two times, and places that are known, say of the order of instants."""
-        by_unknown = {key: number for number, time in enumerate(self.times) for key in time.terms if key != ()}
         places = {key: where for where, state in self.states.items() for key in state.place.terms if key != ()}
         known: dict[tuple[int, int], Fraction] = {}
         open_parts = list(formulas)
@@ -321,42 +322,47 @@ class Events:
             if not isinstance(part, Atom) or part.left.degree != 1:
                 continue
             terms = {key: value for key, value in part.left.terms.items() if key != ()}
-            offset = part.left.terms.get((), ZERO)
-            if set(terms) <= set(by_unknown) and 1 <= len(terms) <= 2:
-                self._learn_times(terms, offset, part.relation == "==", by_unknown)
+            if (found := self._difference(part.left)) is not None:
+                early, late, most_s = found
+                self._note(late, early, -most_s)
+                if part.relation == "==":
+                    self._note(early, late, most_s)
             elif len(terms) == 1 and part.relation == "==" and next(iter(terms)) in places:
                 key, factor = next(iter(terms.items()))
-                known[places[key]] = -offset / factor
+                known[places[key]] = -part.left.terms.get((), ZERO) / factor
         for (actor, first), a in known.items():
             for (other, second), b in known.items():
                 if actor == other and a < b:
                     self._note(first, second, (b - a) / self.law_of(actor).speed_high)
+        knots = {(actor, instant) for (actor, _), instant in self._knots.items()}
+        for (actor, place), made in self._places.items():  # the start or the end where it is never passed
+            for (other, knot), at in known.items():
+                if actor == other and at != place and (actor, knot) in knots:
+                    self._note(*((knot, made) if at < place else (made, knot)), ZERO)
 
-    def _learn_times(
-        self,
-        terms: dict[tuple[int, ...], Fraction],
-        offset: Fraction,
-        equal: bool,
-        by_unknown: dict[tuple[int, ...], int],
-    ) -> None:
-        """Note ``terms + offset <= 0`` (or == 0) where it is about the difference of two instants."""
-        parts = [(by_unknown[key], factor) for key, factor in terms.items()]
-        size = abs(parts[0][1])
-        if any(abs(factor) != size for _, factor in parts):
-            return
+    def impossible(self, part: Formula, least: NDArray[np.float64]) -> bool:
+        """Whether something contradicts what is certain of the order of instants."""
+        if not isinstance(part, Atom) or part.relation == "==" or part.left.degree != 1:
+            return False
+        found = self._difference(part.left)
+        if found is None:
+            return False
+        early, late, most_s = found
+        return bool(least[early, late] > float(most_s) - (1e-9 if part.relation == "<" else -1e-9))
+
+    def _difference(self, left: Polynomial) -> tuple[int, int, Fraction] | None:
+        """Return `early`, `late` and `most_s` where ``left <= 0`` says that ``late - early <= most_s``."""
+        parts = [(self._instant_of[key], factor) for key, factor in left.terms.items() if key in self._instant_of]
+        size = abs(parts[0][1]) if parts else ZERO
+        if not 1 <= len(parts) <= 2 or len(parts) + (() in left.terms) != len(left.terms):
+            return None
         if len(parts) == 1:
             parts.append((self.start, -parts[0][1]))
         (a, sign), (b, other) = parts
-        if sign * other > 0:
-            return
-        late, early = (a, b) if sign > 0 else (b, a)  # late - early + offset/size <= 0
-        self._note_at_most(early, late, -offset / size)
-        if equal:
-            self._note_at_most(late, early, offset / size)
-
-    def _note_at_most(self, early: int, late: int, most_s: Fraction) -> None:
-        """Note ``late - early <= most_s``: that is, `early` comes at least ``-most_s`` after `late`."""
-        self._note(late, early, -most_s)
+        if sign + other != 0:
+            return None
+        late, early = (a, b) if sign > 0 else (b, a)
+        return early, late, -left.terms.get((), ZERO) / size
 
     def _note(self, first: int, second: int, least_s: Fraction) -> None:
         self._learned[first, second] = max(least_s, self._learned.get((first, second), least_s))

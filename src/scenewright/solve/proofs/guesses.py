@@ -13,26 +13,10 @@ from numpy.typing import NDArray
 
 from scenewright.motion.profile import Profile
 from scenewright.solve.proofs.events import Events
-from scenewright.solve.proofs.polynomials import ZERO, All, Atom, Formula, Polynomial
+from scenewright.solve.proofs.polynomials import Formula, Polynomial, told_values
 
 Array = NDArray[np.float64]
 _SPEED_MPS, _GAP_S, _LATER_S = 8.0, 3.0, 4.0
-
-
-def told_values(formulas: Iterable[Formula]) -> dict[int, float]:
-    """Return the unknowns that a constraint fixes by itself."""
-    found: dict[int, float] = {}
-    open_parts = list(formulas)
-    while open_parts:
-        part = open_parts.pop()
-        if isinstance(part, All):
-            open_parts += part.parts
-        elif isinstance(part, Atom) and part.relation == "==" and part.left.degree == 1:
-            terms = [(key, value) for key, value in part.left.terms.items() if key != ()]
-            if len(terms) == 1:
-                ((key, factor),) = terms
-                found[key[0]] = float(-part.left.terms.get((), ZERO) / factor)
-    return found
 
 
 def first_guess(events: Events, formulas: Iterable[Formula], generator: np.random.Generator | None = None) -> Array:

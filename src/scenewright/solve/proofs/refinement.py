@@ -18,7 +18,6 @@ from scenewright.motion.laws import ANY, Law
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import moments_of_worst
 from scenewright.program.manner import Manner
-from scenewright.program.structure import Structure
 from scenewright.program.types import Actor, PieceKind
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import find_conflict
@@ -29,7 +28,7 @@ from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.forms import actors_at, free_states
 from scenewright.solve.proofs.lowering import RATE_LASTS_S, Lowering
 from scenewright.solve.proofs.narrowing import Narrowing
-from scenewright.solve.proofs.polynomials import Formula, compare, some
+from scenewright.solve.proofs.polynomials import ZERO, Formula, compare, every, some
 from scenewright.solve.proofs.witness import Broken, Witness
 from scenewright.units import pin
 
@@ -38,6 +37,7 @@ _TURN_STEP_M = 0.25
 _SAFETY = 0.999  # rounding of places and speeds within a turn
 _ROOM_M = Fraction(1, 20)
 _STILL_M = Fraction(1, 1000)  # who moves no farther stands, and a search has somewhere to go
+_ROLLS_MPS = Fraction(1, 2)
 
 
 @dataclass(slots=True)
@@ -57,44 +57,28 @@ class Refinement:
         events = self.events
         for (actor, instant), rate in list(self.lowering.rates.items()):
             knots = [events.knot(actor, name) for name in events.scene.program.actor(actor).sketch.knots]
-            before = instant == knots[-1]
-            now = events.times[instant]
-            other = events.moment(now - RATE_LASTS_S if before else now + RATE_LASTS_S, "lasts")
-            first, last = (other, instant) if before else (instant, other)
+            ends, now = instant == knots[-1], events.times[instant]
+            lasts = events.moment(now - RATE_LASTS_S if ends else now + RATE_LASTS_S, "lasts")
+            first, last = (lasts, instant) if ends else (instant, lasts)
             a, b = events.state(actor, first), events.state(actor, last)
             self.owed.append(compare("==", b.speed - a.speed, rate * RATE_LASTS_S))
             self.owed.append(compare("==", (b.place - a.place) * 2, (a.speed + b.speed) * RATE_LASTS_S))
 
-    def manner(self, structure: Structure) -> None:
-        """Let pieces be seen for what they are, heroes be settled before their trigger and begin at it."""
-        events, program = self.events, self.events.scene.program
-        kept = program.manner.stricter(ROOM)
-        for actor in program.heroes:
-            self._seen_pieces(actor, kept)
-        for hero in structure.triggers:
-            knot = structure.trigger_knot(hero)
-            sketch = program.actor(hero).sketch
-            if knot is None or knot not in sketch.knots[:-1]:
-                continue
-            number = sketch.knot_index(knot)
-            kind = sketch.pieces[number]
-            if kind not in (PieceKind.DEC, PieceKind.ACC) or (number and sketch.pieces[number - 1] is PieceKind.STOP):
-                continue
-            trigger, end = events.knot(hero, knot), events.knot(hero, sketch.knots[number + 1])
-            now = events.times[trigger]
-            shown = events.moment(now + kept.begins_s, "begins")
-            events.state(hero, shown)
-            begun = _pulling(kind, kept.begins_mpss)
-            self.narrowings.append(Narrowing(hero, trigger, shown, begun))
-            self.owed.append(compare("<=", events.times[shown], events.times[end]))
-            if number and sketch.pieces[number - 1] is PieceKind.GO:
-                settled = events.moment(now - kept.settled_s, "settled")
-                events.state(hero, settled)
-                calm = _not_pulling(kind, calm_mpss(program.manner))
-                self.narrowings.append(Narrowing(hero, settled, trigger, calm))
+    def manner(self, *, throughout: bool) -> None:
+        """Let pieces begin where they should and not before, and turns lie ahead.
 
-    def _seen_pieces(self, actor: Actor, kept: Manner) -> None:
-        """Let braking and speeding up last as long as their pieces and no longer; let who stops stand for a while."""
+        With `throughout` braking and speeding up are also plain all through their pieces, and over with them.
+        """
+        for actor in self.events.scene.program.heroes:
+            self._seen_pieces(actor, throughout)
+        for each in self.events.scene.program.actors:
+            marks = self.events.scene.landmarks_m[each.id]
+            if "turn_end" in marks:  # whoever is past most of a turn shows no longer where it came from
+                halfway = pin(0.5 * (marks["turn_start"] + marks["turn_end"]))
+                self.owed.append(compare("<=", self.events.state(each.id, self.events.start).place, halfway))
+
+    def _seen_pieces(self, actor: Actor, throughout: bool) -> None:
+        kept = self.events.scene.program.manner.stricter(ROOM)
         events, kinds = self.events, actor.sketch.pieces
         knots = [events.knot(actor.id, name) for name in actor.sketch.knots]
         for number, kind in enumerate(kinds):
@@ -103,20 +87,40 @@ class Refinement:
                 self.owed.append(compare(">=", events.times[ends] - events.times[begins], kept.stands_s))
             if kind not in (PieceKind.DEC, PieceKind.ACC):
                 continue
-            self.narrowings.append(Narrowing(actor.id, begins, ends, _pulling(kind, kept.begins_mpss)))
+            if number and kinds[number - 1] is not PieceKind.STOP:
+                self._begins(actor.id, kind, begins, ends, kept)
+            if throughout:
+                self.narrowings.append(Narrowing(actor.id, begins, ends, _pulling(kind, kept.begins_mpss)))
             if kinds[number + 1 : number + 2] in ((), (PieceKind.GO,)):
-                self._over(actor.id, kind, ends, knots[number + 2 : number + 3], kept)
+                self._over(actor.id, kind, ends, knots[number + 2 : number + 3], kept, throughout)
 
-    def _over(self, actor: int, kind: PieceKind, ends: int, following: list[int], kept: Manner) -> None:
+    def _begins(self, actor: int, kind: PieceKind, begins: int, ends: int, kept: Manner) -> None:
+        """Let an actor be settled before it begins, and begin plainly."""
+        events = self.events
+        now = events.times[begins]
+        shown = events.moment(now + kept.begins_s, "begins")
+        settled = events.moment(now - kept.settled_s, "settled")
+        for instant in (shown, settled):
+            events.state(actor, instant)
+        self.narrowings.append(Narrowing(actor, begins, shown, _pulling(kind, kept.begins_mpss)))
+        self.owed.append(compare("<=", events.times[shown], events.times[ends]))
+        calm = _not_pulling(kind, calm_mpss(events.scene.program.manner))
+        self.narrowings.append(Narrowing(actor, settled, begins, calm))
+
+    def _over(
+        self, actor: int, kind: PieceKind, ends: int, following: list[int], kept: Manner, throughout: bool
+    ) -> None:
         """Let what was done in a piece be over for a while; who has come to a standstill stays there."""
         events = self.events
         lasts_s = kept.stands_s if kind is PieceKind.DEC else kept.begins_s
         over = events.moment(events.times[ends] + lasts_s, "over")
         now, then = events.state(actor, ends), events.state(actor, over)
-        self.narrowings.append(Narrowing(actor, ends, over, _not_pulling(kind, Fraction(0))))
+        if throughout:
+            self.narrowings.append(Narrowing(actor, ends, over, _not_pulling(kind, Fraction(0))))
         self.owed += [compare("<=", events.times[over], events.times[knot]) for knot in following]
         if kind is PieceKind.DEC:
-            self.owed.append(compare("<=", then.place - now.place, now.speed * lasts_s + _STILL_M))
+            stays = every([compare("<=", then.place - now.place, _STILL_M), compare("<=", then.speed, ZERO)])
+            self.owed.append(some([compare(">=", now.speed, _ROLLS_MPS), stays]))
 
     def mend(self, broken: list[Broken], witness: Witness) -> bool:
         """Add what each thing amiss asks for; False where nothing can be added."""
@@ -208,25 +212,21 @@ class Refinement:
     # -- apart --------------------------------------------------------------------------------------------------------
     def _keep_apart(self, broken: Broken, witness: Witness) -> bool:
         """Let two that touch be apart at that moment: one before the stretch that both need, or past it."""
-        events, scene = self.events, self.events.scene
-        for other in witness.profiles:
-            if other == broken.actor:
-                continue
-            conflict = find_conflict(scene.routes[other], scene.routes[broken.actor])
-            made = self._between(broken.time_s, witness)
-            mine, theirs = events.state(broken.actor, made), events.state(other, made)
-            choices = []
-            if conflict is not None and conflict.kind == "crossing":
-                for place, (low, high) in ((theirs.place, conflict.zone_a_m), (mine.place, conflict.zone_b_m)):
-                    choices += [compare("<=", place, pin(low)), compare(">=", place, pin(high))]
-            elif (offset := self._offset(broken.actor, other)) is not None:
-                gap = theirs.place + pin(offset) - mine.place
-                length = pin(VEHICLE_LENGTH_M) + _ROOM_M
-                choices = [compare(">=", gap, length), compare("<=", gap, -length)]
-            if choices:
-                self.owed.append(some(choices))
-                return True
-        return False
+        events, scene, other = self.events, self.events.scene, broken.other
+        conflict = find_conflict(scene.routes[other], scene.routes[broken.actor])
+        made = self._between(broken.time_s, witness)
+        mine, theirs = events.state(broken.actor, made), events.state(other, made)
+        choices = []
+        if conflict is not None and conflict.kind == "crossing":
+            for place, (low, high) in ((theirs.place, conflict.zone_a_m), (mine.place, conflict.zone_b_m)):
+                choices += [compare("<=", place, pin(low)), compare(">=", place, pin(high))]
+        elif (offset := self._offset(broken.actor, other)) is not None:
+            gap = theirs.place + pin(offset) - mine.place
+            length = pin(VEHICLE_LENGTH_M) + _ROOM_M
+            choices = [compare(">=", gap, length), compare("<=", gap, -length)]
+        if choices:
+            self.owed.append(some(choices))
+        return bool(choices)
 
     def _offset(self, actor: int, other: int) -> float | None:
         from scenewright.roads.conflicts import shared_offset_m

@@ -9,15 +9,16 @@ soft rows meets all of it as well as it can. It proves nothing.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.motion.laws import ANY, Law
+from scenewright.solve.proofs.compiled import Compiled
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.narrowing import Narrowing
-from scenewright.solve.proofs.polynomials import All, Atom, Formula, Some
+from scenewright.solve.proofs.polynomials import All, Atom, Formula, Some, told_values
 
 Array = NDArray[np.float64]
 
@@ -28,42 +29,8 @@ _SOFT_ROW = 8  # how daqp is told that a row may be broken at a price
 _LOOKED_AT = 12.0  # in longest steps: what holds by more than this cannot matter within one
 _STRICT = 1e-3  # by how much a strict comparison is to hold, in units of its scaled row
 _MOST_STEPS = 40
+_CLEAR = 1e-4  # more than rounding
 _TRUST = 4.0
-
-
-@dataclass(slots=True)
-class _Compiled:
-    """All atoms of all formulas, for values and gradients at once."""
-
-    count: int
-    owner: NDArray[np.intp]
-    factor: Array
-    left: NDArray[np.intp]
-    right: NDArray[np.intp]
-    equal: NDArray[np.bool_]
-    strict: NDArray[np.bool_]
-
-    def values(self, point: Array) -> Array:
-        """Return the left side of every atom; `point` ends with a one."""
-        found = np.bincount(self.owner, self.factor * point[self.left] * point[self.right], minlength=self.count)
-        return found.astype(np.float64, copy=False)
-
-    def gradients(self, point: Array) -> Array:
-        """Return all gradients, shape (atoms, unknowns + 1)."""
-        width = len(point)
-        flat = np.bincount(
-            self.owner * width + self.left, self.factor * point[self.right], minlength=self.count * width
-        ) + np.bincount(self.owner * width + self.right, self.factor * point[self.left], minlength=self.count * width)
-        return flat.astype(np.float64, copy=False).reshape(self.count, width)
-
-
-@dataclass(slots=True)
-class _Tree:
-    """A formula with the numbers of its atoms at its leaves."""
-
-    kind: str
-    atom: int = -1
-    parts: list[_Tree] = field(default_factory=list)
 
 
 class Search:
@@ -74,28 +41,34 @@ class Search:
         self.formulas = formulas
         self.narrowings = narrowings
         self.steps = 0
-        self._index: list[Atom] = []
-        self._trees = [self._tree(formula) for formula in self.formulas]
+        self.events.learn_from(iter(formulas))
+        self._least = self.events.least_differences()
+        self._told = told_values(formulas)
         size = len(self.events.unknowns)
         self._size = size
-        self._compiled = _compile(self._index, size)
+        self._compiled = Compiled(self.formulas, size, self._ruled_out)
         self._low = np.array([float(each.low) for each in self.events.unknowns])
         self._high = np.array([float(each.high) for each in self.events.unknowns])
         self._scale = np.array([_SCALE[each.kind] for each in self.events.unknowns])
         free = np.array([each.kind == "other" for each in self.events.unknowns])
         self._scale = np.where(free, np.maximum(1.0, 0.25 * (self._high - self._low)), self._scale)
         self._liking: Array = np.ones(0)
-        self._actors = [_Line.of(self.events, actor.id, size) for actor in self.events.scene.program.actors]
+        self._actors = [
+            _Line.of(self.events, actor.id, size, self._least) for actor in self.events.scene.program.actors
+        ]
 
-    def _tree(self, formula: Formula) -> _Tree:
-        match formula:
-            case Atom():
-                self._index.append(formula)
-                return _Tree("atom", len(self._index) - 1)
+    def _ruled_out(self, part: Formula) -> bool:
+        """Whether an alternative contradicts the order of moments or values that are told: it is never the nearest."""
+        match part:
             case All(parts=parts):
-                return _Tree("all", parts=[self._tree(part) for part in parts])
+                return any(self._ruled_out(each) for each in parts)
             case Some(parts=parts):
-                return _Tree("some", parts=[self._tree(part) for part in parts])
+                return all(self._ruled_out(each) for each in parts)
+            case Atom(left=left, relation=relation):
+                if all(unknown in self._told for key in left.terms for unknown in key):
+                    value = left.value(self._told)
+                    return abs(value) > _CLEAR if relation == "==" else value > _CLEAR
+                return self.events.impossible(part, self._least)
 
     # -- the steps ----------------------------------------------------------------------------------------------------
     def run(
@@ -105,10 +78,10 @@ class Search:
 
         With a `generator` some alternatives are liked better than others, whatever is nearest.
         """
-        self._liking = np.ones(len(self._index))
+        self._liking = np.ones(len(self._compiled.atoms))
         if generator is not None:
-            self._liking = np.exp(2.0 * generator.standard_normal(len(self._index)))
-        point = np.append(np.clip(guess, self._low, self._high), 1.0)
+            self._liking = np.exp(2.0 * generator.standard_normal(len(self._compiled.atoms)))
+        point = np.append(np.clip(self._in_order(guess), self._low, self._high), 1.0)
         trust, best, stale = _TRUST, np.inf, 0
         for _ in range(most_steps):
             self.steps += 1
@@ -121,13 +94,29 @@ class Search:
             else:
                 stale += 1
                 trust = max(0.25, 0.6 * trust)
+                if worst < NEARLY_DONE and stale > 1:  # soft rows leave so much
+                    return point[:-1]
                 if stale > 8:
-                    return point[:-1] if worst < NEARLY_DONE else None
+                    return None
             step = self._step(point, rows, levels, equal, trust)
             if step is None:
                 return None
             point[:-1] = np.clip(point[:-1] + step, self._low, self._high)
         return None
+
+    def _in_order(self, guess: Array) -> Array:
+        """Return a guess in which moments come as late after others as is certain; what precedes them moves along."""
+        times = np.array([time.value(guess) for time in self.events.times])
+        fixed = np.array([time.constant is not None for time in self.events.times])
+        latest = np.where(fixed, times, (times[None, :] - self._least)[:, fixed].min(axis=1))
+        late = (np.minimum(times, latest)[:, None] + self._least).max(axis=0) - times
+        moved_s = np.where(self._least >= 0.0, late[None, :], 0.0).max(axis=1)
+        times = (np.minimum(times + moved_s, latest)[:, None] + self._least).max(axis=0)
+        moved = guess.copy()
+        for number, time in enumerate(self.events.times):
+            if not fixed[number]:
+                moved[next(iter(time.terms))[0]] = times[number]
+        return moved
 
     def _step(self, point: Array, rows: Array, levels: Array, equal: NDArray[np.bool_], trust: float) -> Array | None:
         """Return the least step that meets the linearised rows as well as can be."""
@@ -161,10 +150,7 @@ class Search:
         norms = np.maximum(np.sqrt((scaled * scaled).sum(axis=1)), 1e-9)
         levels = values / norms + np.where(self._compiled.strict, _STRICT, 0.0)
         errors = np.where(self._compiled.equal, np.abs(levels), levels)
-        chosen: list[int] = []
-        for tree in self._trees:
-            _choose(tree, errors * self._liking, chosen)
-        taken = np.array(chosen, dtype=np.intp)
+        taken = np.array(self._compiled.chosen(errors * self._liking), dtype=np.intp)
         parts = [(scaled[taken] / norms[taken, None], levels[taken], self._compiled.equal[taken])]
         parts += [line.rows(point, self._scale, self.narrowings) for line in self._actors]
         return (
@@ -194,11 +180,11 @@ class _Line:
     time_factor: Array
     place: NDArray[np.intp]
     speed: NDArray[np.intp]
-    knots: list[int]  # positions, in the order of the sketch
+    before: NDArray[np.bool_]  # which certainly come before which; everything before itself
     laws: list[tuple[int, Law]]  # position of the first moment of each stretch, and its law
 
     @classmethod
-    def of(cls, events: Events, actor: int, size: int) -> _Line:
+    def of(cls, events: Events, actor: int, size: int, least: Array) -> _Line:
         """Collect the moments of an actor."""
         instants = events.instants_of(actor)
         where = {instant: k for k, instant in enumerate(instants)}
@@ -208,8 +194,6 @@ class _Line:
             time.append(size if constant is not None else next(iter(events.times[instant].terms))[0])
             factor.append(1.0 if constant is None else float(constant))
         states = [events.state(actor, instant) for instant in instants]
-        sketch = events.scene.program.actor(actor).sketch
-        knots = list(dict.fromkeys(where[events.knot(actor, name)] for name in sketch.knots))
         laws = [(where[stretch.first], stretch.law) for stretch in events.stretches[actor]]
         return cls(
             actor,
@@ -218,19 +202,16 @@ class _Line:
             np.array(factor),
             np.array([next(iter(state.place.terms))[0] for state in states], dtype=np.intp),
             np.array([next(iter(state.speed.terms))[0] for state in states], dtype=np.intp),
-            knots,
+            least[np.ix_(instants, instants)] >= 0.0,
             laws,
         )
 
     def sorted(self, point: Array) -> list[int]:
-        """Return positions in the order of time; knots keep the order of the sketch."""
+        """Return positions in the order of time; what is certain of their order stays."""
         times = self.time_factor * point[self.time]
-        latest = -np.inf
-        rank = np.full(len(times), len(self.knots))
-        for number, knot in enumerate(self.knots):
-            latest = times[knot] = max(times[knot], latest)
-            rank[knot] = number
-        return sorted(range(len(times)), key=lambda k: (times[k], rank[k], k))
+        latest = np.where(self.before, times[:, None], -np.inf).max(axis=0)
+        rank = self.before.sum(axis=0)
+        return sorted(range(len(times)), key=lambda k: (latest[k], rank[k], k))
 
     def rows(
         self, point: Array, scale: Array, narrowings: Sequence[Narrowing]
@@ -252,14 +233,16 @@ class _Line:
         width = len(point)
         rows = np.zeros((kinds, count, width))
         pair = np.arange(count)
-        for k in range(kinds):
-            g1, g2, gd, gx = slopes[k]
-            np.add.at(rows[k], (pair, self.speed[early]), g1)
-            np.add.at(rows[k], (pair, self.speed[late]), g2)
-            np.add.at(rows[k], (pair, self.time[late]), gd * self.time_factor[late])
-            np.add.at(rows[k], (pair, self.time[early]), -gd * self.time_factor[early])
-            np.add.at(rows[k], (pair, self.place[late]), gx)
-            np.add.at(rows[k], (pair, self.place[early]), -gx)
+        g1, g2, gd, gx = np.moveaxis(slopes, 1, 0)
+        for column, slope in (
+            (self.speed[early], g1),
+            (self.speed[late], g2),
+            (self.time[late], gd * self.time_factor[late]),
+            (self.time[early], -gd * self.time_factor[early]),
+            (self.place[late], gx),
+            (self.place[early], -gx),
+        ):
+            rows[:, pair, column] += slope
         flat = rows.reshape(kinds * count, width)[:, :-1] * scale
         norms = np.sqrt((flat * flat).sum(axis=1))
         keep = keep.reshape(-1) & (norms > 1e-9)
@@ -400,42 +383,3 @@ def _caps(
         ),
     )
     return [top, low]
-
-
-def _compile(index: Sequence[Atom], size: int) -> _Compiled:
-    owner, factor, left, right = [], [], [], []
-    for number, atom in enumerate(index):
-        for key, coefficient in atom.left.terms.items():
-            owner.append(number)
-            factor.append(float(coefficient))
-            left.append(key[0] if key else size)
-            right.append(key[1] if len(key) > 1 else size)
-    return _Compiled(
-        len(index),
-        np.array(owner, dtype=np.intp),
-        np.array(factor),
-        np.array(left, dtype=np.intp),
-        np.array(right, dtype=np.intp),
-        np.array([atom.relation == "==" for atom in index], dtype=bool),
-        np.array([atom.relation == "<" for atom in index], dtype=bool),
-    )
-
-
-def _choose(tree: _Tree, errors: Array, chosen: list[int]) -> None:
-    """Collect the atoms that are to hold, of alternatives those of the one that is nearest to holding."""
-    if tree.kind == "atom":
-        chosen.append(tree.atom)
-    elif tree.kind == "all":
-        for part in tree.parts:
-            _choose(part, errors, chosen)
-    elif tree.parts:
-        best = min(tree.parts, key=lambda part: _error(part, errors))
-        _choose(best, errors, chosen)
-
-
-def _error(tree: _Tree, errors: Array) -> float:
-    if tree.kind == "atom":
-        return max(0.0, float(errors[tree.atom]))
-    if tree.kind == "all":
-        return max((_error(part, errors) for part in tree.parts), default=0.0)
-    return min((_error(part, errors) for part in tree.parts), default=np.inf)

@@ -31,18 +31,20 @@ from scenewright.solve.proofs.search import Search
 Array = NDArray[np.float64]
 _TOLERANCE = 2e-3  # mm, ms, mm/s: twice what a search is exact to
 _STEP_S = 0.05
+_BODY_STEP_S = 0.02  # two that meet head on come 0.5 m nearer meanwhile
 _RATE_SLACK = 1e-2
 _SHORTEST_S = 1e-4  # in so short a time a rounded speed makes any rate
 
 
 @dataclass(frozen=True, slots=True)
 class Broken:
-    """Something amiss: a constraint's id, ``law``, ``turn`` or ``apart``; whose, when (s), by how much (SI)."""
+    """Something amiss: a constraint's id, ``law``, ``turn`` or ``apart``; whose, when (s), how much (SI); from whom."""
 
     what: str
     actor: int
     time_s: float
     by: float
+    other: int = EGO
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,9 +104,12 @@ def broken(
     ]
     for actor, profile in witness.profiles.items():
         found += _unlawful(actor, profile, ego.law() if actor == EGO else limits[actor].law())
+    times = np.arange(0.0, witness.end_s + _STEP_S, _STEP_S)
+    states = {actor: np.array([each.state(float(t)) for t in times]) for actor, each in witness.profiles.items()}
     for hero in scene.program.heroes:
-        found += _too_fast(scene, limits[hero.id], witness, hero.id)
-    return found + _touching(scene, structure, witness)
+        during = times <= witness.profiles[hero.id].end_s
+        found += _too_fast(scene, limits[hero.id], hero.id, times[during], states[hero.id][during])
+    return found + _touching(scene, structure, witness, times, states)
 
 
 def _unlawful(actor: int, profile: Profile, law: Law) -> list[Broken]:
@@ -119,10 +124,7 @@ def _unlawful(actor: int, profile: Profile, law: Law) -> list[Broken]:
     return []
 
 
-def _too_fast(scene: Scene, limits: Limits, witness: Witness, actor: int) -> list[Broken]:
-    profile = witness.profiles[actor]
-    times = np.arange(0.0, profile.end_s + 1e-9, _STEP_S)
-    states = np.array([profile.state(float(t)) for t in times])
+def _too_fast(scene: Scene, limits: Limits, actor: int, times: Array, states: Array) -> list[Broken]:
     bend = np.array([scene.routes[actor].path.curvature(float(s)) for s in states[:, 0]])
     sideways = states[:, 1] ** 2 * np.abs(bend)
     worst = int(np.argmax(sideways))
@@ -130,24 +132,27 @@ def _too_fast(scene: Scene, limits: Limits, witness: Witness, actor: int) -> lis
     return [Broken("turn", actor, float(times[worst]), over)] if over > 1e-3 else []
 
 
-def _touching(scene: Scene, structure: Structure, witness: Witness) -> list[Broken]:
+def _touching(
+    scene: Scene, structure: Structure, witness: Witness, times: Array, states: Mapping[int, Array]
+) -> list[Broken]:
     """Return pairs whose boxes touch before the last trigger."""
     found = []
-    triggers = [
-        witness.profiles[hero].knot_times_s.get(knot, 0.0)
-        for hero in structure.triggers
-        if (knot := structure.trigger_knot(hero)) is not None
-    ]
+    triggers = []
+    for hero in scene.program.heroes:  # who has no trigger may touch nobody at all
+        knot = structure.trigger_knot(hero.id)
+        triggers.append(witness.end_s if knot is None else witness.profiles[hero.id].knot_times_s.get(knot, 0.0))
     until = max(triggers, default=witness.end_s)
-    times = np.arange(0.0, until, _STEP_S)
+    often = np.arange(0.0, until, _BODY_STEP_S)
     boxes = {}
     for actor in scene.program.actors:
-        places = np.array([witness.profiles[actor.id].state(float(t))[0] for t in times])
-        boxes[actor.id] = scene.routes[actor.id].path.poses(places) if len(times) else np.zeros((0, 3))
+        places = np.interp(often, times, states[actor.id][:, 0])
+        boxes[actor.id] = scene.routes[actor.id].path.poses(places) if len(often) else np.zeros((0, 3))
     actors = sorted(boxes)
     for number, a in enumerate(actors):
         for b in actors[number + 1 :]:
             touch = overlap(boxes[a], boxes[b], CAR, CAR)
             if touch.any():
-                found.append(Broken("apart", b, float(times[int(np.argmax(touch))]), 1.0))
+                apart = np.hypot(*(boxes[a] - boxes[b]).T[:2])
+                deepest = int(np.argmin(np.where(touch, apart, np.inf)))
+                found.append(Broken("apart", b, float(often[deepest]), 1.0, a))
     return found

@@ -7,13 +7,15 @@ is asked for; or values; or that neither was found.
 from __future__ import annotations
 
 from collections.abc import Sequence
-
-import z3
+from typing import TYPE_CHECKING
 
 from scenewright.solve.proofs.events import Unknown
 from scenewright.solve.proofs.refuters import Answer, Capabilities, tightened
 from scenewright.solve.proofs.relaxation import Named
 from scenewright.solve.proofs.smtlib import smtlib
+
+if TYPE_CHECKING:
+    import z3
 
 _STEPS = ("simplify", "solve-eqs", "simplify", "propagate-ineqs", "qfnra-nlsat")
 
@@ -28,6 +30,9 @@ class Z3:
         self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float, want_core: bool = False
     ) -> Answer:
         """Ask whether all `formulas` can hold at once; for a core by another, slower way."""
+        import z3  # slow to import, and a witness needs none
+
+        z3.set_param("ctrl_c", False)  # its own handler would take Ctrl-C for an answer
         ranges = list(unknowns) if want_core else tightened(unknowns, formulas)
         if any(each.low > each.high for each in ranges):
             return Answer("refuted")
@@ -45,6 +50,8 @@ class Z3:
 
 
 def _values(model: z3.ModelRef, count: int) -> tuple[float, ...]:
+    import z3
+
     found = [0.0] * count
     for declaration in model.decls():
         if declaration.arity():  # z3 tells also how it divides by zero

@@ -1,0 +1,97 @@
+"""Knots that a trace does not show may have been any moment at which all is as asked; what never was still fails."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from plays import CROSSING, YIELDS, Motion, Play, text
+
+from scenewright.judge.judgement import judge
+from scenewright.judge.tolerance import TIGHT
+from scenewright.judge.unseen import measured_at_best
+from scenewright.judge.verdict import Verdict
+
+
+def with_extra(play: Play, formula: str) -> Play:
+    return replace(play, text=play.text + f"extra: {formula}\n")
+
+
+def failing(verdict: Verdict) -> set[str]:
+    return {condition.id for condition in verdict.conditions if not condition.holds_at(TIGHT)}
+
+
+# YIELDS says nothing of the ego's t2. The ego has 8 m/s until its t1 at 4.003 s, and 0.5 m/s^2 from there on.
+@pytest.mark.parametrize(
+    ("formula", "holds"),
+    [
+        ("A0v(t2) == 10", True),
+        ("A0v(t2) == 20", False),
+        ("A0v(t2) >= 10 and A0(t2) <= 9", True),
+        ("A0v(t2) >= 10 and A0(t2) <= 7", False),
+        ("A0v(t2) == 9 and A0x(t2) >= stop_line + 10", False),
+        ("A0(t2) <= A0(t1) + 0.2", True),
+        ("A0(t2) <= A0(t1) - 0.2", False),
+        ("always[A0(t1), A0(t2)](A0v <= 9) and A0(t2) - A0(t1) >= 1", True),
+        ("always[A0(t1), A0(t2)](A0v <= 9) and A0(t2) - A0(t1) >= 3", False),
+        ("A1x(A0(t2)) == conflict_point - 12 and A0v(t2) >= 9", True),
+        ("A1x(A0(t2)) == conflict_point - 5", False),
+    ],
+)
+def test_a_free_knot_is_where_what_is_said_of_it_holds(formula: str, holds: bool) -> None:
+    assert failing(judge(with_extra(YIELDS, formula).case())) == (set() if holds else {"extra"})
+
+
+def test_a_free_knot_lies_between_those_that_are_not() -> None:
+    measured = measured_at_best(with_extra(YIELDS, "A0v(t2) == 10").case())
+    assert measured.moments.knots[0, "t2"] == pytest.approx(8.003, abs=0.01)
+    play = replace(YIELDS, text=YIELDS.text.replace("[t0, go, t1, go, t2]", "[t0, go, tx, go, t1, go, t2]"))
+    assert failing(judge(with_extra(play, "A0x(tx) == A0x(t0) + 8").case())) == set()
+    assert failing(judge(with_extra(play, "A0v(tx) == 10").case())) == {"extra"}
+
+
+# The trigger comes a time after the ego passed a place; the hero is seen to brake for something else before.
+DELAYED = Play(
+    text=text(
+        "[t0, go, t1, dec, t2]",
+        "A0(t2) == A1(t1)\nA0x(t1) == stop_line - 30\nA0(t2) - A0(t1) == 2\nA1v(t2) == 0",
+        ego_sketch="[t0, go, t1, go, t2, go, t3]",
+    ),
+    ego=Motion(6.0, 8.0, []),
+    hero=Motion(0.0, 12.0, [(0.5, 0.0), (0.6, -2.0), (3.9, 0.0), (10.0, -2.5)]),
+    trigger_s=5.0,
+    hero_line=CROSSING,
+    duration_s=15.0,
+)
+
+
+def test_a_trigger_that_is_told_by_a_delay_is_there() -> None:
+    verdict = judge(DELAYED.case())
+    assert failing(verdict) == set()
+    assert verdict.facts["trigger_time_s"]["hero"] == pytest.approx(5.0, abs=0.02)
+    late = DELAYED.with_hero(pieces=[(0.5, 0.0), (0.6, -2.0), (4.4, 0.0), (10.0, -2.5)])
+    assert failing(judge(late.case())) != set()
+
+
+# Nothing ties the hero's braking to the ego: it is told by the clock, and seen.
+CLOCK = Play(
+    text=text("[t0, go, t1, dec, t2]", "A1(t1) == 4 s\nA1v(t2) == 0"),
+    ego=Motion(0.0, 2.0, []),
+    hero=Motion(0.0, 12.0, [(4.0, 0.0), (10.0, -2.5)]),
+    trigger_s=4.0,
+    hero_line=CROSSING,
+    duration_s=15.0,
+)
+
+
+@pytest.mark.parametrize(
+    ("pieces", "holds"),
+    [
+        ([(4.0, 0.0), (10.0, -2.5)], True),
+        ([(1.0, 0.0), (0.6, -2.0), (2.4, 0.0), (10.0, -2.5)], True),  # it brakes twice: the second time is meant
+        ([(1.0, 0.0), (0.6, -2.0), (3.0, 0.0), (10.0, -2.5)], False),
+        ([(4.6, 0.0), (10.0, -2.5)], False),
+    ],
+)
+def test_what_is_seen_more_than_once_may_be_either(pieces: list[tuple[float, float]], holds: bool) -> None:
+    assert failing(judge(CLOCK.with_hero(pieces=pieces).case())) == (set() if holds else {"c1"})
