@@ -1,7 +1,8 @@
 """Concrete motion along one axis: what a plan or a prediction says an actor does.
 
-What enters: a start state and accelerations, even or changing evenly, with durations. What leaves: position, speed and acceleration at any
-instant, when a place is passed, and bounds over spans. Speed is continuous by construction; it never reverses.
+What enters: a start state and accelerations, even or changing evenly, with durations. What leaves: position, speed and
+acceleration at any instant, when a place is passed, and bounds over spans. Speed is continuous by construction; it
+never reverses.
 """
 
 from __future__ import annotations

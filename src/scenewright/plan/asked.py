@@ -113,7 +113,7 @@ class Asked:
         return [self.events.unknowns[number].kind for number in key]
 
     def _quotients_of(self, atoms: Sequence[Atom]) -> Iterator[tuple[int, int, int]]:
-        """Yield atoms that compare times, a place over a speed: their numbers, with those of the place and the speed."""
+        """Yield atoms that compare times, a place over a speed: their numbers, those of the place and of the speed."""
         for number, atom in enumerate(atoms):
             kinds: dict[str, int] = {}
             for key in atom.left.terms:

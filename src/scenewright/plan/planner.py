@@ -371,7 +371,7 @@ class Planner:
         return Lanes(apart, self._answers(time_s, prediction, all_along=first))
 
     def _answers(self, time_s: float, prediction: Profile, *, all_along: bool) -> dict[int, Answer]:
-        """Return how the ego answers heroes that it follows, from how it would answer one that is a metre further on."""
+        """Return how the ego answers heroes that it follows: from what it makes of one a metre further on."""
         found: dict[int, Answer] = {}
         for hero, clearance in self._leaders().items() if hasattr(self, "plan") else ():
             profile = self.plan.profiles[hero]

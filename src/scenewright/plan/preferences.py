@@ -60,7 +60,7 @@ class Preferences:
     slowest_price: float = 6.0
     moves_mps: float = 0.7
     # -- the ego's way -----------------------------------------------------------------------------------------------
-    # What a metre within a conflict zone costs before the trigger, up to where it grows evenly: a program may ask for it.
+    # What a metre within a conflict zone costs before the trigger, and from when on evenly: a program may ask for it.
     out_of_way_price: float = 12.0
     out_of_way_most: float = 3.0
     # Who waits for an ego does so where it could stop (at this rate) and set off again (at this one) in time; while the

@@ -236,14 +236,17 @@ class HeroRows:
         end_s = min(self.moments[k].value(shot.z) for k in narrowing.ends())
         for node, accel in self._within(begin_s, end_s):
             _, v, _, d_v = shot.at_node(node)
-            for low, high, value, slope, tight in (
-                (law.speed_low, law.speed_high, v, d_v, _TIGHT_SPEED),
-                *([] if accel is None else [(law.rate_low, law.rate_high, float(shot.z[accel]), self._unit((accel, 1.0)), _TIGHT_RATE)]),
-            ):  # fmt: skip
-                if high < _UNBOUNDED:
-                    self.bounds.add(value - float(high), slope, self.asked.wanted.price / tight)
-                if low > -_UNBOUNDED:
-                    self.bounds.add(float(low) - value, -slope, self.asked.wanted.price / tight)
+            self._within_bounds(v, d_v, float(law.speed_low), float(law.speed_high), _TIGHT_SPEED)
+            if accel is not None:
+                rate, slope = float(shot.z[accel]), self._unit((accel, 1.0))
+                self._within_bounds(rate, slope, float(law.rate_low), float(law.rate_high), _TIGHT_RATE)
+
+    def _within_bounds(self, value: float, slope: Array, low: float, high: float, tight: float) -> None:
+        weight = self.asked.wanted.price / tight
+        if high < _UNBOUNDED:
+            self.bounds.add(value - high, slope, weight)
+        if low > -_UNBOUNDED:
+            self.bounds.add(low - value, -slope, weight)
 
     def _within(self, begin_s: float, end_s: float) -> Iterator[tuple[int, int | None]]:
         """Yield nodes within a stretch of time, each with the unknown of a leg's rate there, if it is its own."""
