@@ -17,7 +17,7 @@ from scenewright.plan.following import Leader, foresee_follower
 from scenewright.plan.prediction import ConstantSpeed, EgoSample, Predictor, jumped, lately
 from scenewright.plan.problem import Missed, Problem
 from scenewright.plan.shooting import profile_of
-from scenewright.plan.situation import Answer, Drive, Further, Lanes, SeenAndForeseen, Situation
+from scenewright.plan.situation import Answer, Drive, Lanes, Otherwise, SeenAndForeseen, Situation
 from scenewright.plan.solving import Solution, solve
 from scenewright.plan.triggers import TriggerTimes
 from scenewright.program.structure import Role, Structure, knots_of
@@ -36,7 +36,7 @@ _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
 _PACES, _JOINT_S = (0.8, 0.45, 0.25), (3.5, 6.0)
 # How often a first plan is solved for again: its cells are laid for the times of the one before, and an ego that
 # follows a hero answers what that does.
-_AGAIN, _AGAIN_FOLLOWED = 1, 3
+_AGAIN, _AGAIN_FOLLOWED = 1, 6
 # A plan that misses no more than this (tight tolerances) does what was asked.
 GOOD = 0.2
 # A hero that was a little less than settled a moment ago was so from now on; how far back that is looked at (s).
@@ -133,6 +133,9 @@ class Planner:
             self.plan = best[1]
             best = self._planned_first(self._foreseen(), 0.0, self.plan.profiles)
         solution, self.plan = best
+        if self._leaders():  # what the plan was made with is how the ego answered the one before
+            foreseen = Profile(self._foreseen().segments, self.plan.profiles[EGO].knot_times_s)
+            self.plan = replace(self.plan, profiles={**self.plan.profiles, EGO: foreseen})
         for hero in self._heroes:
             if (name := self._trigger(hero)) is not None:
                 self._joint_s[hero.id] = self.plan.profiles[hero.id].knot_times_s[name]
@@ -368,21 +371,29 @@ class Planner:
     def _on_lanes(self, time_s: float, prediction: Profile, *, first: bool) -> Lanes:
         """Return who keeps on which side of the ego on its lane, and what the ego makes of it."""
         apart = {hero: (1.0 if lane.ahead else -1.0, lane.offset_m) for hero, lane in self._lanes.items()}
-        return Lanes(apart, self._answers(time_s, prediction, all_along=first))
+        return Lanes(apart, self._answers(time_s, prediction, first=first))
 
-    def _answers(self, time_s: float, prediction: Profile, *, all_along: bool) -> dict[int, Answer]:
-        """Return how the ego answers heroes that it follows: from what it makes of one a metre further on."""
+    def _answers(self, time_s: float, prediction: Profile, *, first: bool) -> dict[int, Answer]:
+        """Return how the ego answers heroes that it follows: from what it makes of them where they are otherwise."""
         found: dict[int, Answer] = {}
         for hero, clearance in self._leaders().items() if hasattr(self, "plan") else ():
             profile = self.plan.profiles[hero]
             trigger_s = profile.knot_times_s.get(self._name(hero), time_s)
             if trigger_s <= time_s:
                 continue
-            leader = Leader(Further(profile, time_s, trigger_s, all_along), clearance.offset_m)
-            alone = self.predictor.predict(self._samples)
-            other = foresee_follower(alone, self._samples, leader, self._cruise_mps).state(trigger_s)
-            place_m, speed_mps, _ = prediction.state(trigger_s)
-            found[hero] = Answer(profile, other[0] - place_m, other[1] - speed_mps)
+            alone, (place_m, speed_mps, _) = self.predictor.predict(self._samples), prediction.state(trigger_s)
+
+            def answer(otherwise: Otherwise) -> tuple[float, float]:
+                leader = Leader(otherwise, clearance.offset_m)  # noqa: B023 - asked within the same turn of the loop
+                then = foresee_follower(alone, self._samples, leader, self._cruise_mps).state(trigger_s)  # noqa: B023
+                return then[0] - place_m, then[1] - speed_mps  # noqa: B023
+
+            if first:
+                further, faster = (Otherwise(profile, 0.0, further_m=1.0), Otherwise(profile, 0.0, faster_mps=1.0))
+                found[hero] = Answer(profile, answer(further), answer(faster))
+            else:
+                lasts_s = max(trigger_s - time_s, 0.1)
+                found[hero] = Answer(profile, answer(Otherwise(profile, time_s, ever_faster_mpss=2.0 / lasts_s**2)))
         return found
 
     def _settled_s(self, joint: Mapping[int, float], time_s: float) -> dict[int, float]:

@@ -285,11 +285,17 @@ class Problem:
         for hero, answer in self.now.lanes.answers.items():
             if time_s <= self.now.time_s or instant != self.asked.trigger(hero):
                 continue
-            place_m, _, d_place, _ = self._state(hero, instant, z, shots)
+            place_m, hero_mps, d_place, d_hero = self._state(hero, instant, z, shots)
             then_m, then_mps, _ = answer.motion.state(time_s)
             further_m, d_further = place_m - then_m, d_place - then_mps * d_time
-            s_m, d_s = s_m + answer.place * further_m, d_s + answer.place * d_further
-            speed_mps, d_v = speed_mps + answer.speed_mps * further_m, d_v + answer.speed_mps * d_further
+            if answer.per_mps is not None:
+                faster_mps, since_s = hero_mps - then_mps, time_s - self.now.time_s
+                further_m -= faster_mps * since_s
+                d_further = d_further - since_s * d_hero - faster_mps * d_time
+                s_m, d_s = s_m + answer.per_mps[0] * faster_mps, d_s + answer.per_mps[0] * d_hero
+                speed_mps, d_v = speed_mps + answer.per_mps[1] * faster_mps, d_v + answer.per_mps[1] * d_hero
+            s_m, d_s = s_m + answer.per_metre[0] * further_m, d_s + answer.per_metre[0] * d_further
+            speed_mps, d_v = speed_mps + answer.per_metre[1] * further_m, d_v + answer.per_metre[1] * d_further
         return s_m, speed_mps, d_s, d_v
 
     def _rate(self, actor: int, instant: int, z: Array, shots: Mapping[int, Shot]) -> tuple[float, Array]:

@@ -96,18 +96,30 @@ class HeroRows:
     def _comfort(self) -> None:
         """Add what is unpleasant: jerk, and acceleration that nobody asked for."""
         wanted, shot = self.asked.wanted, self.shot
-        usual = {PieceKind.DEC: -wanted.braking_mpss, PieceKind.ACC: wanted.speeding_up_mpss}
         for number, leg in enumerate(shot.legs):
+            usual = self._usual_rate(leg)
             for k, (one, other) in enumerate(pairwise(leg.accels)):
                 node = shot.first_node[number] + k
                 lasts = max(float(shot.time[node + 1] - shot.time[node]), 0.02)
                 a, b = float(shot.z[one]), float(shot.z[other])
                 self.costs.add(b - a, self._unit((one, -1.0), (other, 1.0)), 1.0 / (lasts**0.5 * wanted.jerk_mpsss))
-                mean = 0.5 * (a + b) - usual.get(leg.kind, 0.0)
+                mean = 0.5 * (a + b) - usual
                 self.costs.add(mean, self._unit((one, 0.5), (other, 0.5)), lasts**0.5 / wanted.accel_mpss)
         last = shot.legs[-1]
         if last.accels and shot.v[shot.first_node[-2]] > 1.0:  # who drives on afterwards does so as people do there
             self.costs.add(float(shot.v[-1]) - self._natural_mps(), shot.d_v[-1], wanted.after_speed_weight)
+
+    def _usual_rate(self, leg: Leg) -> float:
+        """Return the rate of a piece that is no unpleasantness: what is usual, or what the program asks for."""
+        wanted, now = self.asked.wanted, self.shot.z
+        usual = {PieceKind.DEC: -wanted.braking_mpss, PieceKind.ACC: wanted.speeding_up_mpss}.get(leg.kind, 0.0)
+        for narrowing in self.asked.narrowings:
+            if narrowing.actor == self.hero.id:
+                begin_s = max(self.moments[k].value(now) for k in narrowing.begins())
+                end_s = min(self.moments[k].value(now) for k in narrowing.ends())
+                if begin_s - _ROUNDING_S <= leg.first.value(now) and leg.last.value(now) <= end_s + _ROUNDING_S:
+                    usual = min(max(usual, float(narrowing.law.rate_low)), float(narrowing.law.rate_high))
+        return usual
 
     def _natural_mps(self) -> float:
         return self.asked.wanted.natural_share * self.asked.limits[self.hero.id].natural_approach_speed_mps

@@ -1,6 +1,6 @@
 """What a plan starts from: now, the ego as it was seen and is foreseen, the heroes as they drive.
 
-What enters: data. What leaves: the same, and a motion that is a little further on, to ask what an ego would make of it.
+What enters: data. What leaves: the same, and a motion that is a little otherwise, to ask what an ego would make of it.
 """
 
 from __future__ import annotations
@@ -28,13 +28,20 @@ class Drive:
 class Answer:
     """How an ego that follows a hero answers what that does, to first order, at the hero's trigger.
 
-    For each metre by which the hero is further on than in the motion that the ego was foreseen with, the ego is
-    `place` metres further on and `speed_mps` faster.
+    Attributes
+    ----------
+    motion
+        Of the hero, with which the ego was foreseen.
+    per_metre
+        By how much the ego is further on (m) and faster (m/s) for each metre by which the hero is further on.
+    per_mps
+        Likewise for each metre a second by which the hero is faster all along, from the same place on; None where it
+        is further on only by being ever faster from now on, as `per_metre` then says.
     """
 
     motion: Profile
-    place: float
-    speed_mps: float
+    per_metre: tuple[float, float]
+    per_mps: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,18 +115,18 @@ class SeenAndForeseen:
 
 
 @dataclass(frozen=True, slots=True)
-class Further:
-    """A motion that is a metre further on at an instant: ever more so from a time on, or `all_along`."""
+class Otherwise:
+    """A motion that is otherwise from a time on: so much further on (m), faster (m/s), ever faster (m/s^2)."""
 
     motion: Profile
     from_s: float
-    at_s: float
-    all_along: bool
+    further_m: float = 0.0
+    faster_mps: float = 0.0
+    ever_faster_mpss: float = 0.0
 
     def state(self, time_s: float) -> tuple[float, float, float]:
         """Return place (m), speed (m/s) and acceleration (m/s^2) at a time."""
         s_m, speed_mps, accel = self.motion.state(time_s)
-        if self.all_along:
-            return s_m + 1.0, speed_mps, accel
-        lasts, since = max(self.at_s - self.from_s, 0.1), max(0.0, time_s - self.from_s)
-        return s_m + (since / lasts) ** 2, speed_mps + 2.0 * since / lasts**2, accel + 2.0 / lasts**2
+        since, more = max(0.0, time_s - self.from_s), self.ever_faster_mpss
+        further_m = self.further_m + (self.faster_mps + 0.5 * more * since) * since
+        return s_m + further_m, speed_mps + self.faster_mps + more * since, accel + more
