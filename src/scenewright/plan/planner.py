@@ -19,7 +19,7 @@ from scenewright.plan.problem import Missed, Problem
 from scenewright.plan.shooting import profile_of
 from scenewright.plan.situation import Answer, Drive, Lanes, Otherwise, SeenAndForeseen, Situation
 from scenewright.plan.solving import Solution, solve
-from scenewright.plan.triggers import TriggerTimes
+from scenewright.plan.triggers import SHORTEST_LEAD_S, TriggerTimes
 from scenewright.program.structure import Role, Structure, knots_of
 from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.grounding import Scene
@@ -278,6 +278,9 @@ class Planner:
                 continue
             if not self._ego_decides(hero):
                 planned[instant] = self._joint_s[hero.id]
+                sooner_s = self._comes_true_s(hero, time_s, prediction, profile.knot_times_s[trigger])
+                if sooner_s is not None:
+                    expected[instant] = planned[instant] = sooner_s
                 continue
             before_s = profile.knot_times_s[trigger]
             triggers[hero.id] = knots[instant] = self._times.instant_s(hero, time_s, prediction, before_s)
@@ -298,6 +301,22 @@ class Planner:
             lanes=self._on_lanes(time_s, prediction, first=False),
         )
         return situation, moved_s
+
+    def _comes_true_s(self, hero: Actor, time_s: float, prediction: Profile, planned_s: float) -> float | None:
+        """Return when a condition on both comes true before it is planned to, if the hero goes on as it is.
+
+        An ego that follows a hero answers whatever that does: the less it does, the better the ego is foreseen.
+        """
+        here = [c for c in self.conditions if c.moments <= self.structure.triggers[hero.id]]
+        if len(here) != 1 or set(here[0].weights) != {EGO, hero.id}:
+            return None
+        s_m, speed_mps, _ = self.plan.profiles[hero.id].state(time_s)
+        even = Profile(chain(time_s, s_m, speed_mps, [(1.0, 0.0, 0)]))
+        soonest_s = time_s + SHORTEST_LEAD_S
+        for settled_s in self._settled_s({self._asked.knot(hero.id, self._name(hero.id)): 0.0}, time_s).values():
+            soonest_s = max(soonest_s, settled_s)
+        found = here[0].first_time({EGO: prediction, hero.id: even}, soonest_s)
+        return found if found is not None and found < planned_s else None
 
     def _made(self, problem: Problem, solution: Solution, prediction: Profile) -> Plan:
         """Return the plan that values stand for, with what was driven before it."""

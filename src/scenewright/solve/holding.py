@@ -14,7 +14,7 @@ from scenewright.motion.profile import Profile
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import term_value, violation
 from scenewright.program.printer import print_expression
-from scenewright.program.structure import actors_of, knots_of
+from scenewright.program.structure import Role, actors_of, knots_of, read_structure
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.plan import PlanWorld
@@ -48,8 +48,9 @@ def not_held(
     """Yield the constraints that motions break by more than is `allowed` of the dimension of what they compare.
 
     Who comes before the ego is not asked about: it may still give way. Nor is what speaks of a knot of the ego that
-    nobody foresees.
+    nobody foresees, or of how the ego and another are to each other at a trigger: the run brings that about.
     """
+    roles = read_structure(scene.program).roles
     parameters = {name: float(value) for name, value in scene.parameters.items()}
     world = PlanWorld(scene, profiles, parameters)
     passed = Profile(
@@ -57,6 +58,8 @@ def not_held(
     )
     world = PlanWorld(scene, {**profiles, EGO: passed}, parameters)
     for constraint in scene.program.constraints:
+        if roles[constraint.id] is Role.TRIGGER and actors_of(constraint.formula) > {EGO}:
+            continue
         for part in _asked(constraint.formula):
             if any(actor == EGO and math.isinf(world.knot_time_s(EGO, knot)) for actor, knot in knots_of(part)):
                 continue
