@@ -67,6 +67,8 @@ class Asked:
             hero.id: _caps(scene.routes[hero.id], limits[hero.id], self.wanted.lateral_mpss)
             for hero in scene.program.heroes
         }
+        landmarks = {hero.id: scene.routes[hero.id].landmarks for hero in scene.program.heroes}
+        self.junctions_m = {hero: marks.get("junction_start", marks["route_end"]) for hero, marks in landmarks.items()}
         self.zones_m = {}
         for hero in scene.program.heroes:
             conflict = scene.conflict(EGO, hero.id)
@@ -106,8 +108,7 @@ class Asked:
         levels, equal = values / norms, self._formulas.equal
         for k in self._formulas.chosen(np.where(equal, np.abs(levels), levels)):
             slope = gradients[k] @ slopes / norms[k]
-            if np.any(slope):
-                yield Row(float(levels[k]), slope, bool(equal[k]), self._orders[k] and not equal[k])
+            yield Row(float(levels[k]), slope, bool(equal[k]), self._orders[k] and not equal[k])
 
     def _kinds(self, key: tuple[int, ...]) -> list[str]:
         return [self.events.unknowns[number].kind for number in key]

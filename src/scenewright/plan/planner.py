@@ -103,6 +103,7 @@ class Planner:
     records: list[Replan] = field(init=False, default_factory=list)
     _asked: Asked = field(init=False)
     _times: TriggerTimes = field(init=False)
+    _moments_s: dict[int, float] = field(init=False, default_factory=dict)  # all moments of the plan, by instant
     _samples: list[EgoSample] = field(init=False, default_factory=list)
     _joint_s: dict[int, float] = field(init=False, default_factory=dict)  # first planned, where both decide when
     _lanes: dict[int, Clearance] = field(init=False, default_factory=dict)  # heroes on the ego's lane
@@ -197,6 +198,9 @@ class Planner:
                 if instant not in knots:
                     expected.setdefault(instant, told.get(name, now + self._asked.wanted.lasts_s))
                 now = knots.get(instant, expected.get(instant, now))
+        for instant, at_s in self._moments_s.items():
+            if instant not in knots:
+                expected.setdefault(instant, at_s)
         return Situation(
             0.0,
             SeenAndForeseen(self._samples, prediction),
@@ -288,6 +292,9 @@ class Planner:
             for later in names[names.index(trigger) + 1 :]:  # what follows keeps its place in time after it
                 expected[self._asked.knot(hero.id, later)] += knots[instant] - before_s
         knots |= self._ego_knots(time_s, prediction, triggers, knots)
+        for instant, at_s in self._moments_s.items():  # places that were passed, and what happened, are history too
+            if instant not in knots and instant not in expected:
+                (knots if at_s <= time_s else expected)[instant] = at_s
         situation = Situation(
             time_s,
             SeenAndForeseen(self._samples, prediction),
@@ -321,6 +328,7 @@ class Planner:
     def _made(self, problem: Problem, solution: Solution, prediction: Profile) -> Plan:
         """Return the plan that values stand for, with what was driven before it."""
         times = [moment.value(solution.z) for moment in problem.moments]
+        self._moments_s = dict(enumerate(times))
         profiles: dict[int, Profile] = {}
         for hero, shot in problem.shots(solution.z).items():
             sketch = self.scene.program.actor(hero).sketch

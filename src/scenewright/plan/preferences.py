@@ -26,10 +26,9 @@ class Preferences:
     # Usual rates of braking and of setting off in town, for pieces of which the program names none.
     braking_mpss: float = 2.2
     speeding_up_mpss: float = 1.6
-    # Which share of the speed limit people drive at a trigger and afterwards; what a metre a second off costs there.
+    # Which share of the speed limit people drive at a trigger; what a metre a second off costs there.
     natural_share: float = 0.8
     trigger_speed_weight: float = 0.15
-    after_speed_weight: float = 0.1
     over_limit_weight: float = 0.5
     # How long pieces last of which nothing says it, and what a second more or less costs.
     lasts_s: float = 2.0

@@ -218,6 +218,9 @@ class Problem:
         wanted, tight_s = self.asked.wanted, TIGHT["time"]
         by, late_s = 0.0, -np.inf
         for row in self.asked.rows(*self._point(z, shots)):
+            if not np.any(row.slope):  # nothing that is still to be planned changes it: at first, another start may
+                by = by if self.now.heroes else max(by, abs(row.level) if row.equal else row.level)
+                continue
             if row.order:
                 # In a forecast nothing is sure: who is to be first is to be it by some time, and at a lower price by
                 # more. Where it denies that, what is in the hero's own hands is not spoilt for it.

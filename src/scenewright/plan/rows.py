@@ -26,7 +26,7 @@ SOONEST_S = 0.02  # how soon after now a knot may come
 _ANY = float("inf")
 _APART_M = VEHICLE_LENGTH_M + 1.5  # between two on one lane, before a trigger
 _STILL_MPS = 0.1  # what is as bad as a tight tolerance for one that is to stand
-_FIRM = 20.0  # of a price: what no motion exceeds
+_FIRM = 60.0  # of a price: what no motion exceeds
 _TIGHT_SPEED, _TIGHT_RATE, _TIGHT_LENGTH, _TIGHT_TIME = 0.25, 0.25, 0.5, 0.1
 _UNBOUNDED = 900  # bounds of laws beyond this are none
 _ROUNDING_S = 1e-6
@@ -105,9 +105,6 @@ class HeroRows:
                 self.costs.add(b - a, self._unit((one, -1.0), (other, 1.0)), 1.0 / (lasts**0.5 * wanted.jerk_mpsss))
                 mean = 0.5 * (a + b) - usual
                 self.costs.add(mean, self._unit((one, 0.5), (other, 0.5)), lasts**0.5 / wanted.accel_mpss)
-        last = shot.legs[-1]
-        if last.accels and shot.v[shot.first_node[-2]] > 1.0:  # who drives on afterwards does so as people do there
-            self.costs.add(float(shot.v[-1]) - self._natural_mps(), shot.d_v[-1], wanted.after_speed_weight)
 
     def _usual_rate(self, leg: Leg) -> float:
         """Return the rate of a piece that is no unpleasantness: what is usual, or what the program asks for."""
@@ -208,6 +205,9 @@ class HeroRows:
         last = shot.first_node[number]
         place_m, v_there, d_place, d_v_there = shot.at_node(last)
         zone_m, until_s = self.asked.zones_m.get(hero), float(shot.time[last])
+        if hero not in self.now.heroes and shot.s[0] > (begins_m := self.asked.junctions_m[hero]):
+            # Nobody begins within a junction, unless the program puts it there.
+            self.bounds.add(shot.s[0] - begins_m, shot.d_s[0], wanted.out_of_way_price, wanted.out_of_way_most)
         run_up_m, d_run_up = v_there**2 / (2.0 * wanted.sets_off_mpss), v_there / wanted.sets_off_mpss * d_v_there
         for node in range(1 if hero in self.now.heroes else 0, last + 1):
             s_m, v, d_s, d_v = shot.at_node(node)
