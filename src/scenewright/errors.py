@@ -184,6 +184,6 @@ class MissingExtraError(ScenewrightError):
 
 
 class SolverError(ScenewrightError):
-    """A backend broke its own contract (for instance returned a model that does not satisfy the problem)."""
+    """A solver, or a process that works for us, broke its own contract or failed."""
 
     exit_status = 4

@@ -6,6 +6,7 @@ import re
 import shlex
 import shutil
 from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,8 @@ import pytest
 
 from scenewright.cli.app import app
 from scenewright.errors import TranslationError
+from scenewright.plan.preferences import preferences_of
+from scenewright.program.manner import USUAL
 from scenewright.program.printer import print_program
 from scenewright.program.text import parse_program
 from scenewright.translate.offline import translate_offline
@@ -97,3 +100,10 @@ def test_every_command_and_exit_status_is_in_the_reference() -> None:
     for info in app.registered_commands:
         assert info.callback is not None
         assert f"`{info.callback.__name__}" in page
+
+
+def test_every_preference_is_in_the_page_with_its_value() -> None:
+    page = (ROOT / "docs" / "closed-loop.md").read_text(encoding="utf-8")
+    section = page[page.index("## Preferences") : page.index("## What is refused")]
+    rows = re.findall(r"^\| `(\w+)` \| ([\d.]+) \| [^|]+ \| [^|]+ \|$", section, flags=re.MULTILINE)
+    assert {name: float(value) for name, value in rows} == pytest.approx(asdict(preferences_of(USUAL)))

@@ -1,1 +1,1 @@
-"""Piecewise-polynomial motion, symbolic and numeric from one source."""
+"""Motion along one axis: profiles of acceleration that is even or changes evenly, and the laws that bound it."""

@@ -1,1 +1,1 @@
-"""Plans the heroes' motion: few discrete choices, and one convex problem a tick."""
+"""Plans the heroes' motion: few discrete choices, and a few convex problems a tick."""

@@ -1,7 +1,7 @@
 """Solves a planning problem: Gauss-Newton steps, one convex problem each.
 
 What enters: a `Problem` and first values. What leaves: the best values found, what they cost, and what they miss. The
-number of steps is the only budget: the same problem has the same solution on any machine.
+number of steps is the only budget: the same problem has the same solution, however busy a machine is.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""The closed loop: built-in simulator, prediction of the ego, re-solving."""
+"""The closed loop: how a run begins, the built-in simulator, what a run leaves behind."""

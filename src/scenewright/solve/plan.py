@@ -25,9 +25,9 @@ class Plan:
     Attributes
     ----------
     tolerance
-        By how many tight tolerances the trigger had to be given up (0: met exactly).
+        What is missed most of what is asked of heroes, in tight tolerances.
     style
-        How far from natural the motion had to go.
+        What that comes to: `sat`, or `relaxed` where it is more than a fifth of one.
     """
 
     profiles: Mapping[int, Profile]
@@ -53,6 +53,7 @@ class Plan:
                     "s_m": segment.s_m,
                     "speed_mps": segment.speed_mps,
                     "accel_mpss": segment.accel_mpss,
+                    "jerk_mpsss": segment.jerk_mpsss,
                 }
                 for segment in profile.segments
             ]

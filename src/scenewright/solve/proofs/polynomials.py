@@ -1,4 +1,4 @@
-"""Polynomials of unknowns with exact coefficients, and formulas over them: the typed problem that backends are given.
+"""Polynomials of unknowns with exact coefficients, and formulas over them: what solvers and the planner are given.
 
 What enters: rationals and unknowns, by number. What leaves: polynomials of second degree at most, and trees of
 conjunctions and disjunctions with comparisons to zero as leaves. Negation is pushed to the leaves as it is made.
@@ -20,7 +20,7 @@ ZERO, ONE = Fraction(0), Fraction(1)
 
 
 class TooHigh(Exception):  # noqa: N818 - a signal of the algebra, turned into a refusal by name where it is used
-    """A product is of a higher degree than backends take."""
+    """A product is of a higher degree than solvers take."""
 
 
 class Polynomial:
