@@ -107,7 +107,7 @@ class Asked:
             norms[k] = TIGHT["time"] * speed_mps * max(abs(float(gradients[k, place])), 1e-9)
         levels, equal = values / norms, self._formulas.equal
         for k in self._formulas.chosen(np.where(equal, np.abs(levels), levels)):
-            slope = gradients[k] @ slopes / norms[k]
+            slope = np.einsum("i,ij->j", gradients[k], slopes, optimize=False) / norms[k]
             yield Row(float(levels[k]), slope, bool(equal[k]), self._orders[k] and not equal[k])
 
     def _kinds(self, key: tuple[int, ...]) -> list[str]:

@@ -20,6 +20,8 @@ class Preferences:
     # Passengers notice a jerk from about 1 m/s^3 on, and an acceleration from 1.5 m/s^2 on (Hoberock 1977).
     jerk_mpsss: float = 1.0
     accel_mpss: float = 1.5
+    # What a metre a second squared costs by which a plan begins otherwise than is driven: as if it took a tick.
+    change_weight: float = 3.0
     # Lateral acceleration that drivers choose in town (as the predictor takes it of the ego).
     lateral_mpss: float = 2.5
     lateral_weight: float = 0.7
@@ -46,11 +48,11 @@ class Preferences:
     # A trigger of which both decide when it comes: what a second off its planned instant costs.
     punctual_weight: float = 0.7
     # -- manner ------------------------------------------------------------------------------------------------------
-    # Half as much again as the program's manner asks for, so that samples and rounding do not decide.
+    # More than the program's manner asks for, so that samples and rounding do not decide.
     least_rate_mpss: float = 0.62
     beginning_mpss: float = 0.9
     beginning_s: float = 0.45
-    settled_mpss: float = 0.3
+    settled_mpss: float = 0.25
     settled_s: float = 0.6
     shortest_s: float = 0.45
     shortest_stand_s: float = 0.45
@@ -81,7 +83,7 @@ def preferences_of(manner: Manner) -> Preferences:
         least_rate_mpss=max(usual.least_rate_mpss, float(kept.begins_mpss)),
         beginning_mpss=usual.beginning_mpss * begins,
         beginning_s=max(usual.beginning_s, 1.5 * float(manner.begins_s)),
-        settled_mpss=min(usual.settled_mpss, float(calm_mpss(manner))),
+        settled_mpss=float(calm_mpss(manner)),
         settled_s=max(usual.settled_s, float(kept.settled_s) + 0.05),
         shortest_s=max(usual.shortest_s, float(kept.begins_s)),
         shortest_stand_s=max(usual.shortest_stand_s, float(kept.stands_s)),

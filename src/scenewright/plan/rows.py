@@ -26,7 +26,7 @@ SOONEST_S = 0.02  # how soon after now a knot may come
 _ANY = float("inf")
 _APART_M = VEHICLE_LENGTH_M + 1.5  # between two on one lane, before a trigger
 _STILL_MPS = 0.1  # what is as bad as a tight tolerance for one that is to stand
-_FIRM = 60.0  # of a price: what no motion exceeds
+_FIRM = 20.0  # of a price: what no motion exceeds
 _TIGHT_SPEED, _TIGHT_RATE, _TIGHT_LENGTH, _TIGHT_TIME = 0.25, 0.25, 0.5, 0.1
 _UNBOUNDED = 900  # bounds of laws beyond this are none
 _ROUNDING_S = 1e-6
@@ -96,6 +96,10 @@ class HeroRows:
     def _comfort(self) -> None:
         """Add what is unpleasant: jerk, and acceleration that nobody asked for."""
         wanted, shot = self.asked.wanted, self.shot
+        drive, first = self.now.heroes.get(self.hero.id), shot.legs[0]
+        if drive is not None and first.accels and drive.begin_s <= self.now.time_s:  # it goes on from what it does now
+            rate = float(shot.z[first.accels[0]]) - drive.motion.state(drive.begin_s)[2]
+            self.costs.add(rate, self._unit((first.accels[0], 1.0)), wanted.change_weight)
         for number, leg in enumerate(shot.legs):
             usual = self._usual_rate(leg)
             for k, (one, other) in enumerate(pairwise(leg.accels)):

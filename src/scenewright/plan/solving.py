@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 _DAMPING = 0.02  # of a longest step: what nothing else decides stays as it is
 _ENOUGH = 1e-4  # a step that gains a smaller share is the last
-_HALVINGS = 6
+_SHORTER, _LONGER, _LEAST_TRUST = 0.3, 2.5, 1e-3
 _FREE, _EXACT, _MOST_ITERATIONS = 1e30, 1e-9, 4000
 
 
@@ -33,24 +33,21 @@ class Solution:
 
 
 def solve(problem: Problem, z: Array, most_steps: int) -> Solution:
-    """Return the best that so many steps from `z` lead to; each is halved until it gains something."""
+    """Return the best that so many steps from `z` lead to; where one gains nothing the next is shorter."""
     z = problem.ordered(z)
     costs, bounds, missed = problem.rows(z)
-    cost = _cost(costs, bounds)
+    cost, trusted = _cost(costs, bounds), 1.0
     for count in range(most_steps):
-        step = _step(problem, z, costs, bounds)
-        if step is None:
+        step = _step(problem, z, costs, bounds, trusted)
+        if step is None or trusted < _LEAST_TRUST:
             return Solution(z, cost, missed, count)
-        for _ in range(_HALVINGS):
-            trial = problem.ordered(z + step)
-            found = problem.rows(trial)
-            better = _cost(*found[:2])
-            if better < cost:
-                break
-            step = 0.5 * step
-        else:
-            return Solution(z, cost, missed, count)
-        gained, cost = cost - better, better
+        trial = problem.ordered(z + step)
+        found = problem.rows(trial)
+        better = _cost(*found[:2])
+        if better >= cost:
+            trusted *= _SHORTER
+            continue
+        gained, cost, trusted = cost - better, better, min(1.0, _LONGER * trusted)
         z, (costs, bounds, missed) = trial, found
         if gained < _ENOUGH * (1.0 + cost):
             return Solution(z, cost, missed, count + 1)
@@ -64,8 +61,8 @@ def _cost(costs: Rows, bounds: Rows) -> float:
     return 0.5 * float(np.sum(np.array(costs.values) ** 2)) + float(np.sum(within * (over - 0.5 * within)))
 
 
-def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows) -> Array | None:
-    """Return the best step for the linearised rows; None where the solver does not find it."""
+def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float) -> Array | None:
+    """Return the best step for the linearised rows, within a share of the longest; None where there is none."""
     import daqp
 
     longest, size = problem.step, problem.size
@@ -78,13 +75,13 @@ def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows) -> Array | None
     # Each row has a slack of its own, so that its price is the same here as in the cost.
     count, sizes = len(levels), np.maximum(np.linalg.norm(rows, axis=1), 1.0)
     hessian = np.zeros((size + count, size + count))
-    hessian[:size, :size] = slopes.T @ slopes + _DAMPING**2 * np.eye(size)
+    hessian[:size, :size] = _product(slopes.T, slopes) + _DAMPING**2 * np.eye(size)
     hessian[size:, size:] = np.diag(sizes**2)
     scale = 1.0 / max(1.0, float(np.max(np.diag(hessian))))
-    low, high = (np.clip((bound - z) / longest, -1.0, 1.0) for bound in (problem.low, problem.high))
+    low, high = (np.clip((bound - z) / longest, -trusted, trusted) for bound in (problem.low, problem.high))
     x, _, flag, _ = daqp.solve(
         scale * hessian,
-        scale * np.concatenate([slopes.T @ residuals, np.zeros(count)]),
+        scale * np.concatenate([_product(slopes.T, residuals[:, None])[:, 0], np.zeros(count)]),
         np.ascontiguousarray(np.hstack([rows / sizes[:, None], -np.eye(count)])),
         np.concatenate([high, np.full(count, _FREE), -levels / sizes]),
         np.concatenate([low, np.zeros(count), np.full(count, -_FREE)]),
@@ -93,3 +90,8 @@ def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows) -> Array | None
         iter_limit=_MOST_ITERATIONS,
     )
     return None if flag < 1 else np.clip(np.asarray(x)[:size], low, high) * longest
+
+
+def _product(left: Array, right: Array) -> Array:
+    """Return a matrix product that is summed in the same order on any machine, as tuned libraries do not."""
+    return np.asarray(np.einsum("ij,jk->ik", left, right, optimize=False), dtype=np.float64)
