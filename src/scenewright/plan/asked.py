@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 TIGHT = {"time": 0.1, "place": 0.5, "speed": 0.25, "rate": 0.25, "other": 1.0}
 _OUT_OF_WAY_M = 0.5  # between the boxes of one before a conflict zone and one in it
 _AROUND_M, _STEP_M = 3.0, 0.5  # between two nodes of a plan a car goes a few metres
-_OF_TOP = 0.97  # between two nodes a speed may be a little higher than at both
+_OF_TOP = 0.95  # between two nodes a speed may be a little higher than at both
 
 
 @dataclass(frozen=True, slots=True)

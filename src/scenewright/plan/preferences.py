@@ -45,6 +45,7 @@ class Preferences:
     order_s: float = 1.5
     order_price: float = 4.0
     order_most: float = 3.0
+    sure_order_most: float = 30.0
     # A trigger of which both decide when it comes: what a second off its planned instant costs.
     punctual_weight: float = 0.7
     # -- manner ------------------------------------------------------------------------------------------------------

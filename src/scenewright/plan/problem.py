@@ -21,7 +21,7 @@ from scenewright.program.types import EGO, Actor, PieceKind
 
 Array = NDArray[np.float64]
 
-_CELL_S, _MOST_CELLS, _AFTER_S = 0.6, 12, 3.0
+_CELL_S, _MOST_CELLS, _AFTER_S = 0.6, 18, 3.0
 _LEAST_S = 0.05  # between two knots of one hero
 _LEAST_APPROACH_S = 0.4  # before the settled end of an approach, for it to have a leg of its own
 _LATEST_S, _FASTEST_MPS = 200.0, 60.0
@@ -224,7 +224,7 @@ class Problem:
             if row.order:
                 # In a forecast nothing is sure: who is to be first is to be it by some time, and at a lower price by
                 # more. Where it denies that, what is in the hero's own hands is not spoilt for it.
-                most = np.inf if self.now.sure else wanted.order_most
+                most = wanted.sure_order_most if self.now.sure else wanted.order_most
                 bounds.add(row.level + 1.0, row.slope, wanted.price, most)
                 bounds.add(tight_s * row.level + wanted.order_s, tight_s * row.slope, wanted.order_price)
                 late_s = max(late_s, tight_s * row.level)
