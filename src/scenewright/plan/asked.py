@@ -61,7 +61,7 @@ class Asked:
         self.times = [number_of(time) for time in self.events.times]
         self._scale = np.array([*(TIGHT[unknown.kind] for unknown in self.events.unknowns), 0.0])
         atoms = self._formulas.atoms
-        self._orders = [all(self._kinds(key) in ([], ["time"]) for key in atom.left.terms) for atom in atoms]
+        self._orders = [self._is_order(atom) for atom in atoms]
         self._quotients = list(self._quotients_of(atoms))
         self.caps = {
             hero.id: _caps(scene.routes[hero.id], limits[hero.id], self.wanted.lateral_mpss)
@@ -110,8 +110,13 @@ class Asked:
             slope = np.einsum("i,ij->j", gradients[k], slopes, optimize=False) / norms[k]
             yield Row(float(levels[k]), slope, bool(equal[k]), self._orders[k] and not equal[k])
 
-    def _kinds(self, key: tuple[int, ...]) -> list[str]:
-        return [self.events.unknowns[number].kind for number in key]
+    def _is_order(self, atom: Atom) -> bool:
+        """Whether a comparison is of nothing but times, the ego's among them."""
+        keys = [key for key in atom.left.terms if key]
+        instants = {number: instant for instant, number in enumerate(self.times) if number is not None}
+        if any(len(key) != 1 or key[0] not in instants for key in keys):
+            return False
+        return any((EGO, instants[key[0]]) in self.events.states for key in keys)
 
     def _quotients_of(self, atoms: Sequence[Atom]) -> Iterator[tuple[int, int, int]]:
         """Yield atoms that compare times, a place over a speed: their numbers, those of the place and of the speed."""

@@ -29,7 +29,7 @@ from scenewright.solve.limits import Limits
 from scenewright.solve.plan import SCHEMA_VERSION
 from scenewright.trace.files import TRACE_FILE, write_trace
 
-_PACKAGES = ("z3-solver", "numpy", "scipy", "pyarrow")
+_PACKAGES = ("z3-solver", "daqp", "numpy", "scipy", "pyarrow")
 
 
 @dataclass(frozen=True, slots=True)
