@@ -12,12 +12,11 @@ from dataclasses import dataclass, field, replace
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.asked import Asked
-from scenewright.plan.clearance import Clearance
-from scenewright.plan.following import Leader, foresee_follower
-from scenewright.plan.prediction import ConstantSpeed, EgoSample, Predictor, jumped, lately
+from scenewright.plan.foresight import Foresight
+from scenewright.plan.prediction import EgoSample, Predictor
 from scenewright.plan.problem import Missed, Problem
 from scenewright.plan.shooting import profile_of
-from scenewright.plan.situation import Answer, Drive, Lanes, Otherwise, SeenAndForeseen, Situation
+from scenewright.plan.situation import Drive, Situation
 from scenewright.plan.solving import Solution, solve
 from scenewright.plan.triggers import SHORTEST_LEAD_S, TriggerTimes
 from scenewright.program.structure import Role, Structure, knots_of
@@ -27,8 +26,6 @@ from scenewright.solve.arrival import LinearCondition
 from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan
 
-# How long an ego must have driven evenly for a jump in its acceleration to be a change of mind (s).
-_EVEN_S = 0.1
 # Newton steps of a first plan and of a tick, and how many more a tick has for each second that a trigger has moved by.
 _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
 # First plans are solved for from these speeds (shares of the natural one) and, where both decide, triggers (s): Newton
@@ -104,23 +101,20 @@ class Planner:
     _asked: Asked = field(init=False)
     _times: TriggerTimes = field(init=False)
     _moments_s: dict[int, float] = field(init=False, default_factory=dict)  # all moments of the plan, by instant
-    _samples: list[EgoSample] = field(init=False, default_factory=list)
+    _ego: Foresight = field(init=False)
     _joint_s: dict[int, float] = field(init=False, default_factory=dict)  # first planned, where both decide when
-    _lanes: dict[int, Clearance] = field(init=False, default_factory=dict)  # heroes on the ego's lane
 
     def __post_init__(self) -> None:
         self._asked = Asked(self.scene, self.structure, self.limits)
         self._times = TriggerTimes(self.scene, self.structure, self.conditions)
-        for hero in self.scene.program.heroes:
-            clearance = Clearance.of(self.scene, self.structure, self.conditions, hero)
-            if clearance is not None:
-                self._lanes[hero.id] = clearance
+        cruise_mps = self.limits[EGO].natural_approach_speed_mps
+        self._ego = Foresight(self.scene, self.structure, self.conditions, self.predictor, cruise_mps)
 
     # -- the first plan -----------------------------------------------------------------------------------------------
     def begin(self, ego: EgoSample) -> Attempt:
         """Plan from the ego's first state; the plan is kept."""
         started = time.perf_counter()
-        self._samples, self._times.ego_began = [ego], ego[1:3]
+        self._ego.samples, self._times.ego_began = [ego], ego[1:3]
         self.ego_knots_s = {self.scene.program.ego.sketch.knots[0]: 0.0}
         prediction = self.predictor.predict([ego])
         joint = any(self._trigger(hero) is not None and not self._ego_decides(hero) for hero in self._heroes)
@@ -130,12 +124,13 @@ class Planner:
             for pace in _PACES
         ]
         best = min(tries, key=lambda found: found[0].cost)
-        for _ in range(_AGAIN_FOLLOWED if self._leaders() else _AGAIN):
+        for _ in range(_AGAIN_FOLLOWED if self._ego.leaders else _AGAIN):
             self.plan = best[1]
-            best = self._planned_first(self._foreseen(), 0.0, self.plan.profiles)
+            best = self._planned_first(self._ego.foreseen(self.plan.profiles), 0.0, self.plan.profiles)
         solution, self.plan = best
-        if self._leaders():  # what the plan was made with is how the ego answered the one before
-            foreseen = Profile(self._foreseen().segments, self.plan.profiles[EGO].knot_times_s)
+        if self._ego.leaders:  # what the plan was made with is how the ego answered the one before
+            segments = self._ego.foreseen(self.plan.profiles).segments
+            foreseen = Profile(segments, self.plan.profiles[EGO].knot_times_s)
             self.plan = replace(self.plan, profiles={**self.plan.profiles, EGO: foreseen})
         for hero in self._heroes:
             if (name := self._trigger(hero)) is not None:
@@ -203,28 +198,27 @@ class Planner:
                 expected.setdefault(instant, at_s)
         return Situation(
             0.0,
-            SeenAndForeseen(self._samples, prediction),
+            self._ego.states(prediction),
             knots,
             expected,
             guesses=guesses,
             planned_s=planned,
             waits=frozenset(triggers),
-            sure=self._is_sure,
-            lanes=self._on_lanes(0.0, prediction, first=True),
+            sure=self._ego.is_sure,
+            lanes=self._ego.lanes(guesses, 0.0, prediction, first=True),
         )
 
     # -- one tick -----------------------------------------------------------------------------------------------------
     @property
     def is_alarmed(self) -> bool:
         """Whether the ego has just changed its mind while a hero can still answer."""
-        if not jumped(lately(self._samples, _EVEN_S)):
-            return False
-        return any(self._open_piece(hero, self._samples[-1][0]) is not None for hero in self._heroes)
+        now_s = self._ego.samples[-1][0]
+        return self._ego.has_jumped and any(self._open_piece(hero, now_s) is not None for hero in self._heroes)
 
     def observe(self, sample: EgoSample) -> None:
         """Take note of the ego's state after a step, and of the knots that it passed in it."""
-        previous = self._samples[-1]
-        self._samples.append(sample)
+        previous = self._ego.samples[-1]
+        self._ego.samples.append(sample)
         for hero, instant in self.structure.triggers.items():
             planned = self.plan.profiles[hero].knot_times_s.get(self._name(hero))
             if planned is not None and planned <= sample[0]:
@@ -246,7 +240,7 @@ class Planner:
         if all(self._open_piece(hero, time_s) is None for hero in self._heroes):
             record = Replan(time_s, "frozen", "", 0.0, self.plan.tolerance, "after its trigger the hero does not adapt")
         else:
-            prediction = self._foreseen()
+            prediction = self._ego.foreseen(self.plan.profiles)
             situation, moved_s = self._situation(time_s, prediction)
             problem = Problem(self._asked, situation)
             steps = _TICK_STEPS + min(_MOST_STEPS_MORE, int(_STEPS_A_SECOND * moved_s))
@@ -259,7 +253,7 @@ class Planner:
 
     def ego_stood_s(self, time_s: float) -> float:
         """Return for how long the ego has not moved (s)."""
-        return time_s - next((sample[0] for sample in reversed(self._samples) if sample[2] > 0.1), 0.0)
+        return time_s - next((sample[0] for sample in reversed(self._ego.samples) if sample[2] > 0.1), 0.0)
 
     def _situation(self, time_s: float, prediction: Profile) -> tuple[Situation, float]:
         """Return what to plan from now, and by how much triggers have moved of which the ego decides (s)."""
@@ -297,15 +291,15 @@ class Planner:
                 (knots if at_s <= time_s else expected)[instant] = at_s
         situation = Situation(
             time_s,
-            SeenAndForeseen(self._samples, prediction),
+            self._ego.states(prediction),
             knots,
             expected,
             drives,
             planned_s=planned,
             settled_s=self._settled_s(planned, time_s),
             waits=frozenset(triggers),
-            sure=self._is_sure,
-            lanes=self._on_lanes(time_s, prediction, first=False),
+            sure=self._ego.is_sure,
+            lanes=self._ego.lanes(self.plan.profiles, time_s, prediction, first=False),
         )
         return situation, moved_s
 
@@ -364,29 +358,6 @@ class Planner:
         """Whether the ego alone decides when a hero's trigger comes."""
         return hero.id in self.structure.triggers and self._times.ego_side(hero) is not None
 
-    @property
-    def _is_sure(self) -> bool:
-        """Whether the ego drives as foreseen, as its policy promises."""
-        return isinstance(self.predictor, ConstantSpeed)
-
-    def _leaders(self) -> dict[int, Clearance]:
-        """Return the heroes that drive ahead of the ego, where it is not known to hold its speed."""
-        if self._is_sure:
-            return {}
-        return {hero: clearance for hero, clearance in self._lanes.items() if clearance.ahead}
-
-    def _foreseen(self) -> Profile:
-        """Return how the ego will go on, while the heroes do what is planned."""
-        prediction = self.predictor.predict(self._samples)
-        for hero, clearance in self._leaders().items():
-            leader = Leader(self.plan.profiles[hero], clearance.offset_m)
-            prediction = foresee_follower(prediction, self._samples, leader, self._cruise_mps)
-        return prediction
-
-    @property
-    def _cruise_mps(self) -> float:
-        return self.limits[EGO].natural_approach_speed_mps
-
     def _ego_knots(
         self, time_s: float, prediction: Profile, triggers: Mapping[int, float], known: Mapping[int, float]
     ) -> dict[int, float]:
@@ -394,34 +365,6 @@ class Planner:
         found = self._times.ego_knots_s(time_s, prediction, self.ego_knots_s, triggers)
         instants = {self._asked.knot(EGO, name): at_s for name, at_s in found.items()}
         return {instant: at_s for instant, at_s in instants.items() if instant not in known}
-
-    def _on_lanes(self, time_s: float, prediction: Profile, *, first: bool) -> Lanes:
-        """Return who keeps on which side of the ego on its lane, and what the ego makes of it."""
-        apart = {hero: (1.0 if lane.ahead else -1.0, lane.offset_m) for hero, lane in self._lanes.items()}
-        return Lanes(apart, self._answers(time_s, prediction, first=first))
-
-    def _answers(self, time_s: float, prediction: Profile, *, first: bool) -> dict[int, Answer]:
-        """Return how the ego answers heroes that it follows: from what it makes of them where they are otherwise."""
-        found: dict[int, Answer] = {}
-        for hero, clearance in self._leaders().items() if hasattr(self, "plan") else ():
-            profile = self.plan.profiles[hero]
-            trigger_s = profile.knot_times_s.get(self._name(hero), time_s)
-            if trigger_s <= time_s:
-                continue
-            alone, (place_m, speed_mps, _) = self.predictor.predict(self._samples), prediction.state(trigger_s)
-
-            def answer(otherwise: Otherwise) -> tuple[float, float]:
-                leader = Leader(otherwise, clearance.offset_m)  # noqa: B023 - asked within the same turn of the loop
-                then = foresee_follower(alone, self._samples, leader, self._cruise_mps).state(trigger_s)  # noqa: B023
-                return then[0] - place_m, then[1] - speed_mps  # noqa: B023
-
-            if first:
-                further, faster = (Otherwise(profile, 0.0, further_m=1.0), Otherwise(profile, 0.0, faster_mps=1.0))
-                found[hero] = Answer(profile, answer(further), answer(faster))
-            else:
-                lasts_s = max(trigger_s - time_s, 0.1)
-                found[hero] = Answer(profile, answer(Otherwise(profile, time_s, ever_faster_mpss=2.0 / lasts_s**2)))
-        return found
 
     def _settled_s(self, joint: Mapping[int, float], time_s: float) -> dict[int, float]:
         """Return from when on heroes are settled for long enough, whose triggers both decide."""

@@ -1,0 +1,109 @@
+"""How the ego will drive, as far as can be told: alone by a predictor, behind a hero as people follow.
+
+What enters: what was seen of the ego, and what heroes are to do. What leaves: how it goes on, and what it would make of
+heroes that do otherwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from scenewright.motion.profile import Profile
+from scenewright.plan.clearance import Clearance
+from scenewright.plan.following import Leader, foresee_follower
+from scenewright.plan.prediction import ConstantSpeed, EgoSample, Predictor, jumped, lately
+from scenewright.plan.situation import Answer, Lanes, Otherwise, SeenAndForeseen
+from scenewright.program.structure import Structure
+from scenewright.roads.grounding import Scene
+from scenewright.solve.arrival import LinearCondition
+
+# How long an ego must have driven evenly for a jump in its acceleration to be a change of mind (s).
+_EVEN_S = 0.1
+_SHORTEST_S = 0.1  # in less time nothing can be answered
+
+Motions = Mapping[int, Profile]
+
+
+@dataclass(slots=True)
+class Foresight:
+    """Foresees one ego over one run.
+
+    Attributes
+    ----------
+    predictor
+        Foresees it where it follows nobody.
+    cruise_mps
+        How fast people drive where it does.
+    samples
+        What was seen of it, in time order.
+    """
+
+    scene: Scene
+    structure: Structure
+    conditions: Sequence[LinearCondition]
+    predictor: Predictor
+    cruise_mps: float
+    samples: list[EgoSample] = field(default_factory=list)
+    _on_lane: dict[int, Clearance] = field(init=False, default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for hero in self.scene.program.heroes:
+            clearance = Clearance.of(self.scene, self.structure, self.conditions, hero)
+            if clearance is not None:
+                self._on_lane[hero.id] = clearance
+
+    @property
+    def is_sure(self) -> bool:
+        """Whether it drives as foreseen, as its policy promises."""
+        return isinstance(self.predictor, ConstantSpeed)
+
+    @property
+    def has_jumped(self) -> bool:
+        """Whether it has just changed its mind."""
+        return jumped(lately(self.samples, _EVEN_S))
+
+    @property
+    def leaders(self) -> dict[int, Clearance]:
+        """The heroes that drive ahead of it, where it is not known to hold its speed."""
+        return {} if self.is_sure else {hero: lane for hero, lane in self._on_lane.items() if lane.ahead}
+
+    def foreseen(self, motions: Motions) -> Profile:
+        """Return how it will go on while heroes move so."""
+        prediction = self.predictor.predict(self.samples)
+        for hero, clearance in self.leaders.items():
+            leader = Leader(motions[hero], clearance.offset_m)
+            prediction = foresee_follower(prediction, self.samples, leader, self.cruise_mps)
+        return prediction
+
+    def states(self, prediction: Profile) -> SeenAndForeseen:
+        """Return its states, past and foreseen."""
+        return SeenAndForeseen(self.samples, prediction)
+
+    def lanes(self, motions: Motions, time_s: float, prediction: Profile, *, first: bool) -> Lanes:
+        """Return who keeps on which side of it on its lane, and what it makes of heroes that do not move just so."""
+        apart = {hero: (1.0 if lane.ahead else -1.0, lane.offset_m) for hero, lane in self._on_lane.items()}
+        found: dict[int, Answer] = {}
+        for hero, clearance in self.leaders.items():
+            trigger_s = motions[hero].knot_times_s.get(self.structure.trigger_knot(hero) or "", time_s)
+            if trigger_s > time_s:
+                found[hero] = self._answer(motions[hero], clearance, (time_s, trigger_s), prediction, first=first)
+        return Lanes(apart, found)
+
+    def _answer(
+        self, motion: Profile, clearance: Clearance, span_s: tuple[float, float], prediction: Profile, *, first: bool
+    ) -> Answer:
+        """Return how it answers a hero by the end of a span: from what it makes of one that moves otherwise."""
+        now_s, then_s = span_s
+        alone, (place_m, speed_mps, _) = self.predictor.predict(self.samples), prediction.state(then_s)
+
+        def answered(otherwise: Otherwise) -> tuple[float, float]:
+            leader = Leader(otherwise, clearance.offset_m)
+            then = foresee_follower(alone, self.samples, leader, self.cruise_mps).state(then_s)
+            return then[0] - place_m, then[1] - speed_mps
+
+        if first:
+            further, faster = Otherwise(motion, 0.0, further_m=1.0), Otherwise(motion, 0.0, faster_mps=1.0)
+            return Answer(motion, answered(further), answered(faster))
+        lasts_s = max(then_s - now_s, _SHORTEST_S)
+        return Answer(motion, answered(Otherwise(motion, now_s, ever_faster_mpss=2.0 / lasts_s**2)))
