@@ -281,6 +281,6 @@ def _rate_is_given(program: Program, hero: Actor, piece: int) -> bool:
         node = piece_of(constraint.formula) if isinstance(constraint.formula, Compare) else None
         if node is None or node.actor != hero.id or node.order != 2 or not isinstance(node.at, PieceRef):
             continue
-        if constraint.formula.operator == "==" and hero.sketch.piece_index(node.at.name) == piece:  # type: ignore[union-attr]
+        if constraint.formula.operator == "==" and hero.sketch.piece_index(node.at.name) == piece:
             return True
     return False
