@@ -78,14 +78,17 @@ def _of_actors(asked: Scene, read: Scene) -> list[str]:
 
 def _same_story(actor: Actor, other: Actor) -> bool:
     """Whether one sketch goes on after the other at most with what is nothing new: standing, or driving as it is."""
-    longer = _longer(actor, other)
-    count = min(len(actor.sketch.pieces), len(other.sketch.pieces))
-    same = actor.sketch.pieces[:count] == other.sketch.pieces[:count]
-    return actor.is_ego or (same and _IDLE.issuperset(longer.pieces[count:]))  # the ego's pieces are its own affair
+    ours, theirs = actor.sketch.pieces, other.sketch.pieces
+    count = min(len(ours), len(theirs))
+    same = ours[:count] == theirs[:count] and _IDLE.issuperset((*ours[count:], *theirs[count:]))
+    return actor.is_ego or same  # the ego's pieces are its own affair
 
 
-def _longer(actor: Actor, other: Actor) -> Sketch:
-    return max(actor.sketch, other.sketch, key=lambda sketch: len(sketch.pieces))
+def _common(actor: Actor, other: Actor) -> Sketch:
+    """Return the longer sketch of two that tell the same story; what only one of them tells binds nobody."""
+    shorter, longer = sorted((actor.sketch, other.sketch), key=lambda sketch: len(sketch.pieces))
+    count = len(shorter.pieces)
+    return Sketch(longer.knots, (*longer.pieces[:count], *(PieceKind.GO for _ in longer.pieces[count:])))
 
 
 # -- constraints ----------------------------------------------------------------------------------------------------
@@ -99,7 +102,7 @@ class _Said:
 
 def _of_constraints(asked: Scene, read: Scene) -> list[str]:
     pairs = zip(asked.program.actors, read.program.actors, strict=True)
-    sketches = {actor.id: _longer(actor, other) for actor, other in pairs}
+    sketches = {actor.id: _common(actor, other) for actor, other in pairs}
     ours, theirs = (_said(scene, sketches) for scene in (asked, read))
     both = tuple({said.formula: None for said in ours if said.formula in {said.formula for said in theirs}})
     lost, added = ([said for said in each if said.formula not in both] for each in (ours, theirs))

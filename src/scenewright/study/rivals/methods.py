@@ -104,7 +104,7 @@ def _staged(
         planner, start, result.attempt = planned
     plan = result.attempt.plan
     result.not_held = tuple(not_held(world.scene, plan.profiles, dimension_of, LOOSE.of))
-    if result.not_held:  # nobody has anything to start from then, nor have we
+    if result.not_held:  # who starts from it would miss as much, whatever the method
         result.status = "gave up"
         return result
     result = drive(Staging(request, world, stages, planner, start, plan, option), result)
