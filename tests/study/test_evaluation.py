@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 from scenewright.cli.app import app
 from scenewright.cli.bench_tables import outcome_data, outcome_tallies
 from scenewright.errors import InputError
+from scenewright.plan import planner
 from scenewright.study.causes import CAUSES, INFEASIBLE
 from scenewright.study.evaluation import (
     Case,
@@ -143,9 +144,7 @@ def test_ego_that_never_comes_to_its_place(tmp_path: Path, monkeypatch: pytest.M
 
 
 def test_gave_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    from scenewright.solve.planner import Attempt, Planner
-
-    monkeypatch.setattr(Planner, "first_plan", lambda *_, **__: Attempt(None, "unsat", "nothing", 0.0, 1))
+    monkeypatch.setattr(planner, "_FIRST_STEPS", 0)  # its first guess is no plan
     assert run_case(Case(YIELDS, "idm", 0, 0, FINE)).cause == "gave up"
 
 

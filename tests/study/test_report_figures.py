@@ -44,13 +44,7 @@ LOOPS = [
     for draw in range(3)
     for mode in ("open", "closed")
 ]  # fmt: skip
-CALLS = [
-    {"row": 1, "ego": "idm", "stage": stage, "answer": answer, "constraints": 15 + n, "unknowns": 5, "ms": 2.0 + n}
-    for stage in ("feasibility", "first plan", "re-solve")
-    for answer in ("sat", "unsat", "unknown")
-    for n in range(12)
-]
-EXTRAS = Extras(CELLS, LOOPS, CALLS)
+EXTRAS = Extras(CELLS, LOOPS)
 SETTINGS: dict[str, Any] = {"schema_version": 1, "command": "scenewright bench run", "seed": 0, "version": "0.1.0"}
 
 
@@ -82,7 +76,7 @@ def test_every_figure_is_drawn_from_every_store(name: str, monkeypatch: pytest.M
     monkeypatch.setattr(style, "DPI", 50)
     own_measurements = name in ("ordinary", "nothing measured", "all cells infeasible")
     for section in sections_of(stores()[name]):
-        if section.id in ("precision", "loops", "times") and not own_measurements:
+        if section.id in ("precision", "loops") and not own_measurements:
             continue  # they do not read the store
         for plot in section.plots:
             png = render_png(plot.draw, {"Title": plot.name})

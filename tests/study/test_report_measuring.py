@@ -11,8 +11,6 @@ from scenewright.judge.tolerance import TIGHT
 from scenewright.orchestrate import Request, orchestrate
 from scenewright.program.check import check_program
 from scenewright.program.text import parse_program
-from scenewright.solve.backends.z3_backend import Z3Backend
-from scenewright.solve.problem import Problem, Satisfiable, Unknown, Unsatisfiable
 from scenewright.study.causes import INFEASIBLE, NEVER_MET
 from scenewright.study.report import loops, measuring, precision, times
 from scenewright.study.report.extra_figures import draw_grid
@@ -158,52 +156,9 @@ def test_a_case_is_left_out_of_both_loops_or_of_none() -> None:
 
 
 # -- times ----------------------------------------------------------------------------------------------------------
-class Scripted:
-    """A solver that gives the answers that it was told to give."""
-
-    name = "scripted"
-
-    def __init__(self, *answers: Satisfiable | Unsatisfiable | Unknown) -> None:
-        self.answers = list(answers)
-
-    def solve(
-        self, problem: Problem, timeout_s: float, want_core: bool = False, effort: int | None = None
-    ) -> Satisfiable | Unsatisfiable | Unknown:
-        return self.answers.pop(0)
-
-
-def test_the_recording_solver_passes_answers_on_and_notes_them() -> None:
-    answers = (Satisfiable({}), Unsatisfiable(("c1",)), Unknown("timeout"))
-    backend = times.RecordingBackend(Scripted(*answers))
-    problem = Problem()
-    unknown = problem.unknown("x")
-    problem.bound(unknown, 0, 1, "limit")
-    backend.enter("simulate")
-    assert (backend.solve(problem, 1.0), backend.solve(problem, 1.0, want_core=True)) == answers[:2]
-    backend.enter("plan")
-    assert backend.solve(problem, 1.0) is answers[2]
-    noted = [(c["stage"], c["answer"], c["constraints"], c["unknowns"]) for c in backend.calls]
-    assert noted == [("re-solve", "sat", 1, 1), ("re-solve", "unsat with core", 1, 1), ("first plan", "unknown", 1, 1)]
-    assert backend.name == "scripted"
-
-
-def test_a_watched_run_is_the_run_itself() -> None:
-    text = scene_text("pulls_out_across")
-    request = Request(text, {"ego_initial_speed_mps": 10.0, "tta_s": 3.0}, ego="noisy", takes=1)
-    backend = times.RecordingBackend(Z3Backend())
-    watched = orchestrate(request, report=backend.enter, backend=backend)
-    assert watched.status == "success"
-    assert {"first plan", "re-solve"} <= {call["stage"] for call in backend.calls}
-    assert all(call["constraints"] > 0 and call["ms"] > 0 for call in backend.calls)
-    table = times.solver_table(backend.calls)
-    assert sum(line["calls"] for line in table.records()) == len(backend.calls)
-    assert list(dict.fromkeys(table.column("stage"))) == ["first plan", "re-solve"]
-
-
 def test_percentiles_of_nothing_are_nothing() -> None:
     line = times.ticks_table([]).records()[0]
     assert (line["ticks"], line["p50_ms"], line["late"]) == (0, None, 0)
-    assert times.solver_table([]).rows == ()
 
 
 def test_ticks_are_told_by_percentiles_and_late_ones_counted() -> None:

@@ -70,7 +70,7 @@ def test_the_page_fetches_nothing(written: Path) -> None:
 def test_the_page_says_command_seed_versions_and_number_of_cases(written: Path) -> None:
     head = re.search(r"<header>(.*?)</header>", written.read_text(encoding="utf-8"), flags=re.DOTALL)
     assert head is not None
-    for told in ("192 cases", "seed 0", "scenewright 0.1.0", "<code>scenewright bench", "calls of the solver"):
+    for told in ("192 cases", "seed 0", "scenewright 0.1.0", "<code>scenewright bench", "open against closed loop"):
         assert told in head[1]
 
 
@@ -105,7 +105,7 @@ def test_the_report_is_written_from_a_folder_of_results(tmp_path: Path, monkeypa
     told: list[tuple[str, int, int]] = []
     page = write_report(folder, quick=True, progress=lambda *step: told.append(step))
     assert page == folder / "report" / "index.html"
-    assert told[-1] == ("figures", 7, 7)
+    assert told[-1] == ("figures", 6, 6)
     assert (folder / "report" / "tables" / "precision_cells.csv").read_text().count("\n") == 1 + len(CELLS)
     other = write_store(tmp_path / "other", made_up(rows=[1], draws=1))
     (other / "report").write_text("", encoding="utf-8")

@@ -61,7 +61,7 @@ def test_opens_from_a_file_without_a_complaint_or_a_request(opened: Opened) -> N
     assert opened.complaints == []
     assert [url for url in opened.requests if not url.startswith(("file://", "data:"))] == []
     widths = opened.page.evaluate("[...document.images].map((image) => image.naturalWidth)")
-    assert len(widths) == 7
+    assert len(widths) == 6
     assert min(widths) > 700
 
 

@@ -10,10 +10,11 @@ import pytest
 from scenewright.drive.protocol import EgoMotion, VehicleState
 from scenewright.errors import PolicyError
 from scenewright.orchestrate import Request, Stages, set_up
+from scenewright.plan.planner import Planner
 from scenewright.simulate.beginning import first_plan
 from scenewright.simulate.loop import Rates, Run, simulate
 from scenewright.study.rivals import run_method
-from scenewright.study.rivals.follower import AskedAnew, FollowingHeroes
+from scenewright.study.rivals.follower import FollowingHeroes
 from scenewright.study.rivals.waypoints import DriverStart, SteadyFollower, View, Waypoint, WaypointDriver
 
 HERO = 1
@@ -55,17 +56,15 @@ class Recorder:
         return self.answer
 
 
-def follow(driver: WaypointDriver, ego: str = "constant") -> tuple[Run, FollowingHeroes, AskedAnew]:
+def follow(driver: WaypointDriver, ego: str = "constant") -> tuple[Run, FollowingHeroes, Planner]:
     request = Request(YIELDS, ego=ego)
     world, _ = set_up(request, Stages(None))
     planned = first_plan(world, world.predictor)
     assert planned is not None
-    first, start, _ = planned
-    replanner = AskedAnew(first.scene, first.structure, first.planner, first.predictor, first.conditions)
-    replanner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
-    heroes = FollowingHeroes(replanner, world.limits, {HERO: driver}, 0.02)
+    planner, start, _ = planned
+    heroes = FollowingHeroes(planner, world.limits, {HERO: driver}, 0.02)
     world.ego.reset(start.s_m, start.speed_mps)
-    return simulate(world.scene, world.ego, heroes, Rates(0.02, None)), heroes, replanner
+    return simulate(world.scene, world.ego, heroes, Rates(0.02, None)), heroes, planner
 
 
 def test_model_takes_over_after_one_second_of_our_motion() -> None:
@@ -99,13 +98,13 @@ def test_waypoints_are_four_seconds_ahead_and_come_once_a_second() -> None:
 
 
 def test_solver_is_asked_once_a_second_from_where_the_hero_is() -> None:
-    run, _, replanner = follow(Recorder(answer=-0.4))
-    asked = [record for record in replanner.records[1:] if record.backend]
+    run, _, planner = follow(Recorder(answer=-0.4))
+    asked = [record for record in planner.records[1:] if record.backend]
     assert [record.time_s for record in asked[:3]] == pytest.approx([1.0, 2.0, 3.0])
-    # The last plan that was found begins in the state that the hero really had then, not in the planned one.
-    found = [record.time_s for record in asked if not record.status.endswith("goes on")][-1]
-    hero = run.trace.actors["hero"]
-    assert replanner.plan.profiles[HERO].state(found)[0] == pytest.approx(hero.position(found), abs=1e-3)
+    # The last plan begins in the state that the hero really had then, not in the planned one, and holds what it drove.
+    found, hero = asked[-1].time_s, run.trace.actors["hero"]
+    for time_s in (0.5 * found, found):
+        assert planner.plan.profiles[HERO].state(time_s)[0] == pytest.approx(hero.position(time_s), abs=1e-3)
     assert abs(hero.position(found) - run.first_plan.profiles[HERO].state(found)[0]) > 0.2
 
 

@@ -122,7 +122,7 @@ def carry_out_case(case: BenchCase, row: BenchmarkRow) -> tuple[CaseRecord, Requ
 
     request = case.request(row)
     started = time.perf_counter()
-    result = run_method(case.method, request, None)
+    result = run_method(case.method, request)
     record = replace(record_of(case, row, result), wall_s=time.perf_counter() - started)
     if case.keep and result.run is not None and result.verdict is not None:
         directory = f"{RUNS}/{case.key}"

@@ -36,7 +36,7 @@ from scenewright.study.store import (
 from scenewright.study.workers import Crash, each_done
 
 FULL_EGOS = ("constant", "idm", "dawdler", "staller", "stop-and-go", "noisy")
-_PACKAGES = ("z3-solver", "numpy", "scipy", "pyarrow", "matplotlib")
+_PACKAGES = ("z3-solver", "daqp", "numpy", "scipy", "pyarrow", "matplotlib")
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""Compares two programs by what they mean: same routes, same story, and constraints that a solver finds equivalent.
+"""Compares two programs by what they mean: same routes, same story, and constraints that follow from each other.
 
 What enters: two programs and a map. What leaves: how they differ, in sentences; nothing where they mean the same. It
 compares no motion and no layout: knots may be named otherwise, constraints be written in another way.
@@ -6,26 +6,31 @@ compares no motion and no layout: knots may be named otherwise, constraints be w
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields, is_dataclass, replace
 from fractions import Fraction
-from itertools import pairwise
+from itertools import combinations, pairwise
+from typing import Any
 
 from scenewright.errors import ScenewrightError
-from scenewright.motion.algebra import Condition, Symbol, Value, compare, negation, smt
-from scenewright.motion.sketched import ONE, Ratio
+from scenewright.program import expressions as ex
 from scenewright.program.printer import print_expression
-from scenewright.program.structure import knots_of, read_structure
 from scenewright.program.types import Actor, Constraint, PieceKind, Program, Sketch
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
-from scenewright.solve.lowering import Lowering, NotYet
-from scenewright.solve.problem import Backend, Problem, Unsatisfiable
+from scenewright.solve.limits import limits_on
+from scenewright.solve.proofs.events import EgoBounds, Events
+from scenewright.solve.proofs.lowering import Lowering
+from scenewright.solve.proofs.polynomials import ZERO, Formula, compare, every, some
+from scenewright.solve.proofs.refuters import refuter_called
+from scenewright.solve.proofs.relaxation import Named
 
 _TIMEOUT_S = 2.0
+_FAR = Fraction(10**6)  # what two texts mean does not depend on how far a road goes or how fast a car is
+_IDLE = {PieceKind.STOP, PieceKind.GO}
 
 
-def differences(asked: Program, read: Program, backend: Backend | None = None) -> list[str]:
+def differences(asked: Program, read: Program) -> list[str]:
     """Return how `read` differs in meaning from `asked`, in sentences.
 
     Parameters
@@ -51,198 +56,186 @@ def differences(asked: Program, read: Program, backend: Backend | None = None) -
     if [actor.is_ego for actor in asked.actors] != [actor.is_ego for actor in read.actors]:
         return [f"{len(read.actors)} actors instead of {len(asked.actors)}"]
     try:
-        worlds = [_World.of(_essential(program)) for program in (asked, read)]
+        ours, theirs = (ground(program, load_map(program.map_name)) for program in (asked, read))
     except ScenewrightError as error:
         return [f"it does not fit the map: {error.message}"]
-    found = _of_actors(*worlds)
-    if found:
-        return found
-    if backend is None:
-        from scenewright.solve.backends.z3_backend import Z3Backend
-
-        backend = Z3Backend()
-    return _of_constraints(worlds[0], worlds[1], backend)
+    return _of_actors(ours, theirs) or _of_constraints(ours, theirs)
 
 
-# -- what the programs say ------------------------------------------------------------------------------------------
-def _essential(program: Program) -> Program:
-    """Return `program` without pieces at the end of sketches that nothing speaks of and that say nothing themselves."""
-    used: dict[int, set[str]] = {}
-    for constraint in program.constraints:
-        for actor, knot in knots_of(constraint.formula):
-            used.setdefault(actor, set()).add(knot)
-    actors = tuple(_trimmed(actor, used.get(actor.id, set()), program) for actor in program.actors)
-    return replace(program, actors=actors)
-
-
-def _trimmed(actor: Actor, used: set[str], program: Program) -> Actor:
-    knots, pieces = list(actor.sketch.knots), list(actor.sketch.pieces)
-    text = " ".join(print_expression(constraint.formula) for constraint in program.constraints)
-    # The ego's pieces are its own affair; a hero that stands at the end, or goes on as it is, does nothing new.
-    idle = (PieceKind.STOP, PieceKind.GO)
-    while len(pieces) > 1 and pieces[-1] in idle and knots[-1] not in used:
-        name = actor.sketch.piece_names()[len(pieces) - 1]
-        if f"({name})" in text and not actor.is_ego and pieces[-1] is not PieceKind.STOP:
-            break
-        pieces.pop()
-        knots.pop()
-    return replace(actor, sketch=Sketch(tuple(knots), tuple(pieces)))
-
-
-@dataclass(frozen=True, slots=True)
-class _World:
-    """One program, on its map, with a name of its own for every unknown that does not depend on how knots are named."""
-
-    scene: Scene
-    lowering: Lowering
-
-    @classmethod
-    def of(cls, program: Program) -> _World:
-        names = {parameter.name: parameter for parameter in program.parameters}
-        free = program.with_parameters(tuple(replace(parameter, value=None) for parameter in program.parameters))
-        scene = ground(free, load_map(program.map_name))
-        views = {actor.id: _Free(actor) for actor in program.actors}
-        symbols: dict[str, Value] = {}
-        for name, parameter in names.items():
-            given = parameter.value
-            symbols[name] = Symbol(f"p_{name}") if given is None else given * parameter.unit.si_factor
-        return cls(scene, Lowering(scene, read_structure(program), views, symbols))
-
-    def condition(self, constraint: Constraint) -> Condition | None:
-        """Return a constraint over the unknowns; None where only its text can be compared."""
-        try:
-            return self.lowering.condition(constraint.formula)
-        except (NotYet, KeyError):
-            return None
-
-
-@dataclass(frozen=True, slots=True)
-class _Free:
-    """A motion of which nothing is known: an unknown for every state that is spoken of (a `MotionView`)."""
-
-    actor: Actor
-
-    def time(self, knot: str) -> Value | None:
-        return Symbol(f"t_{self.actor.id}_{self.actor.sketch.knot_index(knot)}")
-
-    def at_knot(self, knot: str, order: int) -> Ratio | None:
-        return Symbol(f"s_{self.actor.id}_{self.actor.sketch.knot_index(knot)}_{order}"), ONE
-
-    def at_time(self, time: Value, order: int) -> Value | None:
-        moment = smt(time).translate(str.maketrans("() ./-", "______"))
-        return Symbol(f"s_{self.actor.id}_at_{moment}_{order}")
-
-    def on_piece(self, piece: int, order: int) -> Ratio | None:
-        return Symbol(f"s_{self.actor.id}_on_{piece}_{order}"), ONE
-
-
-# -- how they differ ------------------------------------------------------------------------------------------------
-def _of_actors(asked: _World, read: _World) -> list[str]:
+# -- routes and sketches --------------------------------------------------------------------------------------------
+def _of_actors(asked: Scene, read: Scene) -> list[str]:
     found = []
-    for actor, other in zip(asked.scene.program.actors, read.scene.program.actors, strict=True):
-        wanted, got = asked.scene.routes[actor.id], read.scene.routes[other.id]
+    for actor, other in zip(asked.program.actors, read.program.actors, strict=True):
+        wanted, got = asked.routes[actor.id], read.routes[other.id]
         if wanted.lanes != got.lanes:
             headings = (", ".join(route.headings) for route in (got, wanted))
             found.append("{}: route {} instead of {}".format(actor.name, *headings))
-        ours, theirs = actor.sketch.pieces, other.sketch.pieces
-        if not actor.is_ego and ours != theirs:
+        if not _same_story(actor, other):
+            ours, theirs = actor.sketch.pieces, other.sketch.pieces
             found.append(f"{actor.name}: {', '.join(theirs)} instead of {', '.join(ours)}")
-        elif actor.is_ego and len(ours) != len(theirs):
-            found.append(f"{actor.name}: {len(theirs)} moments of its own instead of {len(ours)}")
     return found
 
 
-def _of_constraints(asked: _World, read: _World, backend: Backend) -> list[str]:
-    background = _background(asked.scene.program)
-    ours, theirs = _conditions(asked), _conditions(read)
-    lost = _not_implied(background, theirs, ours, backend)
-    added = _not_implied(background, ours, theirs, backend)
-    told = [f"lost: {_told(asked, constraint)}" for constraint in lost]
-    return told + [f"added: {_told(read, constraint)}" for constraint in added]
+def _same_story(actor: Actor, other: Actor) -> bool:
+    """Whether one sketch goes on after the other at most with what is nothing new: standing, or driving as it is."""
+    ours, theirs = actor.sketch.pieces, other.sketch.pieces
+    count = min(len(ours), len(theirs))
+    same = ours[:count] == theirs[:count] and _IDLE.issuperset((*ours[count:], *theirs[count:]))
+    return actor.is_ego or same  # the ego's pieces are its own affair
 
 
-_Pairs = Sequence[tuple[Constraint, Condition | None]]
+def _common(actor: Actor, other: Actor) -> Sketch:
+    """Return the longer sketch of two that tell the same story; what only one of them tells binds nobody."""
+    shorter, longer = sorted((actor.sketch, other.sketch), key=lambda sketch: len(sketch.pieces))
+    count = len(shorter.pieces)
+    return Sketch(longer.knots, (*longer.pieces[:count], *(PieceKind.GO for _ in longer.pieces[count:])))
 
 
-def _conditions(world: _World) -> _Pairs:
-    return [(constraint, world.condition(constraint)) for constraint in world.scene.program.constraints]
+# -- constraints ----------------------------------------------------------------------------------------------------
+@dataclass(frozen=True, slots=True)
+class _Said:
+    """A constraint as its program has it, and in the words of both: knots by position, values for their names."""
+
+    own: Constraint
+    formula: ex.Formula
 
 
-def _not_implied(background: Sequence[Condition], known: _Pairs, wanted: _Pairs, backend: Backend) -> list[Constraint]:
-    """Return what of `wanted` does not follow from `known`."""
-    given = [condition for _, condition in known if condition is not None]
-    texts = {print_expression(constraint.formula) for constraint, _ in known}
-    missing = []
-    for constraint, condition in wanted:
-        if print_expression(constraint.formula) in texts and condition is None:
-            continue
-        if condition is None or not (condition in given or _follows([*background, *given], condition, backend)):
-            missing.append(constraint)
-    return missing
+def _of_constraints(asked: Scene, read: Scene) -> list[str]:
+    pairs = zip(asked.program.actors, read.program.actors, strict=True)
+    sketches = {actor.id: _common(actor, other) for actor, other in pairs}
+    ours, theirs = (_said(scene, sketches) for scene in (asked, read))
+    both = tuple({said.formula: None for said in ours if said.formula in {said.formula for said in theirs}})
+    lost, added = ([said for said in each if said.formula not in both] for each in (ours, theirs))
+    if not lost and not added:
+        return []
+    asking = _Asking(_in_common(asked, read, sketches, both), [*lost, *added])
+    told = [f"lost: {_told(asked, said.own)}" for said in lost if not asking.follows(said, added)]
+    return told + [f"added: {_told(read, said.own)}" for said in added if not asking.follows(said, lost)]
 
 
-def _follows(given: Sequence[Condition], wanted: Condition, backend: Backend) -> bool:
-    """Whether `wanted` holds wherever all of `given` do; no answer in time counts as no."""
-    problem = Problem()
-    for condition in (*given, negation(wanted)):
-        problem.require(condition, "meaning")
-    problem.unknowns.extend(_unknowns(problem))
-    return isinstance(backend.solve(problem, _TIMEOUT_S), Unsatisfiable)
+def _said(scene: Scene, sketches: Mapping[int, Sketch]) -> list[_Said]:
+    names: dict[tuple[int, ex.At], ex.At] = {}
+    for actor in scene.program.actors:
+        own, common = actor.sketch, sketches[actor.id]
+        names |= {(actor.id, ex.Knot(a)): ex.Knot(b) for a, b in zip(own.knots, common.knots, strict=False)}
+        for name in (*own.piece_names(), *own.pieces):  # a bare kind is its first piece
+            piece = common.piece_names()[own.piece_index(name)]
+            names[actor.id, ex.PieceRef(name)] = ex.PieceRef(piece)
+    return [_Said(each, _reworded(each.formula, names, scene.parameters)) for each in scene.program.constraints]
 
 
-def _unknowns(problem: Problem) -> list[str]:
-    text = " ".join(str(assertion.condition) for assertion in problem.assertions)
-    words = text.replace("(", " ").replace(")", " ").split()
-    return sorted({word for word in words if word[:2] in ("t_", "s_", "p_")})
+def _reworded(node: Any, names: Mapping[tuple[int, ex.At], ex.At], values: Mapping[str, Fraction]) -> Any:
+    """Return an expression with other names for moments and pieces, and numbers for parameters that have a value."""
+    match node:
+        case ex.ParameterRef(name=name) if name in values:
+            return ex.Number(values[name])
+        case ex.Elapsed(actor=actor, knot=knot):
+            moment = names[actor, ex.Knot(knot)]
+            assert isinstance(moment, ex.Knot)
+            return ex.Elapsed(actor, moment.name)
+        case ex.State(actor=actor, at=(ex.Knot() | ex.PieceRef()) as at) | ex.Derived(actor=actor, at=ex.Knot() as at):
+            return replace(node, at=names[actor, at])
+        case tuple():
+            return tuple(_reworded(part, names, values) for part in node)
+        case _ if is_dataclass(node) and not isinstance(node, type):
+            parts = {field.name: _reworded(getattr(node, field.name), names, values) for field in fields(node)}
+            return replace(node, **parts)
+        case _:
+            return node
 
 
-def _background(program: Program) -> list[Condition]:
-    """Return what holds of all motions: times in order, nobody reverses, and what the pieces themselves say."""
-    zero, conditions = Fraction(0), []
-    for actor in program.actors:
-        view, sketch = _Free(actor), actor.sketch
-        for (before, after), kind in zip(pairwise(sketch.knots), sketch.pieces, strict=True):
-            x0, v0, x1, v1 = (_state(view, knot, order) for knot in (before, after) for order in (0, 1))
-            earlier, later = view.time(before), view.time(after)
-            assert earlier is not None
-            assert later is not None
-            conditions += [compare("<", earlier, later), compare("<=", x0, x1), compare(">=", v0, zero)]
-            conditions.append(compare(">=", v1, zero))
+def _in_common(asked: Scene, read: Scene, sketches: Mapping[int, Sketch], both: Sequence[ex.Formula]) -> Scene:
+    """Return a scene that says what both say, with the parameters that have no value in either."""
+    open_ones = {each.name: each for scene in (asked, read) for each in scene.open_parameters()}
+    program = replace(
+        asked.program,
+        actors=tuple(replace(actor, sketch=sketches[actor.id]) for actor in asked.program.actors),
+        constraints=tuple(Constraint("", formula) for formula in both),
+        parameters=tuple(open_ones.values()),
+    )
+    return replace(asked, program=program, parameters={})
+
+
+class _Asking:
+    """Asks what follows from what is said in a scene, and from more.
+
+    Parameters
+    ----------
+    more
+        All that may be asked about: no moment that one of them speaks of may be missing where another is lowered.
+    """
+
+    def __init__(self, scene: Scene, more: Sequence[_Said]) -> None:
+        limits = {actor: limits_on(route, scene.road_map) for actor, route in scene.routes.items()}
+        events = Events(scene, limits, EgoBounds())
+        formulas = [ex.Logic("not", (said.formula,)) for said in more] + [said.formula for said in more]
+        constraints = (*scene.program.constraints, *(Constraint("", formula) for formula in formulas))
+        lowering = Lowering(events)
+        lowering.lower(constraints)  # some of it happens at moments of its own, which the rest is about, too
+        lowered = lowering.lower(constraints)
+        count = len(scene.program.constraints)
+        self._held = dict(zip(formulas, lowered[count:], strict=True))
+        self._always = [each.formula for each in lowered[:count]]
+        self._always += [formula for formula, _ in events.rules] + list(_background(events))
+        self._unknowns = [
+            replace(each, low=ZERO if each.kind in ("time", "speed") else -_FAR, high=_FAR) for each in events.unknowns
+        ]
+        self._refuter = refuter_called()
+
+    def follows(self, wanted: _Said, given: Sequence[_Said]) -> bool:
+        """Whether `wanted` holds wherever all of `given` do; no answer in time counts as no."""
+        denied = self._held[ex.Logic("not", (wanted.formula,))]
+        if denied.refused:
+            return False
+        parts = [*self._always, *(self._held[said.formula].formula for said in given), denied.formula]
+        answer = self._refuter.ask(self._unknowns, [Named(part, "") for part in parts], _TIMEOUT_S)
+        return answer.kind == "refuted"
+
+
+# -- what holds of all motions ----------------------------------------------------------------------------------------
+def _background(events: Events) -> Iterator[Formula]:
+    """Yield what holds of all motions: times in order, nobody reverses, and what the pieces themselves say."""
+    for actor in events.scene.program.actors:
+        knots = [events.knot(actor.id, name) for name in actor.sketch.knots]
+        for (before, after), kind in zip(pairwise(knots), actor.sketch.pieces, strict=True):
+            yield _one_after_another(events, actor.id, before, after)
             if not actor.is_ego:
-                conditions += _of_piece(view, sketch.knot_index(before), kind, (x0, v0), (x1, v1))
-    return conditions
+                yield from _of_piece(events, actor.id, before, after, kind)
+        for one, other in combinations(events.instants_of(actor.id), 2):
+            if one not in knots or other not in knots:
+                yield _ordered(events, actor.id, one, other)
 
 
-def _of_piece(
-    view: _Free, piece: int, kind: PieceKind, begin: tuple[Value, Value], end: tuple[Value, Value]
-) -> list[Condition]:
-    speed, accel = (_on_piece(view, piece, order) for order in (1, 2))
-    zero = Fraction(0)
+def _ordered(events: Events, actor: int, one: int, other: int) -> Formula:
+    """Return that of two moments one is later, with all that this means, or that they are the same."""
+    a, b = events.state(actor, one), events.state(actor, other)
+    same = [("==", events.times[one], events.times[other]), ("==", a.place, b.place), ("==", a.speed, b.speed)]
+    return some(
+        [
+            _one_after_another(events, actor, one, other),
+            _one_after_another(events, actor, other, one),
+            every(compare(*each) for each in same),
+        ]
+    )
+
+
+def _one_after_another(events: Events, actor: int, before: int, after: int) -> Formula:
+    places = [events.state(actor, instant).place for instant in (before, after)]
+    return every([compare("<", events.times[before], events.times[after]), compare("<=", *places)])
+
+
+def _of_piece(events: Events, actor: int, before: int, after: int, kind: PieceKind) -> Iterator[Formula]:
+    a, b = events.state(actor, before), events.state(actor, after)
     match kind:
         case PieceKind.STOP:
-            still = [compare("==", value, zero) for value in (speed, accel, begin[1], end[1])]
-            return [*still, compare("==", begin[0], end[0])]
+            yield every([compare("==", a.place, b.place), compare("==", a.speed, 0), compare("==", b.speed, 0)])
         case PieceKind.DEC:
-            return [compare("<", end[1], begin[1]), compare("<", accel, zero)]
+            yield compare("<", b.speed, a.speed)
         case PieceKind.ACC:
-            return [compare(">", end[1], begin[1]), compare(">", accel, zero)]
-        case _:
-            return []
+            yield compare(">", b.speed, a.speed)
 
 
-def _state(view: _Free, knot: str, order: int) -> Value:
-    ratio = view.at_knot(knot, order)
-    assert ratio is not None
-    return ratio[0]
-
-
-def _on_piece(view: _Free, piece: int, order: int) -> Value:
-    ratio = view.on_piece(piece, order)
-    assert ratio is not None
-    return ratio[0]
-
-
-def _told(world: _World, constraint: Constraint) -> str:
-    words = world.scene.program.words_of(constraint)
+def _told(scene: Scene, constraint: Constraint) -> str:
+    words = scene.program.words_of(constraint)
     text = print_expression(constraint.formula)
     return f"{text} ({words!r})" if words else text

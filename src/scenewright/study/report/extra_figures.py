@@ -1,4 +1,4 @@
-"""The figures of the report's own measurements: precision grid, open against closed loop, times.
+"""The figures of the report's own measurements: precision grid, open against closed loop.
 
 What enters: what those measured. What leaves: matplotlib figures.
 """
@@ -12,7 +12,6 @@ import numpy as np
 
 from scenewright.study.cases import OURS
 from scenewright.study.report.loops import MODES, SCENES
-from scenewright.study.report.measuring import Measured
 from scenewright.study.report.precision import MET_M, Cell
 from scenewright.study.report.style import (
     EMPTY,
@@ -33,8 +32,6 @@ if TYPE_CHECKING:
     from matplotlib.colors import Normalize
     from matplotlib.figure import Figure
     from matplotlib.image import AxesImage
-
-_BIN = 10
 
 
 # -- precision ------------------------------------------------------------------------------------------------------
@@ -138,41 +135,3 @@ def draw_loops(table: Table) -> Figure:
     axes.set_xlabel("success at tight tolerance, first take (%)")
     figure.legend(loc="outside upper right", ncols=2)
     return figure
-
-
-# -- times ----------------------------------------------------------------------------------------------------------
-def draw_solver(calls: Sequence[Measured]) -> Figure:
-    """Draw the time of solver calls over the number of constraints, satisfiable and unsatisfiable apart."""
-    figure = new_figure(10.5, 3.7)
-    panels = figure.subplots(1, 2, sharey=True, sharex=True, squeeze=False)[0]
-    for axes, answer in zip(panels, ("sat", "unsat"), strict=True):
-        own = [call for call in calls if call["answer"] == answer]
-        for stage, colour in _stage_colours().items():
-            some = [call for call in own if call["stage"] == stage]
-            x, y = [call["constraints"] for call in some], [call["ms"] for call in some]
-            axes.plot(x, y, linestyle="none", marker=".", markersize=4, alpha=0.45, color=colour, label=stage)
-        _percentile_lines(axes, [call for call in own if call["stage"] in ("re-solve", "first plan")])
-        axes.set_yscale("log")
-        axes.set_title(f"{answer}: {len(own)} calls")
-        axes.set_xlabel("constraints in the problem")
-        axes.grid(True)
-    panels[0].set_ylabel("time of one solver call (ms)")
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=6, markerscale=2)
-    return figure
-
-
-def _stage_colours() -> dict[str, str]:
-    names = {"re-solve": OURS, "first plan": "trigger-action"}
-    return {stage: method_colour(method) for stage, method in names.items()}
-
-
-def _percentile_lines(axes: Axes, calls: Sequence[Measured]) -> None:
-    bins: dict[int, list[float]] = {}
-    for call in calls:
-        bins.setdefault(call["constraints"] // _BIN * _BIN, []).append(call["ms"])
-    edges = sorted(edge for edge, times in bins.items() if len(times) >= 5)
-    for percent, line in ((50, "-"), (99, "--")):
-        heights = [float(np.percentile(bins[edge], percent)) for edge in edges]
-        label = f"p{percent} of re-solves and plans"
-        axes.plot([edge + _BIN / 2 for edge in edges], heights, linestyle=line, color=INK, linewidth=1.5, label=label)

@@ -36,16 +36,14 @@ class Bench:
     folder
         The folder of the results; measurements lie in its folder `extras`.
     workers
-        Processes; 0 does everything in this one. Measurements of time never use more than this one.
+        Processes; 0 does everything in this one.
     """
 
     folder: Path
     workers: int = 0
     progress: Progress | None = None
 
-    def measure(
-        self, name: str, work: Callable[[Job], Measured], jobs: Sequence[Job], *, timed: bool = False
-    ) -> list[Measured]:
+    def measure(self, name: str, work: Callable[[Job], Measured], jobs: Sequence[Job]) -> list[Measured]:
         """Return the record of each job, in order; what is in the cache is not done again.
 
         A job that raises leaves a record whose ``error`` says what; it is done again next time.
@@ -58,7 +56,7 @@ class Bench:
         try:
             self._tell(name, len(found), len(jobs))
             # Started processes cost seconds; a handful of jobs is done sooner without.
-            workers = 0 if timed or len(left) < 2 * self.workers else self.workers
+            workers = 0 if len(left) < 2 * self.workers else self.workers
             for job, record in each_done(work, left, workers):
                 if isinstance(record, Crash):
                     found[_key(job)] = {**job, "error": record.message}

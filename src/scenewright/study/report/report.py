@@ -26,11 +26,10 @@ FOLDER = "report"
 
 @dataclass(frozen=True, slots=True)
 class Extras:
-    """What the report measured itself: precision grid, open against closed loop, calls of the solver."""
+    """What the report measured itself: precision grid, open against closed loop."""
 
     cells: tuple[precision.Cell, ...] = ()
     loops: Sequence[Measured] = ()
-    calls: Sequence[Measured] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +60,7 @@ def write_report(results_dir: Path, *, quick: bool, progress: Progress | None = 
     progress
         Called with the name of a stage, how much of it is done, and how much there is.
     workers
-        Processes for what the report runs itself; 0 for this one. Times are always measured in this one.
+        Processes for what the report runs itself; 0 for this one.
 
     Raises
     ------
@@ -93,7 +92,6 @@ def measure_extras(bench: Bench, results: Results, quick: bool) -> Extras:
     return Extras(
         precision.measure_grid(bench, methods, precision.QUICK if quick else precision.FULL, seed),
         loops.measure_loops(bench, egos, 2 if quick else 6, seed),
-        times.measure_solver(bench, ("noisy",) if quick else ("idm", "noisy"), 9 if quick else 3, seed),
     )
 
 
@@ -167,7 +165,7 @@ def _rates(records: Sequence[CaseRecord], own: Sequence[CaseRecord]) -> tuple[Se
 
 
 def _measured(extras: Extras, own: Sequence[CaseRecord]) -> tuple[Section, ...]:
-    both, cells, calls = loops.loops_table(extras.loops), extras.cells, extras.calls
+    both, cells = loops.loops_table(extras.loops), extras.cells
     grid = Plot(
         "precision",
         f"Error of the worse side at the trigger (m). Cross: not met within {precision.MET_M:g} m. Ring: the ego never "
@@ -182,11 +180,6 @@ def _measured(extras: Extras, own: Sequence[CaseRecord]) -> tuple[Section, ...]:
         lambda: extra_figures.draw_loops(both),
         both,
     )
-    over = Plot(
-        "solver_times",
-        "Time of one solver call over the number of constraints.",
-        lambda: extra_figures.draw_solver(calls),
-    )
     ticks = times.ticks_table([ms for record in own for ms in record.solve_ms])
     grid_text = (
         f"An oncoming hero that wants to turn into the driveway brakes to a stop {precision.STOP_M:g} m before the "
@@ -197,9 +190,9 @@ def _measured(extras: Extras, own: Sequence[CaseRecord]) -> tuple[Section, ...]:
         "Four scenarios between an ego on the road and a hero that turns, with drawn parameters, once in each loop. "
         "Over the benchmark, open-loop above is the same."
     )
-    times_text = "Times compare within one machine. A call builds the text, solves and reads back."
+    times_text = "Times compare within one machine."
     return (
         Section("precision", "Precision grid", (precision.precision_table(cells),), (grid,), grid_text),
         Section("loops", "Open against closed loop", (), (pairs,), loops_text),
-        Section("times", "Times", (times.solver_table(calls), ticks), (over,), times_text),
+        Section("times", "Times", (ticks,), text=times_text),
     )

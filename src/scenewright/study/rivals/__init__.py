@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from scenewright.orchestrate import Request, Result
-    from scenewright.solve.problem import Backend
 
 METHODS: dict[str, str] = {
     "scenewright": "plans, and re-solves in closed loop; may rehearse",
@@ -22,7 +21,7 @@ METHODS: dict[str, str] = {
 }
 
 
-def run_method(method: str, request: Request, backend: Backend | None = None) -> Result:
+def run_method(method: str, request: Request) -> Result:
     """Carry out `request` by one of `METHODS`.
 
     Parameters
@@ -30,8 +29,6 @@ def run_method(method: str, request: Request, backend: Backend | None = None) ->
     method
         A key of `METHODS`. ``rejection:N`` draws N samples at most; ``follower:module:Class[:k=v,...]`` puts one's own
         driver model in the follower's place.
-    backend
-        The solver to ask; ours where None.
 
     Returns
     -------
@@ -47,4 +44,4 @@ def run_method(method: str, request: Request, backend: Backend | None = None) ->
     """
     from scenewright.study.rivals.methods import run
 
-    return run(method, request, backend)
+    return run(method, request)

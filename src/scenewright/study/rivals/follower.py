@@ -1,6 +1,6 @@
 """The paper's baseline: a driver model that follows the waypoint our plan gives 4 s ahead, re-issued at 1 Hz.
 
-What enters: a replanner with its first plan, driver models, and the ego's state after every step. What leaves: motions.
+What enters: a planner with its first plan, driver models, and the ego's state after every step. What leaves: motions.
 For the first second the hero does what the plan says, which warms the model up. From then on the solver is asked once a
 second, from where the hero really is, and what the model does with its waypoint is its own affair.
 """
@@ -12,14 +12,13 @@ from dataclasses import dataclass, replace
 
 from scenewright.drive.protocol import EgoMotion, VehicleState
 from scenewright.motion.profile import Profile, Segment
+from scenewright.plan.planner import Planner, Replan
 from scenewright.plan.prediction import EgoSample
 from scenewright.program.types import EGO, Actor
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene
-from scenewright.simulate.replanner import Replan, Replanner
 from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan
-from scenewright.solve.situation import Situation
 from scenewright.solve.turns import TurnSpan
 from scenewright.study.rivals.script import top_speed_mps
 from scenewright.study.rivals.waypoints import DriverStart, View, Waypoint, WaypointDriver
@@ -30,18 +29,9 @@ AHEAD_S = 4.0
 _ROUNDING_S = 1e-6
 
 
-class AskedAnew(Replanner):
-    """A replanner that solves at every tick: a plan that still fits the ego may no longer fit the hero."""
-
-    __slots__ = ()
-
-    def _plan_still_fits(self, time_s: float, situation: Situation) -> bool:
-        return False
-
-
 @dataclass(slots=True)
 class _Vehicle:
-    """A hero on its way: its state, its driver, and where it is to be."""
+    """A hero on its way: its driver, what it drove so far, and where it is to be."""
 
     actor: Actor
     limits: Limits
@@ -57,7 +47,7 @@ class FollowingHeroes:
 
     Parameters
     ----------
-    replanner
+    planner
         Holds the first plan.
     drivers
         A driver model for each hero id.
@@ -69,15 +59,15 @@ class FollowingHeroes:
 
     def __init__(
         self,
-        replanner: Replanner,
+        planner: Planner,
         limits: Mapping[int, Limits],
         drivers: Mapping[int, WaypointDriver],
         step_s: float,
         seed: int = 0,
     ) -> None:
-        self.plan: Plan = replanner.plan
-        self._replanner, self._step_s, self._seed = replanner, step_s, seed
-        self._scene: Scene = replanner.scene
+        self.plan: Plan = planner.plan
+        self._planner, self._step_s, self._seed = planner, step_s, seed
+        self._scene: Scene = planner.scene
         self._vehicles = {
             hero.id: _Vehicle(
                 hero,
@@ -85,23 +75,23 @@ class FollowingHeroes:
                 TurnSpan.of(self._scene.routes[hero.id]),
                 drivers[hero.id],
                 [],
-                replanner.plan.profiles[hero.id],
+                planner.plan.profiles[hero.id],
             )
             for hero in self._scene.program.heroes
         }
         self._ego_history: list[VehicleState] = []
         self._issued_s = 0.0
-        self._remember((0.0, *replanner.plan.profiles[EGO].state(0.0)))
+        self._remember((0.0, *planner.plan.profiles[EGO].state(0.0)))
 
     @property
     def ego_knots_s(self) -> dict[str, float]:
         """When the ego passed its knots."""
-        return self._replanner.ego_knots_s
+        return self._planner.ego_knots_s
 
     @property
     def records(self) -> list[Replan]:
         """What every re-solve came to."""
-        return self._replanner.records
+        return self._planner.records
 
     @property
     def is_alarmed(self) -> bool:
@@ -114,23 +104,23 @@ class FollowingHeroes:
 
     def ego_stood_s(self, time_s: float) -> float:
         """Return for how long the ego has not moved (s)."""
-        return self._replanner.ego_stood_s(time_s)
+        return self._planner.ego_stood_s(time_s)
 
     def observe(self, sample: EgoSample) -> None:
         """Take note of the ego; once a second, solve again and issue waypoints; let the models drive the next step."""
         time_s = sample[0]
-        self._replanner.observe(sample)
+        self._planner.observe(sample)
         self._remember(sample)
         if time_s < WARM_UP_S - _ROUNDING_S:
             return
         if time_s >= self._issued_s + ISSUE_EVERY_S - _ROUNDING_S:
             self._issue(time_s)
         for vehicle in self._vehicles.values():
-            vehicle.motion = self._driven(vehicle, time_s)
+            vehicle.motion = self._driven_on(vehicle, time_s)
         self.plan = replace(
-            self._replanner.plan,
+            self._planner.plan,
             profiles={
-                **self._replanner.plan.profiles,
+                **self._planner.plan.profiles,
                 **{hero: vehicle.motion for hero, vehicle in self._vehicles.items()},
             },
         )
@@ -141,38 +131,36 @@ class FollowingHeroes:
         self._issued_s = time_s
         self._solve(time_s)
         for hero, vehicle in self._vehicles.items():
-            s_m = self._replanner.plan.profiles[hero].state(time_s + AHEAD_S)[0]
+            s_m = self._planner.plan.profiles[hero].state(time_s + AHEAD_S)[0]
             route = self._scene.routes[hero]
             vehicle.waypoint = Waypoint(*route.path.pose(min(s_m, route.path.length_m)), time_s + AHEAD_S)
             if first:
                 vehicle.driver.reset(self._start(vehicle))
 
     def _solve(self, time_s: float) -> None:
-        """Ask for a plan from where the heroes are; where there is none, the last one goes on."""
-        before = self._replanner.plan
-        self._replanner.plan = replace(
-            before, profiles={**before.profiles, **{h: self._from_here(v, time_s) for h, v in self._vehicles.items()}}
-        )
-        asked = self._replanner.plan
-        self._replanner.tick(time_s)
-        if self._replanner.plan is asked:
-            self._replanner.plan = before
+        """Ask for a plan from where the heroes are."""
+        plan = self._planner.plan
+        here = {hero: self._from_here(vehicle, time_s) for hero, vehicle in self._vehicles.items()}
+        self._planner.plan = replace(plan, profiles={**plan.profiles, **here})
+        self._planner.tick(time_s)
 
     def _from_here(self, vehicle: _Vehicle, time_s: float) -> Profile:
-        """Return the plan as it is, but for a hero before its trigger from its real state on."""
+        """Return the plan as it is, but for a hero before its trigger what it drove, and what it planned from there."""
         hero = vehicle.actor
-        planned = self._replanner.plan.profiles[hero.id]
-        knot = self._replanner.structure.trigger_knot(hero.id)
+        planned = self._planner.plan.profiles[hero.id]
+        knot = self._planner.structure.trigger_knot(hero.id)
         trigger_s = planned.knot_times_s.get(knot or "", 0.0)
         if trigger_s <= time_s:
             return planned
-        names = hero.sketch.knots[1:]
-        piece = sum(1 for name in names if planned.knot_times_s.get(name, trigger_s) <= time_s)
-        s_m, speed, _ = vehicle.motion.state(time_s)
-        return Profile((Segment(time_s, trigger_s - time_s, s_m, speed, 0.0, piece),), planned.knot_times_s)
+        onward = []
+        s_m, speed_mps, _ = vehicle.motion.state(time_s)
+        for segment in planned.cut(time_s).segments:
+            onward.append(replace(segment, s_m=s_m, speed_mps=speed_mps))
+            s_m, speed_mps = onward[-1].end_s_m, onward[-1].end_speed_mps
+        return Profile((*_driven(vehicle.motion, time_s), *onward), planned.knot_times_s)
 
     # -- driving ----------------------------------------------------------------------------------------------------
-    def _driven(self, vehicle: _Vehicle, time_s: float) -> Profile:
+    def _driven_on(self, vehicle: _Vehicle, time_s: float) -> Profile:
         own, limits = vehicle.history[-1], vehicle.limits
         assert vehicle.waypoint is not None
         assert own.s_m is not None
@@ -183,15 +171,18 @@ class FollowingHeroes:
         top = top_speed_mps(limits, vehicle.turn, own.s_m + own.speed_mps * self._step_s)
         accel = min(accel, limits.accel_max_mpss, (top - own.speed_mps) / self._step_s)
         accel = max(accel, -limits.brake_max_mpss, -own.speed_mps / self._step_s)
-        knots = self._replanner.plan.profiles[vehicle.actor.id].knot_times_s
-        return Profile((Segment(time_s, self._step_s, own.s_m, own.speed_mps, accel),), knots)
+        knots = self._planner.plan.profiles[vehicle.actor.id].knot_times_s
+        step = Segment(time_s, self._step_s, own.s_m, own.speed_mps, accel)
+        return Profile((*_driven(vehicle.motion, time_s), step), knots)
 
     # -- what was seen ----------------------------------------------------------------------------------------------
     def _remember(self, sample: EgoSample) -> None:
         time_s, s_m, speed, accel = sample
         self._ego_history.append(_unrouted(self._state(self._scene.program.ego, s_m, speed, accel)))
         for vehicle in self._vehicles.values():
-            vehicle.history.append(self._state(vehicle.actor, *vehicle.motion.state(time_s)))
+            s_m, speed, _ = vehicle.motion.state(time_s)
+            accel = vehicle.motion.state(time_s - _ROUNDING_S)[2]  # what comes next is for the model to say
+            vehicle.history.append(self._state(vehicle.actor, s_m, speed, accel))
 
     def _state(self, actor: Actor, s_m: float, speed: float, accel: float) -> VehicleState:
         route = self._scene.routes[actor.id]
@@ -206,6 +197,14 @@ class FollowingHeroes:
         del others[vehicle.actor.name]
         route = self._scene.routes[vehicle.actor.id]
         return DriverStart(route, self._scene.road_map, tuple(vehicle.history), others, self._step_s, self._seed)
+
+
+def _driven(motion: Profile, until_s: float) -> list[Segment]:
+    """Return what was driven of a motion up to a time."""
+    begun = [segment for segment in motion.segments if segment.start_s < until_s - _ROUNDING_S]
+    if begun and begun[-1].end_s > until_s + _ROUNDING_S:
+        begun[-1] = begun[-1].part(begun[-1].start_s, until_s)
+    return begun
 
 
 def _unrouted(state: VehicleState) -> VehicleState:

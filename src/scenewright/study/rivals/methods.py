@@ -15,6 +15,7 @@ import numpy as np
 
 from scenewright.drive.loading import load_policy
 from scenewright.errors import InputError
+from scenewright.judge.tolerance import LOOSE, dimension_of
 from scenewright.orchestrate import (
     Request,
     Result,
@@ -24,16 +25,16 @@ from scenewright.orchestrate import (
     orchestrate,
     write_result,
 )
+from scenewright.plan.planner import Planner
 from scenewright.simulate.beginning import first_plan
 from scenewright.simulate.ego_start import EgoFirstState
 from scenewright.simulate.heroes import HeroDriver
 from scenewright.simulate.loop import Rates, simulate
-from scenewright.simulate.replanner import Replanner
 from scenewright.simulate.world import World
+from scenewright.solve.holding import not_held
 from scenewright.solve.plan import Plan
-from scenewright.solve.problem import Backend
 from scenewright.study.rivals import METHODS
-from scenewright.study.rivals.follower import AskedAnew, FollowingHeroes
+from scenewright.study.rivals.follower import FollowingHeroes
 from scenewright.study.rivals.rejection import sampled_scripts
 from scenewright.study.rivals.script import Script, write_scripts
 from scenewright.study.rivals.scripted import ScriptedHeroes
@@ -50,7 +51,7 @@ class Staging:
     request: Request
     world: World
     stages: Stages
-    replanner: Replanner
+    planner: Planner
     start: EgoFirstState
     plan: Plan
     option: str
@@ -62,7 +63,7 @@ class Staging:
     def scripts(self) -> dict[int, Script]:
         """Return what an author writes from the first plan."""
         world = self.world
-        return write_scripts(world.scene, world.structure, world.limits, self.replanner.conditions, self.plan)
+        return write_scripts(world.scene, world.structure, world.limits, self.planner.conditions, self.plan)
 
     def drive(self, result: Result, heroes: HeroDriver) -> None:
         """Drive once with `heroes`, from the ego's first state on, and judge it; hindsight is left out: it is dear."""
@@ -74,16 +75,16 @@ class Staging:
         judge_run(self.request, result, world, self.stages, hindsight=False)
 
 
-def run(method: str, request: Request, backend: Backend | None = None) -> Result:
+def run(method: str, request: Request) -> Result:
     """Carry out `request` by `method`; see `scenewright.study.rivals.run_method`."""
     name, _, option = method.partition(":")
     if name == "scenewright":
-        return orchestrate(request, backend=backend)
+        return orchestrate(request)
     if name == "open-loop":
-        return orchestrate(replace(request, mode="open"), backend=backend)
+        return orchestrate(replace(request, mode="open"))
     if name not in _RIVALS:
         raise InputError("there is no such method", found=method, expected=", ".join(METHODS))
-    return _staged(request, method, option, _RIVALS[name], backend)
+    return _staged(request, method, option, _RIVALS[name])
 
 
 def _staged(
@@ -91,21 +92,22 @@ def _staged(
     method: str,
     option: str,
     drive: Callable[[Staging, Result], Result],
-    backend: Backend | None = None,
 ) -> Result:
     stages = Stages(None)
     request = replace(request, mode="closed")
-    world, result, answer = begin(request, stages, backend)
+    world, result, answer = begin(request, stages)
     if answer == "infeasible":
         return result
     with stages("plan"):
         planned = first_plan(world, world.predictor)
         assert planned is not None  # only a later take may ask for a start that there is none of
-        replanner, start, result.attempt = planned
-    if result.attempt.plan is None:
+        planner, start, result.attempt = planned
+    plan = result.attempt.plan
+    result.not_held = tuple(not_held(world.scene, plan.profiles, dimension_of, LOOSE.of))
+    if result.not_held:  # who starts from it would miss as much, whatever the method
         result.status = "gave up"
         return result
-    result = drive(Staging(request, world, stages, replanner, start, result.attempt.plan, option), result)
+    result = drive(Staging(request, world, stages, planner, start, plan, option), result)
     if result.run is not None:
         result.run.findings.append(f"The hero was driven by the rival method {method}, not by Scenewright.")
         if request.out is not None:
@@ -129,7 +131,7 @@ def _rejection(staging: Staging, result: Result) -> Result:
     """Drive samples until one succeeds; keep that one, else the nearest within the loose tolerance, else the first."""
     count = _sample_count(staging.option)
     generator = np.random.default_rng(staging.request.seed)
-    scripts = sampled_scripts(staging.replanner.conditions, staging.scripts(), generator)
+    scripts = sampled_scripts(staging.planner.conditions, staging.scripts(), generator)
     kept, nearest, takes = result, math.inf, result.takes
     for number, sample in enumerate(islice(scripts, count), start=1):
         driven = replace(result, take=number, takes=takes)
@@ -161,14 +163,9 @@ def _sample_count(option: str) -> int:
 
 def _follower(staging: Staging, result: Result) -> Result:
     """Follow waypoints; each hero has a driver model of its own."""
-    world, first = staging.world, staging.replanner
+    world = staging.world
     drivers = {hero.id: _driver(staging.option) for hero in world.scene.program.heroes}
-    replanner = AskedAnew(first.scene, first.structure, first.planner, first.predictor, first.conditions)
-    start = staging.start
-    if replanner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss)).plan is None:
-        result.status = "gave up"
-        return result
-    heroes = FollowingHeroes(replanner, world.limits, drivers, world.rates.step_s, staging.request.seed)
+    heroes = FollowingHeroes(staging.planner, world.limits, drivers, world.rates.step_s, staging.request.seed)
     staging.drive(result, heroes)
     return result
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from scenewright.motion.profile import Profile, Segment, chain
 from scenewright.program.expressions import Compare, PieceRef, piece_of
@@ -244,19 +245,21 @@ def _group(
 
 
 def _manoeuvre(scene: Scene, hero: Actor, profile: Profile, first: int) -> tuple[SpeedAction, ...]:
+    """Return one action for each piece: from the plan's speed at its begin to that at its end, over as much way."""
     actions = []
-    for segment in profile.segments:
-        if segment.piece < first or segment.duration_s < _NO_TIME_S:
+    for piece, ends in enumerate(pairwise(hero.sketch.knots)):
+        begin_s, end_s = (profile.knot_times_s[name] for name in ends)
+        if piece < first or end_s - begin_s < _NO_TIME_S:
             continue
-        change = segment.end_speed_mps - segment.speed_mps
+        (begin_m, before_mps, _), (end_m, after_mps, _) = profile.state(begin_s), profile.state(end_s)
+        change, way_m = after_mps - before_mps, end_m - begin_m
         if abs(change) < _NO_CHANGE_MPS:
-            actions.append(SpeedAction(segment.piece, segment.end_speed_mps, duration_s=segment.duration_s))
+            actions.append(SpeedAction(piece, after_mps, duration_s=end_s - begin_s))
             continue
+        rate = abs(change) * (before_mps + after_mps) / (2.0 * way_m)
         # One that is to stop somewhere stops over a distance, unless the text says at which rate.
-        over = change < 0 and not _rate_is_given(scene.program, hero, segment.piece)
-        distance_m = segment.end_s_m - segment.s_m if over else None
-        rate = abs(segment.accel_mpss)
-        actions.append(SpeedAction(segment.piece, segment.end_speed_mps, rate, distance_m=distance_m))
+        over = change < 0 and not _rate_is_given(scene.program, hero, piece)
+        actions.append(SpeedAction(piece, after_mps, rate, distance_m=way_m if over else None))
     return tuple(actions)
 
 
@@ -281,6 +284,6 @@ def _rate_is_given(program: Program, hero: Actor, piece: int) -> bool:
         node = piece_of(constraint.formula) if isinstance(constraint.formula, Compare) else None
         if node is None or node.actor != hero.id or node.order != 2 or not isinstance(node.at, PieceRef):
             continue
-        if constraint.formula.operator == "==" and hero.sketch.piece_index(node.at.name) == piece:  # type: ignore[union-attr]
+        if constraint.formula.operator == "==" and hero.sketch.piece_index(node.at.name) == piece:
             return True
     return False

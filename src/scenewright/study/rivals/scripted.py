@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from scenewright.motion.profile import Profile
+from scenewright.plan.planner import Replan
 from scenewright.plan.prediction import EgoSample
 from scenewright.program.structure import Structure
 from scenewright.program.types import EGO
-from scenewright.simulate.replanner import Replan
 from scenewright.solve.plan import Plan
 from scenewright.study.rivals.script import Script
 
