@@ -27,8 +27,8 @@ Array = NDArray[np.float64]
 
 TIGHT = {"time": 0.1, "place": 0.5, "speed": 0.25, "rate": 0.25, "other": 1.0}
 _OUT_OF_WAY_M = 0.5  # between the boxes of one before a conflict zone and one in it
-_AROUND_M, _STEP_M = 3.0, 0.5  # between two nodes of a plan a car goes a few metres
-_OF_TOP = 0.95  # between two nodes a speed may be a little higher than at both
+_AROUND_M, _STEP_M = 1.5, 0.5  # between two nodes of a plan a car goes a few metres
+_OF_TOP, _OF_LATERAL = 0.95, 0.97  # between two nodes a speed may be a little higher than at both
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,6 +160,6 @@ def _caps(route: Route, limits: Limits, comfortable_mpss: float) -> Caps:
     sharpest = np.maximum(np.max([padded[k : k + len(bends)] for k in range(2 * around + 1)], axis=0), 1e-6)
     top = _OF_TOP * limits.speed_max_mps
     most, comfortable = (
-        np.minimum(np.sqrt(a / sharpest), top) for a in (_OF_TOP * limits.lateral_max_mpss, comfortable_mpss)
+        np.minimum(np.sqrt(a / sharpest), top) for a in (_OF_LATERAL * limits.lateral_max_mpss, comfortable_mpss)
     )
     return Caps(places, most, comfortable)

@@ -51,6 +51,7 @@ class Preferences:
     # -- manner ------------------------------------------------------------------------------------------------------
     # More than the program's manner asks for, so that samples and rounding do not decide.
     least_rate_mpss: float = 0.62
+    least_rate_price: float = 4.0
     beginning_mpss: float = 0.9
     beginning_s: float = 0.45
     settled_mpss: float = 0.25

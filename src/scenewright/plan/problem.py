@@ -148,9 +148,9 @@ class Problem:
         limits, wanted = self.asked.limits[hero.id], self.asked.wanted
         low, high, guess = -limits.brake_max_mpss, limits.accel_max_mpss, 0.0
         if kind is PieceKind.DEC:
-            high, guess = -wanted.least_rate_mpss, -wanted.braking_mpss
+            high, guess = 0.0, -wanted.braking_mpss
         elif kind is PieceKind.ACC:
-            low, guess = wanted.least_rate_mpss, wanted.speeding_up_mpss
+            low, guess = 0.0, wanted.speeding_up_mpss
         lasts_s = last.value(self._guess) - first.value(self._guess)
         cells = min(max(2, round(lasts_s / _CELL_S)), _MOST_CELLS)
         accels = [legs[-1].accels[-1]] if joined else []

@@ -30,6 +30,7 @@ _FIRM = 20.0  # of a price: what no motion exceeds
 _TIGHT_SPEED, _TIGHT_RATE, _TIGHT_LENGTH, _TIGHT_TIME = 0.25, 0.25, 0.5, 0.1
 _UNBOUNDED = 900  # bounds of laws beyond this are none
 _ROUNDING_S = 1e-6
+_SENSE = {PieceKind.DEC: -1.0, PieceKind.ACC: 1.0}
 
 
 @dataclass(slots=True)
@@ -146,6 +147,10 @@ class HeroRows:
             if leg.kind is PieceKind.STOP:
                 _, v, _, d_v = self.shot.at_node(self.shot.first_node[number])
                 self.costs.add(v, d_v, price / _STILL_MPS)
+            sense = _SENSE.get(leg.kind, 0.0)
+            for accel in leg.accels if sense else ():
+                short = self.asked.wanted.least_rate_mpss - sense * float(self.shot.z[accel])
+                self.bounds.add(short, self._unit((accel, -sense)), self.asked.wanted.least_rate_price)
             self._lasting(leg, stands_next=legs[number + 1].kind is PieceKind.STOP and number + 1 < len(legs) - 1)
 
     def _lasting(self, leg: Leg, *, stands_next: bool) -> None:
@@ -179,7 +184,7 @@ class HeroRows:
             self.costs.add(v - self._natural_mps(), d_v, wanted.trigger_speed_weight)
             self.bounds.add(wanted.slowest_mps - v, -d_v, wanted.slowest_price)
             self.bounds.add(wanted.moves_mps - v, -d_v, wanted.price / _TIGHT_SPEED)
-        sense = {PieceKind.DEC: -1.0, PieceKind.ACC: 1.0}.get(begins.kind)
+        sense = _SENSE.get(begins.kind)
         if sense is None:
             return
         lasts = max(float(shot.time[node + 1] - shot.time[node]), 1e-3)
