@@ -220,7 +220,7 @@ class HeroRows:
         run_up_m, d_run_up = v_there**2 / (2.0 * wanted.sets_off_mpss), v_there / wanted.sets_off_mpss * d_v_there
         for node in range(1 if hero in self.now.heroes else 0, last + 1):
             s_m, v, d_s, d_v = shot.at_node(node)
-            if zone_m is not None and s_m < zone_m + 2.0:
+            if zone_m is not None:
                 self.bounds.add(s_m - zone_m, d_s, wanted.out_of_way_price, wanted.out_of_way_most)
             if hero in self.now.waits and until_s - shot.time[node] > v_there / wanted.sets_off_mpss + wanted.waits_s:
                 beyond_m = s_m + v**2 / (2.0 * wanted.waits_mpss) + run_up_m - place_m
