@@ -250,7 +250,7 @@ def _actor(
     }
 
 
-_PIECE = ("start_s", "duration_s", "s_m", "speed_mps", "accel_mpss")
+_PIECE = ("start_s", "duration_s", "s_m", "speed_mps", "accel_mpss", "jerk_mpsss")
 
 
 def _conditions(

@@ -54,15 +54,16 @@ function buildReference() {
 const timeToX = (chart, time) => LEFT + ((time - FIRST) / (LAST - FIRST || 1)) * (chart.width - LEFT - RIGHT);
 const xToTime = (width, x) => clamp(FIRST + ((x - LEFT) / (width - LEFT - RIGHT)) * (LAST - FIRST), FIRST, LAST);
 
-/** The first plan as points: each piece is a parabola in s. */
+/** The first plan as points: in each piece the acceleration changes evenly. */
 function plannedPoints(actor, key) {
   const points = [];
-  for (const [start, duration, s, v, a] of actor.plan) {
+  for (const [start, duration, s, v, accel, jerk] of actor.plan) {
     if ([start, duration, s, v].some((value) => value === null)) continue;
-    const steps = key === 's' ? 16 : 1;
+    const [a, j] = [accel ?? 0, jerk ?? 0];
+    const steps = { s: 16, v: 8, a: 1 }[key];
     for (let i = 0; i <= steps; i += 1) {
       const t = (duration * i) / steps;
-      const value = { s: s + v * t + ((a ?? 0) * t * t) / 2, v: v + (a ?? 0) * t, a: a ?? 0 }[key];
+      const value = { s: s + v * t + (a * t * t) / 2 + (j * t * t * t) / 6, v: v + a * t + (j * t * t) / 2, a: a + j * t }[key];
       if (start + t <= LAST) points.push([start + t, shownValueOf(actor, key, value)]);
     }
   }
