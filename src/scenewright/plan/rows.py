@@ -150,7 +150,9 @@ class HeroRows:
             sense = _SENSE.get(leg.kind, 0.0)
             for accel in leg.accels if sense else ():
                 short = self.asked.wanted.least_rate_mpss - sense * float(self.shot.z[accel])
-                self.bounds.add(short, self._unit((accel, -sense)), self.asked.wanted.least_rate_price)
+                # Braking that pauses is seen to begin anew; who has sped up may well go on evenly.
+                pauses = price if leg.kind is PieceKind.DEC else self.asked.wanted.least_rate_price
+                self.bounds.add(short, self._unit((accel, -sense)), pauses)
             self._lasting(leg, stands_next=legs[number + 1].kind is PieceKind.STOP and number + 1 < len(legs) - 1)
 
     def _lasting(self, leg: Leg, *, stands_next: bool) -> None:
