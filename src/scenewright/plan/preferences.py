@@ -56,6 +56,8 @@ class Preferences:
     beginning_s: float = 0.45
     settled_mpss: float = 0.25
     settled_s: float = 0.6
+    early_mpss: float = 0.4
+    early_price: float = 4.0
     shortest_s: float = 0.45
     shortest_stand_s: float = 0.45
     # Slower at its trigger than this, a hero does hardly drive; and nobody does who is slower than the second.
@@ -86,6 +88,7 @@ def preferences_of(manner: Manner) -> Preferences:
         beginning_mpss=usual.beginning_mpss * begins,
         beginning_s=max(usual.beginning_s, 1.5 * float(manner.begins_s)),
         settled_mpss=float(calm_mpss(manner)),
+        early_mpss=0.8 * float(manner.begins_mpss),
         settled_s=max(usual.settled_s, float(kept.settled_s) + 0.05),
         shortest_s=max(usual.shortest_s, float(kept.begins_s)),
         shortest_stand_s=max(usual.shortest_stand_s, float(kept.stands_s)),

@@ -191,16 +191,17 @@ class HeroRows:
             return
         lasts = max(float(shot.time[node + 1] - shot.time[node]), 1e-3)
         for k, accel in enumerate(begins.accels):
-            if k * lasts < wanted.beginning_s:
+            if (k - 1) * lasts < wanted.beginning_s:
                 short = wanted.beginning_mpss - sense * float(shot.z[accel])
                 self.bounds.add(short, self._unit((accel, -sense)), rate)
-        before = shot.legs[number - 1] if number else None
-        if before is not None and before.kind is PieceKind.GO:
-            begin_s, end_s = before.first.value(shot.z), before.last.value(shot.z)
-            for k, accel in enumerate(before.accels):
-                if begin_s + k * (end_s - begin_s) / before.cells > end_s - wanted.settled_s - _ROUNDING_S:
-                    over = sense * float(shot.z[accel]) - wanted.settled_mpss
-                    self.bounds.add(over, self._unit((accel, sense)), rate)
+        settled_s = shot.time[node] - wanted.settled_s - _ROUNDING_S
+        for before, leg in enumerate(shot.legs[:number]):
+            for k, accel in enumerate(leg.accels if leg.kind is PieceKind.GO else ()):
+                pull, slope = sense * float(shot.z[accel]), self._unit((accel, sense))
+                if shot.time[shot.first_node[before] + k] > settled_s:
+                    self.bounds.add(pull - wanted.settled_mpss, slope, rate)
+                else:  # what is to begin at the trigger is not plainly done before it
+                    self.bounds.add(pull - wanted.early_mpss, slope, wanted.early_price)
 
     def _trigger_leg(self) -> int | None:
         instant = self.asked.trigger(self.hero.id)
