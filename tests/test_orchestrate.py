@@ -36,7 +36,7 @@ def test_sentence_file_program_and_text_of_a_program_are_one_scenario(tmp_path: 
     (tmp_path / "left turn.txt").write_text(SENTENCE, encoding="utf-8")
     (tmp_path / "turn.scene").write_text(program_text(), encoding="utf-8")
     sources = [SENTENCE, str(tmp_path / "left turn.txt"), str(tmp_path / "turn.scene"), program_text()]
-    found = [orchestrate(Request(source, FINE, budget_s=30.0)) for source in sources]
+    found = [orchestrate(Request(source, FINE)) for source in sources]
     assert {result.status for result in found} == {"success"}
     assert [result.translation is not None for result in found] == [True, True, False, False]
     traces = [result.run.trace for result in found if result.run is not None]
@@ -135,7 +135,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Result, Path]:
     out = tmp_path_factory.mktemp("runs") / "one"
     request = Request(
         SENTENCE, {"hero_gap_m": 18.0}, ego="noisy:sigma_mpss=0.3", seed=11, tolerance="loose", out=out,
-        replan_hz=5.0, budget_s=30.0,
+        replan_hz=5.0,
     )  # fmt: skip
     return orchestrate(request), out
 
@@ -258,7 +258,7 @@ A0x(t1) == conflict_point + 10
 
 
 def test_with_three_actors_planner_and_judge_mean_the_same_conflict_points(tmp_path: Path) -> None:
-    result = orchestrate(Request(THREE, ego="constant", out=tmp_path, budget_s=30.0))
+    result = orchestrate(Request(THREE, ego="constant", out=tmp_path))
     assert result.status == "success"
     assert result.attempt is not None
     assert result.attempt.plan is not None
@@ -277,7 +277,7 @@ def test_with_three_actors_planner_and_judge_mean_the_same_conflict_points(tmp_p
 
 @pytest.mark.parametrize("line", ["A1x(t1) == A0x(t1) + 20", "A1x(t1) - A0x(t1) == 20", "A1x(t1) - 20 == A0x(t1)"])
 def test_places_on_merging_routes_are_compared_along_the_lane_in_common(line: str, tmp_path: Path) -> None:
-    result = orchestrate(Request(MERGING + line, ego="constant", out=tmp_path, budget_s=30.0))
+    result = orchestrate(Request(MERGING + line, ego="constant", out=tmp_path))
     assert result.status == "success"
     assert result.run is not None
     moment = next(c.measured for c in result.verdict.conditions if c.id == "c1") if result.verdict else None
@@ -292,7 +292,7 @@ def test_places_on_merging_routes_are_compared_along_the_lane_in_common(line: st
 def test_routes_that_share_a_road_and_cross_in_the_junction_meet_there(shared_dir: Path) -> None:
     cases = shared_dir / "cases"
     text = (cases / "loop.txt").read_text(encoding="utf-8")
-    result = orchestrate(Request(text, map_name=str(cases / "loop.xodr"), budget_s=30.0))
+    result = orchestrate(Request(text, map_name=str(cases / "loop.xodr")))
     assert result.status == "success"
     assert result.scene.landmark_m(0, "conflict_point") == pytest.approx(118.25, abs=0.01)
     assert result.scene.landmark_m(1, "conflict_point") == pytest.approx(392.74, abs=0.01)

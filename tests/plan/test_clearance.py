@@ -5,6 +5,10 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scenewright.solve.backends.z3_backend import Z3Backend
+from scenewright.solve.clearance import OUT_OF_WAY_M, Clearance, out_of_way_mps
+from scenewright.solve.planner import Planner
+from scenewright.solve.situation import Situation
 
 from scenarios import BRAKES, YIELDS, example, limits_of, read_structure
 from scenewright.motion.profile import Profile, chain
@@ -13,10 +17,6 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.solve.arrival import linear_conditions
-from scenewright.solve.backends.z3_backend import Z3Backend
-from scenewright.solve.clearance import OUT_OF_WAY_M, Clearance, out_of_way_mps
-from scenewright.solve.planner import Planner
-from scenewright.solve.situation import Situation
 
 EGO, HERO = 0, 1
 

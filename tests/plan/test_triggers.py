@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import pytest
-from stories import BRAKES_GAP, HERO, YIELDS_DISTANCE, YIELDS_TIME
+from scenewright.solve.situation import HeroState
 
 from scenewright.motion.profile import Profile, chain
+from scenewright.plan.prediction import ConstantAcceleration
+from scenewright.plan.triggers import PlannedTrigger, TriggerTimes
 from scenewright.program.structure import read_structure
 from scenewright.program.text import parse_program
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import ground
 from scenewright.roads.load import load_map
-from scenewright.plan.prediction import ConstantAcceleration
-from scenewright.plan.triggers import PlannedTrigger, TriggerTimes
 from scenewright.solve.arrival import TIGHT_LENGTH_M, linear_conditions
-from scenewright.solve.situation import HeroState
+from stories import BRAKES_GAP, HERO, YIELDS_DISTANCE, YIELDS_TIME
 
 NOW_S = 5.0
 HERO_MOTION = Profile(chain(0.0, 0.0, 8.0, [(60.0, 0.0, 0)]))
