@@ -94,8 +94,9 @@ def test_stages_are_reported_in_order_and_timed(tmp_path: Path) -> None:
     assert began == [*STAGES, "write"]
     assert list(result.timings_s) == began
     assert all(seconds >= 0.0 for seconds in result.timings_s.values())
-    assert times == pytest.approx([0.1 * (k + 1) for k in range(len(times))])
-    assert len(times) > 50
+    assert times == sorted(set(times))
+    ticks = {round(0.1 * (k + 1), 9) for k in range(50)}
+    assert ticks <= {round(each, 9) for each in times}
 
 
 @pytest.mark.parametrize(("until", "stages"), [("check", STAGES[:3]), ("plan", STAGES[:4])])
@@ -190,7 +191,8 @@ def test_plan_and_resolves_are_written(written: tuple[Result, Path]) -> None:
     assert [knot["name"] for knot in plan["actors"]["hero"]["knots"]] == ["t0", "t1", "t2"]
     for segment, after in zip(plan["actors"]["hero"]["segments"], plan["actors"]["hero"]["segments"][1:], strict=False):
         assert segment["start_s"] + segment["duration_s"] == pytest.approx(after["start_s"])
-        reached_mps = segment["speed_mps"] + segment["accel_mpss"] * segment["duration_s"]
+        mean_mpss = segment["accel_mpss"] + 0.5 * segment["jerk_mpsss"] * segment["duration_s"]
+        reached_mps = segment["speed_mps"] + mean_mpss * segment["duration_s"]
         assert reached_mps == pytest.approx(after["speed_mps"], abs=1e-6)
     rows = pq.read_table(out / "replans.parquet").to_pylist()
     assert [row["time_s"] for row in rows] == [record.time_s for record in result.run.replans]
@@ -261,7 +263,6 @@ def test_with_three_actors_planner_and_judge_mean_the_same_conflict_points(tmp_p
     result = orchestrate(Request(THREE, ego="constant", out=tmp_path))
     assert result.status == "success"
     assert result.attempt is not None
-    assert result.attempt.plan is not None
     routes, ego = result.scene.routes, result.attempt.plan.profiles[0]
     for knot, other, short_m in (("t1", 2, 60.0), ("t2", 1, 20.0)):
         conflict = find_conflict(routes[0], routes[other])
