@@ -51,10 +51,10 @@ def begun(text: str, s_m: float = EGO_S_M, speed_mps: float = EGO_MPS) -> Planne
 
 
 @cache
-def problem_of(text: str, at_s: float = 0.0) -> Problem:
+def problem_of(text: str, at_s: float = 0.0, s_m: float = EGO_S_M) -> Problem:
     """Return the problem of a first plan, or that of a tick with the ego a metre further on than foreseen."""
     planner = planner_of(scene_of(text))
-    planner.begin((0.0, EGO_S_M, EGO_MPS, 0.0))
+    planner.begin((0.0, s_m, EGO_MPS, 0.0))
     if not at_s:
         situation = planner._first_situation(planner.plan.profiles[EGO], 0.0, planner.plan.profiles)
         return Problem(planner._asked, situation)
