@@ -36,7 +36,7 @@ def test_sentence_file_program_and_text_of_a_program_are_one_scenario(tmp_path: 
     (tmp_path / "left turn.txt").write_text(SENTENCE, encoding="utf-8")
     (tmp_path / "turn.scene").write_text(program_text(), encoding="utf-8")
     sources = [SENTENCE, str(tmp_path / "left turn.txt"), str(tmp_path / "turn.scene"), program_text()]
-    found = [orchestrate(Request(source, FINE, budget_s=30.0)) for source in sources]
+    found = [orchestrate(Request(source, FINE)) for source in sources]
     assert {result.status for result in found} == {"success"}
     assert [result.translation is not None for result in found] == [True, True, False, False]
     traces = [result.run.trace for result in found if result.run is not None]
@@ -94,8 +94,9 @@ def test_stages_are_reported_in_order_and_timed(tmp_path: Path) -> None:
     assert began == [*STAGES, "write"]
     assert list(result.timings_s) == began
     assert all(seconds >= 0.0 for seconds in result.timings_s.values())
-    assert times == pytest.approx([0.1 * (k + 1) for k in range(len(times))])
-    assert len(times) > 50
+    assert times == sorted(set(times))
+    ticks = {round(0.1 * (k + 1), 9) for k in range(50)}
+    assert ticks <= {round(each, 9) for each in times}
 
 
 @pytest.mark.parametrize(("until", "stages"), [("check", STAGES[:3]), ("plan", STAGES[:4])])
@@ -135,7 +136,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Result, Path]:
     out = tmp_path_factory.mktemp("runs") / "one"
     request = Request(
         SENTENCE, {"hero_gap_m": 18.0}, ego="noisy:sigma_mpss=0.3", seed=11, tolerance="loose", out=out,
-        replan_hz=5.0, budget_s=30.0,
+        replan_hz=5.0,
     )  # fmt: skip
     return orchestrate(request), out
 
@@ -190,7 +191,8 @@ def test_plan_and_resolves_are_written(written: tuple[Result, Path]) -> None:
     assert [knot["name"] for knot in plan["actors"]["hero"]["knots"]] == ["t0", "t1", "t2"]
     for segment, after in zip(plan["actors"]["hero"]["segments"], plan["actors"]["hero"]["segments"][1:], strict=False):
         assert segment["start_s"] + segment["duration_s"] == pytest.approx(after["start_s"])
-        reached_mps = segment["speed_mps"] + segment["accel_mpss"] * segment["duration_s"]
+        mean_mpss = segment["accel_mpss"] + 0.5 * segment["jerk_mpsss"] * segment["duration_s"]
+        reached_mps = segment["speed_mps"] + mean_mpss * segment["duration_s"]
         assert reached_mps == pytest.approx(after["speed_mps"], abs=1e-6)
     rows = pq.read_table(out / "replans.parquet").to_pylist()
     assert [row["time_s"] for row in rows] == [record.time_s for record in result.run.replans]
@@ -258,10 +260,9 @@ A0x(t1) == conflict_point + 10
 
 
 def test_with_three_actors_planner_and_judge_mean_the_same_conflict_points(tmp_path: Path) -> None:
-    result = orchestrate(Request(THREE, ego="constant", out=tmp_path, budget_s=30.0))
+    result = orchestrate(Request(THREE, ego="constant", out=tmp_path))
     assert result.status == "success"
     assert result.attempt is not None
-    assert result.attempt.plan is not None
     routes, ego = result.scene.routes, result.attempt.plan.profiles[0]
     for knot, other, short_m in (("t1", 2, 60.0), ("t2", 1, 20.0)):
         conflict = find_conflict(routes[0], routes[other])
@@ -277,7 +278,7 @@ def test_with_three_actors_planner_and_judge_mean_the_same_conflict_points(tmp_p
 
 @pytest.mark.parametrize("line", ["A1x(t1) == A0x(t1) + 20", "A1x(t1) - A0x(t1) == 20", "A1x(t1) - 20 == A0x(t1)"])
 def test_places_on_merging_routes_are_compared_along_the_lane_in_common(line: str, tmp_path: Path) -> None:
-    result = orchestrate(Request(MERGING + line, ego="constant", out=tmp_path, budget_s=30.0))
+    result = orchestrate(Request(MERGING + line, ego="constant", out=tmp_path))
     assert result.status == "success"
     assert result.run is not None
     moment = next(c.measured for c in result.verdict.conditions if c.id == "c1") if result.verdict else None
@@ -292,7 +293,7 @@ def test_places_on_merging_routes_are_compared_along_the_lane_in_common(line: st
 def test_routes_that_share_a_road_and_cross_in_the_junction_meet_there(shared_dir: Path) -> None:
     cases = shared_dir / "cases"
     text = (cases / "loop.txt").read_text(encoding="utf-8")
-    result = orchestrate(Request(text, map_name=str(cases / "loop.xodr"), budget_s=30.0))
+    result = orchestrate(Request(text, map_name=str(cases / "loop.xodr")))
     assert result.status == "success"
     assert result.scene.landmark_m(0, "conflict_point") == pytest.approx(118.25, abs=0.01)
     assert result.scene.landmark_m(1, "conflict_point") == pytest.approx(392.74, abs=0.01)

@@ -7,8 +7,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import pytest
 from sentences import IMPOSSIBLE, OPEN_SENTENCE, SENTENCE
+
+from forms import FORMS, PROBE
 
 Command = Callable[..., Any]
 FILES = {
@@ -115,17 +116,16 @@ def test_failure_has_status_one_and_names_what_missed(command: Command, policy: 
     assert not json.loads(Path("here/verdict.json").read_text(encoding="utf-8"))["success"]["tight"]
 
 
-def test_gives_up_with_what_was_tried(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
-    from scenewright.solve.planner import Attempt, Planner
-
-    nothing = Attempt(None, "timeout", "time budget", 10.0, 7)
-    monkeypatch.setattr(Planner, "first_plan", lambda *_, **__: nothing)
-    result = command("run", SENTENCE)
+def test_gives_up_with_what_the_planner_cannot_hold(command: Command, tmp_path: Path) -> None:
+    form = next(form for form in FORMS if form.name == "always v of the ego")
+    program = tmp_path / "not_to_be_held.scene"
+    program.write_text(form.binding_program(), encoding="utf-8")
+    result = command("run", program)
     assert result.exit_code == 4
-    assert "7 ways to move" in result.stderr
-    data = json.loads(command("run", SENTENCE, "--json").stdout)
+    assert "cannot hold" in result.stderr
+    data = json.loads(command("run", program, "--json").stdout)
     assert (data["status"], data["exit_status"]) == ("gave up", 4)
-    assert "time budget" in data["tried"]
+    assert PROBE in data["tried"]
 
 
 def test_same_inputs_and_seed_give_the_same_trace(command: Command) -> None:

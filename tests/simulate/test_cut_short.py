@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from misbehaving import LATE_S
-from stories import PATIENT_S, STORIES
 
 from scenewright.errors import PolicyError
 from scenewright.judge.files import judge_run_directory
 from scenewright.judge.tolerance import LOOSE
 from scenewright.orchestrate import EXIT_STATUS, Request, Result, orchestrate
 from scenewright.trace.files import read_trace
+from stories import STORIES
 
 FILES = {
     "manifest.json", "program.scene", "params.json", "plan.json", "trace.parquet", "replans.parquet", "verdict.json",
@@ -23,7 +23,7 @@ FILES = {
 
 
 def run(ego: str, out: Path | None = None, story: str = "yields, distance") -> Result:
-    return orchestrate(Request(STORIES[story], ego=ego, out=out, budget_s=PATIENT_S))
+    return orchestrate(Request(STORIES[story], ego=ego, out=out))
 
 
 def check_kept(out: Path, until_s: float) -> None:

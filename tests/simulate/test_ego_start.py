@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import pytest
-from stories import Stage, program
 
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.loading import load_policy
 from scenewright.drive.protocol import EgoPolicy
 from scenewright.simulate.ego_start import EgoFirstState, ego_starts
+from stories import Stage, program
 
 REST = """
 A0(t1) == A1(t1)

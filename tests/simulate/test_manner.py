@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from stories import PATIENT_S, STORIES, driven
 
 from scenarios import YIELDS, limits_of
 from scenewright.judge.judgement import judge
@@ -18,6 +17,7 @@ from scenewright.roads.grounding import Scene
 from scenewright.simulate.loop import Run
 from scenewright.simulate.witnessed import run_of_witness
 from scenewright.solve.feasibility import check_feasibility
+from stories import STORIES, driven
 
 
 def judged_in_manner(scene: Scene, run: Run, text: str) -> Verdict:
@@ -30,7 +30,7 @@ def judged_in_manner(scene: Scene, run: Run, text: str) -> Verdict:
     ("story", "ego", "numbers", "condition"),
     [
         ("stops and goes", "idm", "- stands_s = 2", "hero_standstill"),
-        ("goes first, distance", "idm", "- settled_s = 1\n- settled_mpss = 0.1", "hero_settled"),
+        ("goes first, distance", "noisy", "- settled_s = 2\n- settled_mpss = 0.1", "hero_settled"),
         ("yields, distance", "stop-and-go", "- settled_s = 1\n- settled_mpss = 0.1", "hero_settled"),
     ],
 )
@@ -40,7 +40,7 @@ def test_the_loop_keeps_to_the_manner_asked_for(story: str, ego: str, numbers: s
     assert usual.scene is not None
     assert usual.run is not None
     assert not judged_in_manner(usual.scene, usual.run, text).condition(condition).holds_at(TIGHT)
-    result = orchestrate(Request(text, ego=ego, budget_s=PATIENT_S))
+    result = orchestrate(Request(text, ego=ego))
     assert result.verdict is not None
     assert [c.id for c in result.verdict.conditions if not c.holds_at(TIGHT)] == []
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from functools import cache
 
 import pytest
-from stories import HERO, PATIENT_S
 
 from scenewright.judge.tolerance import TIGHT
 from scenewright.orchestrate import Mode, Request, Result, orchestrate
+from stories import HERO
 
 ROAD = (
     "Ego is lane-following straight along the road at 9m/s. There is a driveway 100m in front of the ego that merges "
@@ -30,7 +30,7 @@ PAPER = {
 
 @cache
 def run(name: str, mode: Mode, ego: str = "dawdler") -> Result:
-    return orchestrate(Request(PAPER[name], ego=ego, mode=mode, seed=1, budget_s=PATIENT_S))
+    return orchestrate(Request(PAPER[name], ego=ego, mode=mode, seed=1))
 
 
 def off_at_trigger(result: Result) -> float:

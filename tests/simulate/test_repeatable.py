@@ -7,7 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from stories import PATIENT_S, STORIES
+from stories import STORIES
 
 CODE = """
 import sys
@@ -16,14 +16,14 @@ from scenewright.orchestrate import Request, orchestrate
 out, text = Path(sys.argv[1]), sys.stdin.read()
 for ego in sys.argv[2:]:
     name, seed = ego.split("/")
-    orchestrate(Request(text, ego=name, seed=int(seed), out=out / f"{name}-{seed}", budget_s=%r))
-"""  # fmt: skip
+    orchestrate(Request(text, ego=name, seed=int(seed), out=out / f"{name}-{seed}"))
+"""
 
 
 def drive(out: Path, hash_seed: str, *egos: str) -> dict[str, bytes]:
     """Drive egos, each ``NAME/SEED``, in a process of its own and return their traces."""
     subprocess.run(
-        [sys.executable, "-c", CODE % PATIENT_S, str(out), *egos],
+        [sys.executable, "-c", CODE, str(out), *egos],
         input=STORIES["yields, distance"],
         text=True,
         check=True,

@@ -39,6 +39,6 @@ A1v(t2) == 0
     ],
 )
 def test_both_at_the_start(initial: str, trigger: str) -> None:
-    result = orchestrate(Request(FOLLOWING.format(initial=initial, trigger=trigger), {}, ego="idm", budget_s=60.0))
+    result = orchestrate(Request(FOLLOWING.format(initial=initial, trigger=trigger), {}, ego="idm"))
     assert result.verdict is not None
     assert result.status == "success"

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from stories import HERO, STORIES, Scripted, Stage
 
 from scenewright.orchestrate import EXIT_STATUS, Request, orchestrate
 from scenewright.simulate.hindsight import drive_profile, ego_left_no_room
+from stories import HERO, STORIES, Scripted, Stage
 
 TOO_FAST = STORIES["yields, distance"].replace(
     "A1x(t2) == conflict_point - 6", "fast: A1v(t1) == 14\nstops: A1x(t2) == conflict_point - 17"
@@ -55,7 +55,7 @@ def test_ego_that_rushes_off_left_no_room() -> None:
     for _ in range(2):
         stage = Stage(STORIES["stops and goes"], rushing(np.inf if trigger_s is None else trigger_s + 0.1))
         stop_line_m = stage.scene.landmarks_m[0]["stop_line"]
-        assert stage.begin(stop_line_m - 50.0, 3.0).plan is not None
+        assert stage.begin(stop_line_m - 50.0, 3.0).is_good
         run = stage.run()
         trigger_s = run.last_plan.profiles[HERO].knot_times_s["t1"]
         proofs.append(ego_left_no_room(stage.scene, stage.structure, stage.limits, run.trace))
@@ -67,7 +67,7 @@ def test_ego_that_rushes_off_left_no_room() -> None:
 
 def test_ego_that_never_comes_to_its_place_is_the_judges_finding() -> None:
     stage = Stage(STORIES["stops and goes"], Scripted(lambda time_s, speed_mps: -2.0 if time_s > 3.0 else 0.0))
-    assert stage.begin(stage.scene.landmarks_m[0]["stop_line"] - 50.0, 6.0).plan is not None
+    assert stage.begin(stage.scene.landmarks_m[0]["stop_line"] - 50.0, 6.0).is_good
     run = stage.run()
     assert run.trace.actors["ego"].s_m[-1] < stage.scene.landmarks_m[0]["stop_line"] - 14.0
     assert ego_left_no_room(stage.scene, stage.structure, stage.limits, run.trace) is None
@@ -84,7 +84,7 @@ def test_hindsight_reaches_the_result_of_a_whole_run() -> None:
 
 def test_drive_is_read_back_from_its_trace() -> None:
     stage = Stage(STORIES["yields, distance"], Scripted(lambda time_s, speed_mps: np.sin(time_s)))
-    assert stage.begin(stage.scene.landmarks_m[0]["intersection"] - 90.0, 9.0).plan is not None
+    assert stage.begin(stage.scene.landmarks_m[0]["intersection"] - 90.0, 9.0).is_good
     ego = stage.run().trace.actors["ego"]
     profile = drive_profile(ego)
     for index in range(0, len(ego.time_s) - 10, 7):

@@ -23,13 +23,12 @@ from scenarios import (
     feasibility,
     limits_of,
 )
-from scenewright.motion.algebra import pin
 from scenewright.program.printer import print_expression, print_program
 from scenewright.program.text import parse_program
 from scenewright.roads import load_map
 from scenewright.roads.grounding import Scene, ground
 from scenewright.solve.feasibility import EgoBounds, Suggestion
-from scenewright.units import decimal_fraction, format_fraction
+from scenewright.units import decimal_fraction, format_fraction, pin
 
 T = load_map("t_intersection")
 

@@ -107,7 +107,7 @@ def test_what_has_no_number_is_told_without_one() -> None:
 
 
 def test_nothing_is_driven_and_check_still_answers() -> None:
-    form = next(form for form in FORMS if form.name == "always gap")
+    form = next(form for form in FORMS if form.name == "always v of the ego")
     request = Request(form.binding_program(), ego="constant")
     result = orchestrate(request)
     assert result.status == "gave up"
@@ -121,5 +121,4 @@ def test_an_example_is_held() -> None:
     assert limits_of(scene)
     result = orchestrate(Request(YIELDS.text, YIELDS.parameters, ego="constant"), until="plan")
     assert result.attempt is not None
-    assert result.attempt.plan is not None
     assert result.not_held == ()

@@ -1,4 +1,4 @@
-"""Styles of moving in the manner of a program: what is asked for comes before what is preferred."""
+"""What a vehicle can do: from the road it is on, at another pace, and what it may do before it is seen to begin."""
 
 from __future__ import annotations
 
@@ -8,22 +8,11 @@ from fractions import Fraction
 import pytest
 
 from scenewright.program.manner import USUAL, Manner
-from scenewright.solve.limits import (
-    CLOSE,
-    CLOSE_QUICK,
-    COUNTER,
-    FIRM,
-    GENTLE,
-    HASTE,
-    ROOM,
-    STEADY,
-    URGENT,
-    WHOLE,
-    Style,
-    calm_mpss,
-)
+from scenewright.roads import find_route, load_map
+from scenewright.solve.limits import LATERAL_MAX_MPSS, SPEED_OVER_LIMIT, calm_mpss, limits_on
+from scenewright.solve.turns import tightest_curvature
 
-STYLES = (STEADY, GENTLE, FIRM, WHOLE, URGENT, COUNTER, CLOSE, CLOSE_QUICK, HASTE)
+T = load_map("t_intersection")
 STRICT = Manner(
     begins_mpss=Fraction(3),
     begins_s=Fraction(1),
@@ -33,27 +22,36 @@ STRICT = Manner(
 )
 
 
-@pytest.mark.parametrize("manner", [USUAL, STRICT], ids=["usual", "strict"])
-@pytest.mark.parametrize("style", STYLES, ids=lambda style: style.name)
-def test_no_style_does_less_than_the_manner_asks_for(style: Style, manner: Manner) -> None:
-    kept, strict = style.kept_to(manner), manner.stricter(ROOM)
-    assert kept.settle_s >= float(strict.settled_s)
-    assert kept.seen_s >= float(strict.begins_s)
-    assert kept.early_mpss <= float(min(strict.settled_mpss, manner.begins_mpss / 2))
-    for low, high in (kept.dec_mpss, kept.acc_mpss):
-        assert float(strict.begins_mpss) <= low <= high
-    assert kept.stop_s[0] >= float(strict.stands_s)
-    assert kept.stop_s[1] > kept.stop_s[0]
-    assert kept.kept_to(manner) == kept
-
-
-def test_what_a_style_prefers_beyond_that_stays() -> None:
-    assert FIRM.kept_to(USUAL) == FIRM
-    assert FIRM.kept_to(replace(USUAL, settled_s=Fraction(2))) == replace(FIRM, settle_s=2.2)
-
-
-def test_who_is_settled_is_not_yet_seen_to_begin() -> None:
+@pytest.mark.parametrize("manner", [USUAL, STRICT, replace(USUAL, settled_mpss=Fraction(3))])
+def test_who_is_settled_is_not_yet_seen_to_begin(manner: Manner) -> None:
     """What begins is seen from `begins_mpss` on, or from half of what it comes to: who is settled does less."""
-    for manner in (USUAL, STRICT, replace(USUAL, settled_mpss=Fraction(3))):
-        assert calm_mpss(manner) < manner.settled_mpss
-        assert 2 * calm_mpss(manner) <= manner.begins_mpss
+    assert calm_mpss(manner) < manner.settled_mpss
+    assert 2 * calm_mpss(manner) <= manner.begins_mpss
+
+
+@pytest.mark.parametrize("headings", [("W",), ("E", "N"), ("S", "W")])
+def test_limits_are_those_of_the_road_and_its_bends(headings: tuple[str, ...]) -> None:
+    route = find_route(T, headings=headings)
+    limits, signs = limits_on(route, T), [T.lanes[lane].speed_limit_mps for lane in route.lanes]
+    assert limits.natural_speed_mps == max(sign for sign in signs if sign)
+    assert limits.natural_approach_speed_mps == signs[0]
+    assert limits.speed_max_mps == pytest.approx(SPEED_OVER_LIMIT * limits.natural_speed_mps)
+    lateral_mpss = tightest_curvature(route) * limits.turn_speed_max_mps**2
+    assert lateral_mpss <= LATERAL_MAX_MPSS + 1e-9
+    if len(headings) == 2:
+        assert limits.natural_turn_speed_mps < limits.turn_speed_max_mps
+        assert lateral_mpss == pytest.approx(LATERAL_MAX_MPSS)
+
+
+def test_at_another_pace_only_the_approach_is_slower() -> None:
+    limits = limits_on(find_route(T, headings=("W",)), T)
+    slow = limits.at_pace(0.5)
+    assert slow.natural_approach_speed_mps == pytest.approx(0.5 * limits.natural_approach_speed_mps)
+    assert slow.approach_speed_max_mps == pytest.approx(0.5 * limits.approach_speed_max_mps)
+    same = replace(
+        slow,
+        natural_approach_speed_mps=limits.natural_approach_speed_mps,
+        approach_speed_max_mps=limits.approach_speed_max_mps,
+    )
+    assert same == limits
+    assert limits.at_pace(0.01).natural_approach_speed_mps >= 4.0, "nobody crawls"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import pytest
 from planted import T, limits_of, lowered, plant
 from test_relaxation import values_of
@@ -14,7 +16,7 @@ from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.narrowing import Narrowing
-from scenewright.solve.proofs.polynomials import violation
+from scenewright.solve.proofs.polynomials import atoms, violation
 
 FORMS = [
     "A1x(t1) == 90", "A1v(t1) <= 6", "A1v(A0(t2)) >= 4", "A1x(2.0) <= 100", "A1(t2) - A1(t1) >= 2 s", "A1(t1) < A0(t2)",
@@ -23,6 +25,10 @@ FORMS = [
     "ttc(A0, A1, t1) >= 3", "ttc(A1, A0, t1) <= 9", "A1x(t1) - A0x(t1) >= 3", "A1x(t1) == A0x(t1) + 20",
     "not (A1v(t1) >= 6)", "A1v(t1) >= 6 or A0v(t1) >= 6", "A1v(t1) >= 6 implies A0v(t1) >= 6",
     "not (A1v(t1) >= 6 and A0v(t1) >= 6)", "not (A1v(t1) == 6)",
+    # what is divided by may be nothing or less: a time to collision that never comes is infinite
+    "ttc(A1, A0, A0(t1)) >= 6", "6 >= ttc(A1, A0, A0(t1))", "not ttc(A1, A0, A0(t1)) <= 6",
+    "A0x(t1) / (A0v(t1) - 6) <= 6", "A0x(t1) / (A0v(t1) - 6) >= -6", "A0v(t1) / A1v(t1) <= 3 / 2",
+    "-A1v(t2) + 6 >= A0v(t1)", "A1x(A0(t1)) <= just before conflict_point", "A1(t2) * 2 >= A0(t1) + 1 / 10",
 ]  # fmt: skip
 
 
@@ -93,3 +99,25 @@ def test_a_product_of_three_unknowns_is_named() -> None:
     assert cubic.constraint.id == "cubic"
     assert "two unknowns" in cubic.refused
     assert not plain.refused
+
+
+@pytest.mark.parametrize(
+    ("constraint", "unit"),
+    [("A1v(t1) == 6", 0.25), ("A1x(t1) == 90", 0.5), ("A1(t1) == 3", 0.1), ("gap(A0, A1, t1) == 5", 0.5)],
+)
+def test_slack_lets_an_equality_off_by_tight_tolerances(constraint: str, unit: float) -> None:
+    scene = ground(parse_program(with_constraint(0, constraint)), T)
+    for slack in (0, 1, 3):
+        events = Events(scene, limits_of(scene), EgoBounds())
+        formula = Lowering(events, Fraction(slack)).lower(scene.program.constraints)[1].formula
+        exact = Lowering(events).lower(scene.program.constraints)[1].formula
+        (equality,) = [each for each in atoms(exact) if each.relation == "=="]
+        number = next(key[0] for key in equality.left.terms if key)
+        factor = float(equality.left.terms[number,])
+        point = [0.0] * len(events.unknowns)
+        point[number] = -equality.left.value(point) / factor
+        assert violation(formula, point) == pytest.approx(0.0, abs=1e-9)
+        for off in (0.98 * slack, 1.02 * slack + 0.02):
+            other = list(point)
+            other[number] += off * unit
+            assert (violation(formula, other) < 1e-9) == (off <= slack)

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 import pytest
-from stories import STORIES, Stage
 
 from scenewright.drive.hostile import Noisy
 from scenewright.errors import InputError
@@ -16,8 +15,6 @@ from scenewright.judge.judgement import judge
 from scenewright.judge.tolerance import TIGHT
 from scenewright.motion.profile import Profile
 from scenewright.orchestrate import case_of
-from scenewright.roads.load import load_map
-from scenewright.roads.routes import Route, find_route
 from scenewright.plan.prediction import (
     ConstantAcceleration,
     ConstantSpeed,
@@ -28,6 +25,9 @@ from scenewright.plan.prediction import (
     predictor_called,
     since_jump,
 )
+from scenewright.roads.load import load_map
+from scenewright.roads.routes import Route, find_route
+from stories import STORIES, Stage
 
 MAP = load_map("t_intersection")
 BUMPER_M = 2.25
@@ -218,8 +218,7 @@ class Counted:
 
     def predict(self, history: Sequence[EgoSample]) -> Profile:
         assert [sample[0] for sample in history] == sorted({sample[0] for sample in history})
-        if len(history) > 1 or history[0][0] == 0.0:  # a state alone is what the ego might do if it made haste
-            self.asked.append(history[-1][0])
+        self.asked.append(history[-1][0])
         return self.inner.predict(history)
 
 
@@ -227,11 +226,11 @@ class Counted:
 def test_any_predictor_can_drive_the_loop(inner: Predictor) -> None:
     predictor = Counted(inner)
     stage = Stage(STORIES["yields, distance"], Noisy(), seed=3, predictor=predictor)
-    assert stage.begin(stage.scene.landmarks_m[0]["intersection"] - 90.0, 12.0).plan is not None
+    assert stage.begin(stage.scene.landmarks_m[0]["intersection"] - 90.0, 12.0).is_good
     run = stage.run()
     assert judge(case_of(stage.scene, run, stage.limits)).holds_at(TIGHT)
     looked = [record.time_s for record in run.replans if record.status != "frozen"]
-    assert predictor.asked == pytest.approx(looked)
+    assert sorted(set(predictor.asked)) == pytest.approx(looked)
     assert len(looked) < len(run.replans)
 
 
@@ -243,5 +242,5 @@ def test_hero_of_a_predictor_that_errs_misses() -> None:
 
     stage = Stage(STORIES["yields, distance"], Noisy(), seed=3, predictor=Parked())
     start_m = stage.scene.landmarks_m[0]["intersection"] - 90.0
-    if stage.begin(start_m, 12.0).plan is not None:
-        assert not judge(case_of(stage.scene, stage.run(), stage.limits)).holds_at(TIGHT)
+    stage.begin(start_m, 12.0)
+    assert not judge(case_of(stage.scene, stage.run(), stage.limits)).holds_at(TIGHT)

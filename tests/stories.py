@@ -9,25 +9,21 @@ from functools import cache
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.protocol import EgoPolicy, EgoStart, Observation
 from scenewright.orchestrate import Request, Result, orchestrate
+from scenewright.plan.planner import Attempt, Planner
+from scenewright.plan.prediction import Predictor, RoadAware
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.text import parse_program
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.simulate.loop import Rates, Run, simulate
-from scenewright.plan.prediction import Predictor, RoadAware
-from scenewright.simulate.replanner import Replanner
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.arrival import LinearCondition, linear_conditions
-from scenewright.solve.backends.z3_backend import Z3Backend
 from scenewright.solve.limits import Limits, limits_on
 from scenewright.solve.plan import Plan
-from scenewright.solve.planner import Attempt, Planner
-from scenewright.solve.problem import Backend
 
 HERO = 1
 STEP_S, TICK_S = 0.02, 0.1
-PATIENT_S = 30.0  # a budget that a loaded machine does not run out of
 
 
 def program(hero_route: str, hero_sketch: str, constraints: str, ego_route: str = "W") -> str:
@@ -129,7 +125,7 @@ STORIES = {
 @cache
 def driven(story: str, ego: str, seed: int = 0, mode: str = "closed") -> Result:
     """Return a whole run, made once for all tests that look at it."""
-    return orchestrate(Request(STORIES[story], ego=ego, seed=seed, mode=mode, budget_s=PATIENT_S))  # type: ignore[arg-type]
+    return orchestrate(Request(STORIES[story], ego=ego, seed=seed, mode=mode))  # type: ignore[arg-type]
 
 
 @dataclass
@@ -146,38 +142,27 @@ class Scripted:
 
 
 class Stage:
-    """A story on its map, with the ego's policy, predictor and backend of a test's choice."""
+    """A story on its map, with the ego's policy and predictor of a test's choice."""
 
-    def __init__(
-        self,
-        text: str,
-        policy: EgoPolicy,
-        *,
-        seed: int = 0,
-        predictor: Predictor | None = None,
-        backend: Backend | None = None,
-        budget_s: float = PATIENT_S,
-    ) -> None:
+    def __init__(self, text: str, policy: EgoPolicy, *, seed: int = 0, predictor: Predictor | None = None) -> None:
         parsed = parse_program(text, "story")
         self.scene: Scene = ground(parsed, load_map(parsed.map_name), {})
         self.structure: Structure = read_structure(parsed)
         self.limits: dict[int, Limits] = {i: limits_on(r, self.scene.road_map) for i, r in self.scene.routes.items()}
         self.conditions: tuple[LinearCondition, ...] = linear_conditions(self.scene, self.structure)
         self.ego = EgoVehicle(GuardedPolicy(policy, "ego"), self.scene.routes[EGO], self.scene.road_map, seed)
-        self.backend = backend or Z3Backend()
-        planner = Planner(self.scene, self.structure, self.limits, self.backend, self.conditions, budget_s)
         predictor = predictor or RoadAware.on(self.scene.routes[EGO])
-        self.replanner = Replanner(self.scene, self.structure, planner, predictor, self.conditions)
+        self.planner = Planner(self.scene, self.structure, self.limits, predictor, self.conditions)
         self.plans: list[Plan] = []
 
     def begin(self, s_m: float, speed_mps: float) -> Attempt:
         self.ego.reset(s_m, speed_mps)
-        return self.replanner.begin((0.0, s_m, speed_mps, 0.0))
+        return self.planner.begin((0.0, s_m, speed_mps, 0.0))
 
     def run(self) -> Run:
         """Drive; `plans` holds the plan in force after every tick, the first one at the front."""
-        self.plans = [self.replanner.plan]
+        self.plans = [self.planner.plan]
         return simulate(
-            self.scene, self.ego, self.replanner, Rates(STEP_S, TICK_S),
-            lambda _: self.plans.append(self.replanner.plan),
+            self.scene, self.ego, self.planner, Rates(STEP_S, TICK_S),
+            lambda _: self.plans.append(self.planner.plan),
         )  # fmt: skip

@@ -1,0 +1,72 @@
+"""Planning problems of every kind, as the planner poses them: first plans, and ticks on the way."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scenewright.plan.asked import Asked
+from scenewright.plan.planner import Planner
+from scenewright.plan.prediction import RoadAware
+from scenewright.plan.problem import Problem
+from scenewright.program.structure import read_structure
+from scenewright.program.text import parse_program
+from scenewright.program.types import EGO
+from scenewright.roads.grounding import Scene, ground
+from scenewright.roads.load import load_map
+from scenewright.solve.arrival import linear_conditions
+from scenewright.solve.limits import limits_on
+
+Array = NDArray[np.float64]
+HERO = 1
+EGO_S_M, EGO_MPS = 180.0, 9.0
+
+
+def scene_of(text: str) -> Scene:
+    program = parse_program(text)
+    return ground(program, load_map(program.map_name), {})
+
+
+def asked_of(scene: Scene) -> Asked:
+    limits = {actor: limits_on(route, scene.road_map) for actor, route in scene.routes.items()}
+    return Asked(scene, read_structure(scene.program), limits)
+
+
+def planner_of(scene: Scene) -> Planner:
+    """Return a planner that has not begun."""
+    structure = read_structure(scene.program)
+    limits = {actor: limits_on(route, scene.road_map) for actor, route in scene.routes.items()}
+    predictor = RoadAware.on(scene.routes[EGO], limits[EGO].natural_approach_speed_mps)
+    return Planner(scene, structure, limits, predictor, linear_conditions(scene, structure))
+
+
+@cache
+def begun(text: str, s_m: float = EGO_S_M, speed_mps: float = EGO_MPS) -> Planner:
+    """Return a planner with a first plan. It is shared by tests: they look at it only."""
+    planner = planner_of(scene_of(text))
+    planner.begin((0.0, s_m, speed_mps, 0.0))
+    return planner
+
+
+@cache
+def problem_of(text: str, at_s: float = 0.0, s_m: float = EGO_S_M) -> Problem:
+    """Return the problem of a first plan, or that of a tick with the ego a metre further on than foreseen."""
+    planner = planner_of(scene_of(text))
+    planner.begin((0.0, s_m, EGO_MPS, 0.0))
+    if not at_s:
+        situation = planner._first_situation(planner.plan.profiles[EGO], 0.0, planner.plan.profiles)
+        return Problem(planner._asked, situation)
+    ego = planner.plan.profiles[EGO]
+    for k in range(1, round(at_s / 0.02) + 1):
+        s_m, speed_mps, accel_mpss = ego.state(0.02 * k)
+        planner.observe((round(0.02 * k, 9), s_m + 0.02 * k / at_s, speed_mps, accel_mpss))
+    situation, _ = planner._situation(at_s, planner._foreseen())
+    return Problem(planner._asked, situation)
+
+
+def near(problem: Problem, seed: int, share: float = 0.15) -> Array:
+    """Return values at random around first ones."""
+    chance = np.random.default_rng(seed)
+    return problem.ordered(problem.guess + share * problem.step * chance.uniform(-1.0, 1.0, problem.size))

@@ -1,0 +1,150 @@
+"""What a program asks of heroes: in tight tolerances, of alternatives the nearest; and how fast bends may be driven."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from situations import HERO, Array, asked_of, scene_of
+
+from scenewright.plan.asked import TIGHT, Asked, Row, number_of
+from scenewright.program.types import EGO
+from scenewright.solve.tolerances import TIGHT as EXACT
+from scenewright.units import Dimension
+from stories import program
+
+SYNC = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 30\n"
+LANE = "A0(t1) == A1(t1)\n"
+
+
+def asked_for(line: str, route: str = "E, N", sync: str = SYNC) -> Asked:
+    return asked_of(scene_of(program(route, "t0, go, t1, dec, t2", f"{sync}A1v(t2) == 0\ntested: {line}")))
+
+
+def state(asked: Asked, actor: int, knot: str) -> tuple[int, int]:
+    found = asked.events.states[actor, asked.knot(actor, knot)]
+    place, speed = number_of(found.place), number_of(found.speed)
+    assert place is not None
+    assert speed is not None
+    return place, speed
+
+
+def rows_at(asked: Asked, values: dict[int, float]) -> list[Row]:
+    point = np.zeros(asked.size + 1)
+    point[-1] = 1.0
+    for number, value in values.items():
+        point[number] = value
+    slopes: Array = np.vstack([np.eye(asked.size), np.zeros(asked.size)])
+    return list(asked.rows(point, slopes))
+
+
+@pytest.mark.parametrize(
+    ("line", "kind"),
+    [("A1x(t1) == conflict_point - 20", "place"), ("A1v(t1) == 6", "speed"), ("A1(t1) == 4", "time")],
+)
+@given(off=st.floats(-9.0, 9.0))
+def test_levels_are_in_tight_tolerances(line: str, kind: str, off: float) -> None:
+    asked = asked_for(line)
+    place, speed = state(asked, HERO, "t1")
+    time = asked.times[asked.knot(HERO, "t1")]
+    place_m = asked.scene.landmark_m(HERO, "conflict_point", EGO) - 20.0
+    unknown, value = {"place": (place, place_m), "speed": (speed, 6.0), "time": (time, 4.0)}[kind]
+    assert unknown is not None
+    rows = rows_at(asked, {unknown: value + off * TIGHT[kind]})
+    (row,) = [row for row in rows if np.flatnonzero(row.slope).tolist() == [unknown] and row.equal]
+    assert abs(row.level) == pytest.approx(abs(off), abs=1e-3)
+    assert abs(row.slope[unknown]) == pytest.approx(1.0 / TIGHT[kind])
+
+
+@given(mps=st.floats(0.5, 15.0), off=st.floats(-5.0, 5.0))
+def test_a_time_to_arrival_is_off_by_its_own_tolerance(mps: float, off: float) -> None:
+    """As long as it takes at that speed: the slower the hero, the shorter the way that a tenth of a second is."""
+    asked = asked_for("tta(A1, conflict_point, t1) == 2.5")
+    place, speed = state(asked, HERO, "t1")
+    there_m = asked.scene.landmark_m(HERO, "conflict_point", EGO) - (2.5 + 0.1 * off) * mps
+    rows = rows_at(asked, {place: there_m, speed: mps})
+    (row,) = [row for row in rows if set(np.flatnonzero(row.slope)) == {place, speed} and row.equal]
+    slowest = max(mps, asked.wanted.moves_mps)
+    assert abs(row.level) == pytest.approx(abs(off) * mps / slowest, abs=1e-3)
+
+
+@pytest.mark.parametrize(("faster", "chosen"), [(9.8, "speed"), (9.0, "place")])
+def test_of_alternatives_the_nearest_to_holding_is_asked(faster: float, chosen: str) -> None:
+    asked = asked_for("A1v(t1) >= 10 or A1x(t1) <= conflict_point - 60")
+    place, speed = state(asked, HERO, "t1")
+    place_m = asked.scene.landmark_m(HERO, "conflict_point", EGO) - 59.0
+    rows = rows_at(asked, {place: place_m, speed: faster})
+    told = [set(np.flatnonzero(row.slope)) for row in rows]
+    assert ({speed} in told) is (chosen == "speed")
+    assert ({place} in told) is (chosen == "place")
+
+
+def test_who_is_to_be_earlier_is_told_from_what_holds_by_the_clock() -> None:
+    lines = "A1x(t2) == conflict_point\nA0x(t2) == conflict_point\nA1(t2) < A0(t2)"
+    asked = asked_of(scene_of(program("E, N", "t0, go, t1, acc, t2", SYNC + lines)))
+    hero, ego = (asked.times[asked.knot(actor, "t2")] for actor in (HERO, EGO))
+    assert hero is not None
+    assert ego is not None
+    (row,) = [row for row in rows_at(asked, {hero: 6.0, ego: 8.0}) if row.slope[hero] and row.slope[ego]]
+    assert row.order
+    assert not row.equal
+    assert row.level * TIGHT["time"] == pytest.approx(-2.0 / np.sqrt(2.0))
+
+
+@pytest.mark.parametrize(
+    ("line", "row"),
+    [("A0v(t0) == 9", False), ("A0v(t1) <= A1v(t1)", True), ("A1v(t0) == 9", True)],
+)
+def test_nothing_is_asked_of_the_ego_alone(line: str, row: bool) -> None:
+    asked = asked_for(line)
+    assert ("tested" in {each.origin for each in asked.narrowings}) is False
+    speeds = {
+        number_of(found.speed)
+        for (actor, instant), found in asked.events.states.items()
+        if instant == asked.knot(HERO if "A1" in line else EGO, "t1" if "t1" in line else "t0")
+    }
+    moved = {k for each in rows_at(asked, {}) for k in np.flatnonzero(each.slope)}
+    assert bool(speeds & moved) is row
+
+
+@pytest.mark.parametrize("at", ["A0(t1) - A0(t0) == 3", "A0(t1) == 3"])
+def test_when_a_trigger_comes_that_both_decide_is_asked_of_both(at: str) -> None:
+    """It is the hero's trigger too, and nobody else's to decide where neither has to be anywhere then."""
+    asked = asked_for(at, "W", LANE)
+    trigger = asked.trigger(HERO)
+    assert trigger is not None
+    time = asked.times[trigger]
+    assert time is not None
+    told = [row for row in rows_at(asked, {time: 5.0}) if np.flatnonzero(row.slope).tolist() == [time] and row.equal]
+    assert [abs(row.level) for row in told] == [pytest.approx(2.0 / TIGHT["time"])]
+
+
+def test_tolerances_are_those_of_the_contract() -> None:
+    of: dict[str, Dimension] = {"time": "time", "place": "length", "speed": "speed", "rate": "acceleration"}
+    assert {kind: float(EXACT[dimension]) for kind, dimension in of.items()} == {kind: TIGHT[kind] for kind in of}
+
+
+@pytest.mark.parametrize(("route", "turns"), [("W", False), ("E, N", True)])
+def test_caps_are_those_of_bends_and_of_the_road(route: str, turns: bool) -> None:
+    asked = asked_for("A1v(t1) >= 2", route)
+    caps, limits, path = asked.caps[HERO], asked.limits[HERO], asked.scene.routes[HERO].path
+    for s_m in np.linspace(1.0, path.length_m - 1.0, 300):
+        (most, _), (comfortable, _) = caps.at(float(s_m))
+        bend = abs(path.curvature(float(s_m)))
+        assert comfortable <= most < limits.speed_max_mps
+        assert most**2 * bend <= limits.lateral_max_mpss
+        assert comfortable**2 * bend <= asked.wanted.lateral_mpss * 1.01
+    assert (min(caps.most) < 0.8 * limits.speed_max_mps) == turns
+
+
+def test_caps_tell_how_they_change() -> None:
+    caps = asked_for("A1v(t1) >= 2").caps[HERO]
+    steep = 0
+    for s_m in np.arange(1.0, caps.places[-1] - 1.0, 0.5):
+        for k in (0, 1):
+            before, (here, slope), after = (caps.at(float(s_m) + by)[k] for by in (-0.5, 0.0, 0.5))
+            assert slope == pytest.approx(after[0] - before[0], abs=1e-9)
+            steep += abs(slope) > 0.5
+            assert here > 0.0
+    assert steep > 4

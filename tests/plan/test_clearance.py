@@ -1,0 +1,70 @@
+"""A hero on the ego's lane: which of the two is ahead, and that neither starts or drives inside the other."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from scenarios import BRAKES, YIELDS, example, limits_of, read_structure
+from scenewright.plan.clearance import Clearance
+from scenewright.plan.planner import Planner
+from scenewright.plan.prediction import RoadAware
+from scenewright.program.text import parse_program
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
+from scenewright.roads.grounding import Scene, ground
+from scenewright.roads.load import load_map
+from scenewright.solve.arrival import linear_conditions
+
+EGO, HERO = 0, 1
+
+
+def scene_with(distance: str) -> Scene:
+    text = example("W", "t0, go, t1, dec, t2", f"A0(t1) == A1(t1)\n{distance}\nA1v(t2) == 0\n")
+    program = parse_program(text)
+    return ground(program, load_map("t_intersection"), {})
+
+
+def clearance_of(scene: Scene) -> Clearance | None:
+    structure = read_structure(scene.program)
+    return Clearance.of(scene, structure, linear_conditions(scene, structure), scene.program.heroes[0])
+
+
+@pytest.mark.parametrize(
+    ("distance", "ahead"),
+    [
+        ("gap(A0, A1, t1) == 20", True),
+        ("20 == gap(A0, A1, t1)", True),
+        ("gap(A1, A0, t1) == 20", False),
+        ("headway(A0, A1, t1) == 2", True),
+        ("ttc(A0, A1, t1) == 4", True),
+        ("ttc(A1, A0, t1) == 4", False),
+        ("A1x(t1) - A0x(t1) == 15", True),
+        ("A0x(t1) - A1x(t1) == 15", False),
+    ],
+)
+def test_the_distance_tells_who_is_ahead(distance: str, ahead: bool) -> None:
+    clearance = clearance_of(scene_with(distance))
+    assert clearance is not None
+    assert clearance.ahead is ahead
+
+
+def test_who_only_crosses_need_not_keep_clear() -> None:
+    assert clearance_of(YIELDS.scene()) is None
+
+
+@settings(max_examples=12, deadline=None)
+@given(ego_mps=st.floats(7.0, 13.0), slows_mpss=st.floats(-0.5, 0.3))
+def test_nobody_starts_or_drives_inside_the_other(ego_mps: float, slows_mpss: float) -> None:
+    scene = BRAKES.scene()
+    structure = read_structure(scene.program)
+    predictor = RoadAware.on(scene.routes[EGO], 13.9)
+    planner = Planner(scene, structure, limits_of(scene), predictor, linear_conditions(scene, structure))
+    attempt = planner.begin((0.0, 180.0, ego_mps, slows_mpss))
+    assert attempt.is_good
+    hero, ego = attempt.plan.profiles[HERO], attempt.plan.profiles[EGO]
+    trigger_s = hero.knot_times_s["t1"]
+    gaps_m = [hero.state(0.05 * k)[0] - ego.state(0.05 * k)[0] for k in range(int(trigger_s / 0.05))]
+    assert min(gaps_m) > VEHICLE_LENGTH_M
+    # The distance changes plainly at the trigger: then it is the one that was asked for at one instant only.
+    assert abs(hero.state(trigger_s)[1] - ego.state(trigger_s)[1]) > 0.4

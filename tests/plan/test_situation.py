@@ -1,0 +1,63 @@
+"""What a plan starts from: the ego as it was seen and is foreseen, and a motion that is a little further on."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from scenewright.motion.profile import Profile, chain
+from scenewright.plan.situation import Further, SeenAndForeseen
+
+STEP_S = 0.02
+
+
+def seen(accels: list[float], speed_mps: float = 10.0) -> list[tuple[float, float, float, float]]:
+    samples, s_m = [], 0.0
+    for k, accel in enumerate([*accels, 0.0]):
+        samples.append((k * STEP_S, s_m, speed_mps, accel))
+        s_m += (speed_mps + 0.5 * accel * STEP_S) * STEP_S
+        speed_mps += accel * STEP_S
+    return samples
+
+
+@given(accels=st.lists(st.floats(-4.0, 3.0), min_size=1, max_size=30), share=st.floats(0.0, 1.0))
+def test_the_ego_is_where_it_was_seen_and_then_where_it_is_foreseen(accels: list[float], share: float) -> None:
+    samples = seen(accels)
+    now_s, s_m, speed_mps, _ = samples[-1]
+    ego = SeenAndForeseen(samples, Profile(chain(now_s, s_m, speed_mps, [(2.0, -1.0, 0)])))
+    for time_s, then_m, then_mps, accel in samples[:-1]:
+        assert ego(time_s) == pytest.approx((then_m, then_mps, accel), abs=1e-6)
+    assert ego(now_s) == pytest.approx((s_m, speed_mps, -1.0))
+    assert ego(now_s + 1.0) == pytest.approx((s_m + speed_mps - 0.5, speed_mps - 1.0, -1.0))
+    # Between two samples it goes on evenly: nothing jumps, and places are what the speeds make of them.
+    time_s = share * now_s
+    before, after = ego(time_s), ego(time_s + 1e-4)
+    assert after[0] - before[0] == pytest.approx(1e-4 * 0.5 * (before[1] + after[1]), abs=1e-7)
+    assert abs(after[1] - before[1]) <= 4e-4 + 1e-9
+
+
+def test_before_anything_was_seen_it_was_on_its_way() -> None:
+    ego = SeenAndForeseen(seen([0.0, 0.0]), Profile(chain(0.04, 0.4, 10.0, [(1.0, 0.0, 0)])))
+    assert ego(-1.0)[:2] == pytest.approx((-10.0, 10.0))
+
+
+@given(at_s=st.floats(1.5, 8.0), from_s=st.floats(0.0, 1.0))
+def test_further_is_a_metre_at_its_instant_and_nothing_before_it_begins(at_s: float, from_s: float) -> None:
+    motion = Profile(chain(0.0, 0.0, 8.0, [(3.0, -1.0, 0)]))
+    further = Further(motion, from_s, at_s, all_along=False)
+    assert further.state(from_s)[:2] == pytest.approx(motion.state(from_s)[:2])
+    assert further.state(at_s)[0] - motion.state(at_s)[0] == pytest.approx(1.0)
+    assert further.state(0.5 * from_s)[:2] == pytest.approx(motion.state(0.5 * from_s)[:2])
+    times = np.linspace(from_s, at_s, 400)
+    places, speeds = np.array([further.state(float(t))[:2] for t in times]).T
+    travelled = np.sum(0.5 * (speeds[1:] + speeds[:-1]) * np.diff(times))
+    assert places[-1] - places[0] == pytest.approx(travelled, abs=1e-2)
+
+
+def test_further_all_along_is_the_same_motion_a_metre_on() -> None:
+    motion = Profile(chain(0.0, 0.0, 8.0, [(3.0, -1.0, 0)]))
+    for time_s in (0.0, 1.7, 9.0):
+        s_m, speed_mps, accel = motion.state(time_s)
+        assert Further(motion, 1.0, 3.0, all_along=True).state(time_s) == (s_m + 1.0, speed_mps, accel)
