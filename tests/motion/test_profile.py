@@ -6,7 +6,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from scenewright.motion.profile import Profile, Segment, chain
@@ -139,3 +139,83 @@ def test_held_motion_is_the_same_before_and_later_after(
         later = profile.state(at_s + float(after_s))
         expected = (later[0] + for_s * speed, later[1])
         assert held.state(at_s + for_s + float(after_s))[:2] == pytest.approx(expected, abs=1e-4)
+
+
+# -- accelerations that change evenly ---------------------------------------------------------------------------------
+@st.composite
+def jerky(draw: st.DrawFn) -> Profile:
+    """A motion whose acceleration changes evenly within segments, and which never reverses."""
+    segments: list[Segment] = []
+    time_s, s_m, speed_mps = draw(starts), 10.0, draw(st.floats(1.0, 15.0))
+    for piece in range(draw(st.integers(1, 5))):
+        segment = Segment(
+            time_s,
+            draw(st.floats(0.2, 3.0)),
+            s_m,
+            speed_mps,
+            draw(st.floats(-3.0, 3.0)),
+            piece,
+            draw(st.floats(-3.0, 3.0)),
+        )
+        assume(min(segment.after(share * segment.duration_s)[1] for share in np.linspace(0.0, 1.0, 21)) > 0.2)
+        segments.append(segment)
+        time_s, s_m, speed_mps = segment.end_s, segment.end_s_m, segment.end_speed_mps
+    return Profile(tuple(segments))
+
+
+@settings(max_examples=30)
+@given(profile=jerky())
+def test_with_jerk_place_is_the_integral_of_speed_and_speed_that_of_acceleration(profile: Profile) -> None:
+    times = np.linspace(profile.start_s, profile.end_s, 1501)
+    place, speed, accel = np.array([profile.state(float(t)) for t in times]).T
+    step_s = times[1] - times[0]
+    travelled = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * step_s)])
+    assert place - place[0] == pytest.approx(travelled, abs=12.0 * step_s)
+    gained = np.concatenate([[0.0], np.cumsum(0.5 * (accel[1:] + accel[:-1]) * step_s)])
+    assert speed - speed[0] == pytest.approx(gained, abs=60.0 * step_s)
+
+
+@given(profile=jerky(), share=st.floats(0.0, 1.0))
+def test_with_jerk_a_place_is_reached_when_it_is(profile: Profile, share: float) -> None:
+    time_s = profile.start_s + share * (profile.end_s - profile.start_s)
+    found = profile.time_at(profile.state(time_s)[0])
+    assert found is not None
+    assert found == pytest.approx(time_s, abs=1e-4)
+
+
+@given(profile=jerky(), share=st.floats(0.0, 0.99), later_s=st.floats(0.0, 6.0))
+def test_with_jerk_cutting_changes_nothing_that_is_still_to_come(
+    profile: Profile, share: float, later_s: float
+) -> None:
+    cut_s = profile.start_s + share * (profile.end_s - profile.start_s)
+    assert profile.cut(cut_s).state(cut_s + later_s) == pytest.approx(profile.state(cut_s + later_s), abs=1e-6)
+
+
+@given(profile=jerky(), shares=st.tuples(st.floats(0.0, 1.0), st.floats(0.0, 1.0)))
+def test_a_part_is_what_the_whole_is_then(profile: Profile, shares: tuple[float, float]) -> None:
+    whole = profile.segments[-1]
+    first_s, last_s = (whole.start_s + share * whole.duration_s for share in sorted(shares))
+    part = whole.part(first_s, last_s)
+    assert (part.start_s, part.end_s, part.piece) == (first_s, pytest.approx(last_s), whole.piece)
+    for share in (0.0, 0.4, 1.0):
+        elapsed_s = share * part.duration_s
+        assert part.after(elapsed_s) == pytest.approx(whole.after(first_s - whole.start_s + elapsed_s), abs=1e-6)
+
+
+@given(profile=jerky())
+def test_the_strongest_accelerations_are_at_the_ends_of_segments(profile: Profile) -> None:
+    least, most = profile.accelerations()
+    sampled = [s.after(share * s.duration_s)[2] for s in profile.segments for share in np.linspace(0.0, 1.0, 9)]
+    assert (least, most) == pytest.approx((min(sampled), max(sampled)))
+
+
+@given(profile=jerky(), share=st.floats(0.0, 1.0), for_s=st.floats(0.1, 3.0))
+def test_with_jerk_held_motion_is_the_same_before_and_later_after(profile: Profile, share: float, for_s: float) -> None:
+    at_s = profile.start_s + share * (profile.end_s - profile.start_s)
+    held, speed = profile.held(at_s, for_s), profile.state(at_s)[1]
+    for before_s in np.linspace(profile.start_s, at_s, 5):
+        assert held.state(float(before_s))[:2] == pytest.approx(profile.state(float(before_s))[:2], abs=1e-5)
+    for after_s in (0.1, 1.0, 4.0):
+        later = profile.state(at_s + after_s)
+        expected = (later[0] + for_s * speed, later[1])
+        assert held.state(at_s + for_s + after_s)[:2] == pytest.approx(expected, abs=1e-4)

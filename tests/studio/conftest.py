@@ -199,10 +199,13 @@ def manifest(routes: dict[str, Route], marks: dict[str, dict[str, float]], passe
 def plan(trace: Trace) -> dict[str, Any]:
     hero, ego = trace.actors["hero"], trace.actors["ego"]
     pieces = {
-        "hero": [("go", 0.0, 3.6, hero.s_m[0], 13.0, 0.0), ("dec", 3.6, 4.0, hero.s_m[0] + 46.8, 13.0, -3.25)],
-        "ego": [("go", 0.0, 4.0, ego.s_m[0], 7.0, 0.0), ("go", 4.0, 9.0, ego.s_m[0] + 28.0, 7.0, 0.0)],
+        "hero": [
+            ("go", 0.0, 3.6, hero.s_m[0], 13.0, 0.0, 0.0),
+            ("dec", 3.6, 4.0, hero.s_m[0] + 46.8, 13.0, -2.25, -0.5),
+        ],
+        "ego": [("go", 0.0, 4.0, ego.s_m[0], 7.0, 0.0, 0.0), ("go", 4.0, 9.0, ego.s_m[0] + 28.0, 7.0, 0.0, 0.0)],
     }
-    keys = ("piece", "start_s", "duration_s", "s_m", "speed_mps", "accel_mpss")
+    keys = ("piece", "start_s", "duration_s", "s_m", "speed_mps", "accel_mpss", "jerk_mpsss")
     return {
         "schema_version": 1,
         "actors": {
@@ -221,18 +224,18 @@ def plan(trace: Trace) -> dict[str, Any]:
 def write_replans(folder: Path) -> None:
     random = np.random.default_rng(3)
     times = np.arange(0.0, 10.0, 0.1)
-    statuses = ["kept" if i % 3 else "sat" for i in range(len(times))]
-    reasons = ["the plan still holds" if status == "kept" else "the ego's prediction changed" for status in statuses]
-    statuses[31], reasons[31] = "unsat", "the ego slows down: no speed within 2 to 15 m/s meets both sides"
+    statuses = ["frozen" if i % 3 else "sat" for i in range(len(times))]
+    reasons = ["after its trigger the hero does not adapt" if status == "frozen" else "" for status in statuses]
+    statuses[31], reasons[31] = "relaxed", "the ego slows down"
     statuses[32], reasons[32] = "unknown", "time limit of 50 ms"
-    wall = np.where([status == "kept" for status in statuses], 0.0, 0.004) * random.uniform(0.7, 1.6, len(times))
+    wall = np.where([status == "frozen" for status in statuses], 0.0, 0.004) * random.uniform(0.7, 1.6, len(times))
     wall[32] = 0.05
     table = {
         "time_s": times,
         "status": statuses,
-        "backend": ["z3"] * len(times),
+        "backend": ["daqp"] * len(times),
         "wall_s": wall,
-        "tolerance": ["tight"] * len(times),
+        "tolerance": [0.05] * len(times),
         "reason": reasons,
     }
     pq.write_table(pa.table(table), folder / "replans.parquet")

@@ -103,6 +103,13 @@ def test_route_points_carry_the_arc_length_of_the_trace(run_dir: Path) -> None:
         assert np.hypot(x - states.x_m, y - states.y_m).max() < 0.1
 
 
+def test_the_first_plan_carries_how_its_accelerations_change(run_dir: Path) -> None:
+    """Without it the page could draw no plan but one of even accelerations."""
+    pieces = actor_named(collect(run_dir), "hero")["plan"]
+    assert [piece[:2] for piece in pieces] == [[0.0, 3.6], [3.6, 4.0]]
+    assert [piece[3:] for piece in pieces] == [[13.0, 0.0, 0.0], [13.0, -2.25, -0.5]]
+
+
 def test_facts_are_flattened_with_units(run_dir: Path) -> None:
     facts = {label: (value, unit) for label, value, unit in collect(run_dir)["facts"]}
     assert facts["ego, hero: min distance"] == ("5.4322", "m")

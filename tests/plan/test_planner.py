@@ -1,0 +1,270 @@
+"""Plans: whatever the planner returns is a motion that a car can drive and that does what the program says."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from situations import HERO, planner_of, scene_of
+
+from scenarios import BEHIND_ITSELF, FEASIBLE, TOO_FAST, YIELDS, Example, limits_of
+from scenewright.judge.tolerance import TIGHT, dimension_of
+from scenewright.motion.profile import Profile, chain
+from scenewright.orchestrate import Request, Stages, begin
+from scenewright.plan.planner import GOOD, Attempt, Planner
+from scenewright.program.evaluate import violation
+from scenewright.program.types import EGO
+from scenewright.roads.grounding import Scene
+from scenewright.simulate.beginning import first_plan
+from scenewright.solve.holding import not_held
+from scenewright.solve.limits import Limits
+from scenewright.solve.plan import Plan, PlanWorld
+from scenewright.study.benchmark import benchmark_rows, draw_row
+from stories import BRAKES_GAP, STOPS_AND_GOES, STORIES, YIELDS_DISTANCE
+
+STEP_S = 0.005
+ROWS = [row for row in benchmark_rows() if row.id % 4 == 0]
+
+
+@cache
+def planned(source: str, parameters: tuple[tuple[str, float | str], ...], ego: str) -> tuple[Scene, Attempt, Planner]:
+    world, _, answer = begin(Request(source, dict(parameters), ego=ego), Stages(None))
+    assert answer == "feasible"
+    found = first_plan(world, world.predictor)
+    assert found is not None
+    return world.scene, found[2], found[0]
+
+
+def assert_drivable(profile: Profile, limits: Limits, scene: Scene) -> None:
+    """Check from positions and speeds alone where possible: nothing jumps, nothing exceeds a limit."""
+    times = np.arange(profile.start_s, profile.end_s + 1.0, STEP_S)
+    place, speed, accel = np.array([profile.state(float(t)) for t in times]).T
+    assert speed.min() >= 0.0
+    assert speed.max() <= limits.speed_max_mps + 1e-4
+    assert accel.min() >= -limits.brake_max_mpss - 1e-3
+    assert accel.max() <= limits.accel_max_mpss + 1e-3
+    largest = max(limits.accel_max_mpss, limits.brake_max_mpss)
+    travelled = (speed[1:] + speed[:-1]) / 2 * STEP_S
+    np.testing.assert_allclose(np.diff(place), travelled, atol=largest * STEP_S**2)
+    assert abs(np.diff(speed)).max() <= largest * STEP_S + 1e-6
+    bends = np.array([abs(scene.routes[HERO].path.curvature(float(s_m))) for s_m in place[::10]])
+    assert (bends * speed[::10] ** 2).max() <= limits.lateral_max_mpss + 1e-3
+
+
+def broken(scene: Scene, plan: Plan) -> list[str]:
+    return [str(each) for each in not_held(scene, plan.profiles, dimension_of, TIGHT.of)]
+
+
+def check(scene: Scene, attempt: Attempt, limits: Limits) -> None:
+    assert attempt.missed.by <= GOOD
+    assert attempt.is_good
+    hero = attempt.plan.profiles[HERO]
+    assert hero.knot_times_s["t0"] == 0.0
+    assert list(hero.knot_times_s.values()) == sorted(hero.knot_times_s.values())
+    assert_drivable(hero, limits, scene)
+    assert broken(scene, attempt.plan) == []
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: f"row {row.id}")
+def test_first_plans_of_the_benchmark_do_what_they_should(row) -> None:  # type: ignore[no-untyped-def]
+    scene, attempt, planner = planned(row.program_text, tuple(draw_row(row, 0, 0).items()), "idm")
+    check(scene, attempt, planner.limits[HERO])
+
+
+@pytest.mark.parametrize("ego", ["constant", "idm"])
+@pytest.mark.parametrize("case", FEASIBLE, ids=lambda case: case.name)
+def test_first_plans_of_the_examples_do_what_they_should(case: Example, ego: str) -> None:
+    scene, attempt, planner = planned(case.text, tuple(case.parameters.items()), ego)
+    check(scene, attempt, planner.limits[HERO])
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        "A1v(2.0) == 4",
+        "A1x(2.0) == conflict_point - 60",
+        "A1v(A0(t2)) == 0",
+        "A1v(A0(t1)) >= 5",
+        "always[1, 2] (A1v <= 9)",
+        "eventually[1, 3] (A1v <= 6)",
+        "always[A1(t0), A1(t1)] (A1v <= 5)",
+        "always[A0(t1), A0(t2)] (A1v <= 5.5)",
+        "always[A1(t0), A1(t1)] (A1x >= conflict_point - 60)",
+        "A1a(dec) <= -3",
+        "A1(t2) - A1(t1) >= 4",
+        "tta(A1, conflict_point, t1) == 2.5",
+        "A1v(t1) == A0v(t1) - 6",
+        "A1v(t1) <= 4 or A1v(t1) >= 15",
+    ],
+)
+def test_what_is_said_of_any_moment_or_stretch_is_held(asked: str) -> None:
+    text = f"{YIELDS_DISTANCE.replace('A1x(t1) == conflict_point - 18', 'A1x(t1) <= conflict_point - 14')}"
+    scene, attempt, planner = planned(f"{text}A0x(t2) == conflict_point\nprobe: {asked}\n", (), "constant")
+    check(scene, attempt, planner.limits[HERO])
+    world = PlanWorld(scene, attempt.plan.profiles, attempt.plan.parameters)
+    assert violation(scene.program.constraint("probe").formula, world) <= 0.05
+
+
+@pytest.mark.parametrize("case", [TOO_FAST, BEHIND_ITSELF], ids=lambda case: case.name)
+def test_there_is_no_good_plan_for_what_cannot_happen(case: Example) -> None:
+    attempt = planner_of(case.scene()).begin((0.0, 180.0, 8.0, 0.0))
+    assert not attempt.is_good
+    assert attempt.plan.tolerance == attempt.missed.by > 1.0
+
+
+@pytest.mark.parametrize("mps", [3, 4, 5, 8, 12])
+def test_an_ego_that_follows_is_led_to_the_distance_asked_for_however_it_starts(mps: int) -> None:
+    """What a plan counts on of the ego that follows is what is foreseen of it then."""
+    text = BRAKES_GAP.replace("A0(t1) == A1(t1)", f"A0v(t0) == {mps}\nA0(t1) == A1(t1)")
+    scene, attempt, planner = planned(text, (), "idm")
+    check(scene, attempt, planner.limits[HERO])
+
+
+def test_the_same_situation_has_the_same_plan() -> None:
+    scene, plans = scene_of(YIELDS_DISTANCE), []
+    for _ in range(2):
+        attempt = planner_of(scene).begin((0.0, 180.0, 9.0, 0.0))
+        plans.append((attempt.plan.as_dict(scene), attempt.missed, attempt.steps))
+    assert plans[0] == plans[1]
+
+
+# -- ticks ----------------------------------------------------------------------------------------------------------
+def driven_on(planner: Planner, from_s: float, to_s: float, faster_mps: float = 0.0, mpss: float = 0.0) -> float:
+    """Let the ego drive on, somewhat faster than foreseen at first; return its speed."""
+    _, s_m, speed_mps, _ = planner._samples[-1]
+    speed_mps += faster_mps
+    for k in range(1, round((to_s - from_s) / 0.02) + 1):
+        s_m += (speed_mps + 0.01 * mpss) * 0.02
+        speed_mps += 0.02 * mpss
+        planner.observe((round(from_s + 0.02 * k, 9), s_m, speed_mps, mpss))
+    return speed_mps
+
+
+@pytest.mark.parametrize("story", STORIES)
+@pytest.mark.parametrize(("faster_mps", "mpss", "now_s"), [(0.8, 0.5, 0.4), (-0.8, -0.2, 1.0), (0.5, -0.3, 2.2)])
+def test_a_tick_goes_on_from_where_all_are_and_leaves_the_past(
+    story: str, faster_mps: float, mpss: float, now_s: float
+) -> None:
+    planner = planner_of(scene_of(STORIES[story]))
+    (place,) = (each for each in planner.conditions if each.moments == {(EGO, "t0")})
+    per_metre, per_speed = place.weights[EGO]
+    planner.begin((0.0, -(place.constant + 9.0 * per_speed) / per_metre, 9.0, 0.0))
+    before = planner.plan.profiles[HERO]
+    driven_on(planner, 0.0, now_s, faster_mps, mpss)
+    record = planner.tick(now_s)
+    after = planner.plan.profiles[HERO]
+    for time_s in np.linspace(0.0, now_s, 12):
+        assert after.state(float(time_s))[:2] == pytest.approx(before.state(float(time_s))[:2], abs=1e-6)
+    assert_drivable(after, planner.limits[HERO], planner.scene)
+    assert planner.records[-1] is record
+    assert record.time_s == now_s
+    assert record.tolerance == planner.plan.tolerance
+    assert (record.status == "sat") == (record.tolerance <= GOOD)
+    if story.endswith("distance"):
+        assert record.status == "sat"
+        hero = planner.plan.profiles[HERO]
+        assert planner.plan.profiles[EGO].state(hero.knot_times_s["t1"])[0] == pytest.approx(
+            planner.scene.landmark_m(EGO, "conflict_point", HERO) - (30.0 if story.startswith("yields") else 40.0),
+            abs=0.1,
+        )
+
+
+def test_after_its_trigger_a_plan_stays_as_it_is() -> None:
+    planner = planner_of(scene_of(YIELDS_DISTANCE))
+    planner.begin((0.0, 200.0, 9.0, 0.0))
+    trigger_s = planner.plan.profiles[HERO].knot_times_s["t1"]
+    now_s = round(trigger_s + 0.1, 2)
+    driven_on(planner, 0.0, now_s)
+    kept = planner.plan
+    assert planner.tick(now_s).status == "frozen"
+    assert planner.plan is kept
+    assert planner.ego_knots_s["t1"] == trigger_s
+    driven_on(planner, now_s, now_s + 0.4, mpss=-6.0)
+    assert not planner.is_alarmed, "nobody can answer any more"
+
+
+def test_a_change_of_mind_is_answered_at_once() -> None:
+    planner = planner_of(scene_of(YIELDS_DISTANCE))
+    planner.begin((0.0, 150.0, 9.0, 0.0))
+    driven_on(planner, 0.0, 1.0)
+    assert not planner.is_alarmed
+    driven_on(planner, 1.0, 1.02, mpss=-3.0)
+    assert planner.is_alarmed
+
+
+def test_how_long_the_ego_has_stood() -> None:
+    planner = planner_of(scene_of(YIELDS_DISTANCE))
+    planner.begin((0.0, 150.0, 4.0, 0.0))
+    driven_on(planner, 0.0, 2.0, mpss=-2.0)
+    driven_on(planner, 2.0, 5.0)
+    assert planner.ego_stood_s(5.0) == pytest.approx(3.0, abs=0.1)
+
+
+def test_one_that_stands_goes_the_sooner_the_sooner_the_ego_comes() -> None:
+    """It is to be first, whatever the ego does; how long it stands is a matter of taste."""
+    passes_s = []
+    for rest_s in (2.5, 9.0):
+        planner = planner_of(scene_of(STOPS_AND_GOES))
+        planner.begin((0.0, planner.scene.landmark_m(EGO, "stop_line") - 50.0, 2.5, 0.0))
+        stands_s = planner.plan.profiles[HERO].knot_times_s["t2"]
+        now_s = round(np.ceil(10.0 * (stands_s + 0.05)) / 10.0, 2)
+        driven_on(planner, 0.0, now_s)
+        s_m = planner._samples[-1][1]
+        speed_mps = (planner.scene.landmark_m(EGO, "turn_start") - s_m) / rest_s
+        assert speed_mps > 0.3
+        planner.predictor = Known(Profile(chain(now_s, s_m, speed_mps, [(60.0, 0.0, 0)])))
+        planner.tick(now_s)
+        passes_s.append(planner.plan.profiles[HERO].knot_times_s["t4"])
+        assert planner.plan.profiles[HERO].knot_times_s["t2"] == stands_s
+    assert passes_s[0] < passes_s[1] - 0.1
+
+
+class Known:
+    """Foresees one motion, whatever was seen."""
+
+    def __init__(self, motion: Profile) -> None:
+        self.motion = motion
+
+    def predict(self, history: object) -> Profile:
+        return self.motion
+
+
+@pytest.mark.parametrize(
+    ("accel_mpss", "until_s", "settled_s"),
+    [
+        (-1.0, 5.0, 0.6),  # it is to brake at its trigger, and has just done so
+        (-1.0, 4.8, 0.4),
+        (-1.0, 3.0, None),
+        (-0.3, 5.0, None),  # not to be seen
+        (1.0, 5.0, None),  # nothing of what is to begin
+    ],
+)
+def test_a_trigger_that_both_decide_waits_until_the_hero_is_settled(
+    accel_mpss: float, until_s: float, settled_s: float | None
+) -> None:
+    planner = planner_of(scene_of(BRAKES_GAP))
+    planner.begin((0.0, 180.0, 9.0, 0.0))
+    moves = [(until_s - 1.0, 0.0, 0), (1.0, accel_mpss, 0), (60.0, 0.0, 0)]
+    past = Profile(chain(0.0, 100.0, 10.0, moves), planner.plan.profiles[HERO].knot_times_s)
+    planner.plan = replace(planner.plan, profiles={**planner.plan.profiles, HERO: past})
+    instant = planner._asked.knot(HERO, "t1")
+    found = planner._settled_s({instant: 6.0}, 5.0)
+    if settled_s is None:
+        assert found == {}
+    else:
+        assert found[instant] == pytest.approx(5.0 + settled_s, abs=0.051)
+
+
+@pytest.mark.parametrize(("s_m", "mps"), [(100.0, 9.0), (150.0, 6.0), (180.0, 9.0)])
+def test_at_a_slower_pace_a_hero_comes_more_slowly_to_its_trigger(s_m: float, mps: float) -> None:
+    scene = YIELDS.scene()
+    limits = {actor: own if actor == EGO else own.at_pace(0.43) for actor, own in limits_of(scene).items()}
+    usual = planner_of(scene)
+    slow = Planner(scene, usual.structure, limits, usual.predictor, usual.conditions)
+    speeds = []
+    for planner in (usual, slow):
+        hero = planner.begin((0.0, s_m, mps, 0.0)).plan.profiles[HERO]
+        speeds.append(hero.state(hero.knot_times_s["t1"])[1])
+    assert speeds[1] < speeds[0] - 1.0

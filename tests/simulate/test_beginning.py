@@ -1,0 +1,93 @@
+"""How a run begins: of the ego's possible starts the first from which the heroes do what was asked."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from scenewright.orchestrate import Request, Stages, begin
+from scenewright.program.types import EGO
+from scenewright.simulate.beginning import first_plan, is_timed_by_ego
+from scenewright.simulate.ego_start import ego_starts
+from scenewright.simulate.world import World
+from scenewright.solve.arrival import linear_conditions
+from stories import BRAKES_GAP, GOES_FIRST_TIME, STOPS_AND_GOES, YIELDS_DISTANCE, YIELDS_TIME, program
+
+# Only an ego that comes slowly leaves the hero the time to be first.
+IN_TIME = program(
+    "E, N",
+    "t0, go, t1, acc, t2",
+    """
+A0x(t0) == intersection - 80
+A0(t1) == A1(t1)
+A0x(t1) == conflict_point - 22
+A1x(t1) == conflict_point - 14
+A1x(t2) == turn_end
+A0x(t2) == conflict_point
+A1(t2) < A0(t2)
+""",
+)
+
+
+def world_of(text: str, ego: str = "constant") -> World:
+    world, _, answer = begin(Request(text, ego=ego), Stages(None))
+    assert answer == "feasible"
+    return world
+
+
+def starts_of(world: World) -> list[float]:
+    conditions = linear_conditions(world.scene, world.structure)
+    return [start.speed_mps for start in ego_starts(world.scene, world.ego, world.limits[EGO], conditions)]
+
+
+@pytest.mark.parametrize("ego", ["constant", "idm", "dawdler"])
+def test_the_first_start_that_does_is_taken(ego: str) -> None:
+    world = world_of(YIELDS_DISTANCE, ego)
+    found = first_plan(world, world.predictor)
+    assert found is not None
+    planner, start, attempt = found
+    assert attempt.is_good
+    assert attempt.promises_outcome
+    assert start.speed_mps == pytest.approx(starts_of(world)[0])
+    assert planner.plan is attempt.plan
+    assert [record.time_s for record in planner.records] == [0.0]
+    ego_motion = attempt.plan.profiles[EGO]
+    assert ego_motion.state(0.0)[:2] == pytest.approx((start.s_m, start.speed_mps))
+
+
+def test_an_ego_that_would_leave_no_time_starts_more_slowly() -> None:
+    world = world_of(IN_TIME)
+    found = first_plan(world, world.predictor)
+    assert found is not None
+    _, start, attempt = found
+    assert attempt.promises_outcome
+    assert start.speed_mps < starts_of(world)[0] - 0.1
+
+
+@pytest.mark.parametrize("slower_than_mps", [8.0, 5.0])
+def test_it_starts_slower_than_it_must(slower_than_mps: float) -> None:
+    world = world_of(YIELDS_DISTANCE)
+    found = first_plan(world, world.predictor, slower_than_mps)
+    assert found is not None
+    assert found[1].speed_mps < slower_than_mps
+
+
+def test_where_it_cannot_start_so_slowly_there_is_no_plan() -> None:
+    world = world_of(YIELDS_DISTANCE)
+    assert first_plan(world, world.predictor, slower_than_mps=0.0) is None
+    assert first_plan(world, world.predictor, slower_than_mps=math.inf) is not None
+
+
+@pytest.mark.parametrize(
+    ("text", "timed"),
+    [
+        (YIELDS_DISTANCE, False),
+        (YIELDS_TIME, True),
+        (STOPS_AND_GOES, False),
+        (GOES_FIRST_TIME, True),
+        (BRAKES_GAP, False),
+    ],
+)
+def test_whether_a_trigger_waits_for_the_time_of_the_ego(text: str, timed: bool) -> None:
+    assert is_timed_by_ego(world_of(text)) is timed
