@@ -11,6 +11,7 @@ import pytest
 from sentences import IMPOSSIBLE, OPEN_SENTENCE, SENTENCE
 
 Command = Callable[..., Any]
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 FILES = {
     "manifest.json", "program.scene", "params.json", "plan.json", "trace.parquet", "replans.parquet", "verdict.json",
     "index.html",
@@ -113,6 +114,38 @@ def test_failure_has_status_one_and_names_what_missed(command: Command, policy: 
     assert "Failure" in result.stdout
     assert "✗" in result.stdout
     assert not json.loads(Path("here/verdict.json").read_text(encoding="utf-8"))["success"]["tight"]
+
+
+def test_a_collision_is_told_beside_the_success_and_can_fail_the_run(
+    command: Command, policy: Callable[[str], str]
+) -> None:
+    """The hero brakes to a stop ahead of an ego that never brakes: that is what was asked for, and a crash."""
+    ego = policy("return 0.0")
+    words = ("run", EXAMPLES / "brakes_ahead.txt", "--ego", ego, "--out", "here")
+    result = command(*words)
+    assert result.exit_code == 0, result.stderr
+    success, came = result.stdout.index("Success"), result.stdout.index("What came of it: the ego hit hero at ")
+    assert success < came
+    assert "until then the ego did not brake." in result.stdout
+    assert "no collision" not in result.stdout
+    kept = json.loads(Path("here/verdict.json").read_text(encoding="utf-8"))["aftermath"]
+    assert kept["collision"]["actors"] == ["ego", "hero"]
+
+    for again in (words, ("judge", "here")):
+        failed = command(*again, "--fail-on", "collision", "--json")
+        assert failed.exit_code == 1
+    data = json.loads(command(*words, "--fail-on", "collision", "--json").stdout)
+    assert (data["status"], data["exit_status"]) == ("success", 1)
+    assert data["verdict"]["aftermath"] == kept
+    assert command("judge", "here").exit_code == 0
+
+
+def test_a_near_miss_is_told_and_is_no_collision(command: Command) -> None:
+    result = command("run", SENTENCE, "--out", "here", "--fail-on", "collision")
+    assert result.exit_code == 0, result.stderr
+    assert "What came of it: no collision; closest " in result.stdout
+    assert command("judge", "here", "--fail-on", "collision").exit_code == 0
+    assert command("run", SENTENCE, "--fail-on", "rain").exit_code == 2
 
 
 def test_gives_up_with_what_was_tried(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
