@@ -33,13 +33,13 @@ A0x(t1) == stop_line
 """
 
 
-def judged(first: Motion, second: Motion, end_s: float = 12.0) -> Verdict:
+def judged(first: Motion, second: Motion, end_s: float = 12.0, program: str = PROGRAM) -> Verdict:
     """Judge an ego that is at its line at 6 s, ahead of it `first` and behind that `second`, on one line."""
     time_s = np.append(np.arange(0.0, end_s - 1e-9, 0.02), end_s)
     motions = {"ego": Motion(0.0, 10.0, []), "first": first, "second": second}
     traces = {name: actor_trace(motion, time_s, (0.0, 0.0, 0.0)) for name, motion in motions.items()}
     landmarks = {"ego": {"stop_line": 60.0}}
-    return judge(Case(parse_program(PROGRAM), {}, landmarks, {}, Trace(traces)))
+    return judge(Case(parse_program(program), {}, landmarks, {}, Trace(traces)))
 
 
 def collisions(verdict: Verdict) -> set[str]:
@@ -76,3 +76,11 @@ def test_the_ego_that_is_hit_fails_only_before_the_trigger(at_s: float, fails: s
     assert verdict.aftermath.collision is not None
     assert verdict.aftermath.collision.actors == ("ego", "second")
     assert verdict.aftermath.collision.time_s == pytest.approx(at_s, abs=0.01)
+
+
+def test_a_vehicle_without_a_trigger_does_not_put_off_that_of_the_others() -> None:
+    program = PROGRAM.replace("A0(t1) == A2(t1)", "A2v(t0) == 8")
+    assert program != PROGRAM
+    hit_late = judged(Motion(104.5, 10.0, []), Motion(4.5 + 2.0 * 9.0, 8.0, []), program=program)
+    assert hit_late.aftermath.collision is not None
+    assert collisions(hit_late) == set()

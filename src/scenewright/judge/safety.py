@@ -46,7 +46,8 @@ def clear_conditions(case: Case, measured: Measured, facts: dict[str, Any]) -> l
         )
         return min((time_s for time_s in times if time_s is not None), default=None)
 
-    clear = [_clear("no_collision", "no collision before the trigger", first_s(True), _trigger_time_s(case, measured))]
+    text = "the ego collides with nobody before the trigger"
+    clear = [_clear("no_collision", text, first_s(True), _trigger_time_s(case, measured))]
     if len(case.program.heroes) > 1:
         text = "orchestrated actors do not collide with each other"
         clear.append(_clear("heroes_apart", text, first_s(False), case.end_s + _INSTANT_S))
@@ -67,12 +68,9 @@ def _pairs(case: Case) -> Iterator[tuple[int, int]]:
 
 def _trigger_time_s(case: Case, measured: Measured) -> float:
     """Return when the last trigger came; the end of the run where one never did or there is none."""
-    times = []
-    for hero in case.program.heroes:
-        knot = case.structure.trigger_knot(hero.id)
-        time_s = float(np.max(measured.moments.knots.get((hero.id, knot or ""), np.inf)))
-        times.append(min(time_s, case.end_s))
-    return max(times, default=case.end_s)
+    knots = ((hero.id, case.structure.trigger_knot(hero.id)) for hero in case.program.heroes)
+    times = [float(np.max(measured.moments.knots.get((hero, knot), np.inf))) for hero, knot in knots if knot]
+    return min(max(times, default=np.inf), case.end_s)
 
 
 def _contact_is_asked_for(case: Case, measured: Measured, a: int, b: int) -> bool:
