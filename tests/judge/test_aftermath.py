@@ -104,6 +104,13 @@ def test_one_passes_after_the_other() -> None:
     assert came.in_words().startswith("no collision; closest ")
 
 
+def test_a_hair_s_breadth_does_not_read_as_a_touch() -> None:
+    came = came_of(replace(CROSSES, hero=Motion(4.504, 10.0, []), hero_line=AHEAD))
+    assert came.collision is None
+    assert came.in_words().startswith("no collision; closest 0.004 m, ")
+    assert json.dumps(came.ego_hardest_braking_mps2) == "0.0"
+
+
 def test_braking_after_a_collision_does_not_count() -> None:
     """Bodies drive through each other there: what a policy does then answers nothing that can be."""
     late = BRAKES.with_ego(pieces=[(9.9, 0.0), (1.0, -6.0)])

@@ -17,6 +17,7 @@ from scenewright.judge.boxes import moving_box
 from scenewright.judge.case import Case
 from scenewright.program.types import EGO
 
+_NEAR_M = 0.1
 _BRAKES_MPS2 = 0.05  # less than what is told as 0.1 m/s^2 is no braking
 
 
@@ -69,7 +70,8 @@ class Aftermath:
         if self.collision is not None:
             return f"{self.collision.in_words()}; until then {braked}"
         measures = [
-            (self.closest_m, "closest {:.1f} m"),
+            # A hair's breadth is not to read as a touch.
+            (self.closest_m, "closest {:.1g} m" if (self.closest_m or 0.0) < _NEAR_M else "closest {:.1f} m"),
             (self.min_ttc_s, "time to collision at least {:.1f} s"),
             (self.post_encroachment_s, _passing(self.post_encroachment_s or 0.0)),
         ]
@@ -92,7 +94,7 @@ def aftermath(case: Case, pairs: Mapping[str, Mapping[str, Any]]) -> Aftermath:
         _least(pair["min_ttc_s"] for pair in of_ego),
         # Who drives through another has not passed it.
         _least(pair["post_encroachment_time_s"] for pair in of_ego if pair["collision_time_s"] is None),
-        float(np.max(-states.accel_mps2[before], initial=0.0)),
+        0.0 - float(np.min(states.accel_mps2[before], initial=0.0)),  # and not -0.0
     )
 
 
