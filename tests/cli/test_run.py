@@ -12,6 +12,7 @@ from sentences import IMPOSSIBLE, OPEN_SENTENCE, SENTENCE
 from forms import FORMS, PROBE
 
 Command = Callable[..., Any]
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 FILES = {
     "manifest.json", "program.scene", "params.json", "plan.json", "trace.parquet", "replans.parquet", "verdict.json",
     "index.html",
@@ -116,11 +117,52 @@ def test_failure_has_status_one_and_names_what_missed(command: Command, policy: 
     assert not json.loads(Path("here/verdict.json").read_text(encoding="utf-8"))["success"]["tight"]
 
 
+<<<<<<< HEAD
 def test_gives_up_with_what_the_planner_cannot_hold(command: Command, tmp_path: Path) -> None:
     form = next(form for form in FORMS if form.name == "always v of the ego")
     program = tmp_path / "not_to_be_held.scene"
     program.write_text(form.binding_program(), encoding="utf-8")
     result = command("run", program)
+=======
+def test_a_collision_is_told_beside_the_success_and_can_fail_the_run(
+    command: Command, policy: Callable[[str], str]
+) -> None:
+    """The hero brakes to a stop ahead of an ego that never brakes: that is what was asked for, and a crash."""
+    ego = policy("return 0.0")
+    words = ("run", EXAMPLES / "brakes_ahead.txt", "--ego", ego, "--out", "here")
+    result = command(*words)
+    assert result.exit_code == 0, result.stderr
+    success, came = result.stdout.index("Success"), result.stdout.index("What came of it: the ego hit hero at ")
+    assert success < came
+    assert "until then the ego did not brake." in result.stdout
+    assert "no collision" not in result.stdout
+    kept = json.loads(Path("here/verdict.json").read_text(encoding="utf-8"))["aftermath"]
+    assert kept["collision"]["actors"] == ["ego", "hero"]
+
+    for again in (words, ("judge", "here")):
+        failed = command(*again, "--fail-on", "collision", "--json")
+        assert failed.exit_code == 1
+    data = json.loads(command(*words, "--fail-on", "collision", "--json").stdout)
+    assert (data["status"], data["exit_status"]) == ("success", 1)
+    assert data["verdict"]["aftermath"] == kept
+    assert command("judge", "here").exit_code == 0
+
+
+def test_a_near_miss_is_told_and_is_no_collision(command: Command) -> None:
+    result = command("run", SENTENCE, "--out", "here", "--fail-on", "collision")
+    assert result.exit_code == 0, result.stderr
+    assert "What came of it: no collision; closest " in result.stdout
+    assert command("judge", "here", "--fail-on", "collision").exit_code == 0
+    assert command("run", SENTENCE, "--fail-on", "rain").exit_code == 2
+
+
+def test_gives_up_with_what_was_tried(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+    from scenewright.solve.planner import Attempt, Planner
+
+    nothing = Attempt(None, "timeout", "time budget", 10.0, 7)
+    monkeypatch.setattr(Planner, "first_plan", lambda *_, **__: nothing)
+    result = command("run", SENTENCE)
+>>>>>>> aftermath
     assert result.exit_code == 4
     assert "cannot hold" in result.stderr
     data = json.loads(command("run", program, "--json").stdout)

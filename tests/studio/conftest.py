@@ -279,6 +279,14 @@ def verdict(trace: Trace, marks: dict[str, dict[str, float]], passes_s: float) -
         "schema_version": 1,
         "success": {"tight": False, "loose": True},
         "conditions": rows,
+        "aftermath": {
+            "collision": None,
+            "closest_m": 5.43219,
+            "min_ttc_s": None,
+            "post_encroachment_s": None,
+            "ego_hardest_braking_mps2": 0.0,
+            "text": "no collision; closest 5.4 m, the ego did not brake",
+        },
         "facts": {
             "trigger_time_s": {"hero": TRIGGER_S},
             "knot_times_s": {"hero": {"t1": TRIGGER_S}},

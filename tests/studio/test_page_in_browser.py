@@ -257,6 +257,29 @@ def test_a_run_of_one_moment_opens(browser: Any, run_dir: Path) -> None:
     view.context.close()
 
 
+def test_what_came_of_it_stands_at_the_top_and_a_collision_leads_to_its_moment(browser: Any, run_dir: Path) -> None:
+    view = Opened(browser, write_page(run_dir))
+    assert view.page.inner_text("#aftermath").strip() == (
+        "What came of it: no collision; closest 5.4 m, the ego did not brake."
+    )
+    assert view.page.locator("#aftermath button").count() == 0
+    view.context.close()
+    verdict = json.loads((run_dir / "verdict.json").read_text(encoding="utf-8"))
+    verdict["aftermath"] |= {"text": "the ego hit hero at 5.3 s", "collision": {"time_s": 5.25}}
+    (run_dir / "verdict.json").write_text(json.dumps(verdict), encoding="utf-8")
+    view = Opened(browser, write_page(run_dir))
+    assert "the ego hit hero at 5.3 s" in view.page.inner_text("#aftermath.collision")
+    view.page.click("#aftermath button")
+    assert view.time == 5.25
+    verdict.pop("aftermath")
+    (run_dir / "verdict.json").write_text(json.dumps(verdict), encoding="utf-8")
+    view.context.close()
+    view = Opened(browser, write_page(run_dir))
+    assert not view.page.locator("#aftermath").is_visible()
+    assert view.complaints == []
+    view.context.close()
+
+
 def test_routine_checks_are_folded_away_and_failed_ones_are_not(browser: Any, run_dir: Path) -> None:
     verdict = json.loads((run_dir / "verdict.json").read_text(encoding="utf-8"))
     check = {"kind": "route", "text": "on the line", "required": 1.0, "measured": 0.0, "error": 0.0, "unit": "m"}

@@ -13,16 +13,21 @@ import typer
 from scenewright.cli.console import print_json, stdout
 from scenewright.cli.directories import run_status
 from scenewright.cli.faults import told
-from scenewright.cli.options import AsJson, RunDirectory, ToleranceOption
+from scenewright.cli.options import AsJson, FailOnOption, RunDirectory, ToleranceOption
 
 if TYPE_CHECKING:
     from rich.console import Console
 
 
-def judge(directory: RunDirectory, tolerance: ToleranceOption = "tight", as_json: AsJson = False) -> None:
+def judge(
+    directory: RunDirectory,
+    tolerance: ToleranceOption = "tight",
+    fail_on: FailOnOption = None,
+    as_json: AsJson = False,
+) -> None:
     """Judge a run again, from its trace and program alone, and rewrite its verdict.json."""
     with told(as_json):
-        from scenewright.cli.running import report_verdict
+        from scenewright.cli.running import fails_on, report_verdict
         from scenewright.judge.files import VERDICT_FILE, read_case, write_verdict
         from scenewright.judge.judgement import judge as judge_case
 
@@ -34,7 +39,7 @@ def judge(directory: RunDirectory, tolerance: ToleranceOption = "tight", as_json
             print_json(data)
         else:
             report_verdict(stdout(), verdict, case.program, tolerance, run_status(directory))
-        raise typer.Exit(0 if data["success"][tolerance] else 1)
+        raise typer.Exit(0 if data["success"][tolerance] and not fails_on(verdict, fail_on) else 1)
 
 
 def view(

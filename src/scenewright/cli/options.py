@@ -19,6 +19,7 @@ from scenewright.units import decimal_fraction
 _NUMBER = re.compile(r"[-+]?[\d_]*\.?[\d_]+(e[-+]?\d+)?", re.IGNORECASE)
 Mode = Literal["closed", "open"]
 Tolerance = Literal["tight", "loose"]
+FailOn = Literal["collision"]
 
 
 def parameters_of(items: Sequence[str] | None) -> dict[str, str]:
@@ -165,4 +166,12 @@ ModeOption = Annotated[
 ]
 ToleranceOption = Annotated[
     Tolerance, typer.Option("--tolerance", help="Which tolerance decides whether the run is a success.")
+]
+FailOnOption = Annotated[
+    FailOn | None,
+    typer.Option(
+        "--fail-on",
+        help="End in status 1 where this came of a run that happened as described.",
+        show_default=False,
+    ),
 ]

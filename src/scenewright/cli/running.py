@@ -18,7 +18,7 @@ import typer
 from scenewright.cli.console import print_json, stderr, stdout
 from scenewright.cli.directories import claim
 from scenewright.cli.faults import error_data, tell, told
-from scenewright.cli.options import AsJson, ModeOption, ToleranceOption
+from scenewright.cli.options import AsJson, FailOn, FailOnOption, ModeOption, ToleranceOption
 from scenewright.cli.translators import Asked, with_asked
 from scenewright.errors import PolicyError
 
@@ -46,6 +46,7 @@ def run(
     asked: Asked,
     mode: ModeOption = "closed",
     tolerance: ToleranceOption = "tight",
+    fail_on: FailOnOption = None,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Makes random choices of the ego repeatable.")] = 0,
     out: Annotated[
         Path | None,
@@ -83,7 +84,7 @@ def run(
             result = carry_out(request, quiet=quiet or as_json)
         finally:
             folder.give_back()
-        status = _tell(request, result, as_json, quiet)
+        status = _tell(request, result, fail_on, as_json, quiet)
         if open_page and result.run_directory is not None:
             from scenewright.cli.looking import open_in_browser
 
@@ -154,11 +155,13 @@ class _Shield:
 
 
 # -- telling --------------------------------------------------------------------------------------------------------
-def _tell(request: Request, result: Result, as_json: bool, quiet: bool) -> int:
+def _tell(request: Request, result: Result, fail_on: FailOn | None, as_json: bool, quiet: bool) -> int:
     """Print what came of a run and return the exit status."""
     from scenewright.orchestrate import EXIT_STATUS
 
     status = EXIT_STATUS[result.status]
+    if status == 0 and fails_on(result.verdict, fail_on):
+        status = EXIT_STATUS["failure"]
     fault = result.run.fault if result.run is not None else None
     if as_json:
         print_json(result_data(request, result, status))
@@ -175,6 +178,11 @@ def _tell(request: Request, result: Result, as_json: bool, quiet: bool) -> int:
     if result.status == "interrupted":
         stderr().print(f"interrupted; what was driven until then is kept in {result.run_directory}", soft_wrap=True)
     return status
+
+
+def fails_on(verdict: Verdict | None, fail_on: FailOn | None) -> bool:
+    """Whether what came of a run is to end in status 1, though it happened as described."""
+    return fail_on == "collision" and verdict is not None and verdict.aftermath.collision is not None
 
 
 def result_data(request: Request, result: Result, status: int) -> dict[str, object]:
@@ -283,6 +291,7 @@ def report_verdict(
     else:
         headline = f"Success: it happened as described, within the {tolerance} tolerance."
     console.print(Text.assemble(tables.mark(not missed and status == "finished"), " ", (headline, "bold")))
+    console.print(tables.aftermath(verdict), soft_wrap=True)
     if status == "finished":
         console.print(_trigger(verdict))
 

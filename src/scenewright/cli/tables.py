@@ -196,7 +196,13 @@ def _wording(condition: Condition, program: Program) -> tuple[str, str]:
 def routine(judged: Verdict) -> str:
     """Return one line on the conditions that the table leaves out."""
     held = [c for c in judged.conditions if c.kind in ROUTINE and (d := c.as_dict())["tight"] and d["loose"]]
-    return f"{len(held)} routine checks (on the route, within what a car can do, no collision) hold too."
+    return f"{len(held)} routine checks of routes, motion and room before the trigger hold too."
+
+
+def aftermath(judged: Verdict) -> Text:
+    """Return one line on what came of the run; a collision stands out."""
+    came = judged.aftermath
+    return Text(f"What came of it: {came.in_words()}.", style="bold yellow" if came.collision else "")
 
 
 def missed(judged: Verdict, tolerance: str) -> list[Condition]:

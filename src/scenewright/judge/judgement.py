@@ -9,13 +9,14 @@ from typing import Any
 
 import numpy as np
 
+from scenewright.judge.aftermath import aftermath
 from scenewright.judge.case import Case
 from scenewright.judge.conditions import program_conditions
 from scenewright.judge.encounter import encounter_facts
 from scenewright.judge.interaction import interaction_conditions, interaction_facts
 from scenewright.judge.kinematics import kinematic_conditions, kinematic_facts
 from scenewright.judge.route import route_conditions
-from scenewright.judge.safety import no_collision, safety_facts
+from scenewright.judge.safety import clear_conditions, safety_facts
 from scenewright.judge.unseen import measured_at_best
 from scenewright.judge.verdict import Condition, Verdict
 from scenewright.program.types import EGO
@@ -34,8 +35,8 @@ def judge(case: Case) -> Verdict:
     Returns
     -------
     Verdict
-        Conditions in the order of the story, each with required and measured value, and facts. Times in facts are
-        those of the trace (s).
+        Conditions in the order of the story, each with required and measured value, what came of it, and facts.
+        Times are those of the trace (s).
     """
     # What never happens is at infinity, and differences of such times have no value; `formulas.error_of` fails those.
     with np.errstate(invalid="ignore"):
@@ -49,7 +50,7 @@ def _judge(case: Case) -> Verdict:
         *route_conditions(case),
         *program_conditions(case, measured),
         *interaction_conditions(case, measured),
-        no_collision(case, measured, pairs),
+        *clear_conditions(case, measured, pairs),
         *kinematic_conditions(case),
     ]
     conditions.sort(key=lambda condition: _ORDER.index(condition.kind))
@@ -64,4 +65,4 @@ def _judge(case: Case) -> Verdict:
         "pairs": pairs,
         "kinematics": {case.name(EGO): kinematic_facts(case, EGO)},
     }
-    return Verdict(tuple(conditions), facts)
+    return Verdict(tuple(conditions), aftermath(case, pairs), facts)

@@ -1,8 +1,9 @@
 """What happened between the vehicles: collisions, distances, times to collision, post-encroachment time.
 
-What enters: a `Case` and what was measured. What leaves: facts, and one condition: a crash before the trigger means
-that the situation asked for did not come about. A crash after it is what the test is for: a fact about the ego. So is
-one that the situation consists of: where the program says of both where they are at the trigger, and they touch.
+What enters: a `Case` and what was measured. What leaves: facts, and conditions. A crash of the ego before the trigger
+means that the situation asked for did not come about; one of two orchestrated actors is never what the ego did. A crash
+of the ego after the trigger is what the test is for: it is told in the aftermath. So is one that the situation consists
+of: where the program says of both where they are at the trigger, and they touch.
 """
 
 from __future__ import annotations
@@ -20,8 +21,10 @@ from scenewright.judge.knots import Measured
 from scenewright.judge.verdict import Condition, bounded
 from scenewright.program.expressions import Compare, Derived, State, walk
 from scenewright.program.structure import KnotKey, knots_of
+from scenewright.program.types import EGO
 
 _SUB_STEPS = 5  # the samples, and four instants between each two
+_INSTANT_S = 0.001  # a collision in the last instant of a run is one, too
 
 
 def safety_facts(case: Case) -> dict[str, Any]:
@@ -29,19 +32,33 @@ def safety_facts(case: Case) -> dict[str, Any]:
     return {f"{case.name(a)}, {case.name(b)}": _pair(case, a, b) for a, b in _pairs(case)}
 
 
-def no_collision(case: Case, measured: Measured, facts: dict[str, Any]) -> Condition:
-    """Judge that nobody collides before the trigger, unless the program puts them into each other there."""
-    over_s = _trigger_time_s(case, measured)
-    times = [
-        facts[f"{case.name(a)}, {case.name(b)}"]["collision_time_s"]
-        for a, b in _pairs(case)
-        if not _contact_is_asked_for(case, measured, a, b)
-    ]
-    first = min((time_s for time_s in times if time_s is not None), default=None)
-    early = max(0.0, over_s - first) if first is not None else 0.0
+def clear_conditions(case: Case, measured: Measured, facts: dict[str, Any]) -> list[Condition]:
+    """Judge that the ego is clear of all before the trigger and orchestrated actors of each other throughout.
+
+    But for those whom the program puts into each other at a trigger.
+    """
+
+    def first_s(of_ego: bool) -> float | None:
+        times = (
+            facts[f"{case.name(a)}, {case.name(b)}"]["collision_time_s"]
+            for a, b in _pairs(case)
+            if (EGO in (a, b)) == of_ego and not _contact_is_asked_for(case, measured, a, b)
+        )
+        return min((time_s for time_s in times if time_s is not None), default=None)
+
+    text = "the ego collides with nobody before the trigger"
+    clear = [_clear("no_collision", text, first_s(True), _trigger_time_s(case, measured))]
+    if len(case.program.heroes) > 1:
+        text = "orchestrated actors do not collide with each other"
+        clear.append(_clear("heroes_apart", text, first_s(False), case.end_s + _INSTANT_S))
+    return clear
+
+
+def _clear(condition_id: str, text: str, first_s: float | None, until_s: float) -> Condition:
+    early = 0.0 if first_s is None else max(0.0, until_s - first_s)
     return bounded(
-        "no_collision", "safety", "no collision before the trigger",
-        required=over_s, measured=first, error=early, dimension="time", exact=True,
+        condition_id, "safety", text,
+        required=until_s, measured=first_s, error=early, dimension="time", exact=True,
     )  # fmt: skip
 
 
@@ -51,12 +68,9 @@ def _pairs(case: Case) -> Iterator[tuple[int, int]]:
 
 def _trigger_time_s(case: Case, measured: Measured) -> float:
     """Return when the last trigger came; the end of the run where one never did or there is none."""
-    times = []
-    for hero in case.program.heroes:
-        knot = case.structure.trigger_knot(hero.id)
-        time_s = float(np.max(measured.moments.knots.get((hero.id, knot or ""), np.inf)))
-        times.append(min(time_s, case.end_s))
-    return max(times, default=case.end_s)
+    knots = ((hero.id, case.structure.trigger_knot(hero.id)) for hero in case.program.heroes)
+    times = [float(np.max(measured.moments.knots.get((hero, knot), np.inf))) for hero, knot in knots if knot]
+    return min(max(times, default=np.inf), case.end_s)
 
 
 def _contact_is_asked_for(case: Case, measured: Measured, a: int, b: int) -> bool:

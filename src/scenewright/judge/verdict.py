@@ -1,6 +1,6 @@
-"""The verdict: conditions with required and measured values, and facts.
+"""The verdict: conditions with required and measured values, what came of the run, and facts.
 
-What enters: conditions and facts. What leaves: success at any tolerance, and the plain data of `verdict.json`.
+What enters: these. What leaves: success at any tolerance, and the plain data of `verdict.json`.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from scenewright.judge.aftermath import Aftermath
 from scenewright.judge.tolerance import LOOSE, TIGHT, Leaf, Miss, Tolerance, normalised, unit_symbol
 from scenewright.units import Dimension
 
@@ -69,9 +70,10 @@ class Condition:
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """The judgement of one run."""
+    """The judgement of one run: whether it happened as described, and, apart from that, what came of it."""
 
     conditions: tuple[Condition, ...]
+    aftermath: Aftermath
     facts: Mapping[str, Any]
 
     def holds_at(self, tolerance: Tolerance) -> bool:
@@ -91,6 +93,7 @@ class Verdict:
             "schema_version": SCHEMA_VERSION,
             "success": {"tight": self.holds_at(TIGHT), "loose": self.holds_at(LOOSE)},
             "conditions": [condition.as_dict() for condition in self.conditions],
+            "aftermath": _plain(self.aftermath.as_dict()),
             "facts": _plain(dict(self.facts)),
         }
 

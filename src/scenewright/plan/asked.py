@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.plan.preferences import preferences_of
-from scenewright.program.structure import Structure, actors_of
+from scenewright.program.structure import Structure, actors_of, knots_of
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.roads.routes import Route
@@ -52,7 +52,12 @@ class Asked:
         self.wanted = preferences_of(scene.program.manner)
         self.events = Events(scene, limits, EgoBounds())
         self.lowering = Lowering(self.events)
-        constraints = tuple(c for c in scene.program.constraints if actors_of(c.formula) != {EGO})
+        at_triggers = {key for instant in structure.triggers.values() for key in instant}
+        constraints = tuple(  # what is asked of the ego alone is nobody's to plan, unless it tells when a trigger comes
+            c
+            for c in scene.program.constraints
+            if actors_of(c.formula) != {EGO} or set(knots_of(c.formula)) & at_triggers
+        )
         lowered = self.lowering.lower(constraints)
         self._formulas = Compiled(
             [each.formula for each in lowered] + [rule for rule, _ in self.events.rules], self.size

@@ -225,6 +225,8 @@ class HeroRows:
             s_m, v, d_s, d_v = shot.at_node(node)
             if zone_m is not None:
                 self.bounds.add(s_m - zone_m, d_s, wanted.out_of_way_price, wanted.out_of_way_most)
+            approach_mps = self.asked.limits[hero].approach_speed_max_mps
+            self.bounds.add(v - approach_mps, d_v, wanted.price / _TIGHT_SPEED)
             if hero in self.now.waits and until_s - shot.time[node] > v_there / wanted.sets_off_mpss + wanted.waits_s:
                 beyond_m = s_m + v**2 / (2.0 * wanted.waits_mpss) + run_up_m - place_m
                 self.bounds.add(beyond_m, d_s + v / wanted.waits_mpss * d_v + d_run_up - d_place, wanted.waits_price)

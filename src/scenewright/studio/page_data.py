@@ -58,6 +58,7 @@ def collect(run_dir: Path) -> Json:
         "schema_version": 1,
         "name": manifest.get("name") or run_dir.resolve().name,
         "outcome": _outcome(manifest, verdict),
+        "aftermath": _aftermath(verdict),
         "about": _about(manifest),
         "description": clauses(program) if program and program.description else _plain(manifest.get("description")),
         "program": _text(run_dir / "program.scene"),
@@ -153,6 +154,14 @@ def _outcome(manifest: Json, verdict: Json | None) -> Json:
         "tight": sum(bool(c.get("tight")) for c in conditions),
         "loose": sum(bool(c.get("loose")) for c in conditions),
     }
+
+
+def _aftermath(verdict: Json | None) -> Json | None:
+    """Say in the judge's words what came of it, and when there was a collision; None where no verdict tells."""
+    came = (verdict or {}).get("aftermath") or {}
+    if not came.get("text"):
+        return None
+    return {"text": came["text"], "collision_s": (came.get("collision") or {}).get("time_s")}
 
 
 def _about(manifest: Json) -> list[list[str]]:

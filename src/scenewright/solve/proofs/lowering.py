@@ -213,11 +213,15 @@ class Lowering:
             case ex.Negate(operand=operand):
                 return [replace(case, top=-case.top) for case in self.term(operand, now)]
             case ex.Arithmetic():
-                return [
+                cases = [
                     self._arithmetic(term, left, right)
                     for left in self.term(term.left, now)
                     for right in self.term(term.right, now)
                 ]
+                if term.operator == "/" and not (isinstance(term.right, ex.State) and term.right.order == 1):
+                    # A divisor may be less than nothing, and then all is the other way round.
+                    cases += [replace(c, top=-c.top, below=-c.below) for c in cases if c.below.constant is None]
+                return cases
             case _:
                 raise TypeError(f"not a term: {term!r}")
 

@@ -1,4 +1,4 @@
-// What is said in words and numbers: the verdict, the description, conditions, parameters, safety facts, notes.
+// What is said in words and numbers: the verdict, what came of it, the description, conditions, parameters, safety facts, notes.
 
 const VERDICTS = {
   tight: ['✓', 'Success', 'at tight tolerance'],
@@ -23,7 +23,22 @@ function buildHeader() {
   byId('about').append(...run.about.map(([label, value]) => make('div', {}, make('dt', { text: label }), make('dd', { text: value }))));
   byId('missing').hidden = !run.missing.length;
   byId('missing').append(...run.missing.map((text) => make('li', { text })));
+  buildAftermath();
   buildDescription();
+}
+
+/** What came of it is not part of the verdict: a test that went as told may end in a collision. */
+function buildAftermath() {
+  const holder = byId('aftermath');
+  holder.hidden = !run.aftermath;
+  if (!run.aftermath) return;
+  const { text, collision_s: hit } = run.aftermath;
+  holder.append(`What came of it: ${text.replaceAll('^2', '²')}. `);
+  if (!isNumber(hit)) return;
+  holder.classList.add('collision');
+  const button = make('button', { type: 'button', class: 'jump', text: `${fixed(hit, 2)} s`, 'aria-label': 'Jump to the collision' });
+  button.addEventListener('click', () => jumpTo(hit));
+  holder.append(button);
 }
 
 function buildDescription() {

@@ -1,0 +1,125 @@
+"""What came of a run: a collision, how near it came to one, how hard the ego braked.
+
+What enters: a `Case`, and what `safety` measured of every pair of actors. What leaves: an `Aftermath`, with its words.
+It decides nothing: whether a collision is a failure or a finding is for the conditions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from scenewright.judge.boxes import moving_box
+from scenewright.judge.case import Case
+from scenewright.program.types import EGO
+
+_NEAR_M = 0.1
+_BRAKES_MPS2 = 0.05  # less than what is told as 0.1 m/s^2 is no braking
+
+
+@dataclass(frozen=True, slots=True)
+class Collision:
+    """Two actors at the first instant at which their boxes overlap.
+
+    `actors` has the one that drove into the other first, and speeds are in the same order. The relative speed is the
+    length of the difference of their velocities.
+    """
+
+    time_s: float
+    actors: tuple[str, str]
+    speeds_mps: tuple[float, float]
+    relative_speed_mps: float
+
+    def in_words(self) -> str:
+        """Return who hit whom, when and how fast."""
+        first, second = ("the ego" if name == "ego" else name for name in self.actors)
+        own, other = self.speeds_mps
+        return f"{first} hit {second} at {self.time_s:.1f} s, {own:.1f} m/s against {other:.1f} m/s"
+
+
+@dataclass(frozen=True, slots=True)
+class Aftermath:
+    """What came of a run.
+
+    Attributes
+    ----------
+    collision
+        The first one between any two actors.
+    closest_m, min_ttc_s, post_encroachment_s
+        Between the ego and whoever it was least for. None where there is no such number: nobody was on a collision
+        course, or did not pass a conflict zone one after the other. Post-encroachment time is negative where both were
+        in the zone at once.
+    ego_hardest_braking_mps2
+        Until the first collision, after which the simulation drives the bodies through each other.
+    """
+
+    collision: Collision | None
+    closest_m: float | None
+    min_ttc_s: float | None
+    post_encroachment_s: float | None
+    ego_hardest_braking_mps2: float
+
+    def in_words(self) -> str:
+        """Return what came of it, in one line without a full stop."""
+        rate = self.ego_hardest_braking_mps2
+        braked = f"the ego braked with {rate:.1f} m/s^2 at most" if rate >= _BRAKES_MPS2 else "the ego did not brake"
+        if self.collision is not None:
+            return f"{self.collision.in_words()}; until then {braked}"
+        measures = [
+            # A hair's breadth is not to read as a touch.
+            (self.closest_m, "closest {:.1g} m" if (self.closest_m or 0.0) < _NEAR_M else "closest {:.1f} m"),
+            (self.min_ttc_s, "time to collision at least {:.1f} s"),
+            (self.post_encroachment_s, _passing(self.post_encroachment_s or 0.0)),
+        ]
+        return "no collision; " + ", ".join([*(words.format(v) for v, words in measures if v is not None), braked])
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return what came of it in the form of `verdict.json`, its words as `text`."""
+        return {**asdict(self), "text": self.in_words()}
+
+
+def aftermath(case: Case, pairs: Mapping[str, Mapping[str, Any]]) -> Aftermath:
+    """Return what came of a run; `pairs` as `safety.safety_facts` has them."""
+    collision = min(_collisions(case, pairs), key=lambda hit: hit.time_s, default=None)
+    of_ego = [pairs[f"{case.name(EGO)}, {hero.name}"] for hero in case.program.heroes]
+    states = case.timelines[EGO].states
+    before = states.time_s < (np.inf if collision is None else collision.time_s)
+    return Aftermath(
+        collision,
+        _least(pair["min_distance_m"] for pair in of_ego),
+        _least(pair["min_ttc_s"] for pair in of_ego),
+        # Who drives through another has not passed it.
+        _least(pair["post_encroachment_time_s"] for pair in of_ego if pair["collision_time_s"] is None),
+        0.0 - float(np.min(states.accel_mps2[before], initial=0.0)),  # and not -0.0
+    )
+
+
+def _passing(apart_s: float) -> str:
+    return "passed {:.1f} s apart" if apart_s >= 0 else "both at once where their ways cross"
+
+
+def _least(values: Iterator[float | None]) -> float | None:
+    return min((value for value in values if value is not None and np.isfinite(value)), default=None)
+
+
+def _collisions(case: Case, pairs: Mapping[str, Mapping[str, Any]]) -> Iterator[Collision]:
+    for a, b in combinations(sorted(actor.id for actor in case.program.actors), 2):
+        time_s = pairs[f"{case.name(a)}, {case.name(b)}"]["collision_time_s"]
+        if time_s is not None:
+            yield _collision(case, a, b, time_s)
+
+
+def _collision(case: Case, a: int, b: int, time_s: float) -> Collision:
+    boxes = [moving_box(case.timelines[each].states, case.box(each), np.array([time_s])) for each in (a, b)]
+    places = [np.array([box.x_m[0], box.y_m[0]]) for box in boxes]
+    ways = [box.speed_mps[0] * np.array([np.cos(box.heading_rad[0]), np.sin(box.heading_rad[0])]) for box in boxes]
+    between = places[1] - places[0]
+    # Who closes the distance of the centres faster drove into the other.
+    order = (0, 1) if ways[0] @ between >= -ways[1] @ between else (1, 0)
+    names, speeds = (case.name(a), case.name(b)), [float(box.speed_mps[0]) for box in boxes]
+    relative_mps = float(np.hypot(*(ways[0] - ways[1])))
+    return Collision(time_s, (names[order[0]], names[order[1]]), (speeds[order[0]], speeds[order[1]]), relative_mps)
