@@ -117,13 +117,6 @@ def test_failure_has_status_one_and_names_what_missed(command: Command, policy: 
     assert not json.loads(Path("here/verdict.json").read_text(encoding="utf-8"))["success"]["tight"]
 
 
-<<<<<<< HEAD
-def test_gives_up_with_what_the_planner_cannot_hold(command: Command, tmp_path: Path) -> None:
-    form = next(form for form in FORMS if form.name == "always v of the ego")
-    program = tmp_path / "not_to_be_held.scene"
-    program.write_text(form.binding_program(), encoding="utf-8")
-    result = command("run", program)
-=======
 def test_a_collision_is_told_beside_the_success_and_can_fail_the_run(
     command: Command, policy: Callable[[str], str]
 ) -> None:
@@ -156,13 +149,11 @@ def test_a_near_miss_is_told_and_is_no_collision(command: Command) -> None:
     assert command("run", SENTENCE, "--fail-on", "rain").exit_code == 2
 
 
-def test_gives_up_with_what_was_tried(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
-    from scenewright.solve.planner import Attempt, Planner
-
-    nothing = Attempt(None, "timeout", "time budget", 10.0, 7)
-    monkeypatch.setattr(Planner, "first_plan", lambda *_, **__: nothing)
-    result = command("run", SENTENCE)
->>>>>>> aftermath
+def test_gives_up_with_what_the_planner_cannot_hold(command: Command, tmp_path: Path) -> None:
+    form = next(form for form in FORMS if form.name == "always v of the ego")
+    program = tmp_path / "not_to_be_held.scene"
+    program.write_text(form.binding_program(), encoding="utf-8")
+    result = command("run", program)
     assert result.exit_code == 4
     assert "cannot hold" in result.stderr
     data = json.loads(command("run", program, "--json").stdout)

@@ -103,13 +103,13 @@ def test_route_points_carry_the_arc_length_of_the_trace(run_dir: Path) -> None:
         assert np.hypot(x - states.x_m, y - states.y_m).max() < 0.1
 
 
-<<<<<<< HEAD
 def test_the_first_plan_carries_how_its_accelerations_change(run_dir: Path) -> None:
     """Without it the page could draw no plan but one of even accelerations."""
     pieces = actor_named(collect(run_dir), "hero")["plan"]
     assert [piece[:2] for piece in pieces] == [[0.0, 3.6], [3.6, 4.0]]
     assert [piece[3:] for piece in pieces] == [[13.0, 0.0, 0.0], [13.0, -2.25, -0.5]]
-=======
+
+
 def test_what_came_of_it_is_in_the_words_of_the_judge(run_dir: Path, edit: Edit) -> None:
     came = collect(run_dir)["aftermath"]
     assert came == {"text": "no collision; closest 5.4 m, the ego did not brake", "collision_s": None}
@@ -118,7 +118,6 @@ def test_what_came_of_it_is_in_the_words_of_the_judge(run_dir: Path, edit: Edit)
     assert collect(run_dir)["aftermath"] == {"text": "the ego hit hero at 7.3 s", "collision_s": 7.3125}
     edit(run_dir / "verdict.json", lambda v: v.pop("aftermath"))
     assert collect(run_dir)["aftermath"] is None, "a verdict of an earlier version does not tell"
->>>>>>> aftermath
 
 
 def test_facts_are_flattened_with_units(run_dir: Path) -> None:

@@ -132,8 +132,10 @@ class Planner:
             foreseen = self._ego.foreseen(self.plan.profiles)
             problem = Problem(self._asked, self._first_situation(foreseen, 0.0, self.plan.profiles))
             solution = replace(solution, missed=problem.rows(problem.ordered(problem.guess))[2])
-            ego = Profile(foreseen.segments, self.plan.profiles[EGO].knot_times_s)
-            self.plan = replace(self.plan, profiles={**self.plan.profiles, EGO: ego}, tolerance=solution.missed.by)
+            answering = Profile(foreseen.segments, self.plan.profiles[EGO].knot_times_s)
+            self.plan = replace(
+                self.plan, profiles={**self.plan.profiles, EGO: answering}, tolerance=solution.missed.by
+            )
         for hero in self._heroes:
             if (name := self._trigger(hero)) is not None:
                 self._joint_s[hero.id] = self.plan.profiles[hero.id].knot_times_s[name]
