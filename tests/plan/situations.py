@@ -62,7 +62,7 @@ def problem_of(text: str, at_s: float = 0.0, s_m: float = EGO_S_M) -> Problem:
     for k in range(1, round(at_s / 0.02) + 1):
         s_m, speed_mps, accel_mpss = ego.state(0.02 * k)
         planner.observe((round(0.02 * k, 9), s_m + 0.02 * k / at_s, speed_mps, accel_mpss))
-    situation, _ = planner._situation(at_s, planner._foreseen())
+    situation, _ = planner._situation(at_s, planner._ego.foreseen(planner.plan.profiles))
     return Problem(planner._asked, situation)
 
 

@@ -133,7 +133,7 @@ def test_the_same_situation_has_the_same_plan() -> None:
 # -- ticks ----------------------------------------------------------------------------------------------------------
 def driven_on(planner: Planner, from_s: float, to_s: float, faster_mps: float = 0.0, mpss: float = 0.0) -> float:
     """Let the ego drive on, somewhat faster than foreseen at first; return its speed."""
-    _, s_m, speed_mps, _ = planner._samples[-1]
+    _, s_m, speed_mps, _ = planner._ego.samples[-1]
     speed_mps += faster_mps
     for k in range(1, round((to_s - from_s) / 0.02) + 1):
         s_m += (speed_mps + 0.01 * mpss) * 0.02
@@ -211,7 +211,7 @@ def test_one_that_stands_goes_the_sooner_the_sooner_the_ego_comes() -> None:
         stands_s = planner.plan.profiles[HERO].knot_times_s["t2"]
         now_s = round(np.ceil(10.0 * (stands_s + 0.05)) / 10.0, 2)
         driven_on(planner, 0.0, now_s)
-        s_m = planner._samples[-1][1]
+        s_m = planner._ego.samples[-1][1]
         speed_mps = (planner.scene.landmark_m(EGO, "turn_start") - s_m) / rest_s
         assert speed_mps > 0.3
         planner.predictor = Known(Profile(chain(now_s, s_m, speed_mps, [(60.0, 0.0, 0)])))

@@ -1,4 +1,4 @@
-"""What a plan starts from: the ego as it was seen and is foreseen, and a motion that is a little further on."""
+"""What a plan starts from: the ego as it was seen and is foreseen, and a motion that is a little otherwise."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from scenewright.motion.profile import Profile, chain
-from scenewright.plan.situation import Further, SeenAndForeseen
+from scenewright.plan.situation import Otherwise, SeenAndForeseen
 
 STEP_S = 0.02
 
@@ -43,21 +43,24 @@ def test_before_anything_was_seen_it_was_on_its_way() -> None:
     assert ego(-1.0)[:2] == pytest.approx((-10.0, 10.0))
 
 
-@given(at_s=st.floats(1.5, 8.0), from_s=st.floats(0.0, 1.0))
-def test_further_is_a_metre_at_its_instant_and_nothing_before_it_begins(at_s: float, from_s: float) -> None:
+@given(
+    at_s=st.floats(1.5, 8.0),
+    from_s=st.floats(0.0, 1.0),
+    further_m=st.floats(-2.0, 2.0),
+    faster_mps=st.floats(-1.0, 1.0),
+    ever_faster_mpss=st.floats(-0.5, 0.5),
+)
+def test_a_motion_otherwise_is_so_much_further_on_as_its_speeds_make_it(
+    at_s: float, from_s: float, further_m: float, faster_mps: float, ever_faster_mpss: float
+) -> None:
     motion = Profile(chain(0.0, 0.0, 8.0, [(3.0, -1.0, 0)]))
-    further = Further(motion, from_s, at_s, all_along=False)
-    assert further.state(from_s)[:2] == pytest.approx(motion.state(from_s)[:2])
-    assert further.state(at_s)[0] - motion.state(at_s)[0] == pytest.approx(1.0)
-    assert further.state(0.5 * from_s)[:2] == pytest.approx(motion.state(0.5 * from_s)[:2])
+    other = Otherwise(motion, from_s, further_m, faster_mps, ever_faster_mpss)
+    assert other.state(from_s)[0] - motion.state(from_s)[0] == pytest.approx(further_m)
     times = np.linspace(from_s, at_s, 400)
-    places, speeds = np.array([further.state(float(t))[:2] for t in times]).T
+    places, speeds = np.array([other.state(float(t))[:2] for t in times]).T
     travelled = np.sum(0.5 * (speeds[1:] + speeds[:-1]) * np.diff(times))
     assert places[-1] - places[0] == pytest.approx(travelled, abs=1e-2)
-
-
-def test_further_all_along_is_the_same_motion_a_metre_on() -> None:
-    motion = Profile(chain(0.0, 0.0, 8.0, [(3.0, -1.0, 0)]))
-    for time_s in (0.0, 1.7, 9.0):
-        s_m, speed_mps, accel = motion.state(time_s)
-        assert Further(motion, 1.0, 3.0, all_along=True).state(time_s) == (s_m + 1.0, speed_mps, accel)
+    since = at_s - from_s
+    expected = further_m + (faster_mps + 0.5 * ever_faster_mpss * since) * since
+    assert places[-1] - motion.state(at_s)[0] == pytest.approx(expected)
+    assert speeds[-1] - motion.state(at_s)[1] == pytest.approx(faster_mps + ever_faster_mpss * since)
