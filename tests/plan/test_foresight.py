@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import pytest
-from tests.plan.situations import scene_of
-from tests.stories import BRAKES, YIELDS
+from situations import scene_of
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.foresight import Foresight
 from scenewright.plan.prediction import ConstantAcceleration, ConstantSpeed, Predictor
 from scenewright.program.structure import read_structure
 from scenewright.solve.arrival import linear_conditions
+from stories import BRAKES_GAP, YIELDS_DISTANCE
 
 
 def foresight(text: str, predictor: Predictor) -> Foresight:
@@ -26,33 +26,33 @@ def leading(ahead_m: float, speed_mps: float) -> dict[int, Profile]:
 
 
 def test_an_ego_that_holds_its_speed_is_sure_and_follows_nobody() -> None:
-    steady = foresight(BRAKES, ConstantSpeed())
+    steady = foresight(BRAKES_GAP, ConstantSpeed())
     assert steady.is_sure
     assert steady.leaders == {}
     assert steady.foreseen(leading(12.0, 5.0)).state(3.0)[:2] == pytest.approx((186.0, 12.0))
 
 
 def test_behind_a_slower_hero_the_ego_is_foreseen_to_slow_down_and_the_more_the_nearer_it_is() -> None:
-    follower = foresight(BRAKES, ConstantAcceleration())
+    follower = foresight(BRAKES_GAP, ConstantAcceleration())
     assert list(follower.leaders) == [1]
     near, far = (follower.foreseen(leading(ahead_m, 6.0)).state(3.0)[1] for ahead_m in (15.0, 60.0))
     assert near < far <= 12.5
 
 
 def test_one_that_crosses_its_way_is_not_followed() -> None:
-    assert foresight(YIELDS, ConstantAcceleration()).leaders == {}
+    assert foresight(YIELDS_DISTANCE, ConstantAcceleration()).leaders == {}
 
 
 @pytest.mark.parametrize("first", [True, False])
 def test_how_a_hero_is_answered_is_what_is_foreseen_of_it_where_it_is_otherwise(first: bool) -> None:
-    follower, motions = foresight(BRAKES, ConstantAcceleration()), leading(18.0, 10.0)
+    follower, motions = foresight(BRAKES_GAP, ConstantAcceleration()), leading(18.0, 10.0)
     prediction = follower.foreseen(motions)
     answer = follower.lanes(motions, 0.0, prediction, first=first).answers[1]
     if first:
-        moved = Profile(chain(0.0, 169.0, 10.0, [(8.0, 0.0, 0)]), motions[1].knot_times_s)
+        moved = Profile(chain(0.0, 168.1, 10.0, [(8.0, 0.0, 0)]), motions[1].knot_times_s)
     else:
-        moved = Profile(chain(0.0, 168.0, 10.0, [(8.0, 2.0 / 16.0, 0)]), motions[1].knot_times_s)
+        moved = Profile(chain(0.0, 168.0, 10.0, [(8.0, 0.2 / 16.0, 0)]), motions[1].knot_times_s)
     then, before = follower.foreseen({1: moved}).state(4.0), prediction.state(4.0)
-    assert answer.per_metre == pytest.approx((then[0] - before[0], then[1] - before[1]), abs=1e-6)
+    assert answer.per_metre == pytest.approx((10.0 * (then[0] - before[0]), 10.0 * (then[1] - before[1])), abs=1e-6)
     assert answer.per_metre[0] > 0.0, "an ego whose leader is further on comes further"
     assert (answer.per_mps is None) is not first

@@ -214,7 +214,7 @@ def test_one_that_stands_goes_the_sooner_the_sooner_the_ego_comes() -> None:
         s_m = planner._ego.samples[-1][1]
         speed_mps = (planner.scene.landmark_m(EGO, "turn_start") - s_m) / rest_s
         assert speed_mps > 0.3
-        planner.predictor = Known(Profile(chain(now_s, s_m, speed_mps, [(60.0, 0.0, 0)])))
+        planner._ego.predictor = Known(Profile(chain(now_s, s_m, speed_mps, [(60.0, 0.0, 0)])))
         planner.tick(now_s)
         passes_s.append(planner.plan.profiles[HERO].knot_times_s["t4"])
         assert planner.plan.profiles[HERO].knot_times_s["t2"] == stands_s

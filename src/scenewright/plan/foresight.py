@@ -21,6 +21,7 @@ from scenewright.solve.arrival import LinearCondition
 # How long an ego must have driven evenly for a jump in its acceleration to be a change of mind (s).
 _EVEN_S = 0.1
 _SHORTEST_S = 0.1  # in less time nothing can be answered
+_LITTLE = 0.1  # by so many metres, or metres a second, heroes are foreseen otherwise to ask for an answer
 
 Motions = Mapping[int, Profile]
 
@@ -100,10 +101,10 @@ class Foresight:
         def answered(otherwise: Otherwise) -> tuple[float, float]:
             leader = Leader(otherwise, clearance.offset_m)
             then = foresee_follower(alone, self.samples, leader, self.cruise_mps).state(then_s)
-            return then[0] - place_m, then[1] - speed_mps
+            return (then[0] - place_m) / _LITTLE, (then[1] - speed_mps) / _LITTLE
 
         if first:
-            further, faster = Otherwise(motion, 0.0, further_m=1.0), Otherwise(motion, 0.0, faster_mps=1.0)
-            return Answer(motion, answered(further), answered(faster))
+            further, faster = Otherwise(motion, 0.0, further_m=_LITTLE), Otherwise(motion, 0.0, faster_mps=_LITTLE)
+            return Answer(motion, then_s, answered(further), answered(faster))
         lasts_s = max(then_s - now_s, _SHORTEST_S)
-        return Answer(motion, answered(Otherwise(motion, now_s, ever_faster_mpss=2.0 / lasts_s**2)))
+        return Answer(motion, then_s, answered(Otherwise(motion, now_s, ever_faster_mpss=_LITTLE * 2.0 / lasts_s**2)))

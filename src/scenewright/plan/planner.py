@@ -31,9 +31,8 @@ _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
 # First plans are solved for from these speeds (shares of the natural one) and, where both decide, triggers (s): Newton
 # finds the nearest plan, not the best.
 _PACES, _JOINT_S = (0.8, 0.45, 0.25), (3.5, 6.0)
-# How often a first plan is solved for again: its cells are laid for the times of the one before, and an ego that
-# follows a hero answers what that does.
-_AGAIN, _AGAIN_FOLLOWED = 1, 6
+# How often a first plan is solved for again with an ego that follows a hero and answers what that does.
+_AGAIN_LED = 16
 # A plan that misses no more than this (tight tolerances) does what was asked.
 GOOD = 0.2
 # A hero that was a little less than settled a moment ago was so from now on; how far back that is looked at (s).
@@ -72,6 +71,16 @@ class Attempt:
         return self.missed.late_s <= 0.0
 
 
+@dataclass(frozen=True, slots=True)
+class _Found:
+    """A plan, how it was found, all its moments by instant, and what is no motion of it, by number."""
+
+    plan: Plan
+    solution: Solution
+    moments_s: Mapping[int, float]
+    others: Mapping[int, float]
+
+
 @dataclass(slots=True)
 class Planner:
     """Plans and re-plans the heroes of one scene over one run.
@@ -100,7 +109,8 @@ class Planner:
     records: list[Replan] = field(init=False, default_factory=list)
     _asked: Asked = field(init=False)
     _times: TriggerTimes = field(init=False)
-    _moments_s: dict[int, float] = field(init=False, default_factory=dict)  # all moments of the plan, by instant
+    _moments_s: Mapping[int, float] = field(init=False, default_factory=dict)  # as in _Found, of the plan
+    _others: Mapping[int, float] = field(init=False, default_factory=dict)
     _ego: Foresight = field(init=False)
     _joint_s: dict[int, float] = field(init=False, default_factory=dict)  # first planned, where both decide when
 
@@ -123,33 +133,53 @@ class Planner:
             for joint_s in (_JOINT_S if joint else (0.0,))
             for pace in _PACES
         ]
-        best = min(tries, key=lambda found: found[0].cost)
-        for _ in range(_AGAIN_FOLLOWED if self._ego.leaders else _AGAIN):
-            self.plan = best[1]
-            best = self._planned_first(self._ego.foreseen(self.plan.profiles), 0.0, self.plan.profiles)
-        solution, self.plan = best
-        if self._ego.leaders:  # what the plan was made with is how the ego answered the one before
-            foreseen = self._ego.foreseen(self.plan.profiles)
-            problem = Problem(self._asked, self._first_situation(foreseen, 0.0, self.plan.profiles))
-            solution = replace(solution, missed=problem.rows(problem.ordered(problem.guess))[2])
-            answering = Profile(foreseen.segments, self.plan.profiles[EGO].knot_times_s)
-            self.plan = replace(
-                self.plan, profiles={**self.plan.profiles, EGO: answering}, tolerance=solution.missed.by
-            )
+        best = min(tries, key=lambda found: found.solution.cost)
+        self._keep(best)
+        best = self._led(best) if self._ego.leaders else self._planned_first(prediction, 0.0, best.plan.profiles)
+        self._keep(best)
         for hero in self._heroes:
             if (name := self._trigger(hero)) is not None:
                 self._joint_s[hero.id] = self.plan.profiles[hero.id].knot_times_s[name]
-        attempt = Attempt(self.plan, solution.missed, time.perf_counter() - started, solution.steps)
-        self.records = [Replan(0.0, _status(solution), "daqp", attempt.wall_s, solution.missed.by, "")]
+        missed, steps = best.solution.missed, best.solution.steps
+        attempt = Attempt(self.plan, missed, time.perf_counter() - started, steps)
+        self.records = [Replan(0.0, _status(best.solution), "daqp", attempt.wall_s, missed.by, "")]
         return attempt
 
+    def _keep(self, found: _Found) -> None:
+        self.plan, self._moments_s, self._others = found.plan, found.moments_s, found.others
+
     def _planned_first(
-        self, prediction: Profile, joint_s: float, guesses: Mapping[int, Profile]
-    ) -> tuple[Solution, Plan]:
-        """Return a first plan that is found from guesses: motions, or other plans with all their knots."""
+        self, prediction: Profile, joint_s: float, guesses: Mapping[int, Profile], trusted: float = 1.0
+    ) -> _Found:
+        """Return a first plan that is found from guesses: motions, or other plans with all their knots.
+
+        Of a longest step `trusted` is the share by which it may be off from them; 1 is no limit.
+        """
         problem = Problem(self._asked, self._first_situation(prediction, joint_s, guesses))
-        solution = solve(problem, problem.guess, _FIRST_STEPS)
-        return solution, self._made(problem, solution, prediction)
+        if trusted < 1.0:
+            problem.keep_near(trusted)
+        return self._made(problem, solve(problem, problem.guess, _FIRST_STEPS), prediction)
+
+    def _led(self, best: _Found) -> _Found:
+        """Return a first plan with an ego that answers it, from one without; where a step is too long it is halved."""
+        best, trusted = self._answered(best), 1.0
+        for _ in range(_AGAIN_LED):
+            if best.solution.missed.by <= 0.5 * GOOD:
+                break
+            self._keep(best)
+            trial = self._answered(self._planned_first(best.plan.profiles[EGO], 0.0, best.plan.profiles, trusted))
+            if trial.solution.cost < best.solution.cost:
+                best = trial
+            else:
+                trusted *= 0.5
+        return best
+
+    def _answered(self, found: _Found) -> _Found:
+        """Return a first plan, and what it costs, with the ego that answers it: it was made with one that did not."""
+        self._keep(found)
+        foreseen = self._ego.foreseen(found.plan.profiles)
+        problem = Problem(self._asked, self._first_situation(foreseen, 0.0, found.plan.profiles))
+        return self._made(problem, solve(problem, problem.guess, 0), foreseen)
 
     def _even_motions(self, prediction: Profile, joint_s: float, pace: float) -> dict[int, Profile]:
         """Return first guesses: everybody comes evenly to where a condition at its trigger wants it."""
@@ -206,6 +236,7 @@ class Planner:
             knots,
             expected,
             guesses=guesses,
+            others=self._others,
             planned_s=planned,
             waits=frozenset(triggers),
             sure=self._ego.is_sure,
@@ -249,7 +280,7 @@ class Planner:
             problem = Problem(self._asked, situation)
             steps = _TICK_STEPS + min(_MOST_STEPS_MORE, int(_STEPS_A_SECOND * moved_s))
             solution = solve(problem, problem.guess, steps)
-            self.plan = self._made(problem, solution, prediction)
+            self._keep(self._made(problem, solution, prediction))
             record = Replan(time_s, _status(solution), "daqp", 0.0, solution.missed.by, "")
         record = replace(record, wall_s=time.perf_counter() - started)
         self.records.append(record)
@@ -299,6 +330,7 @@ class Planner:
             knots,
             expected,
             drives,
+            others=self._others,
             planned_s=planned,
             settled_s=self._settled_s(planned, time_s),
             waits=frozenset(triggers),
@@ -323,10 +355,9 @@ class Planner:
         found = here[0].first_time({EGO: prediction, hero.id: even}, soonest_s)
         return found if found is not None and found < planned_s else None
 
-    def _made(self, problem: Problem, solution: Solution, prediction: Profile) -> Plan:
+    def _made(self, problem: Problem, solution: Solution, prediction: Profile) -> _Found:
         """Return the plan that values stand for, with what was driven before it."""
         times = [moment.value(solution.z) for moment in problem.moments]
-        self._moments_s = dict(enumerate(times))
         profiles: dict[int, Profile] = {}
         for hero, shot in problem.shots(solution.z).items():
             sketch = self.scene.program.actor(hero).sketch
@@ -345,7 +376,8 @@ class Planner:
         names = self.scene.program.ego.sketch.knots
         profiles[EGO] = Profile(prediction.segments, {name: times[self._asked.knot(EGO, name)] for name in names})
         parameters = {name: float(value) for name, value in self.scene.parameters.items()}
-        return Plan(profiles, solution.missed.by, _status(solution), parameters)
+        plan = Plan(profiles, solution.missed.by, _status(solution), parameters)
+        return _Found(plan, solution, dict(enumerate(times)), problem.others(solution.z))
 
     # -- what is known ------------------------------------------------------------------------------------------------
     @property

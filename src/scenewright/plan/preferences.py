@@ -87,7 +87,7 @@ def preferences_of(manner: Manner) -> Preferences:
         least_rate_mpss=max(usual.least_rate_mpss, float(kept.begins_mpss)),
         beginning_mpss=usual.beginning_mpss * begins,
         beginning_s=max(usual.beginning_s, 1.5 * float(manner.begins_s)),
-        settled_mpss=float(calm_mpss(manner)),
+        settled_mpss=min(usual.settled_mpss, float(calm_mpss(manner))),
         early_mpss=0.8 * float(manner.begins_mpss),
         settled_s=max(usual.settled_s, float(kept.settled_s) + 0.05),
         shortest_s=max(usual.shortest_s, float(kept.begins_s)),

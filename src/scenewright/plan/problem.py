@@ -90,7 +90,7 @@ class Problem:
         values = [*asked.events.times, *states, *asked.lowering.rates.values()]
         known = {number_of(value) for value in values}
         return {
-            number: self._new(0.0, float(unknown.low), float(unknown.high), _STEP_OTHER)
+            number: self._new(self.now.others.get(number, 0.0), float(unknown.low), float(unknown.high), _STEP_OTHER)
             for number, unknown in enumerate(asked.events.unknowns)
             if number not in known
         }
@@ -184,6 +184,15 @@ class Problem:
         return (profile, ends[0], ends[1]) if ends[0] < ends[1] else None
 
     # -- values -------------------------------------------------------------------------------------------------------
+    def keep_near(self, share: float) -> None:
+        """Keep all unknowns within a share of their longest steps of their first values."""
+        self.low = np.maximum(self.low, self.guess - share * self.step)
+        self.high = np.minimum(self.high, self.guess + share * self.step)
+
+    def others(self, z: Array) -> dict[int, float]:
+        """Return the values of what is neither a time nor a state nor a rate, by its number."""
+        return {number: float(z[unknown]) for number, unknown in self._others.items()}
+
     def ordered(self, z: Array) -> Array:
         """Return values within their bounds in which every hero's knots come one after another."""
         z = np.clip(z, self.low, self.high)
@@ -289,14 +298,15 @@ class Problem:
             if time_s <= self.now.time_s or instant != self.asked.trigger(hero):
                 continue
             place_m, hero_mps, d_place, d_hero = self._state(hero, instant, z, shots)
-            then_m, then_mps, _ = answer.motion.state(time_s)
+            then_m, then_mps, then_mpss = answer.then(time_s)
             further_m, d_further = place_m - then_m, d_place - then_mps * d_time
             if answer.per_mps is not None:
                 faster_mps, since_s = hero_mps - then_mps, time_s - self.now.time_s
+                d_faster = d_hero - then_mpss * d_time
                 further_m -= faster_mps * since_s
-                d_further = d_further - since_s * d_hero - faster_mps * d_time
-                s_m, d_s = s_m + answer.per_mps[0] * faster_mps, d_s + answer.per_mps[0] * d_hero
-                speed_mps, d_v = speed_mps + answer.per_mps[1] * faster_mps, d_v + answer.per_mps[1] * d_hero
+                d_further = d_further - since_s * d_faster - faster_mps * d_time
+                s_m, d_s = s_m + answer.per_mps[0] * faster_mps, d_s + answer.per_mps[0] * d_faster
+                speed_mps, d_v = speed_mps + answer.per_mps[1] * faster_mps, d_v + answer.per_mps[1] * d_faster
             s_m, d_s = s_m + answer.per_metre[0] * further_m, d_s + answer.per_metre[0] * d_further
             speed_mps, d_v = speed_mps + answer.per_metre[1] * further_m, d_v + answer.per_metre[1] * d_further
         return s_m, speed_mps, d_s, d_v

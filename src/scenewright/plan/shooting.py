@@ -18,6 +18,8 @@ from scenewright.program.types import PieceKind
 
 Array = NDArray[np.float64]
 
+_HARDLY_MPS = 0.05  # by how much less than standing is a matter of rounding
+
 
 @dataclass(frozen=True, slots=True)
 class Moment:
@@ -185,8 +187,10 @@ def profile_of(shot: Shot, knots_s: dict[str, float], past: Sequence[Segment]) -
 
 def _forwards(begin_s: float, lasts_s: float, s_m: float, v: float, a: float, b: float, piece: int) -> list[Segment]:
     """Return one cell as segments; where rounding would have it roll back it stands instead."""
-    segment = Segment(begin_s, lasts_s, s_m, v, a, piece, (b - a) / lasts_s)
     lowest = v + 0.5 * (a + b) * lasts_s
+    if -_HARDLY_MPS < lowest < 0.0 and b <= 0.0:  # it comes to stand at the end, not a moment before
+        b, lowest = -2.0 * v / lasts_s - a, 0.0
+    segment = Segment(begin_s, lasts_s, s_m, v, a, piece, (b - a) / lasts_s)
     if a < 0.0 < b:
         lowest = min(lowest, v - 0.5 * a * a * lasts_s / (b - a))
     if lowest >= -1e-9:

@@ -30,8 +30,8 @@ class Answer:
 
     Attributes
     ----------
-    motion
-        Of the hero, with which the ego was foreseen.
+    motion, trigger_s
+        Of the hero, with which the ego was foreseen; when its trigger was to come.
     per_metre
         By how much the ego is further on (m) and faster (m/s) for each metre by which the hero is further on.
     per_mps
@@ -40,8 +40,17 @@ class Answer:
     """
 
     motion: Profile
+    trigger_s: float
     per_metre: tuple[float, float]
     per_mps: tuple[float, float] | None = None
+
+    def then(self, time_s: float) -> tuple[float, float, float]:
+        """Return the hero's state with which the ego was foreseen, had its trigger not come."""
+        late_s = time_s - self.trigger_s
+        if late_s <= 0.0:
+            return self.motion.state(time_s)
+        s_m, speed_mps, _ = self.motion.state(self.trigger_s)
+        return s_m + speed_mps * late_s, speed_mps, 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +83,8 @@ class Situation:
         First guesses of the times of others.
     heroes
         Those that drive already; for the others `guesses` has motions that their first plans start from.
+    others
+        First guesses of what is neither a moment nor a state nor a rate, by its number.
     planned_s
         When triggers are to come of which both decide when they do.
     settled_s
@@ -90,6 +101,7 @@ class Situation:
     expected_s: Mapping[int, float]
     heroes: Mapping[int, Drive] = field(default_factory=dict)
     guesses: Mapping[int, Profile] = field(default_factory=dict)
+    others: Mapping[int, float] = field(default_factory=dict)
     planned_s: Mapping[int, float] = field(default_factory=dict)
     settled_s: Mapping[int, float] = field(default_factory=dict)
     waits: frozenset[int] = frozenset()

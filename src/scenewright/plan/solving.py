@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 _DAMPING = 0.02  # of a longest step: what nothing else decides stays as it is
 _ENOUGH = 1e-4  # a step that gains a smaller share is the last
-_SHORTER, _LONGER, _LEAST_TRUST = 0.3, 2.5, 1e-3
+_SHORTER, _LONGER, _LEAST_TRUST, _NO_STEP = 0.3, 2.5, 1e-3, 1e-6
 _FREE, _EXACT, _MOST_ITERATIONS = 1e30, 1e-9, 4000
 
 
@@ -42,6 +42,8 @@ def solve(problem: Problem, z: Array, most_steps: int) -> Solution:
         if step is None or trusted < _LEAST_TRUST:
             return Solution(z, cost, missed, count)
         trial = problem.ordered(z + step)
+        if np.max(np.abs(trial - z) / problem.step) < _NO_STEP:
+            return Solution(z, cost, missed, count)
         found = problem.rows(trial)
         better = _cost(*found[:2])
         if better >= cost:

@@ -9,6 +9,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
+from scenewright.motion.profile import Profile
 from scenewright.plan.planner import GOOD, Attempt, Planner
 from scenewright.plan.prediction import Predictor
 from scenewright.program.types import EGO
@@ -16,6 +17,8 @@ from scenewright.simulate.ego_start import EgoFirstState, ego_starts
 from scenewright.simulate.world import World
 from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.feasibility import check_feasibility
+
+_SHIFTS = 4  # of a start, until an ego that slows down for a bend is where it is to be
 
 
 def first_plan(
@@ -33,7 +36,7 @@ def first_plan(
     limits = {actor: own if actor == EGO else own.at_pace(pace) for actor, own in world.limits.items()}
     conditions = linear_conditions(world.scene, world.structure)
     best: tuple[Planner, EgoFirstState, Attempt] | None = None
-    for start in _starts(world):
+    for start in _starts(world, predictor):
         if start.last_resort and best is not None and best[2].is_good:
             break
         if start.speed_mps >= slower_than_mps:
@@ -59,13 +62,32 @@ def is_timed_by_ego(world: World) -> bool:
     )
 
 
-def _starts(world: World) -> Iterator[EgoFirstState]:
+def _starts(world: World, predictor: Predictor) -> Iterator[EgoFirstState]:
     """Yield what the policy would hold, and at last the first state in which an ego that holds its speed makes it."""
-    yield from ego_starts(world.scene, world.ego, world.limits[EGO], linear_conditions(world.scene, world.structure))
+    conditions = linear_conditions(world.scene, world.structure)
+    yield from ego_starts(world.scene, world.ego, world.limits[EGO], conditions)
     bounds = replace(world.ego_bounds, holds_speed=True)
     found = check_feasibility(world.scene, world.structure, world.limits, bounds, explain=False)
-    if found.ego_start is not None:
-        yield EgoFirstState(*found.ego_start, last_resort=True)
+    if found.witness is None:
+        return
+    motion = found.witness.profiles[EGO]
+    start = EgoFirstState(*motion.state(0.0)[:2], last_resort=True)
+    yield start
+    first = {(EGO, world.scene.program.ego.sketch.knots[0])}
+    if not any(each.moments == first and each.weights[EGO][0] for each in conditions):
+        yield _on_time(start, motion, world, predictor)
+
+
+def _on_time(start: EgoFirstState, motion: Profile, world: World, predictor: Predictor) -> EgoFirstState:
+    """Return a start from which an ego that does not hold its speed is where `motion` is when triggers come there."""
+    knots = [name for instant in world.structure.triggers.values() for actor, name in instant if actor == EGO]
+    for name in knots[:1]:
+        then_s = motion.knot_times_s[name]
+        for _ in range(_SHIFTS):
+            foreseen = predictor.predict([(0.0, start.s_m, start.speed_mps, start.accel_mpss)])
+            late_m = motion.state(then_s)[0] - foreseen.state(then_s)[0]
+            start = replace(start, s_m=max(0.0, start.s_m + late_m))
+    return start
 
 
 def _rank(attempt: Attempt) -> tuple[bool, bool, int]:

@@ -14,7 +14,7 @@ from typing import Literal
 
 from scenewright.program.printer import print_expression
 from scenewright.program.structure import Structure
-from scenewright.program.types import EGO, Program
+from scenewright.program.types import Program
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.decide import Decision, Question, decide
@@ -51,8 +51,6 @@ class Feasibility:
         ``feasible`` (there is a `witness`), ``infeasible`` (proven) or ``undecided``.
     parameters
         SI values of open parameters in the witness, where there is one.
-    ego_start
-        The first position (m) and speed (m/s) of the ego in the witness.
     """
 
     answer: Literal["feasible", "infeasible", "undecided"]
@@ -60,7 +58,6 @@ class Feasibility:
     suggestions: tuple[Suggestion, ...] = ()
     reason: str = ""
     parameters: Mapping[str, Fraction] = field(default_factory=dict)
-    ego_start: tuple[float, float] | None = None
     witness: Witness | None = None
 
     def explain(self) -> str:
@@ -115,8 +112,7 @@ def check_feasibility(
 def _feasible(scene: Scene, witness: Witness) -> Feasibility:
     names = (parameter.name for parameter in scene.open_parameters())
     parameters = {name: decimal_fraction(f"{witness.parameters[name]:.9f}") for name in names}
-    place, speed, _ = witness.profiles[EGO].state(0.0)
-    return Feasibility("feasible", parameters=parameters, ego_start=(place, speed), witness=witness)
+    return Feasibility("feasible", parameters=parameters, witness=witness)
 
 
 def _reason(decision: Decision) -> str:
