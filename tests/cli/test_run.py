@@ -150,7 +150,7 @@ def test_a_near_miss_is_told_and_is_no_collision(command: Command) -> None:
 
 
 def test_gives_up_with_what_the_planner_cannot_hold(command: Command, tmp_path: Path) -> None:
-    form = next(form for form in FORMS if form.name == "always v of the ego")
+    form = next(form for form in FORMS if form.name == "v of the ego at a time")
     program = tmp_path / "not_to_be_held.scene"
     program.write_text(form.binding_program(), encoding="utf-8")
     result = command("run", program)

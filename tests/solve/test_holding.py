@@ -107,7 +107,7 @@ def test_what_has_no_number_is_told_without_one() -> None:
 
 
 def test_nothing_is_driven_and_check_still_answers() -> None:
-    form = next(form for form in FORMS if form.name == "always v of the ego")
+    form = next(form for form in FORMS if form.name == "v of the ego at a time")
     request = Request(form.binding_program(), ego="constant")
     result = orchestrate(request)
     assert result.status == "gave up"

@@ -14,7 +14,7 @@ from scenewright.cli import bench, checking, faults, listing, looking, reading, 
 
 SENTENCE = (
     "The ego drives westbound. An oncoming hero turns left into the driveway. When the ego is 25 m before the "
-    "conflict point and the hero is 15 m before the conflict point, the hero brakes to a stop 5 m before the "
+    "conflict point and the hero is 15 m before the conflict point, the hero brakes to a stop 8 m before the "
     "conflict point."
 )
 

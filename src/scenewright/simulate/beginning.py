@@ -38,7 +38,8 @@ def first_plan(
     best: tuple[Planner, EgoFirstState, Attempt] | None = None
     for start in _starts(world, predictor):
         if start.last_resort and best is not None and best[2].is_good:
-            break
+            if best[2].promises_outcome or not world.ego_bounds.holds_speed:
+                break  # an ego that does not hold its speed may still let it come about
         if start.speed_mps >= slower_than_mps:
             continue
         planner = Planner(world.scene, world.structure, limits, predictor, conditions)
