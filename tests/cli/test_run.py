@@ -28,7 +28,7 @@ def test_success_writes_every_file_and_says_what_happened(command: Command, fold
     assert result.exit_code == 0, result.stderr
     assert listed(folder / "here") == FILES
     assert "Success" in result.stdout
-    assert "the hero brakes to a stop 5 m before the conflict point" in result.stdout
+    assert "the hero brakes to a stop 8 m before the conflict point" in result.stdout
     assert "here/index.html" in result.stdout
     assert "scenewright view here" in result.stdout
     assert "assumed" in result.stdout
