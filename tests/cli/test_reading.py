@@ -27,7 +27,7 @@ def test_translate_prints_a_program_that_parses_and_every_clause(command: Comman
 def test_translate_as_json(command: Command) -> None:
     data = json.loads(command("translate", SENTENCE, "--json").stdout)
     assert len(parse_program(data["program"]).actors) == 2
-    assert data["readings"][-1]["constraints"] == "A1x(t2) == conflict_point - 5; A1v(t2) == 0"
+    assert data["readings"][-1]["constraints"] == "A1x(t2) == conflict_point - 8; A1v(t2) == 0"
     assert data["assumptions"]
 
 

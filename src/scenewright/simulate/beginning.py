@@ -37,9 +37,10 @@ def first_plan(
     conditions = linear_conditions(world.scene, world.structure)
     best: tuple[Planner, EgoFirstState, Attempt] | None = None
     for start in _starts(world, predictor):
-        if start.last_resort and best is not None and best[2].is_good:
-            if best[2].promises_outcome or not world.ego_bounds.holds_speed:
-                break  # an ego that does not hold its speed may still let it come about
+        # An ego that does not hold its speed may still let come about what no plan promises.
+        promised = best is not None and (best[2].promises_outcome or not world.ego_bounds.holds_speed)
+        if start.last_resort and best is not None and best[2].is_good and promised:
+            break
         if start.speed_mps >= slower_than_mps:
             continue
         planner = Planner(world.scene, world.structure, limits, predictor, conditions)
