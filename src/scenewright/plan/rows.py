@@ -165,7 +165,8 @@ class HeroRows:
             return
         firm = _FIRM * wanted.price
         stands = leg.kind is PieceKind.STOP
-        self.bounds.add((wanted.shortest_stand_s if stands else wanted.shortest_s) - lasts, -slope, firm)
+        self.bounds.add((wanted.least_stand_s if stands else wanted.least_s) - lasts, -slope, firm)
+        self.bounds.add((wanted.shortest_stand_s if stands else wanted.shortest_s) - lasts, -slope, wanted.price)
         if leg.first.unknown is None and leg.last.unknown is not None:
             self.bounds.add(self.now.time_s + SOONEST_S - last.value(z), -slope, firm)
         if stands:
