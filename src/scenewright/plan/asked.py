@@ -147,14 +147,11 @@ class Caps:
     most: Array
     comfortable: Array
 
-    def at(self, s_m: float) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Return both caps at a place, each with how it changes from there (1/s)."""
-        around = [s_m - _STEP_M, s_m, s_m + _STEP_M]
+    def at(self, s_m: Array) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+        """Return both caps at places, each with how it changes from there (1/s)."""
+        around = np.array([s_m - _STEP_M, s_m, s_m + _STEP_M])
         most, comfortable = (np.interp(around, self.places, caps) for caps in (self.most, self.comfortable))
-        return (float(most[1]), float(most[2] - most[0])), (
-            float(comfortable[1]),
-            float(comfortable[2] - comfortable[0]),
-        )
+        return (most[1], most[2] - most[0]), (comfortable[1], comfortable[2] - comfortable[0])
 
 
 def _caps(route: Route, limits: Limits, comfortable_mpss: float) -> Caps:
