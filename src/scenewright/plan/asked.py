@@ -111,9 +111,12 @@ class Asked:
             speed_mps = max(float(point[speed]), self.wanted.moves_mps)
             norms[k] = TIGHT["time"] * speed_mps * max(abs(float(gradients[k, place])), 1e-9)
         levels, equal = values / norms, self._formulas.equal
-        for k in self._formulas.chosen(np.where(equal, np.abs(levels), levels)):
-            slope = np.einsum("i,ij->j", gradients[k], slopes, optimize=False) / norms[k]
-            yield Row(float(levels[k]), slope, bool(equal[k]), self._orders[k] and not equal[k])
+        changes = np.einsum("ij,jk->ik", gradients, slopes, optimize=False) / norms[:, None]
+        missed = np.where(equal, np.abs(levels), levels)
+        # An alternative that does not hold is none where nothing that is still to be planned changes it.
+        settled = (missed > 0.0) & ~np.any(changes != 0.0, axis=1)
+        for k in self._formulas.chosen(np.where(settled, np.inf, missed)):
+            yield Row(float(levels[k]), changes[k], bool(equal[k]), self._orders[k] and not equal[k])
 
     def _is_order(self, atom: Atom) -> bool:
         """Whether a comparison is of nothing but times, the ego's among them."""
