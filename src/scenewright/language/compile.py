@@ -56,6 +56,7 @@ PIECES = {
 COMPASS = "NESW"
 TURNS = {"straight": 0, "right": 1, "left": 3}  # quarters of the compass
 DRIVEN = ("car", "truck", "van", "bus", "taxi")  # the kinds that the program language can drive, all of them as cars
+UNNAMED = "description"  # what a program is called whose story has no title
 _ORDERS: dict[Quantity, ex.Order] = {Quantity.PLACE: 0, Quantity.SPEED: 1, Quantity.RATE: 2}
 _DERIVED: dict[Quantity, ex.DerivedKind] = {
     Quantity.GAP: "gap",
@@ -85,7 +86,7 @@ def compile_story(story: Story, description: str | None = None) -> Program:
     compiler = _Compiler(story)
     compiler.constrain()
     program = Program(
-        story.title or "description",
+        story.title or UNNAMED,
         tuple(Actor(actor.id, actor.name, route_of(actor.way), compiler.sketches[actor.id]) for actor in story.actors),
         tuple(
             Constraint(f"c{number}", formula, source if description else None)
@@ -110,6 +111,11 @@ def route_of(way: Way) -> RouteSpec:
         turned = COMPASS[(COMPASS.index(way.heading) + TURNS[way.turn]) % 4]
         return HeadingsRoute((way.heading,) if way.turn == "straight" else (way.heading, turned))
     return IntentRoute(way.origin, way.turn, way.destination, way.heading, way.destination_heading)  # type: ignore[arg-type]
+
+
+def kind_of(name: str) -> str:
+    """Return what somebody is by the name alone; a program says no more."""
+    return name if name in DRIVEN else "car"
 
 
 def refused(what: str, fix: str, quote: Quote | None = None) -> TranslationError:

@@ -12,7 +12,7 @@ from fractions import Fraction
 from typing import Literal
 
 from scenewright.errors import TranslationError
-from scenewright.language.compile import COMPASS, PIECES, TURNS
+from scenewright.language.compile import COMPASS, PIECES, TURNS, UNNAMED, amounts_of, kind_of
 from scenewright.language.linear import Atom, Linear, linear
 from scenewright.language.story import (
     FLIPPED,
@@ -43,6 +43,7 @@ from scenewright.program.types import (
     HeadingsRoute,
     IntentRoute,
     LanesRoute,
+    Parameter,
     PieceKind,
     Program,
     RouteSpec,
@@ -110,25 +111,28 @@ class _Decompiler:
                 self._fix_time(formula)
         for formula in formulas:
             self._take(formula)
+        if set(program.ego.sketch.pieces) != {PieceKind.GO}:
+            raise _untold("a deed of the ego", "let its pieces be 'go': the policy under test drives it")
         ego = [self.moment_of[EGO, knot] for knot in program.ego.sketch.knots[1:] if (EGO, knot) in self.moment_of]
         renumbered = {actor.id: number for number, actor in enumerate(program.actors)}
         if any(old != new for old, new in renumbered.items()):
             raise _untold("actors that are not numbered one after the other", "number them 0, 1, 2")
-        return arranged(
-            Story(
-                tuple(Actor(actor.id, actor.name, way_of(actor.route)) for actor in program.actors),
-                tuple(Moment(tuple(dict.fromkeys(own)), self.times.get(number))
-                      for number, own in enumerate(self.conditions)),
-                tuple(ego),
-                tuple(self._deeds()),
-                tuple(dict.fromkeys(self.orders)),
-                tuple(dict.fromkeys(self.holds)),
-                program.parameters,
-                program.manner,
-                program.map_name,
-                program.name,
-            )
+        story = Story(
+            tuple(Actor(actor.id, actor.name, way_of(actor.route), kind_of(actor.name)) for actor in program.actors),
+            tuple(Moment(tuple(dict.fromkeys(own)), self.times.get(number))
+                  for number, own in enumerate(self.conditions)),
+            tuple(ego),
+            tuple(self._deeds()),
+            tuple(dict.fromkeys(self.orders)),
+            tuple(dict.fromkeys(self.holds)),
+            (),
+            program.manner,
+            program.map_name,
+            None if program.name == UNNAMED else program.name,
         )  # fmt: skip
+        used = {amount.name for amount in amounts_of(story)}
+        declared = [each for each in program.parameters if each.name not in used or each != Parameter(each.name)]
+        return arranged(replace(story, parameters=tuple(declared)))
 
     def _name_moments(self, formulas: list[ex.Formula]) -> None:
         """Give a number to every instant: the start, what the program merges, and every other knot that matters."""

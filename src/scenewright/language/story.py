@@ -161,7 +161,7 @@ class Verb(StrEnum):
     DRIVE = "drive on"
     SPEED_UP = "speed up"
     BRAKE = "brake"
-    STAND = "stand"
+    STAND = "stand still"
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,266 @@
+"""The story while it is being read: who is known, which moments, who does what, in the order in which it is told.
+
+What enters: what sentences say, one after the other. What leaves: a `Story`. It reads no words; what a text leaves out
+by custom (who brakes comes to a standstill, who stops and goes on has stood in between) is put in here, and told.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import NoReturn
+
+from scenewright.errors import UnknownWordsError
+from scenewright.language.compile import DRIVEN, kind_of
+from scenewright.language.phrases import speaks_of_ego
+from scenewright.language.read.chunks import Chunk
+from scenewright.language.read.clauses import Clause
+from scenewright.language.story import (
+    START,
+    Actor,
+    Alternative,
+    Amount,
+    Condition,
+    Deed,
+    Hold,
+    Measure,
+    Moment,
+    Operator,
+    Order,
+    Quantity,
+    Question,
+    Quote,
+    Story,
+    Verb,
+    Way,
+)
+from scenewright.program.manner import USUAL, Manner
+from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
+
+MOVING = (Verb.DRIVE, Verb.SPEED_UP)
+
+
+@dataclass(slots=True)
+class Doing:
+    """A deed that is being told; it is open while its end is not known."""
+
+    actor: int
+    verb: str
+    begins: int
+    ends: int | None = None
+    throughout: list[Measure] = field(default_factory=list)
+    quote: Quote | None = None
+    duration: tuple[Operator, Amount] | None = None
+
+    def as_deed(self, ends: int) -> Deed:
+        """Return the deed, which ends at a moment."""
+        return Deed(self.actor, self.verb, self.begins, ends, tuple(self.throughout), self.quote)
+
+
+@dataclass(slots=True)
+class Narrative:
+    """The story so far."""
+
+    answers: Mapping[str, str] = field(default_factory=dict)
+    actors: list[Actor] = field(default_factory=list)
+    conditions: list[list[Condition]] = field(default_factory=lambda: [[]])  # by moment
+    times: dict[int, Amount] = field(default_factory=dict)
+    quotes: dict[int, Quote] = field(default_factory=dict)
+    ego: list[int] = field(default_factory=list)
+    doings: list[Doing] = field(default_factory=list)
+    orders: list[Order] = field(default_factory=list)
+    holds: list[Hold] = field(default_factory=list)
+    parameters: list[Parameter] = field(default_factory=list)
+    manner: Manner = USUAL
+    map_name: str = DEFAULT_MAP
+    title: str | None = None
+    asides: list[Quote] = field(default_factory=list)
+    assumptions: list[str] = field(default_factory=list)
+    questions: list[Question] = field(default_factory=list)
+    mentioned: list[int] = field(default_factory=list)  # in this sentence
+    subject: int | None = None  # of the last main clause
+
+    def story(self) -> Story:
+        """Return the story; deeds that are still open end at moments of their own."""
+        for doing in self.doings:
+            if doing.ends is None:
+                doing.ends = self.moment()
+            if doing.duration is not None:
+                self.orders.append(Order(doing.begins, doing.ends, *doing.duration, doing.quote))
+        actors = self.actors
+        if not any(actor.id == EGO for actor in actors):
+            raise UnknownWordsError("the text does not say who is under test", fix="call it the ego")
+        return Story(
+            tuple(sorted(actors, key=lambda actor: actor.id)),
+            tuple(
+                Moment(tuple(own), self.times.get(number), self.quotes.get(number))
+                for number, own in enumerate(self.conditions)
+            ),
+            tuple(self.ego),
+            tuple(doing.as_deed(doing.ends or START) for doing in self.doings),
+            tuple(self.orders),
+            tuple(self.holds),
+            tuple(self.parameters),
+            self.manner,
+            self.map_name,
+            self.title,
+            tuple(self.asides),
+            tuple(self.assumptions),
+            tuple(self.questions),
+        )
+
+    # -- people -------------------------------------------------------------------------------------------------------
+    def who(self, chunk: Chunk) -> int:
+        """Return the number of whoever is mentioned; somebody new is added."""
+        actor = self._it(chunk) if chunk.kind == "pronoun" else self._named(chunk)
+        self.mentioned.append(actor)
+        return actor
+
+    def _it(self, chunk: Chunk) -> int:
+        found = list(dict.fromkeys(self.mentioned)) or ([] if self.subject is None else [self.subject])
+        if not found:
+            self.refuse("it is not clear who is meant", chunk.quote)
+        if len(found) == 1:
+            return found[0]
+        names = [next(each.name for each in self.actors if each.id == actor) for actor in found]
+        chosen = self.ask(f"who {chunk.start}", "Who is 'it'?", names, len(found) - 1, chunk.quote)
+        return found[names.index(chosen)]
+
+    def _named(self, chunk: Chunk) -> int:
+        kind, name = "car", chunk.value
+        if chunk.kind == "name":
+            pass
+        elif chunk.kind.startswith("name of "):
+            kind = chunk.kind.removeprefix("name of ")
+        elif name not in ("ego", "hero"):
+            kind = name
+        for actor in self.actors:
+            if actor.name == name:
+                return actor.id
+        heroes = [actor for actor in self.actors if actor.id != EGO]
+        if chunk.kind == "actor" and name == "car" and len(heroes) == 1:
+            return heroes[0].id
+        number = EGO if name == "ego" and chunk.kind == "actor" else max((each.id for each in heroes), default=0) + 1
+        known = kind_of(name) if kind in DRIVEN else kind
+        self.actors.append(Actor(number, name, Way(), known, quote=chunk.quote))
+        return number
+
+    def actor(self, number: int) -> Actor:
+        """Return somebody by number."""
+        return next(actor for actor in self.actors if actor.id == number)
+
+    def put(self, changed: Actor) -> None:
+        """Replace what is known of somebody."""
+        self.actors = [changed if actor.id == changed.id else actor for actor in self.actors]
+
+    # -- moments ------------------------------------------------------------------------------------------------------
+    def moment(self, conditions: Sequence[Condition] = (), quote: Quote | None = None) -> int:
+        """Add a moment and return its number."""
+        self.conditions.append(list(conditions))
+        if quote is not None:
+            self.quotes[len(self.conditions) - 1] = quote
+        return len(self.conditions) - 1
+
+    def add(self, moment: int, conditions: Sequence[Condition]) -> None:
+        """Let more be so at a moment."""
+        self.conditions[moment] += [each for each in conditions if each not in self.conditions[moment]]
+
+    def moment_with(self, conditions: Sequence[Condition]) -> int | None:
+        """Return the moment that is known by one of these conditions, as an event, or by all of them."""
+        for number, own in enumerate(self.conditions):
+            if number != START and own and list(own) == list(conditions):
+                return number
+        events = [each for each in conditions if is_event(each)]
+        for number, own in enumerate(self.conditions):
+            if number != START and any(each in own for each in events):
+                return number
+        return None
+
+    def ego_comes(self, moment: int, leads: set[str], quote: Quote, on_its_way: bool = False) -> None:
+        """Note that the ego comes through a moment that asks something of it, after those that were told before."""
+        if moment in self.ego or moment == START or "independently" in leads:
+            return
+        owned = any(moment in (doing.begins, doing.ends) for doing in self.doings)
+        if not on_its_way and (not speaks_of_ego(self.conditions[moment]) or (moment in self.times and not owned)):
+            return
+        if self.ego and "after that" not in leads and owned and not self._follows(self.ego[-1], moment):
+            first, either = "after the one before it", "at any time"
+            asked = f"When is this moment: {quote.text}?"
+            if self.ask(f"moment {quote.start}", asked, [either, first], 0, quote) == either:
+                return
+        self.ego.append(moment)
+
+    def _follows(self, earlier: int, later: int) -> bool:
+        for actor in self.actors:
+            knots = {each for doing in self.doings if doing.actor == actor.id for each in (doing.begins, doing.ends)}
+            if {earlier, later} <= knots:
+                return True
+        return False
+
+    # -- deeds --------------------------------------------------------------------------------------------------------
+    def last(self, actor: int) -> Doing | None:
+        """Return what somebody was told to do last."""
+        return next((doing for doing in reversed(self.doings) if doing.actor == actor), None)
+
+    def begin(self, actor: int, verb: str, moment: int | None, leads: set[str], quote: Quote) -> Doing:
+        """Let somebody begin a deed at a moment, or where the last one ended."""
+        if actor == EGO:
+            self.refuse("the ego is driven by the policy under test: say what the others do", quote)
+        before = self.last(actor)
+        if before is None:
+            if moment is not None and moment != START:
+                self.doings.append(Doing(actor, Verb.DRIVE, START, moment, quote=quote))
+            begins = START if moment is None else moment
+        elif before.ends is None:
+            begins = before.ends = self.moment() if moment is None else moment
+        else:
+            begins = self._go_on(before, verb, moment, leads)
+        self.doings.append(Doing(actor, verb, begins, quote=quote))
+        return self.doings[-1]
+
+    def _go_on(self, before: Doing, verb: str, moment: int | None, leads: set[str]) -> int:
+        """Return where a deed begins after one whose end is known; what lies between is standing or driving on."""
+        assert before.ends is not None
+        stands = standstill(before.actor) in self.conditions[before.ends]
+        if moment is None and not (stands and verb in MOVING and "at once" not in leads and before.verb != Verb.STAND):
+            return before.ends
+        if moment == before.ends:
+            return moment
+        between = Doing(before.actor, Verb.STAND if stands else Verb.DRIVE, before.ends, quote=before.quote)
+        between.ends = self.moment() if moment is None else moment
+        self.doings.append(between)
+        self.assumptions.append(
+            f"{self.actor(before.actor).name} {'stands still' if stands else 'drives on'} in between"
+        )
+        return between.ends
+
+    def doing_of(self, clause: Clause) -> Doing | None:
+        """Return the deed that an event speaks of: ``the hero begins to brake for the second time``."""
+        verb = Verb.BRAKE if clause.deed == "stop" else clause.deed
+        same = [each for each in self.doings if each.actor == clause.subject and each.verb == verb]
+        return same[clause.ordinal] if clause.ordinal < len(same) else None
+
+    # -- asking -------------------------------------------------------------------------------------------------------
+    def ask(self, slot: str, text: str, alternatives: list[str], default: int, quote: Quote) -> str:
+        """Return the answer to a question, or its default, which is noted as an open question."""
+        answer = self.answers.get(slot, "")
+        if answer in alternatives:
+            return answer
+        self.questions.append(Question(slot, text, tuple(Alternative(each) for each in alternatives), default, quote))
+        return alternatives[default]
+
+    def refuse(self, message: str, quote: Quote, fix: str | None = None) -> NoReturn:
+        """Raise the error that says what could not be read."""
+        raise UnknownWordsError(message, found=quote.text, fix=fix or "say it as `scenewright tell` would")
+
+
+def standstill(actor: int) -> Measure:
+    """Return that somebody stands."""
+    return Measure(actor, Quantity.SPEED, "==", Amount(Fraction(0), "m/s"))
+
+
+def is_event(condition: Condition) -> bool:
+    """Whether a condition is that somebody comes to a place, which happens once."""
+    where = isinstance(condition, Measure) and condition.quantity is Quantity.PLACE and condition.op == "=="
+    return where and isinstance(condition, Measure) and condition.amount is None
