@@ -304,6 +304,12 @@ def atoms(condition: Condition) -> Iterator[Measure]:
             yield from atoms(part)
 
 
+def is_event(condition: Condition) -> bool:
+    """Whether a condition is that somebody comes to a place: nobody drives backwards, so it happens once."""
+    where = isinstance(condition, Measure) and condition.quantity is Quantity.PLACE and condition.op == "=="
+    return where and isinstance(condition, Measure) and condition.amount is None
+
+
 def people_in(condition: Condition) -> set[int]:
     """Return whom a condition speaks of."""
     found: set[int | None] = set()

@@ -6,6 +6,7 @@ a `TranslationError` for the little that has no words yet. It decides nothing.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from graphlib import CycleError, TopologicalSorter
@@ -37,6 +38,7 @@ from scenewright.language.story import (
     Story,
     Verb,
     arranged,
+    is_event,
 )
 from scenewright.program.manner import NUMBERS, unit_of
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
@@ -63,7 +65,11 @@ class _Teller:
     told: list[str] = field(default_factory=list)
     known: set[int] = field(default_factory=lambda: {START})  # moments that have been told
     ego: list[int] = field(default_factory=list)  # its moments as a reader finds them
+    open_order: bool = False  # a reader would have to ask how the ego's moments follow each other
     durations: set[Order] = field(default_factory=set)
+    joined: set[tuple[int, Compound]] = field(default_factory=set)
+    begun: list[Deed] = field(default_factory=list)  # deeds that have been told
+    ended: list[Deed] = field(default_factory=list)  # those of which a reader knows when they end
 
     def __post_init__(self) -> None:
         self.phrases = Phrases(self.story)
@@ -87,8 +93,9 @@ class _Teller:
                 self._order(order)
         for hold in story.holds:
             self._hold(hold)
-        if tuple(self.ego) != story.ego:
-            raise untold("the order of the ego's moments")
+        if tuple(self.ego) != story.ego or self.open_order:
+            events = [self.event(moment) for moment in story.ego] or ["nothing"]
+            self.told.append(f"In the ego's order: {', then '.join(events)}.")
         return self.told
 
     def _head(self) -> None:
@@ -145,7 +152,7 @@ class _Teller:
         if any(isinstance(each, Compound) for each in conditions) or (time is None) == (moment not in self.story.ego):
             raise untold("a moment that is nobody's")
         if time is None:
-            self.told.append(f"{self._lead(moment)}Later, {listed(self.phrases.clauses(conditions))}.")
+            self.told.append(f"Later, {listed(self.phrases.clauses(conditions))}.")
         else:
             when = f"When it is {amount(time)} after the start"
             self.told.append(f"{when}, {listed(self.phrases.clauses(conditions))}.")
@@ -156,30 +163,39 @@ class _Teller:
         conditions = self.story.moments[moment].conditions
         event = conditions[0] if len(conditions) == 1 and self.story.moments[moment].time is None else None
         last = self.story.ego[-1:] == (moment,)
-        return event is not None and last and _is_event(event, EGO) and any(
+        return event is not None and last and is_event(event) and event.actor == EGO and any(  # type: ignore[union-attr]
             moment in (order.first, order.second) and START not in (order.first, order.second)
             for order in self.story.orders
         )  # fmt: skip
 
     def _introduce(self, moment: int) -> None:
+        """Note that a moment has been told, and whether a reader finds the ego's next one in it."""
+        if moment in self.known:
+            return
+        conditions = self.story.moments[moment].conditions
+        for other in self.known - {START}:
+            same = set(conditions) & set(self.story.moments[other].conditions)
+            if any(is_event(each) for each in same) or (conditions and same == set(conditions)):
+                raise untold("two moments at which the same is so")
         self.known.add(moment)
-        if moment in self.story.ego and moment not in self.ego:
+        owned = any(moment in (deed.begins, deed.ends) for deed in self.story.deeds)
+        if not owned and self.story.moments[moment].time is None:
+            self.ego.append(moment)
+        elif owned:
+            self._ego_comes(moment, [each for each in conditions if isinstance(each, Measure)])
+
+    def _ego_comes(self, moment: int, conditions: Sequence[Condition]) -> None:
+        if moment in self.ego or not speaks_of_ego(conditions):
+            return
+        if self.ego and not self._comes_after(self.ego[-1], moment):
+            self.open_order = True
+        else:
             self.ego.append(moment)
 
-    def _lead(self, moment: int) -> str:
-        """Return the words that say how a moment lies to those of the ego before it, where a reader would not know."""
-        reads = moment in self.story.ego or speaks_of_ego(self.story.moments[moment].conditions)
-        if not reads:
-            return ""
-        if moment not in self.story.ego:
-            return "Independently, "
-        after = not self.ego or self._comes_after(self.ego[-1], moment)
-        pure = not any(moment in (deed.begins, deed.ends) for deed in self.story.deeds)
-        return "" if after or pure else "After that, "
-
     def _comes_after(self, earlier: int, later: int) -> bool:
+        """Whether what has been told of one actor says so."""
         for hero in self.story.heroes:
-            knots = self.story.knots_of(hero.id)
+            knots = {each for deed in self.begun if deed.actor == hero.id for each in (deed.begins, deed.ends)}
             if earlier in knots and later in knots:
                 return True
         return False
@@ -191,13 +207,15 @@ class _Teller:
         found = self.story.moments[moment]
         simple = [each for each in found.conditions if isinstance(each, Measure)]
         time = [] if found.time is None else [f"it is {amount(found.time)} after the start"]
-        on = moment in self.story.ego and not speaks_of_ego(simple)
-        return time + self.phrases.clauses(simple, it) + (["the ego is on its way"] if on else [])
+        return time + self.phrases.clauses(simple, it)
 
     def _compounds(self, moment: int) -> None:
-        for each in self.story.moments[moment].conditions:
-            if isinstance(each, Compound):
+        conditions = self.story.moments[moment].conditions
+        for each in conditions:
+            if isinstance(each, Compound) and (moment, each) not in self.joined:
+                self.joined.add((moment, each))
                 self.told.append(f"When {self.event(moment)}, {self.phrases.clause(each)}.")
+                self._ego_comes(moment, conditions)
 
     # -- deeds --------------------------------------------------------------------------------------------------------
     def _deed(self, deed: Deed) -> None:
@@ -208,9 +226,18 @@ class _Teller:
         lead, begins = self._begin(deed, chain, index)
         rate, held = _rate(deed)
         duration = next((each for each in self.story.orders if (each.first, each.second) == (deed.begins, deed.ends)
-                         and each.margin is not None), None)  # fmt: skip
-        if index == 0 and waits and not held and duration is None and self._items(deed.ends):
+                         and each.margin is not None and each not in self.durations), None)  # fmt: skip
+        if (
+            index == 0
+            and waits
+            and deed.verb == Verb.DRIVE
+            and not held
+            and duration is None
+            and self._items(deed.ends)
+        ):
             return  # "When ..., the hero begins to brake" says it
+        self.begun += [each for each in chain[: index + 1] if each not in self.begun]
+        self.ended += chain[:index] if waits else chain[: index + 1]
         does, begin, _ = DOES[deed.verb]
         text = f"{lead}{self.phrases.name(deed.actor)} {f'begins to {begin}' if begins else does}"
         text += "" if rate is None or rate.amount is None else f" at {bounded(rate.op, rate.amount)}"
@@ -218,10 +245,9 @@ class _Teller:
             self.durations.add(duration)
             text += f" for {bounded(duration.op, duration.margin)}"
         until = [] if waits else self._items(deed.ends, deed.actor)
+        if not waits and not until and any(each.ends == deed.ends for each in self.begun if each.actor != deed.actor):
+            until = [self.event(deed.ends)]
         if until:
-            independent = self._lead(deed.ends) if deed.ends not in self.known else ""
-            if independent:
-                raise untold("the order of the ego's moments")
             text += f" until {listed(until)}"
             self._introduce(deed.ends)
         elif not waits:
@@ -229,7 +255,7 @@ class _Teller:
             self._introduce(deed.ends)
         self.told.append(sentence(text))
         self.told += [f"Meanwhile, {self.phrases.clause(each)}." for each in held]
-        for moment in ([deed.begins] if fresh else []) + ([deed.ends] if until else []):
+        for moment in ([deed.begins] if fresh else []) + ([] if waits else [deed.ends]):
             self._compounds(moment)
 
     def _begin(self, deed: Deed, chain: tuple[Deed, ...], index: int) -> tuple[str, bool]:
@@ -238,9 +264,8 @@ class _Teller:
             return "", False
         if chain[index - 1].verb in (Verb.DRIVE, Verb.STAND):
             items = self._items(deed.begins)
-            lead = self._lead(deed.begins) if deed.begins not in self.known else ""
             self._introduce(deed.begins)
-            return (f"{lead}{'when' if lead else 'When'} {listed(items)}, ", True) if items else ("Then ", False)
+            return (f"When {listed(items)}, ", True) if items else ("Then ", False)
         moving = deed.verb in (Verb.DRIVE, Verb.SPEED_UP)
         at_rest = any(_is_standstill(each, deed.actor) for each in self.story.moments[deed.begins].conditions)
         return "Then at once " if moving and at_rest else "Then ", False
@@ -252,13 +277,14 @@ class _Teller:
         found = story.moments[moment]
         for condition in found.conditions:
             shared = sum(condition in each.conditions for each in story.moments) > 1
-            if isinstance(condition, Measure) and _is_event(condition, condition.actor) and not shared:
+            if isinstance(condition, Measure) and is_event(condition) and not shared:
                 return self.phrases.clause(condition, passing=True)
-        for deed in story.deeds:
+        for deed in self.begun:
             if deed.begins == moment and moment != START:
                 return f"{self.phrases.name(deed.actor)} begins to {DOES[deed.verb][1]}{self._time(deed)}"
-        for deed in story.deeds:
-            if deed.ends == moment:
+        for deed in self.begun:
+            if deed.ends == moment and (deed in self.ended or moment not in self.known):
+                self.ended.append(deed)
                 return f"{self.phrases.name(deed.actor)} finishes {DOES[deed.verb][2]}{self._time(deed)}"
         for condition in found.conditions:
             if isinstance(condition, Measure) and not any(condition in each.conditions for each in story.moments
@@ -312,12 +338,6 @@ def _rate(deed: Deed) -> tuple[Measure | None, tuple[Measure, ...]]:
         None,
     )
     return rate, tuple(each for each in deed.throughout if each is not rate)
-
-
-def _is_event(condition: Condition, actor: int) -> bool:
-    """Whether somebody comes to a place: nobody drives backwards, so it happens once."""
-    where = isinstance(condition, Measure) and condition.quantity is Quantity.PLACE and condition.amount is None
-    return where and isinstance(condition, Measure) and condition.op == "==" and condition.actor == actor
 
 
 def _is_standstill(condition: Condition, actor: int) -> bool:

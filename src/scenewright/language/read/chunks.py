@@ -170,8 +170,12 @@ def _phrase(text: str, match: re.Match[str]) -> Chunk | None:
                 break
             end = following.end()
         else:
-            if words[-1] == "on" and len(words) > 1 and re.match(r"\s+(the|a)\b", text[end:]):
-                continue  # "drives on the road" says where
+            following = _TOKEN.search(text, end)
+            after = "" if following is None else following.group().lower()
+            if (words[-1] == "on" and len(words) > 1 and after in ("the", "a")) or (
+                words[-1] == "start" and after == "of"
+            ):
+                continue  # "drives on the road" says where, "at the start of the turn" too
             best = Chunk(kind, value, match.start(), end, text[match.start() : end])
             break
     return best

@@ -125,7 +125,7 @@ class _Reader:
                 pass
             case "bound":
                 following = self._peek()
-                if following is None or following.kind != "amount":
+                if following is None or (following.kind != "amount" and following.value != "as fast as"):
                     raise self._left_over(chunk)
             case "amount":
                 self._amount(chunk)
@@ -152,6 +152,8 @@ class _Reader:
                 self.quantity = value
             case "factor" if value == "as fast as" or self._peek_is("side", "than"):
                 self._factor(chunk)
+            case "link" if value == "then" and self._is_between("heading"):
+                pass
             case "turn" | "heading" | "origin" | "then_headed" | "area" | "lanes":
                 self._way(chunk)
             case _:
@@ -160,6 +162,12 @@ class _Reader:
     def _peek_is(self, kind: str, value: str) -> bool:
         following = self._peek()
         return following is not None and (following.kind, following.value) == (kind, value)
+
+    def _is_between(self, kind: str) -> bool:
+        following = self._peek()
+        return (
+            self.at > 0 and self.chunks[self.at - 1].kind == kind and following is not None and following.kind == kind
+        )
 
     def _has_event(self, name: str) -> bool:
         return name in self.clause.flags

@@ -34,6 +34,7 @@ from scenewright.language.story import (
     Story,
     Verb,
     Way,
+    is_event,
 )
 from scenewright.program.manner import USUAL, Manner
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
@@ -80,6 +81,7 @@ class Narrative:
     questions: list[Question] = field(default_factory=list)
     mentioned: list[int] = field(default_factory=list)  # in this sentence
     subject: int | None = None  # of the last main clause
+    doer: int | None = None  # whose deed it is, while what ends it is read
 
     def story(self) -> Story:
         """Return the story; deeds that are still open end at moments of their own."""
@@ -118,6 +120,8 @@ class Narrative:
         return actor
 
     def _it(self, chunk: Chunk) -> int:
+        if self.doer is not None:
+            return self.doer
         found = list(dict.fromkeys(self.mentioned)) or ([] if self.subject is None else [self.subject])
         if not found:
             self.refuse("it is not clear who is meant", chunk.quote)
@@ -177,19 +181,22 @@ class Narrative:
                 return number
         return None
 
-    def ego_comes(self, moment: int, leads: set[str], quote: Quote, on_its_way: bool = False) -> None:
+    def ego_comes(self, moment: int, quote: Quote) -> None:
         """Note that the ego comes through a moment that asks something of it, after those that were told before."""
-        if moment in self.ego or moment == START or "independently" in leads:
-            return
         owned = any(moment in (doing.begins, doing.ends) for doing in self.doings)
-        if not on_its_way and (not speaks_of_ego(self.conditions[moment]) or (moment in self.times and not owned)):
+        if moment in self.ego or moment == START or not owned or not speaks_of_ego(self.conditions[moment]):
             return
-        if self.ego and "after that" not in leads and owned and not self._follows(self.ego[-1], moment):
-            first, either = "after the one before it", "at any time"
-            asked = f"When is this moment: {quote.text}?"
-            if self.ask(f"moment {quote.start}", asked, [either, first], 0, quote) == either:
+        if self.ego and not self._follows(self.ego[-1], moment):
+            later, either = "it comes after the ego's moments that were told before", "it may come before or after them"
+            asked = f"How does this moment lie to the ego's others: {quote.text}"
+            if self.ask(f"ego {quote.start}", asked, [either, later], 0, quote) == either:
                 return
         self.ego.append(moment)
+
+    def ego_order(self, moments: list[int]) -> None:
+        """Take the moments that the ego comes through, as a text lists them: nothing is open about them."""
+        self.ego = moments
+        self.questions = [each for each in self.questions if not each.slot.startswith("ego ")]
 
     def _follows(self, earlier: int, later: int) -> bool:
         for actor in self.actors:
@@ -258,9 +265,3 @@ class Narrative:
 def standstill(actor: int) -> Measure:
     """Return that somebody stands."""
     return Measure(actor, Quantity.SPEED, "==", Amount(Fraction(0), "m/s"))
-
-
-def is_event(condition: Condition) -> bool:
-    """Whether a condition is that somebody comes to a place, which happens once."""
-    where = isinstance(condition, Measure) and condition.quantity is Quantity.PLACE and condition.op == "=="
-    return where and isinstance(condition, Measure) and condition.amount is None

@@ -15,7 +15,7 @@ from scenewright.errors import TranslationError, UnknownWordsError
 from scenewright.language.read.chunks import Chunk, sentences
 from scenewright.language.read.clauses import Clause, read_clause
 from scenewright.language.read.labels import take_labels
-from scenewright.language.read.narrative import Doing, Narrative, is_event, standstill
+from scenewright.language.read.narrative import Doing, Narrative, standstill
 from scenewright.language.story import (
     START,
     Compound,
@@ -29,10 +29,11 @@ from scenewright.language.story import (
     Quote,
     Story,
     Verb,
+    is_event,
 )
 from scenewright.program.types import EGO
 
-_LEADS = ("then", "at once", "after that", "later", "independently", "meanwhile", "start")
+_LEADS = ("then", "at once", "later", "meanwhile", "start")
 _LINKS = ("when", "until", "no later than", "from")
 _HOW: dict[str, Literal["always", "never", "at some time"]] = {
     "always": "always", "never": "never", "at some time": "at some time",
@@ -104,10 +105,13 @@ class _Sentence:
 
     def read(self) -> None:
         story = self.narrative
-        story.mentioned = []
+        story.mentioned, story.doer = [], None
         unknown = next((chunk for chunk in self.chunks if chunk.kind == "unknown"), None)
         if unknown is not None:
             story.refuse(f"'{unknown.text}' is not known", unknown.quote)
+        if self.chunks[0].kind == "ego's order":
+            self._ego_order()
+            return
         how = next((chunk for chunk in self.chunks if chunk.kind == "link" and chunk.value in _HOW), None)
         if how is not None:
             self._hold(how)
@@ -238,7 +242,7 @@ class _Sentence:
         elif when is not None:
             moment = self._moment(when, self.quote)
             story.add(moment, self._conditions(items))
-            story.ego_comes(moment, self.leads, self.quote)
+            story.ego_comes(moment, self.quote)
             self._orders(moment, rest)
         elif rest or after_start or _tells_a_time(items):
             clause = items[0]
@@ -314,8 +318,7 @@ class _Sentence:
         doing = story.begin(clause.subject, verb, moment, self.leads, self.quote)
         story.subject = clause.subject
         if moment is not None:
-            on = any(isinstance(item, Clause) and "own_way" in item.flags for item in when or ())
-            story.ego_comes(moment, self.leads, self.quote, on)
+            story.ego_comes(moment, self.quote)
         if clause.rate is not None:
             doing.throughout.append(replace(clause.rate, actor=doing.actor))
         ends = self._ends(clause, doing)
@@ -344,11 +347,10 @@ class _Sentence:
 
     def _end(self, doing: Doing, clause: Clause, ends: list[Condition], until: _Segment | None) -> None:
         story = self.narrative
-        on = False
         if until is not None:
-            story.mentioned = [doing.actor]
+            story.doer = doing.actor
             items = self._items(until.chunks)
-            on = any(isinstance(item, Clause) and "own_way" in item.flags for item in items)
+            story.doer = None
             doing.ends = self._moment(items, self.quote)
             story.add(doing.ends, ends)
         elif ends:
@@ -357,7 +359,7 @@ class _Sentence:
             doing.ends = story.moment([standstill(doing.actor)], self.quote)
             story.assumptions.append(f"{story.actor(doing.actor).name} brakes to a standstill")
         if doing.ends is not None:
-            story.ego_comes(doing.ends, self.leads, self.quote, on)
+            story.ego_comes(doing.ends, self.quote)
 
     # -- orders and holds ---------------------------------------------------------------------------------------------
     def _orders(self, moment: int, rest: list[_Segment]) -> None:
@@ -397,6 +399,22 @@ class _Sentence:
             story.refuse("one condition holds all the while", self.quote, "write a sentence for each")
         story.holds.append(Hold(_HOW[how.value], start, end, conditions[0], self.quote))
 
+    def _ego_order(self) -> None:
+        """Read ``In the ego's order: ..., then ...``."""
+        events: list[list[Chunk]] = [[]]
+        for chunk in self.chunks[1:]:
+            if chunk.value == "then":
+                events.append([])
+            elif chunk.kind not in ("comma", "nothing"):
+                events[-1].append(chunk)
+        self.narrative.ego_order([self._event_of(chunks) for chunks in events if chunks])
+
+    def _event_of(self, chunks: list[Chunk]) -> int:
+        (item, *more) = self._items(chunks)
+        if more or isinstance(item, Compound):
+            self.narrative.refuse("this is not one event", self.quote)
+        return self._event(item)
+
     def _point(self, chunks: list[Chunk]) -> Point:
         offset, earlier = None, False
         if len(chunks) > 1 and chunks[0].kind == "amount" and chunks[1].value in ("before", "after"):
@@ -404,10 +422,7 @@ class _Sentence:
             chunks = chunks[2:]
         if [chunk.value for chunk in chunks] == ["the start"]:
             return Point(START, offset, earlier)
-        (item, *more) = self._items(chunks)
-        if more or isinstance(item, Compound):
-            self.narrative.refuse("an interval begins and ends with one event", self.quote)
-        return Point(self._event(item), offset, earlier)
+        return Point(self._event_of(chunks), offset, earlier)
 
 
 def _tells_a_time(items: list[Item]) -> bool:
@@ -472,7 +487,7 @@ class _Items:
                 self.at += 1
                 continue
             start = self.at
-            found.append(self._one(inside=""))
+            found.append(self._one(()))
             self.read.append([chunk for chunk in self.chunks[start : self.at] if chunk.kind != "comma"])
         for index, item in enumerate(found):
             if isinstance(item, Clause) and item.waiting:
@@ -488,7 +503,7 @@ class _Items:
         chunk = self.chunks[self.at]
         return chunk.value == value and chunk.kind in ("joint", "link")
 
-    def _one(self, inside: str) -> Item:
+    def _one(self, inside: tuple[str, ...]) -> Item:
         chunk = self.chunks[self.at] if self.at < len(self.chunks) else None
         if chunk is None:
             raise UnknownWordsError("a condition is missing", fix="say what is so")
@@ -497,17 +512,18 @@ class _Items:
             if chunk.value == "not so":
                 return Compound("not", (self._part(inside),), chunk.quote)
             link = {"either": "or", "both": "and", "if": "then"}[chunk.value]
-            parts = [self._part(link)]
+            inside = (*inside, link)
+            parts = [self._part(inside)]
             while self._is_joint(link):
                 self.at += 1
-                parts.append(self._part(link))
+                parts.append(self._part(inside))
             joint: Literal["and", "or", "if"] = (
                 "or" if chunk.value == "either" else "and" if chunk.value == "both" else "if"
             )
             return Compound(joint, tuple(parts), chunk.quote)
         return self._clause(inside)
 
-    def _part(self, inside: str) -> Condition:
+    def _part(self, inside: tuple[str, ...]) -> Condition:
         item = self._one(inside)
         if isinstance(item, Compound):
             return item
@@ -517,12 +533,14 @@ class _Items:
             return Compound("and", tuple(item.measures), item.quote)
         raise UnknownWordsError("this is no condition", found=item.quote.text, fix="say what is so")
 
-    def _clause(self, inside: str) -> Clause:
+    def _clause(self, inside: tuple[str, ...]) -> Clause:
         start = self.at
         while self.at < len(self.chunks):
             chunk = self.chunks[self.at]
             ends = chunk.kind == "comma" or (chunk.kind == "joint" and chunk.value in ("and", "or"))
-            if self.at > start and ((ends and self._begins(self.at + 1)) or self._is_joint(inside)):
+            if self.at > start and (
+                (ends and self._begins(self.at + 1)) or any(self._is_joint(link) for link in inside)
+            ):
                 break
             self.at += 1
         own = [chunk for chunk in self.chunks[start : self.at] if chunk.kind != "comma"]
