@@ -81,7 +81,9 @@ class Teller:
             nobody = number not in owned
             few = 1 if nobody else 0
             moments.append(Moment(self.conditions(pick.choice((few, 1, 1, 2, 3)), simple=nobody), time))
-        orders, holds = self.orders(count), tuple(self.hold(count) for _ in range(pick.choice((0, 0, 0, 1, 2))))
+        # A program knows a moment that is nobody's by its time alone.
+        named = [number for number in range(count + 1) if not self.si or number in (START, *owned, *ego)]
+        orders, holds = self.orders(named), tuple(self.hold(named) for _ in range(pick.choice((0, 0, 0, 1, 2))))
         manner = manner_of([("stands_s", Fraction(2), None)]) if pick.random() < 0.1 else USUAL
         title = pick.choice((None, None, "left turn, yields", "a 'title'; with marks."))
         map_name = pick.choice((DEFAULT_MAP, DEFAULT_MAP, "maps/town 7.xodr"))
@@ -172,10 +174,10 @@ class Teller:
             )
         )
 
-    def orders(self, count: int) -> tuple[Order, ...]:
+    def orders(self, named: list[int]) -> tuple[Order, ...]:
         pick, found = self.random, []
         for _ in range(pick.choice((0, 0, 1, 2))):
-            first, second = pick.sample(range(count + 1), 2) if count else (START, START)
+            first, second = pick.sample(named, 2) if len(named) > 1 else (START, START)
             if first == second or second == START:
                 continue
             if pick.random() < 0.5 or first == START:
@@ -184,15 +186,15 @@ class Teller:
                 found.append(Order(first, second, pick.choice((">", ">="))))
         return tuple(dict.fromkeys(found))
 
-    def hold(self, count: int) -> Hold:
+    def hold(self, named: list[int]) -> Hold:
         pick = self.random
-        start, end = self.point(count), self.point(count)
+        start, end = self.point(named), self.point(named)
         condition = pick.choice((self.measure(), self.measure(), self.compound(),
                                  Compound("and", (self.measure(), self.measure()))))  # fmt: skip
         return Hold(pick.choice(("always", "never", "at some time")), start, end, condition)
 
-    def point(self, count: int) -> Point:
-        moment = self.random.randint(0, count)
+    def point(self, named: list[int]) -> Point:
+        moment = self.random.choice(named)
         if self.random.random() < 0.6:
             return Point(moment)
         return Point(moment, self.amount("time"), moment != START and self.random.random() < 0.5)

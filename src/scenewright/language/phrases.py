@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 from scenewright.errors import TranslationError
 from scenewright.language.story import (
@@ -219,7 +220,7 @@ def speaks_of_ego(conditions: Sequence[Condition]) -> bool:
 
 
 def _stands(measure: Measure) -> bool:
-    zero = measure.amount is not None and measure.amount.value == 0 and measure.other is None
+    zero = measure.amount == Amount(Fraction(0), "m/s") and measure.other is None
     return zero and measure.quantity is Quantity.SPEED and measure.op == "=="
 
 

@@ -333,14 +333,26 @@ def arranged(story: Story) -> Story:
     def point(each: Point) -> Point:
         return replace(each, moment=new[each.moment])
 
+    # "It begins 5 s after the start" gives the moment its time.
+    fixed = {
+        order.second: order
+        for order in story.orders
+        if order.first == START and order.op == "==" and story.moments[order.second].time is None
+    }
     moments = tuple(
-        replace(story.moments[old], conditions=tuple(sorted(story.moments[old].conditions, key=repr))) for old in seen
+        replace(
+            story.moments[old],
+            conditions=tuple(sorted(story.moments[old].conditions, key=repr)),
+            time=fixed[old].margin if old in fixed else story.moments[old].time,
+        )
+        for old in seen
     )
     deeds = [
         replace(deed, begins=new[deed.begins], ends=new[deed.ends], throughout=tuple(sorted(deed.throughout, key=repr)))
         for deed in story.deeds
     ]
-    orders = [replace(order, first=new[order.first], second=new[order.second]) for order in story.orders]
+    orders = [replace(order, first=new[order.first], second=new[order.second])
+              for order in story.orders if order not in fixed.values()]  # fmt: skip
     holds = [replace(hold, start=point(hold.start), end=point(hold.end)) for hold in story.holds]
     return replace(
         story,

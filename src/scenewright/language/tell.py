@@ -149,7 +149,7 @@ class _Teller:
         conditions, time = self.story.moments[moment].conditions, self.story.moments[moment].time
         if moment == START or self._is_left_to_an_order(moment):
             return
-        if any(isinstance(each, Compound) for each in conditions) or (time is None) == (moment not in self.story.ego):
+        if any(isinstance(each, Compound) for each in conditions) or (time is None and moment not in self.story.ego):
             raise untold("a moment that is nobody's")
         if time is None:
             self.told.append(f"Later, {listed(self.phrases.clauses(conditions))}.")
