@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from fractions import Fraction
-from typing import Any, Literal
+from typing import Literal
 
 from scenewright.errors import Span
 from scenewright.program.manner import USUAL, Manner
@@ -224,20 +224,22 @@ class Hold:
 
 @dataclass(frozen=True, slots=True)
 class Alternative:
-    """One answer to a question: its words, and the value that it puts at the question's slot."""
+    """One answer to a question, in words."""
 
     text: str
-    value: Any = None
 
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """Something that is empty or has two readings. `slot` is its key in a file of answers; a default was taken."""
+    """Something that is empty or has two readings.
+
+    `slot` is its key in a file of answers. Where there is a default it was taken; without one nothing is compiled.
+    """
 
     slot: str
     text: str
     alternatives: tuple[Alternative, ...]
-    default: int = 0
+    default: int | None = 0
     quote: Quote | None = field(default=None, compare=False, repr=False)
 
 
@@ -293,6 +295,11 @@ class Story:
     def owners(self, moment: int) -> tuple[int, ...]:
         """Return who comes through a moment, in order of number."""
         return tuple(actor.id for actor in self.actors if moment in self.knots_of(actor.id))
+
+
+def replace_actor(story: Story, changed: Actor) -> Story:
+    """Return `story` with something else known of one of its actors."""
+    return replace(story, actors=tuple(changed if each.id == changed.id else each for each in story.actors))
 
 
 def atoms(condition: Condition) -> Iterator[Measure]:

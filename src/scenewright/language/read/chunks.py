@@ -9,7 +9,8 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
 from fractions import Fraction
 from functools import lru_cache
 from importlib.resources import files
@@ -191,3 +192,15 @@ def _plain(text: str, match: re.Match[str]) -> Chunk:
     if match["mark"]:
         return Chunk("end" if said in _ENDS else "comma", said, start, end, said)
     return Chunk("unknown", said, start, end, said)
+
+
+def nearest_words(word: str) -> list[str]:
+    """Return the words of the domain that are spelled most like `word`."""
+    single = {words[0] for known in vocabulary().phrases.values() for words, _, _ in known if len(words) == 1}
+    return get_close_matches(word.lower(), sorted(single), n=2, cutoff=0.7)
+
+
+def word_as(chunk: Chunk, word: str) -> Chunk:
+    """Return `chunk` as what another word is."""
+    kind, value = next((kind, value) for words, kind, value in vocabulary().phrases[word] if words == (word,))
+    return replace(chunk, kind=kind, value=value)

@@ -12,9 +12,11 @@ from fractions import Fraction
 from typing import Protocol
 
 from scenewright.errors import UnknownWordsError
+from scenewright.language.compile import COMPASS
 from scenewright.language.read.chunks import Chunk
 from scenewright.language.story import Amount, Measure, Operator, Place, Quantity, Quote
 from scenewright.program.arithmetic import JUST_BEFORE_M
+from scenewright.program.types import EGO
 
 _OPERATORS: dict[str, Operator] = {"==": "==", ">=": ">=", "<=": "<=", ">": ">", "<": "<"}
 _BARE: dict[str, Operator] = {
@@ -29,6 +31,18 @@ class People(Protocol):
 
     def who(self, chunk: Chunk) -> int:
         """Return the number of the actor that a mention means."""
+        ...
+
+    def whom(self, chunk: Chunk, subject: int | None) -> int:
+        """Return the one that "it" means who is not the subject."""
+        ...
+
+    def where(self, chunk: Chunk) -> Place:
+        """Return the place that "it" means."""
+        ...
+
+    def went(self, place: Place) -> None:
+        """Note that a place was spoken of."""
         ...
 
 
@@ -58,6 +72,7 @@ class Clause:
     times: dict[str, tuple[Operator, Amount]] = field(default_factory=dict)
     facts: dict[str, str] = field(default_factory=dict)
     flags: set[str] = field(default_factory=set)
+    relations: list[tuple[str, int, Quote]] = field(default_factory=list)  # of its way to that of another
     waiting: list[tuple[Operator, Chunk]] = field(default_factory=list)  # amounts without a target
     target: tuple[str, Chunk] | None = None  # the last side and place or actor
 
@@ -72,15 +87,17 @@ class _Target:
     used: bool = False
 
 
-def read_clause(chunks: Sequence[Chunk], people: People, neighbour: Clause | None = None) -> Clause:
-    """Return what `chunks` say; an amount without a place takes that of its neighbour.
+def read_clause(
+    chunks: Sequence[Chunk], people: People, neighbour: Clause | None = None, subject: int | None = None
+) -> Clause:
+    """Return what `chunks` say of whom they name, else of `subject`; a lone amount takes the place of its neighbour.
 
     Raises
     ------
     UnknownWordsError
         Where something that carries meaning is left over.
     """
-    return _Reader(list(chunks), people).read(neighbour)
+    return _Reader(list(chunks), people).read(neighbour, subject)
 
 
 @dataclass(slots=True)
@@ -93,13 +110,15 @@ class _Reader:
     targets: list[_Target] = field(default_factory=list)
     quantity: str | None = None
 
-    def read(self, neighbour: Clause | None) -> Clause:
+    def read(self, neighbour: Clause | None, subject: int | None) -> Clause:
         first, last = self.chunks[0], self.chunks[-1]
         text = " ".join(chunk.text for chunk in self.chunks)
         self.clause = Clause(Quote(first.start, last.end, text))
         while self.at < len(self.chunks):
             self._take(self.chunks[self.at])
             self.at += 1
+        if self.clause.subject is None:
+            self.clause.subject = subject
         self._attach(neighbour)
         return self.clause
 
@@ -117,6 +136,8 @@ class _Reader:
     def _take(self, chunk: Chunk) -> None:
         clause, value = self.clause, chunk.value
         match chunk.kind:
+            case "pronoun" if value == "it" and self._has_event("pass"):
+                self.targets.append(_Target(self.at, "at", chunk, self.people.where(chunk), None))
             case "actor" | "pronoun" | "name":
                 self._person(chunk)
             case "be" | "mood" | "harmless" | "comma":
@@ -146,7 +167,9 @@ class _Reader:
                 clause.ordinal = int(value)
             case "standstill":
                 clause.flags.add("standstill")
-            case "state" | "event" | "open":
+            case "relation":
+                clause.relations.append((value, EGO, chunk.quote))
+            case "state" | "event" | "open" | "order":
                 clause.flags.add(value)
             case "quantity" if self.quantity in (None, "rate", value):
                 self.quantity = value
@@ -213,8 +236,10 @@ class _Reader:
         following = self._peek()
         if following is None:
             raise self._left_over(chunk)
-        if following.kind in ("place", "actor", "name") or (following.value == "its"):
+        if following.kind in ("place", "actor", "name", "pronoun"):
             self._target(chunk.value)
+        elif chunk.value == "to" and following.kind == "event":
+            pass  # "speeds up to pass the conflict point"
         elif following.kind == "area" and chunk.value in ("at", "into", "from"):
             self._area(chunk.value, following)
         elif chunk.value in ("at", "of", "for", "to", "with") and following.kind in ("amount", "bound", "quantity"):
@@ -231,7 +256,9 @@ class _Reader:
         if chunk.value == "its" and self._peek() is not None:
             self.at += 1
             chunk = self.chunks[self.at]
-        if chunk.kind == "place":
+        if chunk.kind == "pronoun":
+            self._it(at, side, chunk)
+        elif chunk.kind == "place":
             place = self._whose(chunk)
             self.targets.append(_Target(at, side, chunk, place, None))
         else:
@@ -247,6 +274,13 @@ class _Reader:
                 self.at -= 1
                 self.targets.append(_Target(at, side, chunk, None, self.people.who(named)))
 
+    def _it(self, at: int, side: str, chunk: Chunk) -> None:
+        """Take "it" after a side: who somebody is ahead of or behind, else the place that was spoken of last."""
+        if side in ("ahead", "behind"):
+            self.targets.append(_Target(at, side, chunk, None, self.people.whom(chunk, self.clause.subject)))
+        else:
+            self.targets.append(_Target(at, side, chunk, self.people.where(chunk), None))
+
     def _whose(self, chunk: Chunk) -> Place:
         if chunk.kind != "place":
             raise self._left_over(chunk)
@@ -260,7 +294,9 @@ class _Reader:
             self.at += 2
             person = self.people.who(self._named(self.chunks[self.at]))
             of, partner = (person, partner) if side == "of" else (of, person)
-        return Place(chunk.value, of, partner)
+        place = Place(chunk.value, of, partner)
+        self.people.went(place)
+        return place
 
     def _factor(self, chunk: Chunk) -> None:
         previous = self.amounts[-1] if self.amounts and self.amounts[-1][0] == self.at - 1 else None
@@ -302,10 +338,14 @@ class _Reader:
                 facts["then headed"] = ""
             case "origin":
                 following = self._peek()
-                if following is None or following.kind != "area":
+                if following is None or following.kind not in ("area", "heading"):
                     raise self._left_over(chunk)
                 self.at += 1
-                self._fact("origin", following.value, following)
+                if following.kind == "heading":  # who comes from the east is headed west
+                    opposite = COMPASS[(COMPASS.index(following.value) + 2) % 4]
+                    self._fact("heading", opposite, following)
+                else:
+                    self._fact("origin", following.value, following)
             case _:
                 self._area("", chunk)
 
@@ -334,10 +374,11 @@ class _Reader:
         actor: int | None = None,
     ) -> None:
         who = self.clause.subject if actor is None else actor
+        if who is None:
+            raise self._left_over(self.chunks[0])
         if place is not None and place.of == who:
             place = replace(place, of=None)
-        measure = Measure(-1 if who is None else who, quantity, op, amount, place, other, opposite, quote)
-        self.clause.measures.append(measure)
+        self.clause.measures.append(Measure(who, quantity, op, amount, place, other, opposite, quote))
 
     def _attach(self, neighbour: Clause | None) -> None:
         clause = self.clause
@@ -352,6 +393,9 @@ class _Reader:
             self._place_amount(at, op, chunk, neighbour)
         for target in self.targets:
             if target.used:
+                continue
+            if target.other is not None and target.side in ("ahead", "behind") and clause.deed is None:
+                clause.relations.append((target.side, target.other, target.chunk.quote))
                 continue
             if target.place is None or target.side not in _BARE:
                 raise self._left_over(target.chunk)
@@ -371,13 +415,9 @@ class _Reader:
         if amount.dimension == "acceleration":
             slowing = self.quantity == "deceleration" or clause.deed == "brake"
             clause.flags.add("rate")
-            rate = Measure(
-                -1 if clause.subject is None else clause.subject, Quantity.RATE, op, amount, None, None, slowing, quote
-            )
+            self._measure(Quantity.RATE, op, amount, opposite=slowing, quote=quote)
             if clause.deed is not None:
-                clause.rate = rate
-            else:
-                clause.measures.append(rate)
+                clause.rate = clause.measures.pop()
             return
         target = self._nearest(at)
         if target is None and neighbour is not None and neighbour.target is not None:
@@ -401,7 +441,7 @@ class _Reader:
         if target.place is not None:
             if target.side in ("past", "after") and not is_time:
                 self._measure(Quantity.PLACE, op, amount, target.place, opposite=True, quote=quote)
-            elif target.side in _TO_PLACE:
+            elif target.side in _TO_PLACE or (target.side == "at" and self.quantity == "time to arrival"):
                 quantity = Quantity.ARRIVAL if is_time else Quantity.PLACE
                 self._measure(quantity, op, amount, target.place, quote=quote)
             else:

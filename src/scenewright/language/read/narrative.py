@@ -28,6 +28,7 @@ from scenewright.language.story import (
     Moment,
     Operator,
     Order,
+    Place,
     Quantity,
     Question,
     Quote,
@@ -81,6 +82,7 @@ class Narrative:
     questions: list[Question] = field(default_factory=list)
     mentioned: list[int] = field(default_factory=list)  # in this sentence
     subject: int | None = None  # of the last main clause
+    place: Place | None = None  # that was spoken of last
     doer: int | None = None  # whose deed it is, while what ends it is read
 
     def story(self) -> Story:
@@ -118,6 +120,24 @@ class Narrative:
         actor = self._it(chunk) if chunk.kind == "pronoun" else self._named(chunk)
         self.mentioned.append(actor)
         return actor
+
+    def whom(self, chunk: Chunk, subject: int | None) -> int:
+        """Return the one that "it" means who is not the subject."""
+        others = [each for each in dict.fromkeys(self.mentioned) if each != subject]
+        others = others or [actor.id for actor in self.actors if actor.id != subject]
+        if len(others) != 1:
+            self.refuse("it is not clear who is meant", chunk.quote)
+        return others[0]
+
+    def where(self, chunk: Chunk) -> Place:
+        """Return the place that "it" means: the one that was spoken of last."""
+        if self.place is None:
+            self.refuse("it is not clear which place is meant", chunk.quote)
+        return self.place
+
+    def went(self, place: Place) -> None:
+        """Note that a place was spoken of."""
+        self.place = place
 
     def _it(self, chunk: Chunk) -> int:
         if self.doer is not None:
@@ -249,13 +269,15 @@ class Narrative:
         return same[clause.ordinal] if clause.ordinal < len(same) else None
 
     # -- asking -------------------------------------------------------------------------------------------------------
-    def ask(self, slot: str, text: str, alternatives: list[str], default: int, quote: Quote) -> str:
-        """Return the answer to a question, or its default, which is noted as an open question."""
+    def ask(self, slot: str, text: str, alternatives: list[str], default: int | None, quote: Quote) -> str:
+        """Return the answer to a question; its default, or nothing, where it is noted as open."""
         answer = self.answers.get(slot, "")
         if answer in alternatives:
             return answer
-        self.questions.append(Question(slot, text, tuple(Alternative(each) for each in alternatives), default, quote))
-        return alternatives[default]
+        if all(each.slot != slot for each in self.questions):
+            options = tuple(Alternative(each) for each in alternatives)
+            self.questions.append(Question(slot, text, options, default, quote))
+        return "" if default is None else alternatives[default]
 
     def refuse(self, message: str, quote: Quote, fix: str | None = None) -> NoReturn:
         """Raise the error that says what could not be read."""

@@ -12,7 +12,7 @@ from typing import Literal
 
 from scenewright.errors import Place as Where
 from scenewright.errors import TranslationError, UnknownWordsError
-from scenewright.language.read.chunks import Chunk, sentences
+from scenewright.language.read.chunks import Chunk, nearest_words, sentences, word_as
 from scenewright.language.read.clauses import Clause, read_clause
 from scenewright.language.read.labels import take_labels
 from scenewright.language.read.narrative import Doing, Narrative, standstill
@@ -24,9 +24,11 @@ from scenewright.language.story import (
     Measure,
     Operator,
     Order,
+    Place,
     Point,
     Quantity,
     Quote,
+    Relation,
     Story,
     Verb,
     is_event,
@@ -78,9 +80,12 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
         if all(chunk.kind in ("unknown", "comma", "harmless", "be", "joint", "pronoun") for chunk in chunks):
             narrative.asides.append(quote)
             continue
+        sentence = _Sentence(narrative, chunks, quote)
         try:
-            _Sentence(narrative, chunks, quote).read()
+            sentence.read()
         except TranslationError as error:
+            if sentence.is_open:
+                continue
             if error.place is None:
                 error.place = Where(name, text, quote.span)
             raise
@@ -102,13 +107,12 @@ class _Sentence:
     chunks: list[Chunk]
     quote: Quote
     leads: set[str] = field(default_factory=set)
+    is_open: bool = False  # a word in it must be asked about first
 
     def read(self) -> None:
         story = self.narrative
         story.mentioned, story.doer = [], None
-        unknown = next((chunk for chunk in self.chunks if chunk.kind == "unknown"), None)
-        if unknown is not None:
-            story.refuse(f"'{unknown.text}' is not known", unknown.quote)
+        self._ask_about_words()
         if self.chunks[0].kind == "ego's order":
             self._ego_order()
             return
@@ -127,38 +131,64 @@ class _Sentence:
             when = next((each for each in segments if each.link == "when"), None)
             segments = [each for each in segments if each is not when]
         if when is None:
-            self._main(self._items(main.chunks), None, segments)
+            self._main(self._items(main.chunks, story.subject), None, segments)
         elif when.chunks and when.chunks[0].start < main.chunks[0].start:
             told = self._items(when.chunks)
-            self._main(self._items(main.chunks), told, segments)
+            self._main(self._items(main.chunks, story.subject), told, segments)
         else:
-            items = self._items(main.chunks)
+            items = self._items(main.chunks, story.subject)
             self._main(items, self._items(when.chunks), segments)
 
+    def _ask_about_words(self) -> None:
+        """Put the nearest word of the domain in for an unknown one, or set it aside: whoever wrote it says which."""
+        known = []
+        for chunk in self.chunks:
+            if chunk.kind == "unknown":
+                near = nearest_words(chunk.text)
+                meant = [f"it means '{word}'" for word in near]
+                asked = f"What is '{chunk.text}'?"
+                answer = self.narrative.ask(f"word {chunk.start}", asked, [*meant, "set it aside"], None, chunk.quote)
+                self.is_open |= not answer
+                if answer in meant:
+                    known.append(word_as(chunk, near[meant.index(answer)]))
+            else:
+                known.append(chunk)
+        self.chunks = known
+
     def _take_leads(self) -> None:
-        while self.chunks and (self.chunks[0].kind == "comma" or self.chunks[0].value in _LEADS):
-            chunk = self.chunks.pop(0)
-            if chunk.kind == "link":
+        """Take the words that say when a sentence is, at its front or behind its subject: ``then``, ``initially``."""
+        kept: list[Chunk] = []
+        for chunk in self.chunks:
+            behind = kept[-1].kind if kept else "front"
+            if chunk.kind == "comma" and not kept:
+                continue
+            inside = (
+                ("front",) if any(each.value == "if" for each in self.chunks) else ("front", "be", "actor", "pronoun")
+            )
+            if chunk.kind == "link" and chunk.value in _LEADS and behind in inside:
                 self.leads.add(chunk.value)
-            elif chunk.kind != "comma":
-                self.chunks.insert(0, chunk)
-                return
+            else:
+                kept.append(chunk)
+        self.chunks = kept
 
     def _main_of(self, when: _Segment) -> _Segment:
-        """Cut the main clause off a "when" that begins the sentence: what stands after its last comma."""
+        """Cut the main clause off a "when" that begins the sentence: behind the first comma with a deed, or the last."""
         commas = [index for index, chunk in enumerate(when.chunks) if chunk.kind == "comma"]
         if not commas:
             self.narrative.refuse("it is not clear where the moment ends and what happens begins", self.quote,
                                   "put a comma between them")  # fmt: skip
-        main = _Segment("main", when.chunks[commas[-1] + 1 :])
-        when.chunks = when.chunks[: commas[-1]]
+        ends = [*commas[1:], len(when.chunks)]
+        acts = (start for start, end in zip(commas, ends, strict=True)
+                if any(chunk.kind in ("deed", "order") for chunk in when.chunks[start:end]))  # fmt: skip
+        cut = next(acts, commas[-1])
+        main = _Segment("main", when.chunks[cut + 1 :])
+        when.chunks = when.chunks[:cut]
         return main
 
     # -- conditions ---------------------------------------------------------------------------------------------------
-    def _items(self, chunks: Sequence[Chunk]) -> list[Item]:
+    def _items(self, chunks: Sequence[Chunk], subject: int | None = None) -> list[Item]:
         """Return the clauses of a list, and conditions that are joined in other ways."""
-        parser = _Items(self.narrative, list(chunks))
-        return parser.all()
+        return _Items(self.narrative, list(chunks), subject).all()
 
     def _conditions(self, items: Sequence[Item]) -> list[Condition]:
         found: list[Condition] = []
@@ -166,7 +196,7 @@ class _Sentence:
             if isinstance(item, Compound):
                 found.append(item)
                 continue
-            if item.waiting or item.facts or item.rate:
+            if item.waiting or item.facts or item.rate or item.relations:
                 self.narrative.refuse("this is no condition", item.quote)
             found += item.measures
         return found
@@ -237,8 +267,12 @@ class _Sentence:
         )
         after_start = deed is not None and "after the start" in deed.times
         known = deed is not None and deed.phase is not None and story.doing_of(deed) is not None
-        if deed is not None and not (known and not when and not self.leads and (timed or after_start)):
+        if deed is items[0] and len(items) > 1:
+            self._one_after_another(items, when, rest)
+        elif deed is not None and not (known and not when and not self.leads and (timed or after_start)):
             self._deed(deed, items, when, rest)
+        elif any(isinstance(item, Clause) and "first" in item.flags for item in items):
+            self._goes_first(items, when)
         elif when is not None:
             moment = self._moment(when, self.quote)
             story.add(moment, self._conditions(items))
@@ -256,17 +290,42 @@ class _Sentence:
         else:
             self._facts(items)
 
+    def _one_after_another(self, items: list[Item], when: list[Item] | None, rest: list[_Segment]) -> None:
+        """Take "it brakes to a stop, waits for 3 s and drives on": what follows the sentence is of the last deed."""
+        for number, item in enumerate(items):
+            following = items[number + 1] if number + 1 < len(items) else None
+            if isinstance(item, Clause) and isinstance(following, Clause):
+                following.subject = item.subject if following.subject is None else following.subject
+                if (item.deed, following.deed) == (Verb.BRAKE, "stop") and item.subject == following.subject:
+                    _join(item, following)
+                    continue
+            self._main([item], when, rest if following is None else [])
+            self.leads, when = {"then"}, None
+
+    def _goes_first(self, items: list[Item], when: list[Item] | None) -> None:
+        """Take "it goes first": whoever it is passes the conflict point before the ego does."""
+        story = self.narrative
+        (clause, *more) = items
+        if more or when is not None or isinstance(clause, Compound) or clause.measures or clause.subject in (None, EGO):
+            story.refuse("it is not clear who goes first", self.quote)
+        assert clause.subject is not None
+        moments = []
+        for actor in (clause.subject, EGO):
+            there = Measure(actor, Quantity.PLACE, "==", None, Place("conflict_point"), quote=self.quote)
+            moments.append(self._event(replace(clause, subject=actor, measures=[there], deed=None)))
+        story.orders.append(Order(moments[0], moments[1], ">", None, self.quote))
+
     def _facts(self, items: list[Item]) -> None:
         """Take what is so at the start, all the while, later, or of somebody's way."""
         story = self.narrative
         clauses = [item for item in items if isinstance(item, Clause)]
         for clause in clauses:
-            if clause.subject is None:
-                clause.subject = story.subject
-            if clause.facts or "way" in clause.flags:
+            if clause.facts or clause.relations or "way" in clause.flags:
                 self._way(clause)
             story.subject = clause.subject
-        conditions = self._conditions([item for item in items if isinstance(item, Compound) or not item.facts])
+        conditions = self._conditions(
+            [item if isinstance(item, Compound) else replace(item, facts={}, relations=[]) for item in items]
+        )
         if not conditions:
             if not any(clause.facts or clause.flags or clause.subject is not None for clause in clauses):
                 story.refuse("nothing is said here", self.quote)
@@ -303,13 +362,14 @@ class _Sentence:
                 story.refuse(f"two things are said of the way of {actor.name}", clause.quote)
         way = replace(actor.way, **facts)  # type: ignore[arg-type]
         way = replace(way, lanes=lanes or way.lanes, headings=headings or way.headings)
-        story.put(replace(actor, way=way))
+        relations = [Relation(kind, of, quote) for kind, of, quote in clause.relations]
+        if any(each.of == actor.id for each in relations):
+            story.refuse("it is not clear to whose way this one lies so", clause.quote)
+        story.put(replace(actor, way=way, relations=(*actor.relations, *relations)))
 
     # -- deeds --------------------------------------------------------------------------------------------------------
     def _deed(self, clause: Clause, items: list[Item], when: list[Item] | None, rest: list[_Segment]) -> None:
         story = self.narrative
-        if clause.subject is None:
-            clause.subject = story.subject
         if clause.subject is None or clause.facts or clause.waiting or len(items) > 1:
             story.refuse("it is not clear who does this", self.quote)
         moment = None if when is None else self._moment(when, self.quote)
@@ -320,7 +380,7 @@ class _Sentence:
         if moment is not None:
             story.ego_comes(moment, self.quote)
         if clause.rate is not None:
-            doing.throughout.append(replace(clause.rate, actor=doing.actor))
+            doing.throughout.append(clause.rate)
         ends = self._ends(clause, doing)
         until = next((each for each in rest if each.link == "until"), None)
         self._end(doing, clause, ends, until)
@@ -334,15 +394,14 @@ class _Sentence:
         comes_to_rest = "standstill" in clause.flags or clause.deed == "stop"
         ends: list[Condition] = [standstill(doing.actor)] if comes_to_rest else []
         for measure in clause.measures:
-            own = replace(measure, actor=doing.actor) if measure.actor < 0 else measure
             if measure.quantity is Quantity.SPEED and "to speed" not in clause.flags:
                 if clause.deed != Verb.DRIVE:
                     story.refuse("it is not clear when it is so fast", clause.quote)
-                doing.throughout.append(own)
+                doing.throughout.append(measure)
             elif comes_to_rest or is_event(measure) or measure.quantity is Quantity.SPEED:
-                ends.append(own)
+                ends.append(measure)
             else:
-                story.add(doing.begins, [own])
+                story.add(doing.begins, [measure])
         return ends
 
     def _end(self, doing: Doing, clause: Clause, ends: list[Condition], until: _Segment | None) -> None:
@@ -425,6 +484,13 @@ class _Sentence:
         return Point(self._event_of(chunks), offset, earlier)
 
 
+def _join(brakes: Clause, stops: Clause) -> None:
+    """Let "brakes at 3 m/s^2 and stops at its stop line" be one deed."""
+    stops.rate = stops.rate or brakes.rate
+    stops.measures = [*brakes.measures, *stops.measures]
+    stops.times = {**brakes.times, **stops.times}
+
+
 def _tells_a_time(items: list[Item]) -> bool:
     return any(isinstance(item, Clause) and "after the start" in item.times for item in items)
 
@@ -476,6 +542,7 @@ class _Items:
 
     narrative: Narrative
     chunks: list[Chunk]
+    subject: int | None  # of a clause that names none
     at: int = 0
     before: Clause | None = None
     read: list[list[Chunk]] = field(default_factory=list)  # the chunks of each
@@ -546,7 +613,8 @@ class _Items:
         own = [chunk for chunk in self.chunks[start : self.at] if chunk.kind != "comma"]
         if [chunk.value for chunk in own[:2]] == ["it", "is"] and own[-1].value == "the start":
             own = own[2:]  # nobody: "it is 5 s after the start"
-        self.before = read_clause(own, self.narrative, self.before)
+        subject = self.subject if self.before is None else self.before.subject
+        self.before = read_clause(own, self.narrative, self.before, subject)
         return self.before
 
     def _begins(self, at: int) -> bool:

@@ -1,0 +1,136 @@
+"""Puts the ways of a story on a map: whole routes where one fits the partial facts, questions where several do.
+
+What enters: a `Story` and a `RoadMap`. What leaves: the story with the ways that its map leaves, who is ahead of whom
+as a condition at the start, and a question with all ways that fit where there are more than one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from fractions import Fraction
+
+from scenewright.errors import TranslationError
+from scenewright.language.compile import COMPASS, route_of
+from scenewright.language.phrases import Phrases
+from scenewright.language.story import (
+    START,
+    Actor,
+    Alternative,
+    Amount,
+    Measure,
+    Quantity,
+    Question,
+    Relation,
+    Story,
+    Way,
+    replace_actor,
+)
+from scenewright.program.types import HeadingsRoute, IntentRoute, LanesRoute
+from scenewright.roads.model import RoadMap
+from scenewright.roads.routes import Route, all_routes, find_routes
+
+# How somebody's way begins against another's, in quarters of the compass to the right of it.
+BEARINGS = {"oncoming": 2, "from the left": 1, "from the right": 3, "ahead": 0, "behind": 0, "same way": 0}
+
+
+def put_on_map(story: Story, road_map: RoadMap, answers: Mapping[str, str] | None = None) -> Story:
+    """Return `story` with whole ways.
+
+    Raises
+    ------
+    TranslationError
+        Where no way on the map fits what is said of somebody.
+    """
+    fitting = {actor.id: _fitting(actor, road_map) for actor in story.actors}
+    for _ in story.actors:  # what one relation leaves may decide another
+        for actor in story.actors:
+            for relation in actor.relations:
+                _keep_related(fitting, actor.id, relation)
+    phrases, questions = Phrases(story), list(story.questions)
+    for actor in story.actors:
+        found = list(dict.fromkeys(_way(route, road_map) for route in fitting[actor.id]))
+        if not found:
+            there_are = "; ".join(dict.fromkeys(str(route) for route in all_routes(road_map)))
+            raise TranslationError(
+                f"no way on {road_map.name} fits what is said of {phrases.name(actor.id)}",
+                found=phrases.way(actor.way),
+                expected=f"one of: {there_are}",
+            )
+        if len(found) > 1:
+            question = _which(actor, found, phrases)
+            told = (answers or {}).get(question.slot)
+            texts = [each.text for each in question.alternatives]
+            if told not in texts:
+                questions.append(question)
+            found = [found[texts.index(told) if told in texts else question.default or 0]]
+        relations = tuple(each for each in actor.relations if each.kind not in BEARINGS)
+        story = replace_actor(story, replace(actor, way=found[0], relations=relations))
+        story = _in_line(story, actor)
+    return replace(story, questions=tuple(questions))
+
+
+def _fitting(actor: Actor, road_map: RoadMap) -> list[Route]:
+    match route_of(actor.way):
+        case HeadingsRoute(headings=headings):
+            return list(find_routes(road_map, headings=headings))
+        case LanesRoute(lanes=lanes):
+            return list(find_routes(road_map, lanes=lanes))
+        case IntentRoute() as wanted:
+            return list(
+                find_routes(
+                    road_map,
+                    origin_kind=wanted.origin,
+                    turn=wanted.turn,
+                    destination_kind=wanted.destination,
+                    origin_heading=wanted.origin_heading,
+                    destination_heading=wanted.destination_heading,
+                )
+            )
+
+
+def _keep_related(fitting: dict[int, list[Route]], actor: int, relation: Relation) -> None:
+    """Leave only the ways of both that lie as the relation says to some way of the other."""
+    quarters = BEARINGS.get(relation.kind)
+    if quarters is None:
+        return
+
+    def lies(own: Route, other: Route) -> bool:
+        return (COMPASS.index(own.headings[0]) - COMPASS.index(other.headings[0])) % 4 == quarters
+
+    mine, others = fitting[actor], fitting[relation.of]
+    fitting[actor] = [own for own in mine if any(lies(own, other) for other in others)]
+    fitting[relation.of] = [other for other in others if any(lies(own, other) for own in mine)]
+
+
+def _way(route: Route, road_map: RoadMap) -> Way:
+    """Return the shortest facts that this route alone meets."""
+    if len(find_routes(road_map, headings=route.headings)) > 1:
+        return Way(lanes=route.lanes)
+    heading, turn = route.headings[0], str(route.turn)
+    plain = Way(heading=heading, turn=turn)
+    same = isinstance(made := route_of(plain), HeadingsRoute) and made.headings == route.headings
+    return plain if same else Way(headings=route.headings)
+
+
+def _which(actor: Actor, found: list[Way], phrases: Phrases) -> Question:
+    straight = next((number for number, way in enumerate(found) if way.turn == "straight"), 0)
+    alternatives = tuple(Alternative(phrases.way(way)) for way in found)
+    return Question(
+        f"way of {actor.name}", f"Which way does {phrases.name(actor.id)} go?", alternatives, straight, actor.quote
+    )
+
+
+def _in_line(story: Story, actor: Actor) -> Story:
+    """Let who is said to be ahead or behind be so at the start."""
+    start = story.moments[START]
+    added = []
+    for relation in actor.relations:
+        if relation.kind in ("ahead", "behind"):
+            rear, front = (relation.of, actor.id) if relation.kind == "ahead" else (actor.id, relation.of)
+            told = [each for each in start.conditions if isinstance(each, Measure) and each.quantity is Quantity.GAP]
+            if all((each.actor, each.other) != (rear, front) for each in told):
+                zero = Amount(Fraction(0), "m")
+                added.append(Measure(rear, Quantity.GAP, ">", zero, other=front, quote=relation.quote))
+    moments = (replace(start, conditions=(*start.conditions, *added)), *story.moments[1:])
+    return replace(story, moments=moments)
