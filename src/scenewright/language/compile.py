@@ -11,25 +11,7 @@ from fractions import Fraction
 from typing import Literal
 
 from scenewright.errors import Span, TranslationError
-from scenewright.language.story import (
-    FLIPPED,
-    START,
-    Amount,
-    Compound,
-    Condition,
-    Deed,
-    Measure,
-    Moment,
-    Order,
-    Place,
-    Point,
-    Quantity,
-    Quote,
-    Story,
-    Verb,
-    Way,
-    atoms,
-)
+from scenewright.language import story as st
 from scenewright.program import expressions as ex
 from scenewright.program.arithmetic import combine, negate
 from scenewright.program.check import check_program
@@ -48,26 +30,26 @@ from scenewright.program.types import (
 )
 
 PIECES = {
-    Verb.DRIVE: PieceKind.GO,
-    Verb.SPEED_UP: PieceKind.ACC,
-    Verb.BRAKE: PieceKind.DEC,
-    Verb.STAND: PieceKind.STOP,
+    st.Verb.DRIVE: PieceKind.GO,
+    st.Verb.SPEED_UP: PieceKind.ACC,
+    st.Verb.BRAKE: PieceKind.DEC,
+    st.Verb.STAND: PieceKind.STOP,
 }
 COMPASS = "NESW"
 TURNS = {"straight": 0, "right": 1, "left": 3}  # quarters of the compass
 DRIVEN = ("car", "truck", "van", "bus", "taxi")  # the kinds that the program language can drive, all of them as cars
 UNNAMED = "description"  # what a program is called whose story has no title
-_ORDERS: dict[Quantity, ex.Order] = {Quantity.PLACE: 0, Quantity.SPEED: 1, Quantity.RATE: 2}
-_DERIVED: dict[Quantity, ex.DerivedKind] = {
-    Quantity.GAP: "gap",
-    Quantity.HEADWAY: "headway",
-    Quantity.COLLISION: "ttc",
-    Quantity.ARRIVAL: "tta",
+_ORDERS: dict[st.Quantity, ex.Order] = {st.Quantity.PLACE: 0, st.Quantity.SPEED: 1, st.Quantity.RATE: 2}
+_DERIVED: dict[st.Quantity, ex.DerivedKind] = {
+    st.Quantity.GAP: "gap",
+    st.Quantity.HEADWAY: "headway",
+    st.Quantity.COLLISION: "ttc",
+    st.Quantity.ARRIVAL: "tta",
 }
 _NOTHING = Fraction(0)
 
 
-def compile_story(story: Story, description: str | None = None) -> Program:
+def compile_story(story: st.Story, description: str | None = None) -> Program:
     """Return the program that `story` is.
 
     Parameters
@@ -101,7 +83,7 @@ def compile_story(story: Story, description: str | None = None) -> Program:
     return program
 
 
-def route_of(way: Way) -> RouteSpec:
+def route_of(way: st.Way) -> RouteSpec:
     """Return the route that the facts of a way make: a whole one where they are whole, else what is wanted."""
     if way.lanes:
         return LanesRoute(way.lanes)
@@ -118,18 +100,18 @@ def kind_of(name: str) -> str:
     return name if name in DRIVEN else "car"
 
 
-def refused(what: str, fix: str, quote: Quote | None = None) -> TranslationError:
+def refused(what: str, fix: str, quote: st.Quote | None = None) -> TranslationError:
     """Return the error that names what the program language does not know, and the nearest thing that it does."""
     return TranslationError(f"{what} cannot be said in a program yet", found=quote.text if quote else None, fix=fix)
 
 
-def _check_known(story: Story) -> None:
+def _check_known(story: st.Story) -> None:
     for actor in story.actors:
         if actor.kind not in DRIVEN:
             raise refused(f"a {actor.kind}", f"there may be any number of: {', '.join(DRIVEN)}", actor.quote)
     for deed in story.deeds:
-        if deed.verb not in set(Verb):
-            raise refused(f"'{deed.verb}'", f"what somebody may do: {', '.join(Verb)}", deed.quote)
+        if deed.verb not in set(st.Verb):
+            raise refused(f"'{deed.verb}'", f"what somebody may do: {', '.join(st.Verb)}", deed.quote)
         if deed.actor == EGO:
             raise refused("a deed of the ego", "the policy under test drives it; say what the others do", deed.quote)
     for hero in story.heroes:
@@ -139,7 +121,7 @@ def _check_known(story: Story) -> None:
             raise refused(f"two deeds of {hero.name} at one time", fix, own[-1].quote)
 
 
-def _parameters(story: Story) -> tuple[Parameter, ...]:
+def _parameters(story: st.Story) -> tuple[Parameter, ...]:
     known = {parameter.name: parameter for parameter in story.parameters}
     for amount in amounts_of(story):
         if amount.name is not None:
@@ -147,26 +129,26 @@ def _parameters(story: Story) -> tuple[Parameter, ...]:
     return tuple(known.values())
 
 
-def amounts_of(story: Story) -> list[Amount]:
+def amounts_of(story: st.Story) -> list[st.Amount]:
     """Return every amount that a story speaks of, in the order of the story."""
-    conditions: list[Condition] = []
-    found: list[Amount | None] = []
+    conditions: list[st.Condition] = []
+    found: list[st.Amount | None] = []
     for moment in story.moments:
         found.append(moment.time)
         conditions += moment.conditions
     conditions += [measure for deed in story.deeds for measure in deed.throughout]
     conditions += [hold.condition for hold in story.holds]
-    found += [atom.amount for condition in conditions for atom in atoms(condition)]
+    found += [atom.amount for condition in conditions for atom in st.atoms(condition)]
     found += [order.margin for order in story.orders]
     found += [point.offset for hold in story.holds for point in (hold.start, hold.end)]
     return [amount for amount in found if amount is not None]
 
 
-def _sketch(story: Story, actor: int) -> Sketch:
+def _sketch(story: st.Story, actor: int) -> Sketch:
     knots = story.knots_of(actor)
     pieces = [PieceKind.GO] * (len(knots) - 1)
     if actor != EGO:
-        pieces = [PIECES[Verb(deed.verb)] for deed in story.deeds_of(actor)]
+        pieces = [PIECES[st.Verb(deed.verb)] for deed in story.deeds_of(actor)]
     # The ego, and whoever does nothing of its own, drives on after the last moment that it shares.
     if not pieces or (actor == EGO and len(story.owners(knots[-1])) > 1):
         pieces.append(PieceKind.GO)
@@ -177,7 +159,7 @@ def _sketch(story: Story, actor: int) -> Sketch:
 class _Compiler:
     """Gathers the formulas of a story, each with where it came from."""
 
-    story: Story
+    story: st.Story
     sketches: dict[int, Sketch] = field(init=False)
     formulas: list[tuple[ex.Formula, Span | None]] = field(default_factory=list)
 
@@ -197,15 +179,15 @@ class _Compiler:
             how: Literal["always", "never", "eventually"] = "eventually" if hold.how == "at some time" else hold.how
             self._add(ex.Temporal(how, start, end, self._condition(hold.condition, None)), hold.quote)
 
-    def _add(self, formula: ex.Formula, quote: Quote | None) -> None:
+    def _add(self, formula: ex.Formula, quote: st.Quote | None) -> None:
         self.formulas.append((formula, quote.span if quote else None))
 
     def _knot(self, actor: int, moment: int) -> str:
         return self.sketches[actor].knots[self.story.knots_of(actor).index(moment)]
 
-    def _moment(self, number: int, moment: Moment) -> None:
+    def _moment(self, number: int, moment: st.Moment) -> None:
         owners = self.story.owners(number)
-        if number != START:
+        if number != st.START:
             instants = [ex.Elapsed(actor, self._knot(actor, number)) for actor in owners]
             for other in instants[1:]:
                 self._add(ex.Compare("==", instants[0], other), moment.quote)
@@ -214,20 +196,20 @@ class _Compiler:
         for condition in moment.conditions:
             self._add(self._condition(condition, number), condition.quote)
 
-    def _throughout(self, deed: Deed) -> None:
+    def _throughout(self, deed: st.Deed) -> None:
         sketch = self.sketches[deed.actor]
         piece = ex.PieceRef(sketch.piece_names()[self.story.deeds_of(deed.actor).index(deed)])
-        if deed.verb == Verb.STAND:
+        if deed.verb == st.Verb.STAND:
             self._add(ex.Compare("==", ex.State(deed.actor, 1, piece), ex.Number(_NOTHING)), deed.quote)
         for measure in deed.throughout:
             if measure.quantity in _ORDERS and measure.other is None and measure.actor == deed.actor:
                 self._add(self._measure(measure, piece), measure.quote)
             else:  # a piece is asked for nothing but its own place, speed and acceleration
-                start, end = (self._point(Point(moment)) for moment in (deed.begins, deed.ends))
+                start, end = (self._point(st.Point(moment)) for moment in (deed.begins, deed.ends))
                 self._add(ex.Temporal("always", start, end, self._condition(measure, None)), measure.quote)
 
-    def _condition(self, condition: Condition, moment: int | None) -> ex.Formula:
-        if isinstance(condition, Compound):
+    def _condition(self, condition: st.Condition, moment: int | None) -> ex.Formula:
+        if isinstance(condition, st.Compound):
             joint: Literal["and", "or", "not", "implies"] = "implies" if condition.joint == "if" else condition.joint
             return ex.Logic(joint, tuple(self._condition(part, moment) for part in condition.parts))
         return self._measure(condition, None if moment is None else self._at(condition.actor, moment))
@@ -248,68 +230,68 @@ class _Compiler:
             raise refused("a moment that is nobody's", "say what begins or ends then, or what the ego does")
         return ex.Number(time.si)
 
-    def _measure(self, measure: Measure, at: ex.At) -> ex.Compare:
+    def _measure(self, measure: st.Measure, at: ex.At) -> ex.Compare:
         amount = None if measure.amount is None else _term(measure.amount)
         op = measure.op
         left: ex.Term
         right: ex.Term
         if measure.quantity in _DERIVED:
             target: int | ex.Landmark | None = measure.other
-            if measure.quantity is Quantity.ARRIVAL and measure.place is not None:
+            if measure.quantity is st.Quantity.ARRIVAL and measure.place is not None:
                 target = _landmark(measure.place, measure.actor, self.story)
             if target is None or amount is None:
                 raise refused(f"a {measure.quantity} to nothing", "say of whom, to what, and how much", measure.quote)
             return ex.Compare(op, ex.Derived(_DERIVED[measure.quantity], measure.actor, target, at), amount)
         left = ex.State(measure.actor, _ORDERS[measure.quantity], at)
-        if measure.quantity is Quantity.PLACE:
+        if measure.quantity is st.Quantity.PLACE:
             if measure.place is None:
                 raise refused("a distance to nothing", "say to which place", measure.quote)
             right = _landmark(measure.place, measure.actor, self.story)
             if amount is not None:
-                op = op if measure.opposite else FLIPPED[op]
+                op = op if measure.opposite else st.FLIPPED[op]
                 right = combine("+" if measure.opposite else "-", right, amount)
-        elif measure.quantity is Quantity.SPEED and measure.other is not None:
+        elif measure.quantity is st.Quantity.SPEED and measure.other is not None:
             right = ex.State(measure.other, 1, self._same(at, measure))
             if amount is not None:
-                op = FLIPPED[op] if measure.opposite else op
+                op = st.FLIPPED[op] if measure.opposite else op
                 right = combine("-" if measure.opposite else "+", right, amount)
         else:
             if amount is None:
                 raise refused(f"a {measure.quantity} without an amount", "say how much", measure.quote)
             right = negate(amount) if measure.opposite else amount
-            op = FLIPPED[op] if measure.opposite else op
+            op = st.FLIPPED[op] if measure.opposite else op
         return ex.Compare(op, left, right)
 
-    def _same(self, at: ex.At, measure: Measure) -> ex.At:
+    def _same(self, at: ex.At, measure: st.Measure) -> ex.At:
         """Return, for the other actor of a comparison, the moment that is `at` for its first."""
         if isinstance(at, ex.Knot) and measure.other is not None:
             moment = self.story.knots_of(measure.actor)[self.sketches[measure.actor].knots.index(at.name)]
             return self._at(measure.other, moment)
         return at
 
-    def _order(self, order: Order) -> ex.Formula:
-        if order.first == START and order.margin is not None:
+    def _order(self, order: st.Order) -> ex.Formula:
+        if order.first == st.START and order.margin is not None:
             return ex.Compare(order.op, self._instant(order.second), _term(order.margin))
         first, second = self._instant(order.first), self._instant(order.second)
         if order.margin is None:
-            return ex.Compare(FLIPPED[order.op], first, second)
+            return ex.Compare(st.FLIPPED[order.op], first, second)
         return ex.Compare(order.op, combine("-", second, first), _term(order.margin))
 
-    def _point(self, point: Point) -> ex.Term:
+    def _point(self, point: st.Point) -> ex.Term:
         if point.offset is None:
             return self._instant(point.moment)
-        if point.moment == START and not point.earlier:
+        if point.moment == st.START and not point.earlier:
             return _term(point.offset)
         return combine("-" if point.earlier else "+", self._instant(point.moment), _term(point.offset))
 
 
-def _landmark(place: Place, actor: int, story: Story) -> ex.Landmark:
+def _landmark(place: st.Place, actor: int, story: st.Story) -> ex.Landmark:
     """Return the landmark; its owner is named where it is not who is measured, or where there are partners to tell."""
     owner = place.of if place.of is not None else actor if place.partner is not None else None
     return ex.Landmark(place.name, owner, place.partner)
 
 
-def _term(amount: Amount) -> ex.Term:
+def _term(amount: st.Amount) -> ex.Term:
     if amount.name is not None:
         return ex.ParameterRef(amount.name)
     assert amount.si is not None

@@ -12,28 +12,9 @@ from fractions import Fraction
 from typing import Literal
 
 from scenewright.errors import TranslationError
+from scenewright.language import story as st
 from scenewright.language.compile import COMPASS, PIECES, TURNS, UNNAMED, amounts_of, kind_of
 from scenewright.language.linear import Atom, Linear, linear
-from scenewright.language.story import (
-    FLIPPED,
-    START,
-    Actor,
-    Amount,
-    Compound,
-    Condition,
-    Deed,
-    Hold,
-    Measure,
-    Moment,
-    Operator,
-    Order,
-    Place,
-    Point,
-    Quantity,
-    Story,
-    Way,
-    arranged,
-)
 from scenewright.program import expressions as ex
 from scenewright.program.printer import print_expression
 from scenewright.program.resolve import usual_partner
@@ -51,20 +32,25 @@ from scenewright.program.types import (
 from scenewright.units import SI_SYMBOL, Dimension, unit_of_name
 
 _VERBS = {piece: verb for verb, piece in PIECES.items()}
-_QUANTITIES = {"gap": Quantity.GAP, "headway": Quantity.HEADWAY, "ttc": Quantity.COLLISION, "tta": Quantity.ARRIVAL}
-_DIMENSIONS: dict[Quantity, Dimension] = {
-    Quantity.PLACE: "length",
-    Quantity.GAP: "length",
-    Quantity.SPEED: "speed",
-    Quantity.RATE: "acceleration",
-    Quantity.ARRIVAL: "time",
-    Quantity.HEADWAY: "time",
-    Quantity.COLLISION: "time",
+_QUANTITIES = {
+    "gap": st.Quantity.GAP,
+    "headway": st.Quantity.HEADWAY,
+    "ttc": st.Quantity.COLLISION,
+    "tta": st.Quantity.ARRIVAL,
+}
+_DIMENSIONS: dict[st.Quantity, Dimension] = {
+    st.Quantity.PLACE: "length",
+    st.Quantity.GAP: "length",
+    st.Quantity.SPEED: "speed",
+    st.Quantity.RATE: "acceleration",
+    st.Quantity.ARRIVAL: "time",
+    st.Quantity.HEADWAY: "time",
+    st.Quantity.COLLISION: "time",
 }
 Key = tuple[int, str]
 
 
-def decompile(program: Program) -> Story:
+def decompile(program: Program) -> st.Story:
     """Return the story that `program` tells.
 
     Raises
@@ -75,34 +61,34 @@ def decompile(program: Program) -> Story:
     return _Decompiler(program).story()
 
 
-def way_of(route: RouteSpec) -> Way:
+def way_of(route: RouteSpec) -> st.Way:
     """Return the facts of a way that make `route`."""
     match route:
         case LanesRoute(lanes=lanes):
-            return Way(lanes=lanes)
+            return st.Way(lanes=lanes)
         case HeadingsRoute(headings=(heading,)):
-            return Way(heading=heading, turn="straight")
+            return st.Way(heading=heading, turn="straight")
         case HeadingsRoute(headings=(first, second) as headings):
             turned = (COMPASS.index(second) - COMPASS.index(first)) % 4
             turn = next((name for name, quarters in TURNS.items() if quarters == turned and quarters), None)
-            return Way(heading=first, turn=turn) if turn else Way(headings=headings)
+            return st.Way(heading=first, turn=turn) if turn else st.Way(headings=headings)
         case HeadingsRoute(headings=headings):
-            return Way(headings=headings)
+            return st.Way(headings=headings)
         case IntentRoute():
-            return Way(route.origin, route.origin_heading, route.turn, route.destination, route.destination_heading)
+            return st.Way(route.origin, route.origin_heading, route.turn, route.destination, route.destination_heading)
 
 
 @dataclass(slots=True)
 class _Decompiler:
     program: Program
     moment_of: dict[Key, int] = field(default_factory=dict)
-    conditions: list[list[Condition]] = field(default_factory=list)
-    times: dict[int, Amount] = field(default_factory=dict)
-    throughout: dict[tuple[int, int], list[Measure]] = field(default_factory=dict)  # by actor and piece
-    orders: list[Order] = field(default_factory=list)
-    holds: list[Hold] = field(default_factory=list)
+    conditions: list[list[st.Condition]] = field(default_factory=list)
+    times: dict[int, st.Amount] = field(default_factory=dict)
+    throughout: dict[tuple[int, int], list[st.Measure]] = field(default_factory=dict)  # by actor and piece
+    orders: list[st.Order] = field(default_factory=list)
+    holds: list[st.Hold] = field(default_factory=list)
 
-    def story(self) -> Story:
+    def story(self) -> st.Story:
         program = self.program
         formulas = [part for constraint in program.constraints for part in _parts(constraint.formula)]
         self._name_moments(formulas)
@@ -117,9 +103,9 @@ class _Decompiler:
         renumbered = {actor.id: number for number, actor in enumerate(program.actors)}
         if any(old != new for old, new in renumbered.items()):
             raise _untold("actors that are not numbered one after the other", "number them 0, 1, 2")
-        story = Story(
-            tuple(Actor(actor.id, actor.name, way_of(actor.route), kind_of(actor.name)) for actor in program.actors),
-            tuple(Moment(tuple(dict.fromkeys(own)), self.times.get(number))
+        story = st.Story(
+            tuple(st.Actor(actor.id, actor.name, way_of(actor.route), kind_of(actor.name)) for actor in program.actors),
+            tuple(st.Moment(tuple(dict.fromkeys(own)), self.times.get(number))
                   for number, own in enumerate(self.conditions)),
             tuple(ego),
             tuple(self._deeds()),
@@ -132,7 +118,7 @@ class _Decompiler:
         )  # fmt: skip
         used = {amount.name for amount in amounts_of(story)}
         declared = [each for each in program.parameters if each.name not in used or each != Parameter(each.name)]
-        return arranged(replace(story, parameters=tuple(declared)))
+        return st.arranged(replace(story, parameters=tuple(declared)))
 
     def _name_moments(self, formulas: list[ex.Formula]) -> None:
         """Give a number to every instant: the start, what the program merges, and every other knot that matters."""
@@ -151,7 +137,7 @@ class _Decompiler:
         for formula in formulas:
             for one, other in synchronised(formula):
                 merged[root(one)] = root(other)
-        numbers = {root(first): START}
+        numbers = {root(first): st.START}
         for actor in (*self.program.heroes, self.program.ego):
             own = [root((actor.id, knot)) for knot in actor.sketch.knots]
             if len(set(own)) != len(own):
@@ -171,12 +157,12 @@ class _Decompiler:
             (moment,) = instants
             self.times.setdefault(moment, self._plain(form, "time"))
 
-    def _deeds(self) -> Iterator[Deed]:
+    def _deeds(self) -> Iterator[st.Deed]:
         for actor in self.program.heroes:
             for index, piece in enumerate(actor.sketch.pieces):
                 ends = [self.moment_of[actor.id, knot] for knot in actor.sketch.knots[index : index + 2]]
                 held = tuple(dict.fromkeys(self.throughout.get((actor.id, index), ())))
-                yield Deed(actor.id, _VERBS[piece], ends[0], ends[1], held)
+                yield st.Deed(actor.id, _VERBS[piece], ends[0], ends[1], held)
 
     def _take(self, formula: ex.Formula) -> None:
         if list(synchronised(formula)):
@@ -209,8 +195,8 @@ class _Decompiler:
             )
         if measure is None or measure.other is not None:
             raise _untold("this condition on a piece", "ask for it from one moment until another", compare)
-        stands = sketch.pieces[index] is PieceKind.STOP and measure == Measure(
-            piece.actor, Quantity.SPEED, "==", Amount(Fraction(0), "m/s")
+        stands = sketch.pieces[index] is PieceKind.STOP and measure == st.Measure(
+            piece.actor, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s")
         )
         if not stands:
             self.throughout.setdefault((piece.actor, index), []).append(measure)
@@ -223,37 +209,37 @@ class _Decompiler:
         negative, amount = self._right(form, "time")
         if op == "==" and list(instants.values()) == [1] and self.times.get(*instants) == amount:
             return True
-        first = next((moment for moment, factor in instants.items() if factor == -1), START)
-        second = next((moment for moment, factor in instants.items() if factor == 1), START)
+        first = next((moment for moment, factor in instants.items() if factor == -1), st.START)
+        second = next((moment for moment, factor in instants.items() if factor == 1), st.START)
         if set(instants.values()) - {1, -1} or len(instants) > 2 or first == second:
             raise _untold("a sum of times", "ask for the time from one moment to another", compare)
         margin = None if amount.value == 0 else amount
         if negative or (margin is None and op in ("<", "<=")):
-            first, second, op = second, first, FLIPPED[op]
-        self.orders.append(Order(first, second, op, margin))
+            first, second, op = second, first, st.FLIPPED[op]
+        self.orders.append(st.Order(first, second, op, margin))
         return True
 
-    def _hold(self, temporal: ex.Temporal) -> Hold:
+    def _hold(self, temporal: ex.Temporal) -> st.Hold:
         how: Literal["always", "never", "at some time"]
         how = "at some time" if temporal.operator == "eventually" else temporal.operator
         inside: set[int] = set()
         condition = self._condition(temporal.body, inside)
         if inside:
             raise _untold("a moment inside an interval", "ask for it apart from the interval", temporal)
-        return Hold(how, self._point(temporal.start), self._point(temporal.end), condition)
+        return st.Hold(how, self._point(temporal.start), self._point(temporal.end), condition)
 
-    def _point(self, term: ex.Term) -> Point:
+    def _point(self, term: ex.Term) -> st.Point:
         form = linear(term)
         instants = [(self.moment_of[atom.actor, atom.knot], factor)
                     for atom, factor in form.atoms.items() if isinstance(atom, ex.Elapsed)]  # fmt: skip
         if len(instants) > 1 or any(factor != 1 for _, factor in instants):
             raise _untold("the end of an interval", "let it begin and end some time after a moment", term)
         earlier, offset = self._right(form.scaled(Fraction(-1)), "time")
-        moment = instants[0][0] if instants else START
-        return Point(moment) if offset.value == 0 else Point(moment, offset, earlier)
+        moment = instants[0][0] if instants else st.START
+        return st.Point(moment) if offset.value == 0 else st.Point(moment, offset, earlier)
 
     # -- conditions ---------------------------------------------------------------------------------------------------
-    def _condition(self, formula: ex.Formula, moments: set[int]) -> Condition:
+    def _condition(self, formula: ex.Formula, moments: set[int]) -> st.Condition:
         match formula:
             case ex.Compare():
                 measure = self._measure(formula, moments)
@@ -265,11 +251,11 @@ class _Decompiler:
             case ex.Logic(operator=operator, operands=operands):
                 parts = tuple(self._condition(operand, moments) for operand in operands)
                 joint: Literal["and", "or", "not", "if"] = "if" if operator == "implies" else operator
-                return Compound(joint, parts)
+                return st.Compound(joint, parts)
             case ex.Temporal():
                 raise _untold("an interval inside another condition", "ask for it by itself", formula)
 
-    def _measure(self, compare: ex.Compare, moments: set[int]) -> Measure | None:
+    def _measure(self, compare: ex.Compare, moments: set[int]) -> st.Measure | None:
         """Return the one measure that a comparison is, or None; adds the moment that it is about."""
         form = self._linear(compare)
         states, landmarks = form.of(ex.State, ex.Derived), form.of(ex.Landmark)
@@ -283,12 +269,12 @@ class _Decompiler:
             return None if landmarks else self._of_two(states, compare.operator, form)
         ((state, factor),) = states.items()
         assert isinstance(state, ex.State | ex.Derived)
-        form, op = form.scaled(1 / factor), compare.operator if factor > 0 else FLIPPED[compare.operator]
+        form, op = form.scaled(1 / factor), compare.operator if factor > 0 else st.FLIPPED[compare.operator]
         return self._of_one(state, op, form, form.of(ex.Landmark))
 
     def _of_one(
-        self, state: ex.State | ex.Derived, op: Operator, form: Linear, landmarks: Mapping[Atom, Fraction]
-    ) -> Measure | None:
+        self, state: ex.State | ex.Derived, op: st.Operator, form: Linear, landmarks: Mapping[Atom, Fraction]
+    ) -> st.Measure | None:
         actor = state.actor
         if isinstance(state, ex.State) and state.order == 0:
             (place, factor), *more = landmarks.items() or [(None, Fraction(0))]
@@ -296,29 +282,29 @@ class _Decompiler:
                 return None
             before, amount = self._right(form, "length")
             if amount.value == 0:
-                return Measure(actor, Quantity.PLACE, op, None, self._place(place, actor))
-            op = FLIPPED[op] if before else op
-            return Measure(actor, Quantity.PLACE, op, amount, self._place(place, actor), opposite=not before)
+                return st.Measure(actor, st.Quantity.PLACE, op, None, self._place(place, actor))
+            op = st.FLIPPED[op] if before else op
+            return st.Measure(actor, st.Quantity.PLACE, op, amount, self._place(place, actor), opposite=not before)
         if landmarks:
             return None
         if isinstance(state, ex.State):
-            quantity = Quantity.SPEED if state.order == 1 else Quantity.RATE
+            quantity = st.Quantity.SPEED if state.order == 1 else st.Quantity.RATE
             slowing, amount = self._right(form, _DIMENSIONS[quantity])
-            if quantity is Quantity.RATE and slowing:
-                return Measure(actor, quantity, FLIPPED[op], amount, opposite=True)
-            return Measure(actor, quantity, op, self._plain(form, _DIMENSIONS[quantity]))
+            if quantity is st.Quantity.RATE and slowing:
+                return st.Measure(actor, quantity, st.FLIPPED[op], amount, opposite=True)
+            return st.Measure(actor, quantity, op, self._plain(form, _DIMENSIONS[quantity]))
         quantity = _QUANTITIES[state.kind]
         if isinstance(state.target, int):
             return self._to(actor, quantity, op, state.target, form)
-        return Measure(actor, quantity, op, self._plain(form, "time"), self._place(state.target, actor))
+        return st.Measure(actor, quantity, op, self._plain(form, "time"), self._place(state.target, actor))
 
-    def _to(self, actor: int, quantity: Quantity, op: Operator, other: int, form: Linear) -> Measure:
+    def _to(self, actor: int, quantity: st.Quantity, op: st.Operator, other: int, form: Linear) -> st.Measure:
         negative, amount = self._right(form, _DIMENSIONS[quantity])
-        if quantity is Quantity.GAP and negative:
-            return Measure(other, quantity, FLIPPED[op], amount, other=actor)
-        return Measure(actor, quantity, op, self._plain(form, _DIMENSIONS[quantity]), other=other)
+        if quantity is st.Quantity.GAP and negative:
+            return st.Measure(other, quantity, st.FLIPPED[op], amount, other=actor)
+        return st.Measure(actor, quantity, op, self._plain(form, _DIMENSIONS[quantity]), other=other)
 
-    def _of_two(self, states: Mapping[Atom, Fraction], op: Operator, form: Linear) -> Measure | None:
+    def _of_two(self, states: Mapping[Atom, Fraction], op: st.Operator, form: Linear) -> st.Measure | None:
         if len(states) != 2:
             return None
         (one, factor), (other, against) = states.items()
@@ -326,18 +312,18 @@ class _Decompiler:
             return None
         if one.order != other.order or one.actor == other.actor or one.order == 2:
             return None
-        form, op = form.scaled(1 / factor), op if factor > 0 else FLIPPED[op]
+        form, op = form.scaled(1 / factor), op if factor > 0 else st.FLIPPED[op]
         if one.order == 0:  # `one` is ahead
-            return self._to(other.actor, Quantity.GAP, op, one.actor, form)
+            return self._to(other.actor, st.Quantity.GAP, op, one.actor, form)
         slower, amount = self._right(form, "speed")
-        op = FLIPPED[op] if slower else op
+        op = st.FLIPPED[op] if slower else op
         faster_by = None if amount.value == 0 else amount
-        return Measure(one.actor, Quantity.SPEED, op, faster_by, other=other.actor, opposite=slower)
+        return st.Measure(one.actor, st.Quantity.SPEED, op, faster_by, other=other.actor, opposite=slower)
 
-    def _place(self, landmark: ex.Landmark, actor: int) -> Place:
+    def _place(self, landmark: ex.Landmark, actor: int) -> st.Place:
         owner = landmark.actor if landmark.actor is not None else actor
         usual = landmark.other in (None, usual_partner(self.program, owner))
-        return Place(landmark.name, None if owner == actor else owner, None if usual else landmark.other)
+        return st.Place(landmark.name, None if owner == actor else owner, None if usual else landmark.other)
 
     # -- moments and amounts ------------------------------------------------------------------------------------------
     def _moment(self, actor: int, at: ex.At) -> int:
@@ -347,7 +333,7 @@ class _Decompiler:
             case ex.Elapsed(actor=owner, knot=knot):
                 return self.moment_of[owner, knot]
             case ex.Number(value=value):
-                time = Amount(value, "s")
+                time = st.Amount(value, "s")
                 for number, known in self.times.items():
                     if known == time:
                         return number
@@ -362,26 +348,26 @@ class _Decompiler:
         for atom, factor in form.atoms.items():
             if isinstance(atom, ex.Elapsed):
                 moment = self.moment_of[atom.actor, atom.knot]
-                if moment != START:
+                if moment != st.START:
                     found[moment] = found.get(moment, Fraction(0)) + factor
         return found
 
     def _linear(self, compare: ex.Compare) -> Linear:
         return linear(compare.left).minus(linear(compare.right))
 
-    def _right(self, form: Linear, dimension: Dimension) -> tuple[bool, Amount]:
+    def _right(self, form: Linear, dimension: Dimension) -> tuple[bool, st.Amount]:
         """Return what stands on the other side of a comparison: whether below zero, and one number or one parameter."""
         parameters = form.of(ex.ParameterRef)
         if not parameters:
-            return form.constant > 0, Amount(abs(form.constant), SI_SYMBOL[dimension])
+            return form.constant > 0, st.Amount(abs(form.constant), SI_SYMBOL[dimension])
         (reference, factor), *more = parameters.items()
         assert isinstance(reference, ex.ParameterRef)
         unit = unit_of_name(reference.name)
         if more or form.constant or abs(factor) != 1 or unit is None:
             raise _untold("a sum of amounts", "give the sum a parameter of its own")
-        return factor > 0, Amount(None, unit.symbol, reference.name)
+        return factor > 0, st.Amount(None, unit.symbol, reference.name)
 
-    def _plain(self, form: Linear, dimension: Dimension) -> Amount:
+    def _plain(self, form: Linear, dimension: Dimension) -> st.Amount:
         """Return the same where only a number may be below zero."""
         negative, amount = self._right(form, dimension)
         if negative and amount.value is None:

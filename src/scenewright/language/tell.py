@@ -12,6 +12,7 @@ from fractions import Fraction
 from graphlib import CycleError, TopologicalSorter
 from itertools import pairwise
 
+from scenewright.language import story as st
 from scenewright.language.compile import amounts_of
 from scenewright.language.phrases import (
     DOES,
@@ -24,30 +25,17 @@ from scenewright.language.phrases import (
     speaks_of_ego,
     untold,
 )
-from scenewright.language.story import (
-    START,
-    Amount,
-    Compound,
-    Condition,
-    Deed,
-    Hold,
-    Measure,
-    Order,
-    Point,
-    Quantity,
-    Story,
-    Verb,
-    arranged,
-    is_event,
-)
 from scenewright.program.manner import NUMBERS, unit_of
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.units import SI_SYMBOL, format_fraction
 
-_RATES = {Verb.BRAKE: True, Verb.SPEED_UP: False}  # deeds that are told with their rate, and whether it is a slowing
+_RATES = {
+    st.Verb.BRAKE: True,
+    st.Verb.SPEED_UP: False,
+}  # deeds that are told with their rate, and whether it is a slowing
 
 
-def tell(story: Story) -> list[str]:
+def tell(story: st.Story) -> list[str]:
     """Return `story` as sentences, one a line.
 
     Raises
@@ -55,21 +43,21 @@ def tell(story: Story) -> list[str]:
     TranslationError
         Where it holds something that there are no words for.
     """
-    return _Teller(arranged(story)).lines()
+    return _Teller(st.arranged(story)).lines()
 
 
 @dataclass(slots=True)
 class _Teller:
-    story: Story
+    story: st.Story
     phrases: Phrases = field(init=False)
     told: list[str] = field(default_factory=list)
-    known: set[int] = field(default_factory=lambda: {START})  # moments that have been told
+    known: set[int] = field(default_factory=lambda: {st.START})  # moments that have been told
     ego: list[int] = field(default_factory=list)  # its moments as a reader finds them
     open_order: bool = False  # a reader would have to ask how the ego's moments follow each other
-    durations: set[Order] = field(default_factory=set)
-    joined: set[tuple[int, Compound]] = field(default_factory=set)
-    begun: list[Deed] = field(default_factory=list)  # deeds that have been told
-    ended: list[Deed] = field(default_factory=list)  # those of which a reader knows when they end
+    durations: set[st.Order] = field(default_factory=set)
+    joined: set[tuple[int, st.Compound]] = field(default_factory=set)
+    begun: list[st.Deed] = field(default_factory=list)  # deeds that have been told
+    ended: list[st.Deed] = field(default_factory=list)  # those of which a reader knows when they end
 
     def __post_init__(self) -> None:
         self.phrases = Phrases(self.story)
@@ -114,8 +102,8 @@ class _Teller:
                 self.told.append(f"Manner: {name} is {format_fraction(value)} {SI_SYMBOL[unit_of(name).dimension]}.")
 
     def _start(self) -> None:
-        conditions = self.story.moments[START].conditions
-        simple = [each for each in conditions if isinstance(each, Measure)]
+        conditions = self.story.moments[st.START].conditions
+        simple = [each for each in conditions if isinstance(each, st.Measure)]
         for actor in self.story.actors:
             own = [each for each in simple if each.actor == actor.id]
             if own:
@@ -147,9 +135,9 @@ class _Teller:
     def _pure(self, moment: int) -> None:
         """Tell a moment at which nobody begins or ends a deed."""
         conditions, time = self.story.moments[moment].conditions, self.story.moments[moment].time
-        if moment == START or self._is_left_to_an_order(moment):
+        if moment == st.START or self._is_left_to_an_order(moment):
             return
-        if any(isinstance(each, Compound) for each in conditions) or (time is None and moment not in self.story.ego):
+        if any(isinstance(each, st.Compound) for each in conditions) or (time is None and moment not in self.story.ego):
             raise untold("a moment that is nobody's")
         if time is None:
             self.told.append(f"Later, {listed(self.phrases.clauses(conditions))}.")
@@ -163,8 +151,8 @@ class _Teller:
         conditions = self.story.moments[moment].conditions
         event = conditions[0] if len(conditions) == 1 and self.story.moments[moment].time is None else None
         last = self.story.ego[-1:] == (moment,)
-        return event is not None and last and is_event(event) and event.actor == EGO and any(  # type: ignore[union-attr]
-            moment in (order.first, order.second) and START not in (order.first, order.second)
+        return event is not None and last and st.is_event(event) and event.actor == EGO and any(  # type: ignore[union-attr]
+            moment in (order.first, order.second) and st.START not in (order.first, order.second)
             for order in self.story.orders
         )  # fmt: skip
 
@@ -173,18 +161,18 @@ class _Teller:
         if moment in self.known:
             return
         conditions = self.story.moments[moment].conditions
-        for other in self.known - {START}:
+        for other in self.known - {st.START}:
             same = set(conditions) & set(self.story.moments[other].conditions)
-            if any(is_event(each) for each in same) or (conditions and same == set(conditions)):
+            if any(st.is_event(each) for each in same) or (conditions and same == set(conditions)):
                 raise untold("two moments at which the same is so")
         self.known.add(moment)
         owned = any(moment in (deed.begins, deed.ends) for deed in self.story.deeds)
         if not owned and self.story.moments[moment].time is None:
             self.ego.append(moment)
         elif owned:
-            self._ego_comes(moment, [each for each in conditions if isinstance(each, Measure)])
+            self._ego_comes(moment, [each for each in conditions if isinstance(each, st.Measure)])
 
-    def _ego_comes(self, moment: int, conditions: Sequence[Condition]) -> None:
+    def _ego_comes(self, moment: int, conditions: Sequence[st.Condition]) -> None:
         if moment in self.ego or not speaks_of_ego(conditions):
             return
         if self.ego and not self._comes_after(self.ego[-1], moment):
@@ -205,23 +193,25 @@ class _Teller:
         if moment in self.known:
             return [self.event(moment)]
         found = self.story.moments[moment]
-        simple = [each for each in found.conditions if isinstance(each, Measure)]
+        simple = [each for each in found.conditions if isinstance(each, st.Measure)]
         time = [] if found.time is None else [f"it is {amount(found.time)} after the start"]
         return time + self.phrases.clauses(simple, it)
 
     def _compounds(self, moment: int) -> None:
         conditions = self.story.moments[moment].conditions
         for each in conditions:
-            if isinstance(each, Compound) and (moment, each) not in self.joined:
+            if isinstance(each, st.Compound) and (moment, each) not in self.joined:
                 self.joined.add((moment, each))
                 self.told.append(f"When {self.event(moment)}, {self.phrases.clause(each)}.")
                 self._ego_comes(moment, conditions)
 
     # -- deeds --------------------------------------------------------------------------------------------------------
-    def _deed(self, deed: Deed) -> None:
+    def _deed(self, deed: st.Deed) -> None:
         chain = self.story.deeds_of(deed.actor)
         index = chain.index(deed)
-        waits = deed.verb in (Verb.DRIVE, Verb.STAND) and index + 1 < len(chain)  # its end is told with what follows
+        waits = deed.verb in (st.Verb.DRIVE, st.Verb.STAND) and index + 1 < len(
+            chain
+        )  # its end is told with what follows
         fresh = deed.begins not in self.known
         lead, begins = self._begin(deed, chain, index)
         rate, held = _rate(deed)
@@ -230,7 +220,7 @@ class _Teller:
         if (
             index == 0
             and waits
-            and deed.verb == Verb.DRIVE
+            and deed.verb == st.Verb.DRIVE
             and not held
             and duration is None
             and self._items(deed.ends)
@@ -251,22 +241,22 @@ class _Teller:
             text += f" until {listed(until)}"
             self._introduce(deed.ends)
         elif not waits:
-            text += "" if duration is not None or deed.verb in (Verb.DRIVE, Verb.STAND) else " for a while"
+            text += "" if duration is not None or deed.verb in (st.Verb.DRIVE, st.Verb.STAND) else " for a while"
             self._introduce(deed.ends)
         self.told.append(sentence(text))
         self.told += [f"Meanwhile, {self.phrases.clause(each)}." for each in held]
         for moment in ([deed.begins] if fresh else []) + ([] if waits else [deed.ends]):
             self._compounds(moment)
 
-    def _begin(self, deed: Deed, chain: tuple[Deed, ...], index: int) -> tuple[str, bool]:
+    def _begin(self, deed: st.Deed, chain: tuple[st.Deed, ...], index: int) -> tuple[str, bool]:
         """Return the words before the subject, and whether the deed is told as one that begins: ``When ..., ``."""
         if index == 0:
             return "", False
-        if chain[index - 1].verb in (Verb.DRIVE, Verb.STAND):
+        if chain[index - 1].verb in (st.Verb.DRIVE, st.Verb.STAND):
             items = self._items(deed.begins)
             self._introduce(deed.begins)
             return (f"When {listed(items)}, ", True) if items else ("Then ", False)
-        moving = deed.verb in (Verb.DRIVE, Verb.SPEED_UP)
+        moving = deed.verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)
         at_rest = any(_is_standstill(each, deed.actor) for each in self.story.moments[deed.begins].conditions)
         return "Then at once " if moving and at_rest else "Then ", False
 
@@ -277,22 +267,22 @@ class _Teller:
         found = story.moments[moment]
         for condition in found.conditions:
             shared = sum(condition in each.conditions for each in story.moments) > 1
-            if isinstance(condition, Measure) and is_event(condition) and not shared:
+            if isinstance(condition, st.Measure) and st.is_event(condition) and not shared:
                 return self.phrases.clause(condition, passing=True)
         for deed in self.begun:
-            if deed.begins == moment and moment != START:
+            if deed.begins == moment and moment != st.START:
                 return f"{self.phrases.name(deed.actor)} begins to {DOES[deed.verb][1]}{self._time(deed)}"
         for deed in self.begun:
             if deed.ends == moment and (deed in self.ended or moment not in self.known):
                 self.ended.append(deed)
                 return f"{self.phrases.name(deed.actor)} finishes {DOES[deed.verb][2]}{self._time(deed)}"
         for condition in found.conditions:
-            if isinstance(condition, Measure) and not any(condition in each.conditions for each in story.moments
+            if isinstance(condition, st.Measure) and not any(condition in each.conditions for each in story.moments
                                                           if each is not found):  # fmt: skip
                 return self.phrases.clause(condition)
         raise untold("a moment that nothing tells from others")
 
-    def _time(self, deed: Deed) -> str:
+    def _time(self, deed: st.Deed) -> str:
         """Return which time somebody does a deed, where it is not the first."""
         same = [each for each in self.story.deeds_of(deed.actor) if each.verb == deed.verb]
         number = same.index(deed)
@@ -300,9 +290,9 @@ class _Teller:
             raise untold("so many deeds of one kind")
         return "" if number == 0 else f" for the {ORDINALS[number]} time"
 
-    def _order(self, order: Order) -> None:
-        if START in (order.first, order.second):
-            if order.first != START or order.margin is None:
+    def _order(self, order: st.Order) -> None:
+        if st.START in (order.first, order.second):
+            if order.first != st.START or order.margin is None:
                 raise untold("what comes before the start")
             self.told.append(sentence(f"{self.event(order.second)} {bounded(order.op, order.margin)} after the start"))
         elif order.margin is not None:
@@ -314,37 +304,37 @@ class _Teller:
         for moment in (order.first, order.second):
             self._introduce(moment)
 
-    def _hold(self, hold: Hold) -> None:
+    def _hold(self, hold: st.Hold) -> None:
         start, end = self._point(hold.start, False), self._point(hold.end, True)
         self.told.append(f"From {start} until {end}, {hold.how}: {self.phrases.clause(hold.condition)}.")
 
-    def _point(self, point: Point, is_end: bool) -> str:
-        event = "the start" if point.moment == START else self.event(point.moment)
+    def _point(self, point: st.Point, is_end: bool) -> str:
+        event = "the start" if point.moment == st.START else self.event(point.moment)
         if point.offset is None:
-            return event if is_end or point.moment == START else f"when {event}"
+            return event if is_end or point.moment == st.START else f"when {event}"
         return f"{amount(point.offset)} {'before' if point.earlier else 'after'} {event}"
 
 
-def _rate(deed: Deed) -> tuple[Measure | None, tuple[Measure, ...]]:
+def _rate(deed: st.Deed) -> tuple[st.Measure | None, tuple[st.Measure, ...]]:
     """Return the rate that a deed is told with, and what else holds all the while."""
     rate = next(
         (
             each
             for each in deed.throughout
-            if each.quantity is Quantity.RATE
+            if each.quantity is st.Quantity.RATE
             and each.actor == deed.actor
-            and each.opposite is _RATES.get(Verb(deed.verb))
+            and each.opposite is _RATES.get(st.Verb(deed.verb))
         ),
         None,
     )
     return rate, tuple(each for each in deed.throughout if each is not rate)
 
 
-def _is_standstill(condition: Condition, actor: int) -> bool:
-    return condition == Measure(actor, Quantity.SPEED, "==", Amount(Fraction(0), "m/s"))
+def _is_standstill(condition: st.Condition, actor: int) -> bool:
+    return condition == st.Measure(actor, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s"))
 
 
-def _is_told(parameter: Parameter, story: Story) -> bool:
+def _is_told(parameter: Parameter, story: st.Story) -> bool:
     declared = parameter.value is not None or parameter.low is not None or parameter.high is not None
     return declared or parameter.name not in {each.name for each in amounts_of(story)}
 

@@ -11,21 +11,9 @@ from dataclasses import replace
 from fractions import Fraction
 
 from scenewright.errors import TranslationError
+from scenewright.language import story as st
 from scenewright.language.compile import COMPASS, route_of
 from scenewright.language.phrases import Phrases
-from scenewright.language.story import (
-    START,
-    Actor,
-    Alternative,
-    Amount,
-    Measure,
-    Quantity,
-    Question,
-    Relation,
-    Story,
-    Way,
-    replace_actor,
-)
 from scenewright.program.types import HeadingsRoute, IntentRoute, LanesRoute
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route, all_routes, find_routes
@@ -34,7 +22,7 @@ from scenewright.roads.routes import Route, all_routes, find_routes
 BEARINGS = {"oncoming": 2, "from the left": 1, "from the right": 3, "ahead": 0, "behind": 0, "same way": 0}
 
 
-def put_on_map(story: Story, road_map: RoadMap, answers: Mapping[str, str] | None = None) -> Story:
+def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | None = None) -> st.Story:
     """Return `story` with whole ways.
 
     Raises
@@ -65,12 +53,12 @@ def put_on_map(story: Story, road_map: RoadMap, answers: Mapping[str, str] | Non
                 questions.append(question)
             found = [found[texts.index(told) if told in texts else question.default or 0]]
         relations = tuple(each for each in actor.relations if each.kind not in BEARINGS)
-        story = replace_actor(story, replace(actor, way=found[0], relations=relations))
+        story = st.replace_actor(story, replace(actor, way=found[0], relations=relations))
         story = _in_line(story, actor)
     return replace(story, questions=tuple(questions))
 
 
-def _fitting(actor: Actor, road_map: RoadMap) -> list[Route]:
+def _fitting(actor: st.Actor, road_map: RoadMap) -> list[Route]:
     match route_of(actor.way):
         case HeadingsRoute(headings=headings):
             return list(find_routes(road_map, headings=headings))
@@ -89,7 +77,7 @@ def _fitting(actor: Actor, road_map: RoadMap) -> list[Route]:
             )
 
 
-def _keep_related(fitting: dict[int, list[Route]], actor: int, relation: Relation) -> None:
+def _keep_related(fitting: dict[int, list[Route]], actor: int, relation: st.Relation) -> None:
     """Leave only the ways of both that lie as the relation says to some way of the other."""
     quarters = BEARINGS.get(relation.kind)
     if quarters is None:
@@ -103,34 +91,36 @@ def _keep_related(fitting: dict[int, list[Route]], actor: int, relation: Relatio
     fitting[relation.of] = [other for other in others if any(lies(own, other) for own in mine)]
 
 
-def _way(route: Route, road_map: RoadMap) -> Way:
+def _way(route: Route, road_map: RoadMap) -> st.Way:
     """Return the shortest facts that this route alone meets."""
     if len(find_routes(road_map, headings=route.headings)) > 1:
-        return Way(lanes=route.lanes)
+        return st.Way(lanes=route.lanes)
     heading, turn = route.headings[0], str(route.turn)
-    plain = Way(heading=heading, turn=turn)
+    plain = st.Way(heading=heading, turn=turn)
     same = isinstance(made := route_of(plain), HeadingsRoute) and made.headings == route.headings
-    return plain if same else Way(headings=route.headings)
+    return plain if same else st.Way(headings=route.headings)
 
 
-def _which(actor: Actor, found: list[Way], phrases: Phrases) -> Question:
+def _which(actor: st.Actor, found: list[st.Way], phrases: Phrases) -> st.Question:
     straight = next((number for number, way in enumerate(found) if way.turn == "straight"), 0)
-    alternatives = tuple(Alternative(phrases.way(way)) for way in found)
-    return Question(
+    alternatives = tuple(st.Alternative(phrases.way(way)) for way in found)
+    return st.Question(
         f"way of {actor.name}", f"Which way does {phrases.name(actor.id)} go?", alternatives, straight, actor.quote
     )
 
 
-def _in_line(story: Story, actor: Actor) -> Story:
+def _in_line(story: st.Story, actor: st.Actor) -> st.Story:
     """Let who is said to be ahead or behind be so at the start."""
-    start = story.moments[START]
+    start = story.moments[st.START]
     added = []
     for relation in actor.relations:
         if relation.kind in ("ahead", "behind"):
             rear, front = (relation.of, actor.id) if relation.kind == "ahead" else (actor.id, relation.of)
-            told = [each for each in start.conditions if isinstance(each, Measure) and each.quantity is Quantity.GAP]
+            told = [
+                each for each in start.conditions if isinstance(each, st.Measure) and each.quantity is st.Quantity.GAP
+            ]
             if all((each.actor, each.other) != (rear, front) for each in told):
-                zero = Amount(Fraction(0), "m")
-                added.append(Measure(rear, Quantity.GAP, ">", zero, other=front, quote=relation.quote))
+                zero = st.Amount(Fraction(0), "m")
+                added.append(st.Measure(rear, st.Quantity.GAP, ">", zero, other=front, quote=relation.quote))
     moments = (replace(start, conditions=(*start.conditions, *added)), *story.moments[1:])
     return replace(story, moments=moments)

@@ -15,6 +15,7 @@ from fractions import Fraction
 from functools import lru_cache
 from importlib.resources import files
 
+from scenewright.language.phrases import ORDINALS
 from scenewright.language.story import Amount, Quote
 from scenewright.units import UNITS, unit_of_name
 
@@ -29,6 +30,8 @@ _TOKEN = re.compile(
     r"|(?P<other>\S)"
 )
 _LANES = re.compile(r"follows? the lanes ((?:[A-Za-z0-9_]+(?:\.-?[A-Za-z0-9_]+)+(?:, )?)+)")
+_NUMBERS = "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen"
+_TENS = "twenty thirty forty fifty sixty"
 _ENDS = ".;!?"
 _SUFFIX = {"m": "_m", "s": "_s", "m/s": "_mps", "m/s^2": "_mpss", "km/h": "_kmph", "mph": "_mph", "ft": "_ft"}
 
@@ -65,7 +68,9 @@ def vocabulary() -> Vocabulary:
     """Return the words of the domain."""
     table = tomllib.loads(files("scenewright.language.read").joinpath("words.toml").read_text(encoding="utf-8"))
     units = {word: symbol for symbol, said in table.pop("unit").items() for word in _said(said)}
-    numbers = {word: Fraction(said) for word, said in table.pop("number").items()}
+    numbers = {word: Fraction(number) for number, word in enumerate(_NUMBERS.split())}
+    numbers |= {word: Fraction(10 * tens) for tens, word in enumerate(_TENS.split(), start=2)}
+    table["ordinal"] = {str(number): f"for the {word} time" for number, word in enumerate(ORDINALS)}
     phrases: dict[str, list[tuple[tuple[str, ...], str, str]]] = {}
     for kind, values in table.items():
         for value, said in values.items():

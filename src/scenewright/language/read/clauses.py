@@ -7,27 +7,36 @@ or an `UnknownWordsError` with the words that nothing could be made of. Order de
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 from typing import Protocol
 
 from scenewright.errors import UnknownWordsError
+from scenewright.language import story as st
 from scenewright.language.compile import COMPASS
 from scenewright.language.read.chunks import Chunk
-from scenewright.language.story import Amount, Measure, Operator, Place, Quantity, Quote
 from scenewright.program.arithmetic import JUST_BEFORE_M
 from scenewright.program.types import EGO
 
-_OPERATORS: dict[str, Operator] = {"==": "==", ">=": ">=", "<=": "<=", ">": ">", "<": "<"}
-_BARE: dict[str, Operator] = {
+PEOPLE = ("actor", "name", "pronoun")
+_OPERATORS: dict[str, st.Operator] = {"==": "==", ">=": ">=", "<=": "<=", ">": ">", "<": "<"}
+_BARE: dict[str, st.Operator] = {  # a side and a place, without an amount
     "at": "==", "to": "==", "at or past": ">=", "past": ">", "at or before": "<=", "before": "<", "behind": "<",
 }  # fmt: skip
 _TO_PLACE = ("before", "behind", "from", "to", "ahead", "of")
 _CONFLICTS = ("conflict_point", "intersection", "turn")
+# What is asked for, and the side on which the other actor stands: the quantity, by whether the amount is a time.
+_TO_ACTOR = {
+    (None, "behind", False): st.Quantity.GAP, ("gap", "behind", False): st.Quantity.GAP,
+    (None, "ahead", False): st.Quantity.GAP, ("gap", "ahead", False): st.Quantity.GAP,
+    (None, "behind", True): st.Quantity.HEADWAY, ("headway", "behind", True): st.Quantity.HEADWAY,
+    ("headway", "to", True): st.Quantity.HEADWAY, ("time to collision", "with", True): st.Quantity.COLLISION,
+    ("time to collision", "to", True): st.Quantity.COLLISION,
+}  # fmt: skip
 
 
 class People(Protocol):
-    """Who is meant by a chunk."""
+    """Who, and which place, is meant."""
 
     def who(self, chunk: Chunk) -> int:
         """Return the number of the actor that a mention means."""
@@ -37,11 +46,11 @@ class People(Protocol):
         """Return the one that "it" means who is not the subject."""
         ...
 
-    def where(self, chunk: Chunk) -> Place:
+    def where(self, chunk: Chunk) -> st.Place:
         """Return the place that "it" means."""
         ...
 
-    def went(self, place: Place) -> None:
+    def went(self, place: st.Place) -> None:
         """Note that a place was spoken of."""
         ...
 
@@ -60,21 +69,30 @@ class Clause:
         Amounts of time that say when, or for how long: ``for 3 s``, ``5 s after the start``.
     facts
         Of its way: ``heading``, ``turn``, ``origin``, ...
+    flags
+        What else it says: ``standstill``, ``while`` (the end is open), ``to`` a speed, ``first``, ``way`` (it is open).
+    waiting, target
+        Amounts without a place, and the last place that an amount was counted to, for a neighbour.
     """
 
-    quote: Quote
+    quote: st.Quote
     subject: int | None = None
     deed: str | None = None
     phase: str | None = None
     ordinal: int = 0
-    measures: list[Measure] = field(default_factory=list)
-    rate: Measure | None = None
-    times: dict[str, tuple[Operator, Amount]] = field(default_factory=dict)
+    measures: list[st.Measure] = field(default_factory=list)
+    rate: st.Measure | None = None
+    times: dict[str, tuple[st.Operator, st.Amount]] = field(default_factory=dict)
     facts: dict[str, str] = field(default_factory=dict)
     flags: set[str] = field(default_factory=set)
-    relations: list[tuple[str, int, Quote]] = field(default_factory=list)  # of its way to that of another
-    waiting: list[tuple[Operator, Chunk]] = field(default_factory=list)  # amounts without a target
-    target: tuple[str, Chunk] | None = None  # the last side and place or actor
+    relations: list[st.Relation] = field(default_factory=list)
+    waiting: list[Chunk] = field(default_factory=list)
+    target: tuple[str, st.Place] | None = None
+
+    def says_more_than(self, *expected: str) -> bool:
+        """Whether anything but these attributes is filled: what carries meaning must be used up."""
+        known = {*expected, "quote", "subject", "target"}
+        return any(getattr(self, each.name) for each in fields(self) if each.name not in known)
 
 
 @dataclass(slots=True)
@@ -82,8 +100,8 @@ class _Target:
     at: int
     side: str
     chunk: Chunk
-    place: Place | None
-    other: int | None
+    place: st.Place | None = None
+    other: int | None = None
     used: bool = False
 
 
@@ -97,66 +115,68 @@ def read_clause(
     UnknownWordsError
         Where something that carries meaning is left over.
     """
-    return _Reader(list(chunks), people).read(neighbour, subject)
+    reader = _Reader(list(chunks), people)
+    while reader.at < len(reader.chunks):
+        reader.take(reader.chunks[reader.at])
+        reader.at += 1
+    reader.attach(neighbour, subject)
+    return reader.clause
 
 
 @dataclass(slots=True)
 class _Reader:
+    """Takes one chunk after the other; `at` is the last one taken."""
+
     chunks: list[Chunk]
     people: People
     at: int = 0
     clause: Clause = field(init=False)
-    amounts: list[tuple[int, Operator, Chunk, str]] = field(default_factory=list)  # with the factor after it
+    amounts: list[tuple[int, st.Operator, Chunk]] = field(default_factory=list)
     targets: list[_Target] = field(default_factory=list)
+    states: set[str] = field(default_factory=set)
     quantity: str | None = None
 
-    def read(self, neighbour: Clause | None, subject: int | None) -> Clause:
-        first, last = self.chunks[0], self.chunks[-1]
+    def __post_init__(self) -> None:
         text = " ".join(chunk.text for chunk in self.chunks)
-        self.clause = Clause(Quote(first.start, last.end, text))
-        while self.at < len(self.chunks):
-            self._take(self.chunks[self.at])
-            self.at += 1
-        if self.clause.subject is None:
-            self.clause.subject = subject
-        self._attach(neighbour)
-        return self.clause
+        self.clause = Clause(st.Quote(self.chunks[0].start, self.chunks[-1].end, text))
 
-    def _peek(self, ahead: int = 1) -> Chunk | None:
-        return self.chunks[self.at + ahead] if self.at + ahead < len(self.chunks) else None
+    def _peek(self, ahead: int = 1) -> tuple[str, str]:
+        """Return kind and value of a chunk from here; nothing where there is none."""
+        at = self.at + ahead
+        return (self.chunks[at].kind, self.chunks[at].value) if 0 <= at < len(self.chunks) else ("", "")
 
     def _left_over(self, chunk: Chunk) -> UnknownWordsError:
+        expected = "a number with a unit, such as 12 m" if chunk.kind == "no unit" else None
         return UnknownWordsError(
             f"'{chunk.text}' could not be understood here",
             found=self.clause.quote.text,
-            expected="a number with a unit, such as 12 m" if chunk.kind == "no unit" else None,
+            expected=expected,
             fix="say it as `scenewright tell` would",
         )
 
-    def _take(self, chunk: Chunk) -> None:
+    def take(self, chunk: Chunk) -> None:
+        """Take the chunk at `at`, and those behind it that belong to it."""
         clause, value = self.clause, chunk.value
         match chunk.kind:
-            case "pronoun" if value == "it" and self._has_event("pass"):
-                self.targets.append(_Target(self.at, "at", chunk, self.people.where(chunk), None))
-            case "actor" | "pronoun" | "name":
-                self._person(chunk)
-            case "be" | "mood" | "harmless" | "comma":
+            case "pronoun" if value == "it" and "pass" in self.states:
+                self.targets.append(_Target(self.at, "at", chunk, self.people.where(chunk)))
+            case "pronoun" if value == "its":
                 pass
-            case "possessive" if isinstance(self._peek(), Chunk):
+            case "actor" | "pronoun" | "name" if clause.subject is None:
+                clause.subject = self.people.who(self._named(chunk))
+            case "be" | "mood" | "harmless" | "possessive":
                 pass
-            case "bound":
-                following = self._peek()
-                if following is None or (following.kind != "amount" and following.value != "as fast as"):
-                    raise self._left_over(chunk)
+            case "bound" if self._peek()[0] == "amount" or self._peek()[1] == "as fast as":
+                pass
             case "amount":
                 self._amount(chunk)
             case "near":
-                just = Amount(JUST_BEFORE_M, "m", None, chunk.quote)
-                self.amounts.append((self.at, "==", replace(chunk, amount=just), ""))
+                just = st.Amount(JUST_BEFORE_M, "m", None, chunk.quote)
+                self.amounts.append((self.at, "==", replace(chunk, amount=just)))
                 self._target("before")
             case "side":
                 self._side(chunk)
-            case "place" if self._has_event("pass"):
+            case "place" if "pass" in self.states:
                 self.at -= 1
                 self._target("at")
             case "deed" if clause.deed is None:
@@ -165,296 +185,225 @@ class _Reader:
                 clause.phase = value
             case "ordinal":
                 clause.ordinal = int(value)
-            case "standstill":
-                clause.flags.add("standstill")
+            case "standstill" | "open" | "order":
+                clause.flags.add("standstill" if chunk.kind == "standstill" else value)
             case "relation":
-                clause.relations.append((value, EGO, chunk.quote))
-            case "state" | "event" | "open" | "order":
-                clause.flags.add(value)
+                clause.relations.append(st.Relation(value, EGO, chunk.quote))
+            case "state" | "event":
+                self.states.add(value)
             case "quantity" if self.quantity in (None, "rate", value):
                 self.quantity = value
-            case "factor" if value == "as fast as" or self._peek_is("side", "than"):
+            case "factor" if value == "as fast as" or self._peek() == ("side", "than"):
                 self._factor(chunk)
-            case "link" if value == "then" and self._is_between("heading"):
+            case "link" if value == "then" and self._peek(-1)[0] == self._peek()[0] == "heading":
                 pass
             case "turn" | "heading" | "origin" | "then_headed" | "area" | "lanes":
                 self._way(chunk)
             case _:
                 raise self._left_over(chunk)
 
-    def _peek_is(self, kind: str, value: str) -> bool:
-        following = self._peek()
-        return following is not None and (following.kind, following.value) == (kind, value)
-
-    def _is_between(self, kind: str) -> bool:
-        following = self._peek()
-        return (
-            self.at > 0 and self.chunks[self.at - 1].kind == kind and following is not None and following.kind == kind
-        )
-
-    def _has_event(self, name: str) -> bool:
-        return name in self.clause.flags
-
-    def _person(self, chunk: Chunk) -> None:
-        if chunk.value == "its":
-            return
-        if self.clause.subject is not None:
-            raise self._left_over(chunk)
-        named = self._named(chunk)
-        self.clause.subject = self.people.who(named)
-
     def _named(self, chunk: Chunk) -> Chunk:
         """Return a mention together with the name in quotes after it."""
-        following = self._peek()
-        if chunk.kind == "actor" and following is not None and following.kind == "name":
+        if chunk.kind == "actor" and self._peek()[0] == "name":
             self.at += 1
-            return replace(following, kind=f"name of {chunk.value}")
+            return replace(self.chunks[self.at], kind=f"name of {chunk.value}")
         return chunk
 
+    def _bound(self) -> st.Operator:
+        kind, value = self._peek(-1)
+        return _OPERATORS.get(value, "==") if kind == "bound" else "=="
+
     def _amount(self, chunk: Chunk) -> None:
-        before = self.chunks[self.at - 1] if self.at else None
-        op: Operator = "=="
-        if before is not None and before.kind == "bound":
-            op = _OPERATORS.get(before.value, "==")
-        lead = self.at - (2 if before is not None and before.kind == "bound" else 1)
-        after = self._peek(1), self._peek(2)
-        assert chunk.amount is not None
-        if chunk.amount.dimension == "time" and lead >= 0 and self.chunks[lead].value == "for":
-            self.clause.times["for"] = (op, chunk.amount)
-        elif (
-            after[0] is not None
-            and after[0].value == "after"
-            and after[1] is not None
-            and after[1].value == "the start"
-        ):
-            self.clause.times["after the start"] = (op, chunk.amount)
+        op, amount = self._bound(), chunk.amount
+        assert amount is not None
+        lead = self._peek(-2 if self._peek(-1)[0] == "bound" else -1)
+        if amount.dimension == "time" and lead == ("side", "for"):
+            self.clause.times["for"] = (op, amount)
+        elif (self._peek(1)[1], self._peek(2)[1]) == ("after", "the start"):
+            self.clause.times["after the start"] = (op, amount)
             self.at += 2
         else:
-            self.amounts.append((self.at, op, chunk, ""))
+            self.amounts.append((self.at, op, chunk))
 
     def _side(self, chunk: Chunk) -> None:
-        following = self._peek()
-        if following is None:
-            raise self._left_over(chunk)
-        if following.kind in ("place", "actor", "name", "pronoun"):
-            self._target(chunk.value)
-        elif chunk.value == "to" and following.kind == "event":
-            pass  # "speeds up to pass the conflict point"
-        elif following.kind == "area" and chunk.value in ("at", "into", "from"):
-            self._area(chunk.value, following)
-        elif chunk.value in ("at", "of", "for", "to", "with") and following.kind in ("amount", "bound", "quantity"):
-            if chunk.value == "to":
-                self.clause.flags.add("to")
-        else:
+        side, (kind, _) = chunk.value, self._peek()
+        if kind in ("place", *PEOPLE):
+            self._target(side)
+        elif kind == "area" and side in ("at", "into", "from"):
+            self.at += 1
+            self._area(self.chunks[self.at], onward=side == "into")
+        elif side == "to" and kind == "amount" and self.clause.deed is not None:
+            self.clause.flags.add("to")
+        elif not (
+            (side == "to" and kind == "event")  # "speeds up to pass the conflict point"
+            or (side in ("at", "of", "for", "to", "with") and kind in ("amount", "bound", "quantity"))
+        ):
             raise self._left_over(chunk)
 
     def _target(self, side: str) -> None:
         """Take the place or the actor after a side, with whose the place is and with whom."""
         at = self.at
-        self.at += 1
+        self.at += 2 if self._peek()[1] == "its" else 1
+        if self.at >= len(self.chunks):
+            raise self._left_over(self.chunks[at])
         chunk = self.chunks[self.at]
-        if chunk.value == "its" and self._peek() is not None:
-            self.at += 1
-            chunk = self.chunks[self.at]
-        if chunk.kind == "pronoun":
-            self._it(at, side, chunk)
-        elif chunk.kind == "place":
-            place = self._whose(chunk)
-            self.targets.append(_Target(at, side, chunk, place, None))
-        else:
-            named = self._named(chunk)
-            owned = self._peek()
-            self.at += 1
-            if owned is not None and owned.kind == "possessive" and self._peek() is not None:
-                self.at += 1
-                owner = self.people.who(named)
-                place = replace(self._whose(self.chunks[self.at]), of=owner)
-                self.targets.append(_Target(at, side, chunk, place, None))
+        if chunk.kind == "pronoun":  # who somebody is ahead of or behind, else the place that was spoken of last
+            if side in ("ahead", "behind"):
+                whom = self.people.whom(chunk, self.clause.subject)
+                self.targets.append(_Target(at, side, chunk, other=whom))
             else:
-                self.at -= 1
-                self.targets.append(_Target(at, side, chunk, None, self.people.who(named)))
-
-    def _it(self, at: int, side: str, chunk: Chunk) -> None:
-        """Take "it" after a side: who somebody is ahead of or behind, else the place that was spoken of last."""
-        if side in ("ahead", "behind"):
-            self.targets.append(_Target(at, side, chunk, None, self.people.whom(chunk, self.clause.subject)))
+                self.targets.append(_Target(at, side, chunk, self.people.where(chunk)))
+        elif chunk.kind == "place":
+            self.targets.append(_Target(at, side, chunk, self._place(chunk)))
         else:
-            self.targets.append(_Target(at, side, chunk, self.people.where(chunk), None))
+            who = self.people.who(self._named(chunk))
+            if self._peek()[0] == "possessive" and self._peek(2)[0] == "place":
+                self.at += 2
+                place = replace(self._place(self.chunks[self.at]), of=who)
+                self.targets.append(_Target(at, side, chunk, place))
+            else:
+                self.targets.append(_Target(at, side, chunk, other=who))
 
-    def _whose(self, chunk: Chunk) -> Place:
-        if chunk.kind != "place":
-            raise self._left_over(chunk)
-        of = partner = None
+    def _place(self, chunk: Chunk) -> st.Place:
+        place = st.Place(chunk.value)
         for side in ("of", "with"):
-            link, who = self._peek(1), self._peek(2)
-            if link is None or link.value != side or who is None or who.kind not in ("actor", "name"):
+            if self._peek()[1] != side or self._peek(2)[0] not in ("actor", "name"):
                 continue
-            if side == "with" and chunk.value not in _CONFLICTS:
-                continue
-            self.at += 2
-            person = self.people.who(self._named(self.chunks[self.at]))
-            of, partner = (person, partner) if side == "of" else (of, person)
-        place = Place(chunk.value, of, partner)
+            if side == "of" or chunk.value in _CONFLICTS:
+                self.at += 2
+                person = self.people.who(self._named(self.chunks[self.at]))
+                place = replace(place, of=person) if side == "of" else replace(place, partner=person)
         self.people.went(place)
         return place
 
     def _factor(self, chunk: Chunk) -> None:
-        previous = self.amounts[-1] if self.amounts and self.amounts[-1][0] == self.at - 1 else None
-        before = self.chunks[self.at - 1] if self.at else None
-        ahead = 1 if chunk.value == "as fast as" else 2
-        who = self._peek(ahead)
-        if who is None or who.kind not in ("actor", "name"):
-            raise self._left_over(chunk)
-        self.at += ahead
-        other = self.people.who(self._named(self.chunks[self.at]))
-        amount, op = None, _OPERATORS["=="]
-        if chunk.value == "as fast as":
-            op = _OPERATORS.get(before.value, "==") if before is not None and before.kind == "bound" else "=="
-        elif previous is not None:
-            self.amounts.pop()
-            op, amount = previous[1], previous[2].amount
-        else:
+        """Take "2 m/s faster than the ego", "at least as fast as the ego"."""
+        op, amount = self._bound(), None
+        if chunk.value != "as fast as":
             op = ">" if chunk.value == "faster" else "<"
+            if self.amounts and self.amounts[-1][0] == self.at - 1:
+                _, op, before = self.amounts.pop()
+                amount = before.amount
+            self.at += 1
+        if self._peek()[0] not in ("actor", "name"):
+            raise self._left_over(chunk)
+        self.at += 1
+        other = self.people.who(self._named(self.chunks[self.at]))
         slower = chunk.value == "slower" and amount is not None
-        self._measure(Quantity.SPEED, op, amount, other=other, opposite=slower, quote=chunk.quote)
+        self._measure(chunk, st.Quantity.SPEED, op, amount, other=other, opposite=slower)
 
     # -- ways ---------------------------------------------------------------------------------------------------------
     def _way(self, chunk: Chunk) -> None:
         facts, value = self.clause.facts, chunk.value
-        match chunk.kind:
-            case "turn":
-                self._fact("turn", value, chunk)
-            case "lanes":
-                self._fact("lanes", value, chunk)
-            case "heading":
-                later = "then headed" in facts or ("turn" in facts and facts["turn"] != "straight")
-                named = "destination_heading" if later else "heading"
-                before = self.chunks[self.at - 2] if self.at > 1 else None
-                if before is not None and before.kind == "heading":  # "north, then south"
-                    facts["headings"] = facts.get("headings", facts.pop("heading", "")) + value
-                else:
-                    self._fact(named, value, chunk)
-            case "then_headed":
-                facts["then headed"] = ""
-            case "origin":
-                following = self._peek()
-                if following is None or following.kind not in ("area", "heading"):
-                    raise self._left_over(chunk)
-                self.at += 1
-                if following.kind == "heading":  # who comes from the east is headed west
-                    opposite = COMPASS[(COMPASS.index(following.value) + 2) % 4]
-                    self._fact("heading", opposite, following)
-                else:
-                    self._fact("origin", following.value, following)
-            case _:
-                self._area("", chunk)
-
-    def _area(self, side: str, chunk: Chunk) -> None:
-        if side in ("at", "into", "from"):
+        if chunk.kind == "heading" and self._peek(-2)[0] == "heading":  # "north, then south"
+            facts["headings"] = facts.get("headings", facts.pop("heading", "")) + value
+        elif chunk.kind == "heading":
+            later = "then" in facts or facts.get("turn", "straight") != "straight"
+            self._fact("destination_heading" if later else "heading", chunk)
+        elif chunk.kind == "area":
+            self._area(chunk)
+        elif chunk.kind == "origin" and self._peek()[0] in ("area", "heading"):
             self.at += 1
-        facts = self.clause.facts
-        onward = side == "into" or ("turn" in facts and facts["turn"] != "straight")
-        self._fact("destination" if onward else "origin", chunk.value, chunk)
-
-    def _fact(self, name: str, value: str, chunk: Chunk) -> None:
-        if self.clause.facts.get(name, value) != value:
+            following = self.chunks[self.at]
+            if following.kind == "heading":  # who comes from the east is headed west
+                opposite = COMPASS[(COMPASS.index(following.value) + 2) % 4]
+                self._fact("heading", replace(following, value=opposite))
+            else:
+                self._fact("origin", following)
+        elif chunk.kind == "origin":
             raise self._left_over(chunk)
-        self.clause.facts[name] = value
+        else:
+            self._fact("then" if chunk.kind == "then_headed" else chunk.kind, chunk)
+
+    def _area(self, chunk: Chunk, onward: bool = False) -> None:
+        turned = self.clause.facts.get("turn", "straight") != "straight" and self._peek(-1) != ("side", "from")
+        self._fact("destination" if onward or turned else "origin", chunk)
+
+    def _fact(self, name: str, chunk: Chunk) -> None:
+        if self.clause.facts.setdefault(name, chunk.value) != chunk.value:
+            raise self._left_over(chunk)
 
     # -- measures -----------------------------------------------------------------------------------------------------
     def _measure(
         self,
-        quantity: Quantity,
-        op: Operator,
-        amount: Amount | None,
-        place: Place | None = None,
+        chunk: Chunk,
+        quantity: st.Quantity,
+        op: st.Operator,
+        amount: st.Amount | None = None,
+        place: st.Place | None = None,
         other: int | None = None,
         opposite: bool = False,
-        quote: Quote | None = None,
-        actor: int | None = None,
     ) -> None:
-        who = self.clause.subject if actor is None else actor
+        who = self.clause.subject
         if who is None:
             raise self._left_over(self.chunks[0])
         if place is not None and place.of == who:
             place = replace(place, of=None)
-        self.clause.measures.append(Measure(who, quantity, op, amount, place, other, opposite, quote))
+        measure = st.Measure(who, quantity, op, amount, place, other, opposite, chunk.quote)
+        self.clause.measures.append(measure)
 
-    def _attach(self, neighbour: Clause | None) -> None:
-        clause = self.clause
-        if "stands" in clause.flags or (clause.deed is not None and clause.deed == "stop"):
-            zero = Amount(Fraction(0), "m/s")
-            if "stands" in clause.flags:
-                self._measure(Quantity.SPEED, "==", zero, quote=clause.quote)
+    def attach(self, neighbour: Clause | None, subject: int | None) -> None:
+        """Give amounts their targets, and make measures of what stands alone."""
+        clause, last = self.clause, self.chunks[-1]
+        if clause.subject is None:
+            clause.subject = subject
+        if "stands" in self.states:
+            self._measure(last, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s"))
         for name in ("turn_start", "turn_end"):
-            if name in clause.flags:
-                self._measure(Quantity.PLACE, "==", None, Place(name), quote=clause.quote)
-        for at, op, chunk, _ in self.amounts:
-            self._place_amount(at, op, chunk, neighbour)
+            if name in self.states:
+                self._measure(last, st.Quantity.PLACE, "==", None, st.Place(name))
+        for at, op, chunk in self.amounts:
+            self._give(at, op, chunk, neighbour)
         for target in self.targets:
             if target.used:
                 continue
             if target.other is not None and target.side in ("ahead", "behind") and clause.deed is None:
-                clause.relations.append((target.side, target.other, target.chunk.quote))
-                continue
-            if target.place is None or target.side not in _BARE:
+                clause.relations.append(st.Relation(target.side, target.other, target.chunk.quote))
+            elif target.place is not None and target.side in _BARE:
+                self._measure(target.chunk, st.Quantity.PLACE, _BARE[target.side], None, target.place)
+            else:
                 raise self._left_over(target.chunk)
-            self._measure(Quantity.PLACE, _BARE[target.side], None, target.place, quote=target.chunk.quote)
-        if self._has_event("pass") and not any(each.quantity is Quantity.PLACE for each in clause.measures):
-            raise self._left_over(self.chunks[-1])
+        if "pass" in self.states and not any(each.quantity is st.Quantity.PLACE for each in clause.measures):
+            raise self._left_over(last)
 
-    def _place_amount(self, at: int, op: Operator, chunk: Chunk, neighbour: Clause | None) -> None:
+    def _give(self, at: int, op: st.Operator, chunk: Chunk, neighbour: Clause | None) -> None:
+        """Make a measure of an amount, with the nearest free target after it, else before it, else its neighbour's."""
         amount, clause = chunk.amount, self.clause
         assert amount is not None
-        quote = chunk.quote
         if amount.dimension == "speed":
-            if "to" in clause.flags and clause.deed is not None:
-                clause.flags.add("to speed")
-            self._measure(Quantity.SPEED, op, amount, quote=quote)
-            return
-        if amount.dimension == "acceleration":
+            self._measure(chunk, st.Quantity.SPEED, op, amount)
+        elif amount.dimension == "acceleration":
             slowing = self.quantity == "deceleration" or clause.deed == "brake"
-            clause.flags.add("rate")
-            self._measure(Quantity.RATE, op, amount, opposite=slowing, quote=quote)
+            self._measure(chunk, st.Quantity.RATE, op, amount, opposite=slowing)
             if clause.deed is not None:
                 clause.rate = clause.measures.pop()
-            return
-        target = self._nearest(at)
-        if target is None and neighbour is not None and neighbour.target is not None:
-            side, borrowed = neighbour.target
-            if borrowed.kind == "place":
-                target = _Target(at, side, borrowed, Place(borrowed.value), None)
-        if target is None:
-            clause.waiting.append((op, chunk))
-            return
-        target.used = True
-        clause.target = (target.side, target.chunk)
-        self._to_target(target, op, amount, quote)
+        else:
+            free = [target for target in self.targets if not target.used]
+            target = next((each for each in free if each.at > at), free[-1] if free else None)
+            if target is None and neighbour is not None and neighbour.target is not None:
+                target = _Target(at, neighbour.target[0], chunk, neighbour.target[1])
+            if target is None:
+                clause.waiting.append(chunk)
+                return
+            target.used = True
+            self._to_target(target, op, amount, chunk)
 
-    def _nearest(self, at: int) -> _Target | None:
-        """Return the nearest target after an amount that is free, else the nearest before it."""
-        free = [target for target in self.targets if not target.used]
-        return next((each for each in free if each.at > at), free[-1] if free else None)
-
-    def _to_target(self, target: _Target, op: Operator, amount: Amount, quote: Quote) -> None:
-        is_time = amount.dimension == "time"
-        if target.place is not None:
-            if target.side in ("past", "after") and not is_time:
-                self._measure(Quantity.PLACE, op, amount, target.place, opposite=True, quote=quote)
-            elif target.side in _TO_PLACE or (target.side == "at" and self.quantity == "time to arrival"):
-                quantity = Quantity.ARRIVAL if is_time else Quantity.PLACE
-                self._measure(quantity, op, amount, target.place, quote=quote)
+    def _to_target(self, target: _Target, op: st.Operator, amount: st.Amount, chunk: Chunk) -> None:
+        is_time, side, place = amount.dimension == "time", target.side, target.place
+        if place is not None:
+            self.clause.target = (side, place)
+            if side in ("past", "after") and not is_time:
+                self._measure(chunk, st.Quantity.PLACE, op, amount, place, opposite=True)
+            elif side in _TO_PLACE or (side == "at" and self.quantity == "time to arrival"):
+                quantity = st.Quantity.ARRIVAL if is_time else st.Quantity.PLACE
+                self._measure(chunk, quantity, op, amount, place)
             else:
                 raise self._left_over(target.chunk)
             return
-        other, side, asked = target.other, target.side, self.quantity
-        if asked == "time to collision" and is_time and side in ("with", "to"):
-            self._measure(Quantity.COLLISION, op, amount, other=other, quote=quote)
-        elif is_time and ((asked == "headway" and side in ("to", "behind")) or (asked is None and side == "behind")):
-            self._measure(Quantity.HEADWAY, op, amount, other=other, quote=quote)
-        elif not is_time and side == "behind" and asked in (None, "gap"):
-            self._measure(Quantity.GAP, op, amount, other=other, quote=quote)
-        elif not is_time and side == "ahead" and asked in (None, "gap"):
-            self._measure(Quantity.GAP, op, amount, other=self.clause.subject, actor=other, quote=quote)
-        else:
+        asked = _TO_ACTOR.get((self.quantity, side, is_time))
+        if asked is None:
             raise self._left_over(target.chunk)
+        self._measure(chunk, asked, op, amount, other=target.other)
+        if side == "ahead" and target.other is not None:  # the other one is behind
+            ahead = self.clause.measures.pop()
+            self.clause.measures.append(replace(ahead, actor=target.other, other=ahead.actor))

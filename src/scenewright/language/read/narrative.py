@@ -12,35 +12,15 @@ from fractions import Fraction
 from typing import NoReturn
 
 from scenewright.errors import UnknownWordsError
+from scenewright.language import story as st
 from scenewright.language.compile import DRIVEN, kind_of
 from scenewright.language.phrases import speaks_of_ego
 from scenewright.language.read.chunks import Chunk
 from scenewright.language.read.clauses import Clause
-from scenewright.language.story import (
-    START,
-    Actor,
-    Alternative,
-    Amount,
-    Condition,
-    Deed,
-    Hold,
-    Measure,
-    Moment,
-    Operator,
-    Order,
-    Place,
-    Quantity,
-    Question,
-    Quote,
-    Story,
-    Verb,
-    Way,
-    is_event,
-)
 from scenewright.program.manner import USUAL, Manner
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 
-MOVING = (Verb.DRIVE, Verb.SPEED_UP)
+MOVING = (st.Verb.DRIVE, st.Verb.SPEED_UP)
 
 
 @dataclass(slots=True)
@@ -51,13 +31,13 @@ class Doing:
     verb: str
     begins: int
     ends: int | None = None
-    throughout: list[Measure] = field(default_factory=list)
-    quote: Quote | None = None
-    duration: tuple[Operator, Amount] | None = None
+    throughout: list[st.Measure] = field(default_factory=list)
+    quote: st.Quote | None = None
+    duration: tuple[st.Operator, st.Amount] | None = None
 
-    def as_deed(self, ends: int) -> Deed:
+    def as_deed(self, ends: int) -> st.Deed:
         """Return the deed, which ends at a moment."""
-        return Deed(self.actor, self.verb, self.begins, ends, tuple(self.throughout), self.quote)
+        return st.Deed(self.actor, self.verb, self.begins, ends, tuple(self.throughout), self.quote)
 
 
 @dataclass(slots=True)
@@ -65,44 +45,44 @@ class Narrative:
     """The story so far."""
 
     answers: Mapping[str, str] = field(default_factory=dict)
-    actors: list[Actor] = field(default_factory=list)
-    conditions: list[list[Condition]] = field(default_factory=lambda: [[]])  # by moment
-    times: dict[int, Amount] = field(default_factory=dict)
-    quotes: dict[int, Quote] = field(default_factory=dict)
+    actors: list[st.Actor] = field(default_factory=list)
+    conditions: list[list[st.Condition]] = field(default_factory=lambda: [[]])  # by moment
+    times: dict[int, st.Amount] = field(default_factory=dict)
+    quotes: dict[int, st.Quote] = field(default_factory=dict)
     ego: list[int] = field(default_factory=list)
     doings: list[Doing] = field(default_factory=list)
-    orders: list[Order] = field(default_factory=list)
-    holds: list[Hold] = field(default_factory=list)
+    orders: list[st.Order] = field(default_factory=list)
+    holds: list[st.Hold] = field(default_factory=list)
     parameters: list[Parameter] = field(default_factory=list)
     manner: Manner = USUAL
     map_name: str = DEFAULT_MAP
     title: str | None = None
-    asides: list[Quote] = field(default_factory=list)
+    asides: list[st.Quote] = field(default_factory=list)
     assumptions: list[str] = field(default_factory=list)
-    questions: list[Question] = field(default_factory=list)
+    questions: list[st.Question] = field(default_factory=list)
     mentioned: list[int] = field(default_factory=list)  # in this sentence
     subject: int | None = None  # of the last main clause
-    place: Place | None = None  # that was spoken of last
+    place: st.Place | None = None  # that was spoken of last
     doer: int | None = None  # whose deed it is, while what ends it is read
 
-    def story(self) -> Story:
+    def story(self) -> st.Story:
         """Return the story; deeds that are still open end at moments of their own."""
         for doing in self.doings:
             if doing.ends is None:
                 doing.ends = self.moment()
             if doing.duration is not None:
-                self.orders.append(Order(doing.begins, doing.ends, *doing.duration, doing.quote))
+                self.orders.append(st.Order(doing.begins, doing.ends, *doing.duration, doing.quote))
         actors = self.actors
         if not any(actor.id == EGO for actor in actors):
             raise UnknownWordsError("the text does not say who is under test", fix="call it the ego")
-        return Story(
+        return st.Story(
             tuple(sorted(actors, key=lambda actor: actor.id)),
             tuple(
-                Moment(tuple(own), self.times.get(number), self.quotes.get(number))
+                st.Moment(tuple(own), self.times.get(number), self.quotes.get(number))
                 for number, own in enumerate(self.conditions)
             ),
             tuple(self.ego),
-            tuple(doing.as_deed(doing.ends or START) for doing in self.doings),
+            tuple(doing.as_deed(doing.ends or st.START) for doing in self.doings),
             tuple(self.orders),
             tuple(self.holds),
             tuple(self.parameters),
@@ -129,13 +109,13 @@ class Narrative:
             self.refuse("it is not clear who is meant", chunk.quote)
         return others[0]
 
-    def where(self, chunk: Chunk) -> Place:
+    def where(self, chunk: Chunk) -> st.Place:
         """Return the place that "it" means: the one that was spoken of last."""
         if self.place is None:
             self.refuse("it is not clear which place is meant", chunk.quote)
         return self.place
 
-    def went(self, place: Place) -> None:
+    def went(self, place: st.Place) -> None:
         """Note that a place was spoken of."""
         self.place = place
 
@@ -167,44 +147,44 @@ class Narrative:
             return heroes[0].id
         number = EGO if name == "ego" and chunk.kind == "actor" else max((each.id for each in heroes), default=0) + 1
         known = kind_of(name) if kind in DRIVEN else kind
-        self.actors.append(Actor(number, name, Way(), known, quote=chunk.quote))
+        self.actors.append(st.Actor(number, name, st.Way(), known, quote=chunk.quote))
         return number
 
-    def actor(self, number: int) -> Actor:
+    def actor(self, number: int) -> st.Actor:
         """Return somebody by number."""
         return next(actor for actor in self.actors if actor.id == number)
 
-    def put(self, changed: Actor) -> None:
+    def put(self, changed: st.Actor) -> None:
         """Replace what is known of somebody."""
         self.actors = [changed if actor.id == changed.id else actor for actor in self.actors]
 
     # -- moments ------------------------------------------------------------------------------------------------------
-    def moment(self, conditions: Sequence[Condition] = (), quote: Quote | None = None) -> int:
+    def moment(self, conditions: Sequence[st.Condition] = (), quote: st.Quote | None = None) -> int:
         """Add a moment and return its number."""
         self.conditions.append(list(conditions))
         if quote is not None:
             self.quotes[len(self.conditions) - 1] = quote
         return len(self.conditions) - 1
 
-    def add(self, moment: int, conditions: Sequence[Condition]) -> None:
+    def add(self, moment: int, conditions: Sequence[st.Condition]) -> None:
         """Let more be so at a moment."""
         self.conditions[moment] += [each for each in conditions if each not in self.conditions[moment]]
 
-    def moment_with(self, conditions: Sequence[Condition]) -> int | None:
+    def moment_with(self, conditions: Sequence[st.Condition]) -> int | None:
         """Return the moment that is known by one of these conditions, as an event, or by all of them."""
         for number, own in enumerate(self.conditions):
-            if number != START and own and list(own) == list(conditions):
+            if number != st.START and own and list(own) == list(conditions):
                 return number
-        events = [each for each in conditions if is_event(each)]
+        events = [each for each in conditions if st.is_event(each)]
         for number, own in enumerate(self.conditions):
-            if number != START and any(each in own for each in events):
+            if number != st.START and any(each in own for each in events):
                 return number
         return None
 
-    def ego_comes(self, moment: int, quote: Quote) -> None:
+    def ego_comes(self, moment: int, quote: st.Quote) -> None:
         """Note that the ego comes through a moment that asks something of it, after those that were told before."""
         owned = any(moment in (doing.begins, doing.ends) for doing in self.doings)
-        if moment in self.ego or moment == START or not owned or not speaks_of_ego(self.conditions[moment]):
+        if moment in self.ego or moment == st.START or not owned or not speaks_of_ego(self.conditions[moment]):
             return
         if self.ego and not self._follows(self.ego[-1], moment):
             later, either = "it comes after the ego's moments that were told before", "it may come before or after them"
@@ -230,15 +210,15 @@ class Narrative:
         """Return what somebody was told to do last."""
         return next((doing for doing in reversed(self.doings) if doing.actor == actor), None)
 
-    def begin(self, actor: int, verb: str, moment: int | None, leads: set[str], quote: Quote) -> Doing:
+    def begin(self, actor: int, verb: str, moment: int | None, leads: set[str], quote: st.Quote) -> Doing:
         """Let somebody begin a deed at a moment, or where the last one ended."""
         if actor == EGO:
             self.refuse("the ego is driven by the policy under test: say what the others do", quote)
         before = self.last(actor)
         if before is None:
-            if moment is not None and moment != START:
-                self.doings.append(Doing(actor, Verb.DRIVE, START, moment, quote=quote))
-            begins = START if moment is None else moment
+            if moment is not None and moment != st.START:
+                self.doings.append(Doing(actor, st.Verb.DRIVE, st.START, moment, quote=quote))
+            begins = st.START if moment is None else moment
         elif before.ends is None:
             begins = before.ends = self.moment() if moment is None else moment
         else:
@@ -250,11 +230,13 @@ class Narrative:
         """Return where a deed begins after one whose end is known; what lies between is standing or driving on."""
         assert before.ends is not None
         stands = standstill(before.actor) in self.conditions[before.ends]
-        if moment is None and not (stands and verb in MOVING and "at once" not in leads and before.verb != Verb.STAND):
+        if moment is None and not (
+            stands and verb in MOVING and "at once" not in leads and before.verb != st.Verb.STAND
+        ):
             return before.ends
         if moment == before.ends:
             return moment
-        between = Doing(before.actor, Verb.STAND if stands else Verb.DRIVE, before.ends, quote=before.quote)
+        between = Doing(before.actor, st.Verb.STAND if stands else st.Verb.DRIVE, before.ends, quote=before.quote)
         between.ends = self.moment() if moment is None else moment
         self.doings.append(between)
         self.assumptions.append(
@@ -264,26 +246,26 @@ class Narrative:
 
     def doing_of(self, clause: Clause) -> Doing | None:
         """Return the deed that an event speaks of: ``the hero begins to brake for the second time``."""
-        verb = Verb.BRAKE if clause.deed == "stop" else clause.deed
+        verb = st.Verb.BRAKE if clause.deed == "stop" else clause.deed
         same = [each for each in self.doings if each.actor == clause.subject and each.verb == verb]
         return same[clause.ordinal] if clause.ordinal < len(same) else None
 
     # -- asking -------------------------------------------------------------------------------------------------------
-    def ask(self, slot: str, text: str, alternatives: list[str], default: int | None, quote: Quote) -> str:
+    def ask(self, slot: str, text: str, alternatives: list[str], default: int | None, quote: st.Quote) -> str:
         """Return the answer to a question; its default, or nothing, where it is noted as open."""
         answer = self.answers.get(slot, "")
         if answer in alternatives:
             return answer
         if all(each.slot != slot for each in self.questions):
-            options = tuple(Alternative(each) for each in alternatives)
-            self.questions.append(Question(slot, text, options, default, quote))
+            options = tuple(st.Alternative(each) for each in alternatives)
+            self.questions.append(st.Question(slot, text, options, default, quote))
         return "" if default is None else alternatives[default]
 
-    def refuse(self, message: str, quote: Quote, fix: str | None = None) -> NoReturn:
+    def refuse(self, message: str, quote: st.Quote, fix: str | None = None) -> NoReturn:
         """Raise the error that says what could not be read."""
         raise UnknownWordsError(message, found=quote.text, fix=fix or "say it as `scenewright tell` would")
 
 
-def standstill(actor: int) -> Measure:
+def standstill(actor: int) -> st.Measure:
     """Return that somebody stands."""
-    return Measure(actor, Quantity.SPEED, "==", Amount(Fraction(0), "m/s"))
+    return st.Measure(actor, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s"))
