@@ -114,7 +114,8 @@ class Teller:
             assert unit is not None
             return Amount(None, unit.symbol, name)
         symbols = [SI_SYMBOL[dimension]] if self.si else [each for each in UNITS if UNITS[each].dimension == dimension]
-        value = Fraction(pick.randint(0 if zero else 1, 400), pick.choice((1, 1, 2, 10, 3)))
+        divisor = pick.choice((1, 1, 2, 10) if self.si else (1, 1, 2, 10, 3))
+        value = Fraction(pick.randint(0 if zero else 1, 400), divisor)
         return Amount(value, pick.choice(symbols))
 
     def measure(self, actor: int | None = None, alone: bool = False) -> Measure:

@@ -38,7 +38,7 @@ PIECES = {
 COMPASS = "NESW"
 TURNS = {"straight": 0, "right": 1, "left": 3}  # quarters of the compass
 DRIVEN = ("car", "truck", "van", "bus", "taxi")  # the kinds that the program language can drive, all of them as cars
-UNNAMED = "description"  # what a program is called whose story has no title
+UNNAMED = ("description", "program")  # what programs are called that nobody gave a name
 _ORDERS: dict[st.Quantity, ex.Order] = {st.Quantity.PLACE: 0, st.Quantity.SPEED: 1, st.Quantity.RATE: 2}
 _DERIVED: dict[st.Quantity, ex.DerivedKind] = {
     st.Quantity.GAP: "gap",
@@ -68,7 +68,7 @@ def compile_story(story: st.Story, description: str | None = None) -> Program:
     compiler = _Compiler(story)
     compiler.constrain()
     program = Program(
-        story.title or UNNAMED,
+        story.title or UNNAMED[0],
         tuple(Actor(actor.id, actor.name, route_of(actor.way), compiler.sketches[actor.id]) for actor in story.actors),
         tuple(
             Constraint(f"c{number}", formula, source if description else None)

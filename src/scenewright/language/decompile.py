@@ -29,7 +29,7 @@ from scenewright.program.types import (
     Program,
     RouteSpec,
 )
-from scenewright.units import SI_SYMBOL, Dimension, unit_of_name
+from scenewright.units import SI_SYMBOL, UNITS, Dimension, format_fraction, unit_of_name
 
 _VERBS = {piece: verb for verb, piece in PIECES.items()}
 _QUANTITIES = {
@@ -114,7 +114,7 @@ class _Decompiler:
             (),
             program.manner,
             program.map_name,
-            None if program.name == UNNAMED else program.name,
+            None if program.name in UNNAMED else program.name,
         )  # fmt: skip
         used = {amount.name for amount in amounts_of(story)}
         declared = [each for each in program.parameters if each.name not in used or each != Parameter(each.name)]
@@ -359,7 +359,7 @@ class _Decompiler:
         """Return what stands on the other side of a comparison: whether below zero, and one number or one parameter."""
         parameters = form.of(ex.ParameterRef)
         if not parameters:
-            return form.constant > 0, st.Amount(abs(form.constant), SI_SYMBOL[dimension])
+            return form.constant > 0, _in_a_unit(abs(form.constant), dimension)
         (reference, factor), *more = parameters.items()
         assert isinstance(reference, ex.ParameterRef)
         unit = unit_of_name(reference.name)
@@ -373,6 +373,13 @@ class _Decompiler:
         if negative and amount.value is None:
             raise _untold(f"the negative of {amount.name}", "turn its sign where it gets its value")
         return replace(amount, value=-amount.value) if negative and amount.value is not None else amount
+
+
+def _in_a_unit(value: Fraction, dimension: Dimension) -> st.Amount:
+    """Return an amount in SI units, or in the first others in which it is a decimal: 50 km/h, not 125/9 m/s."""
+    units = [SI_SYMBOL[dimension], *(symbol for symbol, unit in UNITS.items() if unit.dimension == dimension)]
+    found = next((each for each in units if "/" not in format_fraction(value / UNITS[each].si_factor)), units[0])
+    return st.Amount(value / UNITS[found].si_factor, found)
 
 
 def _is_of_times(form: Linear) -> bool:

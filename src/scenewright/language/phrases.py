@@ -98,18 +98,18 @@ class Phrases:
 
     def clauses(self, conditions: Sequence[st.Condition], it: int | None = None, passing: bool = True) -> list[str]:
         """Return a clause for each condition; who stands at a place is said in one. `it` is who is called so."""
-        left = sorted(conditions, key=lambda each: not isinstance(each, st.Measure) or each.actor != it)
+        conditions = sorted(conditions, key=lambda each: not isinstance(each, st.Measure) or each.actor != it)
+        places: dict[st.Condition, st.Measure] = {}  # where somebody stands, by the condition that it does
+        for each in conditions:
+            if isinstance(each, st.Measure) and _stands(each):
+                free = [where for where in conditions if _is_where(where, each.actor) and where not in places.values()]
+                places.update({each: free[0]} if free else {})
         found = []
-        for condition in tuple(left):
-            if condition not in left:
-                continue  # told where it stands
-            text = self.clause(condition, it, passing)
-            for where in left:
-                if isinstance(condition, st.Measure) and _stands(condition) and _is_where(where, condition.actor):
-                    text = f"{text} {self.predicate(where).removeprefix('is ')}"
-                    left.remove(where)
-                    break
-            found.append(text)
+        for each in conditions:
+            if each in places:
+                found.append(f"{self.clause(each, it)} {self.predicate(places[each]).removeprefix('is ')}")
+            elif each not in places.values():
+                found.append(self.clause(each, it, passing))
         return found
 
     def clause(self, condition: st.Condition, it: int | None = None, passing: bool = False) -> str:

@@ -22,8 +22,8 @@ def as_data(questions: Iterable[Question]) -> list[dict[str, Any]]:
             "slot": each.slot,
             "question": each.text,
             "words": each.quote.text if each.quote else None,
-            "alternatives": [alternative.text for alternative in each.alternatives],
-            "default": None if each.default is None else each.alternatives[each.default].text,
+            "alternatives": list(each.alternatives),
+            "default": None if each.default is None else each.alternatives[each.default],
         }
         for each in questions
     ]
@@ -62,11 +62,11 @@ def settled(story: Story, answers: Mapping[str, str], strict: bool = False) -> S
             raise InputError(
                 f"this is no answer to '{question.text}'",
                 found=given,
-                expected="; ".join(each.text for each in question.alternatives),
+                expected="; ".join(question.alternatives),
             )
     waiting = [each for each in story.questions if strict or each.default is None]
     if waiting:
-        told = [f"{each.text} ({' / '.join(option.text for option in each.alternatives)})" for each in waiting]
+        told = [f"{each.text} ({' / '.join(each.alternatives)})" for each in waiting]
         raise TranslationError(
             "the text leaves something open",
             found="; ".join(told),
@@ -78,4 +78,4 @@ def settled(story: Story, answers: Mapping[str, str], strict: bool = False) -> S
 
 def defaults_of(story: Story) -> dict[str, str]:
     """Return the answers that were taken by default, by slot: what a run keeps beside its text."""
-    return {each.slot: each.alternatives[each.default].text for each in story.questions if each.default is not None}
+    return {each.slot: each.alternatives[each.default] for each in story.questions if each.default is not None}

@@ -223,13 +223,6 @@ class Hold:
 
 
 @dataclass(frozen=True, slots=True)
-class Alternative:
-    """One answer to a question, in words."""
-
-    text: str
-
-
-@dataclass(frozen=True, slots=True)
 class Question:
     """Something that is empty or has two readings.
 
@@ -238,7 +231,7 @@ class Question:
 
     slot: str
     text: str
-    alternatives: tuple[Alternative, ...]
+    alternatives: tuple[str, ...]
     default: int | None = 0
     quote: Quote | None = field(default=None, compare=False, repr=False)
 

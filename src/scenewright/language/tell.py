@@ -230,7 +230,11 @@ class _Teller:
         self.ended += chain[:index] if waits else chain[: index + 1]
         does, begin, _ = DOES[deed.verb]
         text = f"{lead}{self.phrases.name(deed.actor)} {f'begins to {begin}' if begins else does}"
-        text += "" if rate is None or rate.amount is None else f" at {bounded(rate.op, rate.amount)}"
+        text += (
+            ""
+            if rate is None or rate.amount is None
+            else f" {'at' if rate.op == '==' else 'with'} {bounded(rate.op, rate.amount)}"
+        )
         if duration is not None and duration.margin is not None:
             self.durations.add(duration)
             text += f" for {bounded(duration.op, duration.margin)}"

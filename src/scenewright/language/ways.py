@@ -14,7 +14,7 @@ from scenewright.errors import TranslationError
 from scenewright.language import story as st
 from scenewright.language.compile import COMPASS, route_of
 from scenewright.language.phrases import Phrases
-from scenewright.program.types import HeadingsRoute, IntentRoute, LanesRoute
+from scenewright.program.types import HeadingsRoute, LanesRoute
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route, all_routes, find_routes
 
@@ -48,7 +48,7 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
         if len(found) > 1:
             question = _which(actor, found, phrases)
             told = (answers or {}).get(question.slot)
-            texts = [each.text for each in question.alternatives]
+            texts = question.alternatives
             if told not in texts:
                 questions.append(question)
             found = [found[texts.index(told) if told in texts else question.default or 0]]
@@ -59,22 +59,14 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
 
 
 def _fitting(actor: st.Actor, road_map: RoadMap) -> list[Route]:
-    match route_of(actor.way):
-        case HeadingsRoute(headings=headings):
-            return list(find_routes(road_map, headings=headings))
-        case LanesRoute(lanes=lanes):
-            return list(find_routes(road_map, lanes=lanes))
-        case IntentRoute() as wanted:
-            return list(
-                find_routes(
-                    road_map,
-                    origin_kind=wanted.origin,
-                    turn=wanted.turn,
-                    destination_kind=wanted.destination,
-                    origin_heading=wanted.origin_heading,
-                    destination_heading=wanted.destination_heading,
-                )
-            )
+    way, route = actor.way, route_of(actor.way)
+    if isinstance(route, HeadingsRoute):
+        return list(find_routes(road_map, headings=route.headings))
+    if isinstance(route, LanesRoute):
+        return list(find_routes(road_map, lanes=route.lanes))
+    kinds = find_routes(road_map, origin_kind=route.origin, destination_kind=route.destination, turn=route.turn)
+    ends = find_routes(road_map, origin_heading=way.heading, destination_heading=way.destination_heading)
+    return [each for each in kinds if each in ends]
 
 
 def _keep_related(fitting: dict[int, list[Route]], actor: int, relation: st.Relation) -> None:
@@ -103,7 +95,7 @@ def _way(route: Route, road_map: RoadMap) -> st.Way:
 
 def _which(actor: st.Actor, found: list[st.Way], phrases: Phrases) -> st.Question:
     straight = next((number for number, way in enumerate(found) if way.turn == "straight"), 0)
-    alternatives = tuple(st.Alternative(phrases.way(way)) for way in found)
+    alternatives = tuple(phrases.way(way) for way in found)
     return st.Question(
         f"way of {actor.name}", f"Which way does {phrases.name(actor.id)} go?", alternatives, straight, actor.quote
     )

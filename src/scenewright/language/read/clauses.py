@@ -290,7 +290,7 @@ class _Reader:
         self.at += 1
         other = self.people.who(self._named(self.chunks[self.at]))
         slower = chunk.value == "slower" and amount is not None
-        self._measure(chunk, st.Quantity.SPEED, op, amount, other=other, opposite=slower)
+        self._measure(chunk, st.Measure(EGO, st.Quantity.SPEED, op, amount, other=other, opposite=slower))
 
     # -- ways ---------------------------------------------------------------------------------------------------------
     def _way(self, chunk: Chunk) -> None:
@@ -324,23 +324,13 @@ class _Reader:
             raise self._left_over(chunk)
 
     # -- measures -----------------------------------------------------------------------------------------------------
-    def _measure(
-        self,
-        chunk: Chunk,
-        quantity: st.Quantity,
-        op: st.Operator,
-        amount: st.Amount | None = None,
-        place: st.Place | None = None,
-        other: int | None = None,
-        opposite: bool = False,
-    ) -> None:
-        who = self.clause.subject
+    def _measure(self, chunk: Chunk, measure: st.Measure) -> None:
+        """Add a measure of the subject, whoever it was made for."""
+        who, place = self.clause.subject, measure.place
         if who is None:
             raise self._left_over(self.chunks[0])
-        if place is not None and place.of == who:
-            place = replace(place, of=None)
-        measure = st.Measure(who, quantity, op, amount, place, other, opposite, chunk.quote)
-        self.clause.measures.append(measure)
+        place = replace(place, of=None) if place is not None and place.of == who else place
+        self.clause.measures.append(replace(measure, actor=who, place=place, quote=chunk.quote))
 
     def attach(self, neighbour: Clause | None, subject: int | None) -> None:
         """Give amounts their targets, and make measures of what stands alone."""
@@ -348,10 +338,10 @@ class _Reader:
         if clause.subject is None:
             clause.subject = subject
         if "stands" in self.states:
-            self._measure(last, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s"))
+            self._measure(last, st.Measure(EGO, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s")))
         for name in ("turn_start", "turn_end"):
             if name in self.states:
-                self._measure(last, st.Quantity.PLACE, "==", None, st.Place(name))
+                self._measure(last, st.Measure(EGO, st.Quantity.PLACE, "==", None, st.Place(name)))
         for at, op, chunk in self.amounts:
             self._give(at, op, chunk, neighbour)
         for target in self.targets:
@@ -360,7 +350,8 @@ class _Reader:
             if target.other is not None and target.side in ("ahead", "behind") and clause.deed is None:
                 clause.relations.append(st.Relation(target.side, target.other, target.chunk.quote))
             elif target.place is not None and target.side in _BARE:
-                self._measure(target.chunk, st.Quantity.PLACE, _BARE[target.side], None, target.place)
+                op = _BARE[target.side]
+                self._measure(target.chunk, st.Measure(EGO, st.Quantity.PLACE, op, None, target.place))
             else:
                 raise self._left_over(target.chunk)
         if "pass" in self.states and not any(each.quantity is st.Quantity.PLACE for each in clause.measures):
@@ -371,10 +362,10 @@ class _Reader:
         amount, clause = chunk.amount, self.clause
         assert amount is not None
         if amount.dimension == "speed":
-            self._measure(chunk, st.Quantity.SPEED, op, amount)
+            self._measure(chunk, st.Measure(EGO, st.Quantity.SPEED, op, amount))
         elif amount.dimension == "acceleration":
             slowing = self.quantity == "deceleration" or clause.deed == "brake"
-            self._measure(chunk, st.Quantity.RATE, op, amount, opposite=slowing)
+            self._measure(chunk, st.Measure(EGO, st.Quantity.RATE, op, amount, opposite=slowing))
             if clause.deed is not None:
                 clause.rate = clause.measures.pop()
         else:
@@ -390,20 +381,18 @@ class _Reader:
 
     def _to_target(self, target: _Target, op: st.Operator, amount: st.Amount, chunk: Chunk) -> None:
         is_time, side, place = amount.dimension == "time", target.side, target.place
+        past = side in ("past", "after") and not is_time
         if place is not None:
             self.clause.target = (side, place)
-            if side in ("past", "after") and not is_time:
-                self._measure(chunk, st.Quantity.PLACE, op, amount, place, opposite=True)
-            elif side in _TO_PLACE or (side == "at" and self.quantity == "time to arrival"):
-                quantity = st.Quantity.ARRIVAL if is_time else st.Quantity.PLACE
-                self._measure(chunk, quantity, op, amount, place)
-            else:
+            quantity = st.Quantity.ARRIVAL if is_time else st.Quantity.PLACE
+            if not (past or side in _TO_PLACE or (side == "at" and self.quantity == "time to arrival")):
                 raise self._left_over(target.chunk)
+            self._measure(chunk, st.Measure(EGO, quantity, op, amount, place, opposite=past))
             return
         asked = _TO_ACTOR.get((self.quantity, side, is_time))
-        if asked is None:
+        if asked is None or target.other is None:
             raise self._left_over(target.chunk)
-        self._measure(chunk, asked, op, amount, other=target.other)
-        if side == "ahead" and target.other is not None:  # the other one is behind
+        self._measure(chunk, st.Measure(EGO, asked, op, amount, other=target.other))
+        if side == "ahead":  # the other one is behind
             ahead = self.clause.measures.pop()
             self.clause.measures.append(replace(ahead, actor=target.other, other=ahead.actor))

@@ -257,8 +257,7 @@ class Narrative:
         if answer in alternatives:
             return answer
         if all(each.slot != slot for each in self.questions):
-            options = tuple(st.Alternative(each) for each in alternatives)
-            self.questions.append(st.Question(slot, text, options, default, quote))
+            self.questions.append(st.Question(slot, text, tuple(alternatives), default, quote))
         return "" if default is None else alternatives[default]
 
     def refuse(self, message: str, quote: st.Quote, fix: str | None = None) -> NoReturn:
