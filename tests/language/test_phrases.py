@@ -40,7 +40,7 @@ def test_there_is_a_row_for_every_quantity() -> None:
 
 def test_sentences_in_the_text_are_read() -> None:
     sentences = re.findall(r"`((?:The|Parameter|Manner)\s[^`]+\.)`", PAGE)
-    assert len(sentences) >= 5
+    assert len(sentences) >= 4
     for sentence in sentences:
         story = read("\n".join(["The ego has an open way.", " ".join(sentence.split())]))
         assert not story.questions

@@ -212,11 +212,12 @@ class _Compiler:
         if isinstance(condition, st.Compound):
             joint: Literal["and", "or", "not", "implies"] = "implies" if condition.joint == "if" else condition.joint
             return ex.Logic(joint, tuple(self._condition(part, moment) for part in condition.parts))
-        return self._measure(condition, None if moment is None else self._at(condition.actor, moment))
+        return self._measure(condition, self._at(condition.actor, moment), moment)
 
-    def _at(self, actor: int, moment: int) -> ex.At:
-        owners = self.story.owners(moment)
-        if actor in owners:
+    def _at(self, actor: int, moment: int | None) -> ex.At:
+        if moment is None:
+            return None
+        if actor in self.story.owners(moment):
             return ex.Knot(self._knot(actor, moment))
         instant = self._instant(moment)
         return instant if isinstance(instant, ex.Elapsed | ex.Number) else None
@@ -230,7 +231,7 @@ class _Compiler:
             raise refused("a moment that is nobody's", "say what begins or ends then, or what the ego does")
         return ex.Number(time.si)
 
-    def _measure(self, measure: st.Measure, at: ex.At) -> ex.Compare:
+    def _measure(self, measure: st.Measure, at: ex.At, moment: int | None = None) -> ex.Compare:
         amount = None if measure.amount is None else _term(measure.amount)
         op = measure.op
         left: ex.Term
@@ -238,7 +239,7 @@ class _Compiler:
         if measure.quantity in _DERIVED:
             target: int | ex.Landmark | None = measure.other
             if measure.quantity is st.Quantity.ARRIVAL and measure.place is not None:
-                target = _landmark(measure.place, measure.actor, self.story)
+                target = _landmark(measure.place, measure.actor)
             if target is None or amount is None:
                 raise refused(f"a {measure.quantity} to nothing", "say of whom, to what, and how much", measure.quote)
             return ex.Compare(op, ex.Derived(_DERIVED[measure.quantity], measure.actor, target, at), amount)
@@ -246,12 +247,12 @@ class _Compiler:
         if measure.quantity is st.Quantity.PLACE:
             if measure.place is None:
                 raise refused("a distance to nothing", "say to which place", measure.quote)
-            right = _landmark(measure.place, measure.actor, self.story)
+            right = _landmark(measure.place, measure.actor)
             if amount is not None:
                 op = op if measure.opposite else st.FLIPPED[op]
                 right = combine("+" if measure.opposite else "-", right, amount)
         elif measure.quantity is st.Quantity.SPEED and measure.other is not None:
-            right = ex.State(measure.other, 1, self._same(at, measure))
+            right = ex.State(measure.other, 1, self._at(measure.other, moment))
             if amount is not None:
                 op = st.FLIPPED[op] if measure.opposite else op
                 right = combine("-" if measure.opposite else "+", right, amount)
@@ -261,13 +262,6 @@ class _Compiler:
             right = negate(amount) if measure.opposite else amount
             op = st.FLIPPED[op] if measure.opposite else op
         return ex.Compare(op, left, right)
-
-    def _same(self, at: ex.At, measure: st.Measure) -> ex.At:
-        """Return, for the other actor of a comparison, the moment that is `at` for its first."""
-        if isinstance(at, ex.Knot) and measure.other is not None:
-            moment = self.story.knots_of(measure.actor)[self.sketches[measure.actor].knots.index(at.name)]
-            return self._at(measure.other, moment)
-        return at
 
     def _order(self, order: st.Order) -> ex.Formula:
         if order.first == st.START and order.margin is not None:
@@ -285,7 +279,7 @@ class _Compiler:
         return combine("-" if point.earlier else "+", self._instant(point.moment), _term(point.offset))
 
 
-def _landmark(place: st.Place, actor: int, story: st.Story) -> ex.Landmark:
+def _landmark(place: st.Place, actor: int) -> ex.Landmark:
     """Return the landmark; its owner is named where it is not who is measured, or where there are partners to tell."""
     owner = place.of if place.of is not None else actor if place.partner is not None else None
     return ex.Landmark(place.name, owner, place.partner)

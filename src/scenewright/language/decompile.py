@@ -11,11 +11,11 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Literal
 
-from scenewright.errors import TranslationError
+from scenewright.errors import ProgramError, TranslationError
 from scenewright.language import story as st
 from scenewright.language.compile import COMPASS, PIECES, TURNS, UNNAMED, amounts_of, kind_of
-from scenewright.language.linear import Atom, Linear, linear
 from scenewright.program import expressions as ex
+from scenewright.program.linear import Atom, Linear, linear
 from scenewright.program.printer import print_expression
 from scenewright.program.resolve import usual_partner
 from scenewright.program.structure import knots_of, synchronised
@@ -58,7 +58,10 @@ def decompile(program: Program) -> st.Story:
     TranslationError
         For what a story cannot tell yet, with the constraint that says it.
     """
-    return _Decompiler(program).story()
+    try:
+        return _Decompiler(program).story()
+    except ProgramError as error:  # of a term that is no sum
+        raise TranslationError(f"{error.message}, and cannot be told in words yet", found=error.found) from None
 
 
 def way_of(route: RouteSpec) -> st.Way:
@@ -100,8 +103,7 @@ class _Decompiler:
         if set(program.ego.sketch.pieces) != {PieceKind.GO}:
             raise _untold("a deed of the ego", "let its pieces be 'go': the policy under test drives it")
         ego = [self.moment_of[EGO, knot] for knot in program.ego.sketch.knots[1:] if (EGO, knot) in self.moment_of]
-        renumbered = {actor.id: number for number, actor in enumerate(program.actors)}
-        if any(old != new for old, new in renumbered.items()):
+        if [actor.id for actor in program.actors] != [*range(len(program.actors))]:
             raise _untold("actors that are not numbered one after the other", "number them 0, 1, 2")
         story = st.Story(
             tuple(st.Actor(actor.id, actor.name, way_of(actor.route), kind_of(actor.name)) for actor in program.actors),
@@ -189,16 +191,10 @@ class _Decompiler:
         index = sketch.piece_index(piece.at.name)
         bare = ex.with_state(compare, piece, replace(piece, at=None))
         measure = self._measure(bare, set())
-        if piece.actor == EGO:
-            raise _untold(
-                "a condition on a piece of the ego's drive", "ask for it from one moment until another", compare
-            )
-        if measure is None or measure.other is not None:
+        if piece.actor == EGO or measure is None or measure.other is not None:
             raise _untold("this condition on a piece", "ask for it from one moment until another", compare)
-        stands = sketch.pieces[index] is PieceKind.STOP and measure == st.Measure(
-            piece.actor, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s")
-        )
-        if not stands:
+        standstill = st.Measure(piece.actor, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s"))
+        if sketch.pieces[index] is not PieceKind.STOP or measure != standstill:
             self.throughout.setdefault((piece.actor, index), []).append(measure)
 
     def _take_order(self, compare: ex.Compare) -> bool:
@@ -220,8 +216,7 @@ class _Decompiler:
         return True
 
     def _hold(self, temporal: ex.Temporal) -> st.Hold:
-        how: Literal["always", "never", "at some time"]
-        how = "at some time" if temporal.operator == "eventually" else temporal.operator
+        how: st.How = "at some time" if temporal.operator == "eventually" else temporal.operator
         inside: set[int] = set()
         condition = self._condition(temporal.body, inside)
         if inside:
@@ -244,9 +239,7 @@ class _Decompiler:
             case ex.Compare():
                 measure = self._measure(formula, moments)
                 if measure is None:
-                    raise _untold(
-                        "this comparison", "compare a place, a speed, a gap or a time with an amount", formula
-                    )
+                    raise _untold("this comparison", "compare a place, a speed or a gap with an amount", formula)
                 return measure
             case ex.Logic(operator=operator, operands=operands):
                 parts = tuple(self._condition(operand, moments) for operand in operands)
@@ -334,12 +327,11 @@ class _Decompiler:
                 return self.moment_of[owner, knot]
             case ex.Number(value=value):
                 time = st.Amount(value, "s")
-                for number, known in self.times.items():
-                    if known == time:
-                        return number
-                self.conditions.append([])
-                self.times[len(self.conditions) - 1] = time
-                return len(self.conditions) - 1
+                known = next((number for number, own in self.times.items() if own == time), len(self.conditions))
+                if known == len(self.conditions):
+                    self.conditions.append([])
+                    self.times[known] = time
+                return known
             case _:
                 raise _untold("this moment", "name a knot or a time")
 

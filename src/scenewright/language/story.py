@@ -19,6 +19,7 @@ from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.units import UNITS, Dimension
 
 Operator = Literal["==", "<=", ">=", "<", ">"]
+How = Literal["always", "never", "at some time"]
 FLIPPED: dict[str, Operator] = {"==": "==", "<=": ">=", ">=": "<=", "<": ">", ">": "<"}
 START = 0  # the first moment of every story
 
@@ -215,7 +216,7 @@ class Point:
 class Hold:
     """A condition that holds always, never or at some time between two points."""
 
-    how: Literal["always", "never", "at some time"]
+    how: How
     start: Point
     end: Point
     condition: Condition
@@ -288,11 +289,6 @@ class Story:
     def owners(self, moment: int) -> tuple[int, ...]:
         """Return who comes through a moment, in order of number."""
         return tuple(actor.id for actor in self.actors if moment in self.knots_of(actor.id))
-
-
-def replace_actor(story: Story, changed: Actor) -> Story:
-    """Return `story` with something else known of one of its actors."""
-    return replace(story, actors=tuple(changed if each.id == changed.id else each for each in story.actors))
 
 
 def atoms(condition: Condition) -> Iterator[Measure]:

@@ -321,16 +321,9 @@ class _Teller:
 
 def _rate(deed: st.Deed) -> tuple[st.Measure | None, tuple[st.Measure, ...]]:
     """Return the rate that a deed is told with, and what else holds all the while."""
-    rate = next(
-        (
-            each
-            for each in deed.throughout
-            if each.quantity is st.Quantity.RATE
-            and each.actor == deed.actor
-            and each.opposite is _RATES.get(st.Verb(deed.verb))
-        ),
-        None,
-    )
+    slowing = _RATES.get(st.Verb(deed.verb))
+    own = (each for each in deed.throughout if each.quantity is st.Quantity.RATE and each.opposite is slowing)
+    rate = next(own, None)
     return rate, tuple(each for each in deed.throughout if each is not rate)
 
 

@@ -53,8 +53,9 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
                 questions.append(question)
             found = [found[texts.index(told) if told in texts else question.default or 0]]
         relations = tuple(each for each in actor.relations if each.kind not in BEARINGS)
-        story = st.replace_actor(story, replace(actor, way=found[0], relations=relations))
-        story = _in_line(story, actor)
+        settled = replace(actor, way=found[0], relations=relations)
+        others = tuple(settled if each.id == actor.id else each for each in story.actors)
+        story = _in_line(replace(story, actors=others), actor)
     return replace(story, questions=tuple(questions))
 
 

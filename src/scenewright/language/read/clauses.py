@@ -36,7 +36,9 @@ _TO_ACTOR = {
 
 
 class People(Protocol):
-    """Who, and which place, is meant."""
+    """Who, and which place, is meant; `place` was spoken of last."""
+
+    place: st.Place | None
 
     def who(self, chunk: Chunk) -> int:
         """Return the number of the actor that a mention means."""
@@ -48,10 +50,6 @@ class People(Protocol):
 
     def where(self, chunk: Chunk) -> st.Place:
         """Return the place that "it" means."""
-        ...
-
-    def went(self, place: st.Place) -> None:
-        """Note that a place was spoken of."""
         ...
 
 
@@ -273,7 +271,7 @@ class _Reader:
                 self.at += 2
                 person = self.people.who(self._named(self.chunks[self.at]))
                 place = replace(place, of=person) if side == "of" else replace(place, partner=person)
-        self.people.went(place)
+        self.people.place = place
         return place
 
     def _factor(self, chunk: Chunk) -> None:

@@ -35,10 +35,6 @@ class Doing:
     quote: st.Quote | None = None
     duration: tuple[st.Operator, st.Amount] | None = None
 
-    def as_deed(self, ends: int) -> st.Deed:
-        """Return the deed, which ends at a moment."""
-        return st.Deed(self.actor, self.verb, self.begins, ends, tuple(self.throughout), self.quote)
-
 
 @dataclass(slots=True)
 class Narrative:
@@ -72,17 +68,15 @@ class Narrative:
                 doing.ends = self.moment()
             if doing.duration is not None:
                 self.orders.append(st.Order(doing.begins, doing.ends, *doing.duration, doing.quote))
-        actors = self.actors
-        if not any(actor.id == EGO for actor in actors):
+        if not any(actor.id == EGO for actor in self.actors):
             raise UnknownWordsError("the text does not say who is under test", fix="call it the ego")
         return st.Story(
-            tuple(sorted(actors, key=lambda actor: actor.id)),
-            tuple(
-                st.Moment(tuple(own), self.times.get(number), self.quotes.get(number))
-                for number, own in enumerate(self.conditions)
-            ),
+            tuple(sorted(self.actors, key=lambda actor: actor.id)),
+            tuple(st.Moment(tuple(own), self.times.get(number), self.quotes.get(number))
+                  for number, own in enumerate(self.conditions)),
             tuple(self.ego),
-            tuple(doing.as_deed(doing.ends or st.START) for doing in self.doings),
+            tuple(st.Deed(each.actor, each.verb, each.begins, each.ends or st.START, tuple(each.throughout), each.quote)
+                  for each in self.doings),
             tuple(self.orders),
             tuple(self.holds),
             tuple(self.parameters),
@@ -92,7 +86,7 @@ class Narrative:
             tuple(self.asides),
             tuple(self.assumptions),
             tuple(self.questions),
-        )
+        )  # fmt: skip
 
     # -- people -------------------------------------------------------------------------------------------------------
     def who(self, chunk: Chunk) -> int:
@@ -115,10 +109,6 @@ class Narrative:
             self.refuse("it is not clear which place is meant", chunk.quote)
         return self.place
 
-    def went(self, place: st.Place) -> None:
-        """Note that a place was spoken of."""
-        self.place = place
-
     def _it(self, chunk: Chunk) -> int:
         if self.doer is not None:
             return self.doer
@@ -132,18 +122,15 @@ class Narrative:
         return found[names.index(chosen)]
 
     def _named(self, chunk: Chunk) -> int:
-        kind, name = "car", chunk.value
-        if chunk.kind == "name":
-            pass
-        elif chunk.kind.startswith("name of "):
+        name = chunk.value
+        kind = "car" if chunk.kind == "name" or name in ("ego", "hero") else name
+        if chunk.kind.startswith("name of "):
             kind = chunk.kind.removeprefix("name of ")
-        elif name not in ("ego", "hero"):
-            kind = name
         for actor in self.actors:
             if actor.name == name:
                 return actor.id
         heroes = [actor for actor in self.actors if actor.id != EGO]
-        if chunk.kind == "actor" and name == "car" and len(heroes) == 1:
+        if chunk.kind == "actor" and name == "car" and [each.name for each in heroes] == ["hero"]:
             return heroes[0].id
         number = EGO if name == "ego" and chunk.kind == "actor" else max((each.id for each in heroes), default=0) + 1
         known = kind_of(name) if kind in DRIVEN else kind

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Literal
 
 from scenewright.errors import Place as Where
 from scenewright.errors import TranslationError
@@ -22,9 +21,7 @@ from scenewright.program.types import EGO
 
 _LEADS = ("then", "at once", "later", "meanwhile", "start")
 _SAYS_NOTHING = ("unknown", "comma", "harmless", "be", "joint", "pronoun")
-_HOW: dict[str, Literal["always", "never", "at some time"]] = {
-    "always": "always", "never": "never", "at some time": "at some time",
-}  # fmt: skip
+_HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
 _SET_ASIDE = "set it aside"
 
 
@@ -115,13 +112,13 @@ class _Sentence:
         segments = segments_of(self.chunks)
         if not segments[0].chunks and len(segments) > 1 and segments[1].link == "when":
             when, main = self._parted(segments[1].chunks)
-            told = self._items(when)
-            self._main(self._items(main, self.narrative.subject), told, segments[2:])
+            told = items_of(self.narrative, when)
+            self._main(items_of(self.narrative, main, self.narrative.subject), told, segments[2:])
             return
-        items = self._items(segments[0].chunks, self.narrative.subject)
+        items = items_of(self.narrative, segments[0].chunks, self.narrative.subject)
         later = next((each for each in segments if each.link == "when"), None)
         rest = [each for each in segments[1:] if each is not later]
-        self._main(items, None if later is None else self._items(later.chunks), rest)
+        self._main(items, None if later is None else items_of(self.narrative, later.chunks), rest)
 
     def _parted(self, chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
         """Part a moment from what happens at it: at the first comma before a deed, else at the last."""
@@ -133,9 +130,6 @@ class _Sentence:
                 if any(chunk.kind in ("deed", "order") for chunk in chunks[start:end]))  # fmt: skip
         cut = next(acts, commas[-1])
         return chunks[:cut], chunks[cut + 1 :]
-
-    def _items(self, chunks: Sequence[Chunk], subject: int | None = None) -> list[Item]:
-        return items_of(self.narrative, chunks, subject)
 
     def _refuse(self, message: str, fix: str | None = None) -> None:
         self.narrative.refuse(message, self.quote, fix)
@@ -260,11 +254,10 @@ class _Sentence:
         """Take "it goes first": whoever it is passes the conflict point before the ego does."""
         if clause.subject in (None, EGO) or clause.says_more_than("flags"):
             self._refuse("it is not clear who goes first")
-        moments = []
-        for actor in (clause.subject or EGO, EGO):
-            there = st.Measure(actor, st.Quantity.PLACE, "==", None, st.Place("conflict_point"), quote=self.quote)
-            moments.append(self._event(Clause(self.quote, actor, measures=[there])))
-        self.narrative.orders.append(st.Order(moments[0], moments[1], ">", None, self.quote))
+        place = st.Place("conflict_point")
+        there = [st.Measure(actor, st.Quantity.PLACE, "==", None, place) for actor in (clause.subject or EGO, EGO)]
+        first, second = (self._event(Clause(self.quote, each.actor, measures=[each])) for each in there)
+        self.narrative.orders.append(st.Order(first, second, ">", None, self.quote))
 
     def _facts(self, items: list[Item], rest: list[Segment]) -> None:
         """Take what is so at the start, all the while, later, or of somebody's way."""
@@ -348,7 +341,7 @@ class _Sentence:
         story = self.narrative
         if until is not None:
             story.doer = doing.actor
-            doing.ends = self._moment(self._items(until.chunks))
+            doing.ends = self._moment(items_of(story, until.chunks))
             story.doer = None
             story.add(doing.ends, ends)
         elif ends:
@@ -380,7 +373,9 @@ class _Sentence:
             )
         start = self._point(self.chunks[1:until])
         end = self._point([each for each in self.chunks[until + 1 : at] if each.kind != "comma"])
-        conditions = self._conditions(self._items([each for each in self.chunks[at + 1 :] if each.text != ":"]))
+        conditions = self._conditions(
+            items_of(self.narrative, [each for each in self.chunks[at + 1 :] if each.text != ":"])
+        )
         if len(conditions) != 1:
             self._refuse("one condition holds all the while", "write a sentence for each")
         self.narrative.holds.append(st.Hold(_HOW[how.value], start, end, conditions[0], self.quote))
@@ -396,7 +391,7 @@ class _Sentence:
         self.narrative.ego_order([self._event_of(chunks) for chunks in events if chunks])
 
     def _event_of(self, chunks: list[Chunk]) -> int:
-        items = self._items(chunks)
+        items = items_of(self.narrative, chunks)
         if len(items) != 1 or not isinstance(items[0], Clause) or items[0].times:
             self.narrative.refuse("this is not one event", self.quote)
         return self._event(items[0])

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from scenewright.errors import TranslationError
+from scenewright.errors import ProgramError
 from scenewright.program import expressions as ex
 from scenewright.program.printer import print_expression
 
@@ -44,7 +44,7 @@ class Linear:
 
 
 def linear(term: ex.Term) -> Linear:
-    """Return `term` as a sum; raises `TranslationError` for products and quotients of quantities."""
+    """Return `term` as a sum; raises `ProgramError` for products and quotients of quantities."""
     match term:
         case ex.Number(value=value):
             return Linear(constant=value)
@@ -59,11 +59,7 @@ def linear(term: ex.Term) -> Linear:
             if operator == "*" and not one.atoms:
                 one, other = other, one
             if other.atoms or (operator == "/" and not other.constant):
-                raise TranslationError(
-                    "a product of two quantities cannot be told in words yet",
-                    found=print_expression(term),
-                    fix="compare quantities with amounts",
-                )
+                raise ProgramError("a product or a quotient of two quantities is no sum", found=print_expression(term))
             return one.scaled(other.constant if operator == "*" else 1 / other.constant)
         case _:
             return Linear({term: Fraction(1)})
