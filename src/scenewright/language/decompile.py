@@ -106,7 +106,8 @@ class _Decompiler:
         if [actor.id for actor in program.actors] != [*range(len(program.actors))]:
             raise _untold("actors that are not numbered one after the other", "number them 0, 1, 2")
         story = st.Story(
-            tuple(st.Actor(actor.id, actor.name, way_of(actor.route), kind_of(actor.name)) for actor in program.actors),
+            tuple(st.Actor(each.id, "ego" if each.is_ego else each.name, way_of(each.route), kind_of(each.name))
+                  for each in program.actors),
             tuple(st.Moment(tuple(dict.fromkeys(own)), self.times.get(number))
                   for number, own in enumerate(self.conditions)),
             tuple(ego),
@@ -125,7 +126,6 @@ class _Decompiler:
     def _name_moments(self, formulas: list[ex.Formula]) -> None:
         """Give a number to every instant: the start, what the program merges, and every other knot that matters."""
         spoken = {key for formula in formulas for key in knots_of(formula)}
-        spoken |= {key for formula in formulas for key in _moments_named(formula)}
         merged: dict[Key, Key] = {}
 
         def root(key: Key) -> Key:
@@ -376,12 +376,6 @@ def _in_a_unit(value: Fraction, dimension: Dimension) -> st.Amount:
 
 def _is_of_times(form: Linear) -> bool:
     return bool(form.of(ex.Elapsed)) and len(form.atoms) == len(form.of(ex.Elapsed, ex.ParameterRef))
-
-
-def _moments_named(formula: ex.Formula) -> Iterator[Key]:
-    for node in ex.walk(formula):
-        if isinstance(node, ex.State | ex.Derived) and isinstance(node.at, ex.Elapsed):
-            yield node.at.actor, node.at.knot
 
 
 def _parts(formula: ex.Formula) -> Iterator[ex.Formula]:

@@ -61,7 +61,7 @@ def untold(what: str) -> TranslationError:
 
 def amount(of: st.Amount) -> str:
     """Return an amount as it was written."""
-    return of.name if of.value is None or of.name else f"{format_fraction(of.value)} {of.unit}"  # type: ignore[return-value]
+    return of.name or f"{format_fraction(of.value or Fraction(0))} {of.unit}"
 
 
 def bounded(op: st.Operator, of: st.Amount) -> str:

@@ -56,14 +56,10 @@ def settled(story: Story, answers: Mapping[str, str], strict: bool = False) -> S
     InputError
         Where an answer is not among the alternatives of its question.
     """
-    for question in story.questions:
-        given = answers.get(question.slot)
-        if given is not None:
-            raise InputError(
-                f"this is no answer to '{question.text}'",
-                found=given,
-                expected="; ".join(question.alternatives),
-            )
+    for each in story.questions:
+        if each.slot in answers:  # else it would not be open
+            expected = "; ".join(each.alternatives)
+            raise InputError(f"this is no answer to '{each.text}'", found=answers[each.slot], expected=expected)
     waiting = [each for each in story.questions if strict or each.default is None]
     if waiting:
         told = [f"{each.text} ({' / '.join(each.alternatives)})" for each in waiting]

@@ -139,22 +139,17 @@ class _Teller:
             return
         if any(isinstance(each, st.Compound) for each in conditions) or (time is None and moment not in self.story.ego):
             raise untold("a moment that is nobody's")
-        if time is None:
-            self.told.append(f"Later, {listed(self.phrases.clauses(conditions))}.")
-        else:
-            when = f"When it is {amount(time)} after the start"
-            self.told.append(f"{when}, {listed(self.phrases.clauses(conditions))}.")
+        when = "Later" if time is None else f"When it is {amount(time)} after the start"
+        self.told.append(f"{when}, {listed(self.phrases.clauses(conditions))}.")
         self._introduce(moment)
 
     def _is_left_to_an_order(self, moment: int) -> bool:
         """Whether a moment is the ego's last and one event, and an order speaks of it."""
         conditions = self.story.moments[moment].conditions
-        event = conditions[0] if len(conditions) == 1 and self.story.moments[moment].time is None else None
-        last = self.story.ego[-1:] == (moment,)
-        return event is not None and last and st.is_event(event) and event.actor == EGO and any(  # type: ignore[union-attr]
-            moment in (order.first, order.second) and st.START not in (order.first, order.second)
-            for order in self.story.orders
-        )  # fmt: skip
+        last = self.story.ego[-1:] == (moment,) and self.story.moments[moment].time is None and len(conditions) == 1
+        pairs = [{order.first, order.second} for order in self.story.orders]
+        its_own = last and st.is_event(conditions[0]) and conditions[0].actor == EGO  # type: ignore[union-attr]
+        return its_own and any(moment in pair and st.START not in pair for pair in pairs)
 
     def _introduce(self, moment: int) -> None:
         """Note that a moment has been told, and whether a reader finds the ego's next one in it."""
@@ -182,11 +177,8 @@ class _Teller:
 
     def _comes_after(self, earlier: int, later: int) -> bool:
         """Whether what has been told of one actor says so."""
-        for hero in self.story.heroes:
-            knots = {each for deed in self.begun if deed.actor == hero.id for each in (deed.begins, deed.ends)}
-            if earlier in knots and later in knots:
-                return True
-        return False
+        told = [(deed.actor, moment) for deed in self.begun for moment in (deed.begins, deed.ends)]
+        return any({(hero.id, earlier), (hero.id, later)} <= set(told) for hero in self.story.heroes)
 
     def _items(self, moment: int, it: int | None = None) -> list[str]:
         """Return what is so at a moment, as clauses; only its name where it has been told."""

@@ -47,11 +47,11 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
             )
         if len(found) > 1:
             question = _which(actor, found, phrases)
-            told = (answers or {}).get(question.slot)
-            texts = question.alternatives
-            if told not in texts:
+            told = (answers or {}).get(question.slot, "")
+            if told not in question.alternatives:
                 questions.append(question)
-            found = [found[texts.index(told) if told in texts else question.default or 0]]
+                told = question.alternatives[question.default or 0]
+            found = [found[question.alternatives.index(told)]]
         relations = tuple(each for each in actor.relations if each.kind not in BEARINGS)
         settled = replace(actor, way=found[0], relations=relations)
         others = tuple(settled if each.id == actor.id else each for each in story.actors)
@@ -97,9 +97,8 @@ def _way(route: Route, road_map: RoadMap) -> st.Way:
 def _which(actor: st.Actor, found: list[st.Way], phrases: Phrases) -> st.Question:
     straight = next((number for number, way in enumerate(found) if way.turn == "straight"), 0)
     alternatives = tuple(phrases.way(way) for way in found)
-    return st.Question(
-        f"way of {actor.name}", f"Which way does {phrases.name(actor.id)} go?", alternatives, straight, actor.quote
-    )
+    asked = f"Which way does {phrases.name(actor.id)} go?"
+    return st.Question(f"way of {actor.name}", asked, alternatives, straight, actor.quote)
 
 
 def _in_line(story: st.Story, actor: st.Actor) -> st.Story:
@@ -109,10 +108,8 @@ def _in_line(story: st.Story, actor: st.Actor) -> st.Story:
     for relation in actor.relations:
         if relation.kind in ("ahead", "behind"):
             rear, front = (relation.of, actor.id) if relation.kind == "ahead" else (actor.id, relation.of)
-            told = [
-                each for each in start.conditions if isinstance(each, st.Measure) and each.quantity is st.Quantity.GAP
-            ]
-            if all((each.actor, each.other) != (rear, front) for each in told):
+            told = [each for each in start.conditions if isinstance(each, st.Measure) and each.other == front]
+            if all((each.actor, each.quantity) != (rear, st.Quantity.GAP) for each in told):
                 zero = st.Amount(Fraction(0), "m")
                 added.append(st.Measure(rear, st.Quantity.GAP, ">", zero, other=front, quote=relation.quote))
     moments = (replace(start, conditions=(*start.conditions, *added)), *story.moments[1:])

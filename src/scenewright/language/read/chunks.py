@@ -67,26 +67,22 @@ class Vocabulary:
 def vocabulary() -> Vocabulary:
     """Return the words of the domain."""
     table = tomllib.loads(files("scenewright.language.read").joinpath("words.toml").read_text(encoding="utf-8"))
-    units = {word: symbol for symbol, said in table.pop("unit").items() for word in _said(said)}
+    units = {word: symbol for symbol, said in table.pop("unit").items() for word in said.split(" | ")}
     numbers = {word: Fraction(number) for number, word in enumerate(_NUMBERS.split())}
     numbers |= {word: Fraction(10 * tens) for tens, word in enumerate(_TENS.split(), start=2)}
     table["ordinal"] = {str(number): f"for the {word} time" for number, word in enumerate(ORDINALS)}
     phrases: dict[str, list[tuple[tuple[str, ...], str, str]]] = {}
     for kind, values in table.items():
         for value, said in values.items():
-            for phrase in _said(said):
+            for phrase in said.split(" | "):
                 for form in _forms(phrase) + ([f"the {phrase}"] if kind == "place" else []):
                     words = tuple(form.split())
                     phrases.setdefault(words[0], []).append((words, kind, value))
     for known in phrases.values():
         known.sort(key=lambda each: -len(each[0]))
-    longest = sorted(units, key=len, reverse=True)
-    pattern = re.compile(rf"[\s-]?({'|'.join(map(re.escape, longest))})(?![\w/^²])", re.IGNORECASE)
+    longest = "|".join(map(re.escape, sorted(units, key=len, reverse=True)))
+    pattern = re.compile(rf"[\s-]?({longest})(?![\w/^²])", re.IGNORECASE)
     return Vocabulary(phrases, units, numbers, pattern)
-
-
-def _said(phrases: str) -> list[str]:
-    return [phrase.strip() for phrase in phrases.split("|")]
 
 
 def _forms(phrase: str) -> list[str]:

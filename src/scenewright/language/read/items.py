@@ -86,6 +86,17 @@ def _margin(chunks: list[Chunk]) -> tuple[st.Operator, st.Amount] | None:
     return op, amount
 
 
+def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
+    """Part a moment from what happens at it: at the first comma before a deed, else at the last."""
+    commas = [index for index, chunk in enumerate(chunks) if chunk.kind == "comma"]
+    if not commas:
+        raise UnknownWordsError("it is not clear where the moment ends", fix="put a comma before what happens")
+    acts = (start for start, end in zip(commas, [*commas[1:], len(chunks)], strict=True)
+            if any(chunk.kind in ("deed", "order") for chunk in chunks[start:end]))  # fmt: skip
+    cut = next(acts, commas[-1])
+    return chunks[:cut], chunks[cut + 1 :]
+
+
 def items_of(narrative: Narrative, chunks: Sequence[Chunk], subject: int | None = None) -> list[Item]:
     """Return the clauses of a list, and its joined conditions; `subject` is that of a clause that names none."""
     parser = _Items(narrative, list(chunks), subject)

@@ -14,15 +14,15 @@ from scenewright.errors import TranslationError
 from scenewright.language import story as st
 from scenewright.language.read.chunks import Chunk, nearest_words, sentences, word_as
 from scenewright.language.read.clauses import PEOPLE, Clause
-from scenewright.language.read.items import Item, Segment, items_of, segments_of
+from scenewright.language.read.items import Item, Segment, items_of, parted, segments_of
 from scenewright.language.read.labels import take_labels
 from scenewright.language.read.narrative import Doing, Narrative, standstill
 from scenewright.program.types import EGO
 
 _LEADS = ("then", "at once", "later", "meanwhile", "start")
+_ORDERS = ("before", "after", "no later than")
 _SAYS_NOTHING = ("unknown", "comma", "harmless", "be", "joint", "pronoun")
 _HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
-_SET_ASIDE = "set it aside"
 
 
 def read(text: str, answers: Mapping[str, str] | None = None, name: str = "description") -> st.Story:
@@ -88,7 +88,7 @@ class _Sentence:
                 known.append(chunk)
                 continue
             meant = {f"it means '{word}'": word for word in nearest_words(chunk.text)}
-            options, asked = [*meant, _SET_ASIDE], f"What is '{chunk.text}'?"
+            options, asked = [*meant, "set it aside"], f"What is '{chunk.text}'?"
             answer = self.narrative.ask(f"word {chunk.start}", asked, options, None, chunk.quote)
             self.is_open |= not answer
             if answer in meant:
@@ -109,27 +109,16 @@ class _Sentence:
 
     def _cut(self) -> None:
         """Cut the sentence into what happens, the moment at which it does, and the rest."""
-        segments = segments_of(self.chunks)
+        story, segments = self.narrative, segments_of(self.chunks)
         if not segments[0].chunks and len(segments) > 1 and segments[1].link == "when":
-            when, main = self._parted(segments[1].chunks)
-            told = items_of(self.narrative, when)
-            self._main(items_of(self.narrative, main, self.narrative.subject), told, segments[2:])
-            return
-        items = items_of(self.narrative, segments[0].chunks, self.narrative.subject)
-        later = next((each for each in segments if each.link == "when"), None)
-        rest = [each for each in segments[1:] if each is not later]
-        self._main(items, None if later is None else items_of(self.narrative, later.chunks), rest)
-
-    def _parted(self, chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
-        """Part a moment from what happens at it: at the first comma before a deed, else at the last."""
-        commas = [index for index, chunk in enumerate(chunks) if chunk.kind == "comma"]
-        if not commas:
-            self._refuse("it is not clear where the moment ends", "put a comma before what happens")
-        ends = [*commas[1:], len(chunks)]
-        acts = (start for start, end in zip(commas, ends, strict=True)
-                if any(chunk.kind in ("deed", "order") for chunk in chunks[start:end]))  # fmt: skip
-        cut = next(acts, commas[-1])
-        return chunks[:cut], chunks[cut + 1 :]
+            first, main = parted(segments[1].chunks)
+            when: list[Item] | None = items_of(story, first)
+            self._main(items_of(story, main, story.subject), when, segments[2:])
+        else:
+            items = items_of(story, segments[0].chunks, story.subject)
+            later = [each for each in segments if each.link == "when"]
+            when = items_of(story, later[0].chunks) if later else None
+            self._main(items, when, [each for each in segments[1:] if each not in later[:1]])
 
     def _refuse(self, message: str, fix: str | None = None) -> None:
         self.narrative.refuse(message, self.quote, fix)
@@ -189,6 +178,7 @@ class _Sentence:
             story.refuse("this is no event", clause.quote)
         for number, own in enumerate(story.conditions):
             if number != st.START and any(measure in own for measure in clause.measures):
+                story.add(number, clause.measures)
                 return number
         if clause.subject == EGO:
             story.ego.append(story.moment(clause.measures, clause.quote))
@@ -198,22 +188,20 @@ class _Sentence:
     def _end_of_a_deed(self, clause: Clause) -> int:
         """Return a new moment at which somebody's deed ends: the last one, or driving on after it."""
         story = self.narrative
-        doing = None if clause.subject is None else story.last(clause.subject)
+        if clause.subject is None or not all(st.is_event(each) for each in clause.measures):
+            story.refuse("this is no event of anything that was told", clause.quote)
+        doing = story.last(clause.subject)
         if doing is None or doing.ends is not None:
-            if clause.subject is None or not all(st.is_event(each) for each in clause.measures):
-                story.refuse("this is no event of anything that was told", clause.quote)
             doing = story.begin(clause.subject, st.Verb.DRIVE, None, {"then"}, clause.quote)
         doing.ends = story.moment(clause.measures, clause.quote)
         return doing.ends
 
     # -- main clauses -------------------------------------------------------------------------------------------------
     def _main(self, items: list[Item], when: list[Item] | None, rest: list[Segment]) -> None:
-        first = items[0] if items else None
-        clause = first if isinstance(first, Clause) else None
+        clause = next((each for each in items[:1] if isinstance(each, Clause)), None)
         is_deed = clause is not None and clause.deed is not None
-        tells_time = any(each.link in ("before", "after", "no later than") for each in rest) or (
-            clause is not None and "after the start" in clause.times
-        )
+        tells_time = any(each.link in _ORDERS for each in rest)
+        tells_time |= clause is not None and "after the start" in clause.times
         # "The hero begins to brake 2 s after ..." speaks of a deed that was told before.
         known = is_deed and clause is not None and clause.phase and self.narrative.doing_of(clause) is not None
         if is_deed and len(items) > 1:
@@ -355,7 +343,7 @@ class _Sentence:
     # -- orders and holds ---------------------------------------------------------------------------------------------
     def _orders(self, moment: int, rest: list[Segment]) -> None:
         for segment in rest:
-            if segment.link not in ("before", "after", "no later than"):
+            if segment.link not in _ORDERS:
                 self._refuse("it is not clear before or after what")
             other = self._event_of(segment.chunks)
             first, second = (other, moment) if segment.link == "after" else (moment, other)
