@@ -21,7 +21,7 @@ from scenewright.units import UNITS, unit_of_name
 
 _TOKEN = re.compile(
     r"(?P<quoted>(?<![\w'])'[^'\n]+')"
-    r"|(?P<number>(?<![\w.])-?\d+(?:\.\d+)?(?:/\d+(?:\.\d+)?)?)"
+    r"|(?P<number>(?<![\w.])-?\d+(?:\.\d+|/[1-9]\d*)?)"
     r"|\{(?P<braced>[A-Za-z]\w*)\}"
     r"|(?P<snake>[A-Za-z][A-Za-z0-9]*_\w*)"
     r"|(?P<word>[A-Za-z][A-Za-z0-9]*(?:[-’'](?!s\b)[A-Za-z]+)*)"
@@ -117,11 +117,15 @@ def sentences(text: str) -> list[list[Chunk]]:
 
 
 def _chunks(text: str) -> Iterator[Chunk]:
-    at = 0
-    while (match := _TOKEN.search(text, at)) is not None:
-        chunk = _lanes(text, match.start()) or _amount(text, match) or _phrase(text, match) or _plain(text, match)
-        at = chunk.end
-        yield chunk
+    tokens = list(_TOKEN.finditer(text))
+    words = [token.group().lower() for token in tokens]
+    end = 0
+    for index, token in enumerate(tokens):
+        if token.start() >= end:
+            chunk = _lanes(text, token.start()) or _amount(text, token) or _phrase(text, tokens, words, index)
+            chunk = chunk or _plain(token)
+            end = chunk.end
+            yield chunk
 
 
 def _lanes(text: str, at: int) -> Chunk | None:
@@ -160,39 +164,29 @@ def _amount(text: str, match: re.Match[str]) -> Chunk | None:
     return Chunk("amount", quote.text, start, end, quote.text, Amount(Fraction(number), symbol, None, quote))
 
 
-def _phrase(text: str, match: re.Match[str]) -> Chunk | None:
+def _phrase(text: str, tokens: list[re.Match[str]], said: list[str], index: int) -> Chunk | None:
     """Return the longest phrase of the domain that begins here."""
-    word = (match["word"] or "").lower()
-    best: Chunk | None = None
-    for words, kind, value in vocabulary().phrases.get(word, ()):
-        end = match.end()
-        for expected in words[1:]:
-            following = _TOKEN.search(text, end)
-            if following is None or following.group().lower() != expected or text[end : following.start()].strip():
-                break
-            end = following.end()
-        else:
-            following = _TOKEN.search(text, end)
-            after = "" if following is None else following.group().lower()
-            if (words[-1] == "on" and len(words) > 1 and after in ("the", "a")) or (
-                words[-1] == "start" and after == "of"
-            ):
-                continue  # "drives on the road" says where, "at the start of the turn" too
-            best = Chunk(kind, value, match.start(), end, text[match.start() : end])
-            break
-    return best
+    if tokens[index]["word"] is None:
+        return None
+    for words, kind, value in vocabulary().phrases.get(said[index], ()):
+        last = index + len(words) - 1
+        if tuple(said[index : last + 1]) != words:
+            continue
+        after = said[last + 1] if last + 1 < len(said) else ""
+        where = after == "of" if words[-1] == "start" else words[-1] == "on" and after in ("the", "a")
+        if len(words) == 1 or not where:  # "drives on the road", "at the start of the turn" say where
+            start, end = tokens[index].start(), tokens[last].end()
+            return Chunk(kind, value, start, end, text[start:end])
+    return None
 
 
-def _plain(text: str, match: re.Match[str]) -> Chunk:
-    start, end = match.span()
-    said = match.group()
-    if match["quoted"]:
+def _plain(token: re.Match[str]) -> Chunk:
+    (start, end), said = token.span(), token.group()
+    if token["quoted"]:
         return Chunk("name", said[1:-1], start, end, said)
-    if match["possessive"]:
-        return Chunk("possessive", "", start, end, said)
-    if match["mark"]:
+    if token["mark"]:
         return Chunk("end" if said in _ENDS else "comma", said, start, end, said)
-    return Chunk("unknown", said, start, end, said)
+    return Chunk("possessive" if token["possessive"] else "unknown", said, start, end, said)
 
 
 def nearest_words(word: str) -> list[str]:
