@@ -7,29 +7,15 @@ from collections.abc import Iterator
 
 # Words whose exchange turns the meaning; each is tried at every place where it stands, in both directions.
 PAIRS = (
-    ("before", "past"),
-    ("before the ego", "after the ego"),
-    ("before the hero", "after the hero"),
-    ("at least", "at most"),
-    ("more than", "less than"),
-    ("left", "right"),
-    ("north", "south"),
-    ("west", "east"),
-    ("stop line", "conflict point"),
-    ("faster", "slower"),
-    ("always", "never"),
-    ("begins to", "finishes"),
-    ("brakes", "speeds up"),
-    ("brake", "speed up"),
-    ("the ego", "the hero"),
-    ("acceleration", "deceleration"),
-    ("headway", "time to collision"),
-    ("driveway", "road"),
-    (" and ", " or "),
-    ("either", "both"),
-    (" until ", " when "),
+    ("before", "past"), ("before the ego", "after the ego"), ("before the hero", "after the hero"),
+    ("at least", "at most"), ("more than", "less than"), ("left", "right"),
+    ("north", "south"), ("west", "east"), ("stop line", "conflict point"),
+    ("faster", "slower"), ("always", "never"), ("begins to", "finishes"),
+    ("brakes", "speeds up"), ("brake", "speed up"), ("the ego", "the hero"),
+    ("acceleration", "deceleration"), ("headway", "time to collision"), ("driveway", "road"),
+    (" and ", " or "), ("either", "both"), (" until ", " when "),
     ("second time", "third time"),
-)
+)  # fmt: skip
 UNITS = (("m", "ft"), ("s", "min"), ("m/s", "km/h"), ("m/s^2", "g"))
 
 

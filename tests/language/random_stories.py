@@ -25,7 +25,7 @@ from scenewright.language.story import (
     Verb,
     Way,
     arranged,
-)
+)  # fmt: skip
 from scenewright.program.manner import USUAL, manner_of
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.units import SI_SYMBOL, UNITS, Dimension, unit_of_name

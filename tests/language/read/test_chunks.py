@@ -12,18 +12,12 @@ from scenewright.language.read.chunks import nearest_words, sentences, vocabular
 @pytest.mark.parametrize(
     ("text", "value", "unit", "name"),
     [
-        ("12 m", 12, "m", None),
-        ("12m", 12, "m", None),
-        ("-2.5 m/s^2", Fraction(-5, 2), "m/s^2", None),
-        ("1/3 s", Fraction(1, 3), "s", None),
-        ("thirty mph", 30, "mph", None),
-        ("50 km/h", 50, "km/h", None),
-        ("40-ft", 40, "ft", None),
-        ("gap_m", None, "m", "gap_m"),
-        ("{gap} m", None, "m", "gap_m"),
+        ("12 m", 12, "m", None), ("12m", 12, "m", None), ("-2.5 m/s^2", Fraction(-5, 2), "m/s^2", None),
+        ("1/3 s", Fraction(1, 3), "s", None), ("thirty mph", 30, "mph", None), ("50 km/h", 50, "km/h", None),
+        ("40-ft", 40, "ft", None), ("gap_m", None, "m", "gap_m"), ("{gap} m", None, "m", "gap_m"),
         ("{first_speed_mps}m/s", None, "m/s", "first_speed_mps"),
     ],
-)
+)  # fmt: skip
 def test_amounts(text: str, value: Fraction | None, unit: str, name: str | None) -> None:
     ((chunk,),) = sentences(text)
     assert chunk.amount is not None
