@@ -80,12 +80,3 @@ def test_what_a_program_says_is_told_and_read_back() -> None:
         assert compile_story(arranged(read("\n".join(tell(story))))) == compile_story(story)
         told += 1
     assert told >= 70
-
-
-def test_quotes_are_the_words_that_things_came_from() -> None:
-    text = "\n".join(tell(random_story(3)))
-    program = compile_story(read(text), text)
-    for constraint in program.constraints:
-        if constraint.source is not None:
-            assert program.words_of(constraint)
-    assert any(constraint.source for constraint in program.constraints)

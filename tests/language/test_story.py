@@ -37,8 +37,3 @@ def test_what_is_asked_of_whom() -> None:
     assert st.is_event(there)
     assert not st.is_event(gap)
     assert not st.is_event(replace(there, op=">="))
-
-
-def test_evidence_is_no_part_of_equality() -> None:
-    amount = st.Amount(None, "m", "gap_m")
-    assert replace(amount, quote=st.Quote(1, 2, "x")) == amount

@@ -13,27 +13,16 @@ from typing import Literal
 from scenewright.errors import Span, TranslationError
 from scenewright.language import story as st
 from scenewright.program import expressions as ex
+from scenewright.program import types as pt
 from scenewright.program.arithmetic import combine, negate
 from scenewright.program.check import check_program
-from scenewright.program.types import (
-    EGO,
-    Actor,
-    Constraint,
-    HeadingsRoute,
-    IntentRoute,
-    LanesRoute,
-    Parameter,
-    PieceKind,
-    Program,
-    RouteSpec,
-    Sketch,
-)
+from scenewright.program.types import EGO
 
 PIECES = {
-    st.Verb.DRIVE: PieceKind.GO,
-    st.Verb.SPEED_UP: PieceKind.ACC,
-    st.Verb.BRAKE: PieceKind.DEC,
-    st.Verb.STAND: PieceKind.STOP,
+    st.Verb.DRIVE: pt.PieceKind.GO,
+    st.Verb.SPEED_UP: pt.PieceKind.ACC,
+    st.Verb.BRAKE: pt.PieceKind.DEC,
+    st.Verb.STAND: pt.PieceKind.STOP,
 }
 COMPASS = "NESW"
 TURNS = {"straight": 0, "right": 1, "left": 3}  # quarters of the compass
@@ -49,7 +38,7 @@ _DERIVED: dict[st.Quantity, ex.DerivedKind] = {
 _NOTHING = Fraction(0)
 
 
-def compile_story(story: st.Story, description: str | None = None) -> Program:
+def compile_story(story: st.Story, description: str | None = None) -> pt.Program:
     """Return the program that `story` is.
 
     Parameters
@@ -67,11 +56,13 @@ def compile_story(story: st.Story, description: str | None = None) -> Program:
     _check_known(story)
     compiler = _Compiler(story)
     compiler.constrain()
-    program = Program(
+    program = pt.Program(
         story.title or UNNAMED[0],
-        tuple(Actor(actor.id, actor.name, route_of(actor.way), compiler.sketches[actor.id]) for actor in story.actors),
         tuple(
-            Constraint(f"c{number}", formula, source if description else None)
+            pt.Actor(actor.id, actor.name, route_of(actor.way), compiler.sketches[actor.id]) for actor in story.actors
+        ),
+        tuple(
+            pt.Constraint(f"c{number}", formula, source if description else None)
             for number, (formula, source) in enumerate(compiler.formulas, start=1)
         ),
         _parameters(story),
@@ -83,16 +74,16 @@ def compile_story(story: st.Story, description: str | None = None) -> Program:
     return program
 
 
-def route_of(way: st.Way) -> RouteSpec:
+def route_of(way: st.Way) -> pt.RouteSpec:
     """Return the route that the facts of a way make: a whole one where they are whole, else what is wanted."""
     if way.lanes:
-        return LanesRoute(way.lanes)
+        return pt.LanesRoute(way.lanes)
     if way.headings:
-        return HeadingsRoute(way.headings)
+        return pt.HeadingsRoute(way.headings)
     if way.heading and way.turn and not (way.origin or way.destination or way.destination_heading):
         turned = COMPASS[(COMPASS.index(way.heading) + TURNS[way.turn]) % 4]
-        return HeadingsRoute((way.heading,) if way.turn == "straight" else (way.heading, turned))
-    return IntentRoute(way.origin, way.turn, way.destination, way.heading, way.destination_heading)  # type: ignore[arg-type]
+        return pt.HeadingsRoute((way.heading,) if way.turn == "straight" else (way.heading, turned))
+    return pt.IntentRoute(way.origin, way.turn, way.destination, way.heading, way.destination_heading)  # type: ignore[arg-type]
 
 
 def kind_of(name: str) -> str:
@@ -123,11 +114,11 @@ def _check_known(story: st.Story) -> None:
             raise refused(f"two deeds of {hero.name} at one time", fix, own[-1].quote)
 
 
-def _parameters(story: st.Story) -> tuple[Parameter, ...]:
+def _parameters(story: st.Story) -> tuple[pt.Parameter, ...]:
     known = {parameter.name: parameter for parameter in story.parameters}
     for amount in amounts_of(story):
         if amount.name is not None:
-            known.setdefault(amount.name, Parameter(amount.name))
+            known.setdefault(amount.name, pt.Parameter(amount.name))
     return tuple(known.values())
 
 
@@ -146,15 +137,15 @@ def amounts_of(story: st.Story) -> list[st.Amount]:
     return [amount for amount in found if amount is not None]
 
 
-def _sketch(story: st.Story, actor: int) -> Sketch:
+def _sketch(story: st.Story, actor: int) -> pt.Sketch:
     knots = story.knots_of(actor)
-    pieces = [PieceKind.GO] * (len(knots) - 1)
+    pieces = [pt.PieceKind.GO] * (len(knots) - 1)
     if actor != EGO:
         pieces = [PIECES[st.Verb(deed.verb)] for deed in story.deeds_of(actor)]
     # The ego, and whoever does nothing of its own, drives on after the last moment that it shares.
     if not pieces or (actor == EGO and len(story.owners(knots[-1])) > 1):
-        pieces.append(PieceKind.GO)
-    return Sketch(tuple(f"t{number}" for number in range(len(pieces) + 1)), tuple(pieces))
+        pieces.append(pt.PieceKind.GO)
+    return pt.Sketch(tuple(f"t{number}" for number in range(len(pieces) + 1)), tuple(pieces))
 
 
 @dataclass(slots=True)
@@ -162,7 +153,7 @@ class _Compiler:
     """Gathers the formulas of a story, each with where it came from."""
 
     story: st.Story
-    sketches: dict[int, Sketch] = field(init=False)
+    sketches: dict[int, pt.Sketch] = field(init=False)
     formulas: list[tuple[ex.Formula, Span | None]] = field(default_factory=list)
 
     def __post_init__(self) -> None:

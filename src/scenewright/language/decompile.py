@@ -15,20 +15,12 @@ from scenewright.errors import ProgramError, TranslationError
 from scenewright.language import story as st
 from scenewright.language.compile import COMPASS, PIECES, TURNS, UNNAMED, amounts_of, kind_of
 from scenewright.program import expressions as ex
+from scenewright.program import types as pt
 from scenewright.program.linear import Atom, Linear, linear
 from scenewright.program.printer import print_expression
 from scenewright.program.resolve import usual_partner
 from scenewright.program.structure import knots_of, synchronised
-from scenewright.program.types import (
-    EGO,
-    HeadingsRoute,
-    IntentRoute,
-    LanesRoute,
-    Parameter,
-    PieceKind,
-    Program,
-    RouteSpec,
-)
+from scenewright.program.types import EGO
 from scenewright.units import SI_SYMBOL, UNITS, Dimension, format_fraction, unit_of_name
 
 _VERBS = {piece: verb for verb, piece in PIECES.items()}
@@ -50,7 +42,7 @@ _DIMENSIONS: dict[st.Quantity, Dimension] = {
 Key = tuple[int, str]
 
 
-def decompile(program: Program) -> st.Story:
+def decompile(program: pt.Program) -> st.Story:
     """Return the story that `program` tells.
 
     Raises
@@ -64,26 +56,26 @@ def decompile(program: Program) -> st.Story:
         raise TranslationError(f"{error.message}, and cannot be told in words yet", found=error.found) from None
 
 
-def way_of(route: RouteSpec) -> st.Way:
+def way_of(route: pt.RouteSpec) -> st.Way:
     """Return the facts of a way that make `route`."""
     match route:
-        case LanesRoute(lanes=lanes):
+        case pt.LanesRoute(lanes=lanes):
             return st.Way(lanes=lanes)
-        case HeadingsRoute(headings=(heading,)):
+        case pt.HeadingsRoute(headings=(heading,)):
             return st.Way(heading=heading, turn="straight")
-        case HeadingsRoute(headings=(first, second) as headings):
+        case pt.HeadingsRoute(headings=(first, second) as headings):
             turned = (COMPASS.index(second) - COMPASS.index(first)) % 4
             turn = next((name for name, quarters in TURNS.items() if quarters == turned and quarters), None)
             return st.Way(heading=first, turn=turn) if turn else st.Way(headings=headings)
-        case HeadingsRoute(headings=headings):
+        case pt.HeadingsRoute(headings=headings):
             return st.Way(headings=headings)
-        case IntentRoute():
+        case pt.IntentRoute():
             return st.Way(route.origin, route.origin_heading, route.turn, route.destination, route.destination_heading)
 
 
 @dataclass(slots=True)
 class _Decompiler:
-    program: Program
+    program: pt.Program
     moment_of: dict[Key, int] = field(default_factory=dict)
     conditions: list[list[st.Condition]] = field(default_factory=list)
     times: dict[int, st.Amount] = field(default_factory=dict)
@@ -100,7 +92,7 @@ class _Decompiler:
                 self._fix_time(formula)
         for formula in formulas:
             self._take(formula)
-        if set(program.ego.sketch.pieces) != {PieceKind.GO}:
+        if set(program.ego.sketch.pieces) != {pt.PieceKind.GO}:
             raise _untold("a deed of the ego", "let its pieces be 'go': the policy under test drives it")
         ego = [self.moment_of[EGO, knot] for knot in program.ego.sketch.knots[1:] if (EGO, knot) in self.moment_of]
         if [actor.id for actor in program.actors] != [*range(len(program.actors))]:
@@ -120,7 +112,7 @@ class _Decompiler:
             None if program.name in UNNAMED else program.name,
         )  # fmt: skip
         used = {amount.name for amount in amounts_of(story)}
-        declared = [each for each in program.parameters if each.name not in used or each != Parameter(each.name)]
+        declared = [each for each in program.parameters if each.name not in used or each != pt.Parameter(each.name)]
         return st.arranged(replace(story, parameters=tuple(declared)))
 
     def _name_moments(self, formulas: list[ex.Formula]) -> None:
@@ -194,7 +186,7 @@ class _Decompiler:
         if piece.actor == EGO or measure is None or measure.other is not None:
             raise _untold("this condition on a piece", "ask for it from one moment until another", compare)
         standstill = st.Measure(piece.actor, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s"))
-        if sketch.pieces[index] is not PieceKind.STOP or measure != standstill:
+        if sketch.pieces[index] is not pt.PieceKind.STOP or measure != standstill:
             self.throughout.setdefault((piece.actor, index), []).append(measure)
 
     def _take_order(self, compare: ex.Compare) -> bool:
