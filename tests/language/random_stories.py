@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Iterator
+from contextlib import suppress
 from fractions import Fraction
 
+from scenewright.errors import TranslationError
 from scenewright.language.phrases import PLACES
 from scenewright.language.story import (
     START,
@@ -26,6 +29,7 @@ from scenewright.language.story import (
     Way,
     arranged,
 )  # fmt: skip
+from scenewright.language.tell import tell
 from scenewright.program.manner import USUAL, manner_of
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.units import SI_SYMBOL, UNITS, Dimension, unit_of_name
@@ -218,3 +222,11 @@ def _says_that_it_stands(measure: Measure) -> bool:
 def random_story(seed: int, si: bool = False) -> Story:
     """Return the story of a seed."""
     return Teller(seed, si).story()
+
+
+def told_stories(count: int) -> Iterator[tuple[Story, list[str]]]:
+    """Yield the stories of the first seeds that there are words for, with what is told of them."""
+    for seed in range(count):
+        story = random_story(seed)
+        with suppress(TranslationError):
+            yield story, tell(story)

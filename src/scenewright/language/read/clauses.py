@@ -69,7 +69,8 @@ class Clause:
     facts
         Of its way: ``heading``, ``turn``, ``origin``, ...
     flags
-        What else it says: ``standstill``, ``while`` (the end is open), ``to`` a speed, ``first``, ``way`` (it is open).
+        What else it says: ``standstill``, ``while`` (the end is open), ``to`` a speed, ``first``,
+        ``kept`` (its speed), ``way`` (it is open).
     waiting, target
         Amounts without a place, and the last place that an amount was counted to, for a neighbour.
     """
@@ -184,7 +185,7 @@ class _Reader:
                 clause.phase = value
             case "ordinal":
                 clause.ordinal = int(value)
-            case "standstill" | "open" | "order":
+            case "standstill" | "open" | "order" | "kept":
                 clause.flags.add("standstill" if chunk.kind == "standstill" else value)
             case "relation":
                 clause.relations.append(st.Relation(value, EGO, chunk.quote))
@@ -235,7 +236,7 @@ class _Reader:
             self.clause.flags.add("to")
         elif not (
             (side == "to" and kind == "event")  # "speeds up to pass the conflict point"
-            or (side in ("at", "of", "for", "to", "with") and kind in ("amount", "bound", "quantity"))
+            or (side in ("at", "of", "for", "to", "with") and kind in ("amount", "bound", "quantity", "kept"))
         ):
             raise self._left_over(chunk)
 

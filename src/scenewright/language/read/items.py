@@ -19,20 +19,11 @@ from scenewright.language.read.narrative import Narrative
 Item = Clause | st.Compound
 LINKS = ("when", "until", "no later than", "from")
 _PREDICATES = {
-    "be",
-    "state",
-    "event",
-    "phase",
-    "deed",
-    "turn",
-    "mood",
-    "heading",
-    "origin",
-    "quantity",
-    "amount",
-    "lanes",
-}
-_BEGINS_A_CLAUSE = {*PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed"}
+    "be", "state", "event", "phase", "deed", "turn", "mood", "heading", "origin", "quantity", "amount", "lanes",
+}  # fmt: skip
+_BEGINS_A_CLAUSE = {
+    *PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed", "kept",
+}  # fmt: skip
 _JOINTS: dict[str, tuple[Literal["and", "or", "if"], str]] = {  # what a word makes of its parts, and what parts them
     "either": ("or", "or"),
     "both": ("and", "and"),

@@ -50,6 +50,7 @@ class Narrative:
     doings: list[Doing] = field(default_factory=list)
     orders: list[st.Order] = field(default_factory=list)
     holds: list[st.Hold] = field(default_factory=list)
+    kept: list[tuple[int, st.Quote]] = field(default_factory=list)  # who keeps the speed that it has at the start
     parameters: list[Parameter] = field(default_factory=list)
     manner: Manner = USUAL
     map_name: str = DEFAULT_MAP
@@ -64,6 +65,8 @@ class Narrative:
 
     def story(self) -> st.Story:
         """Return the story; deeds that are still open end at moments of their own."""
+        for actor, quote in self.kept:
+            self._keep(actor, quote)
         for doing in self.doings:
             if doing.ends is None:
                 doing.ends = self.moment()
@@ -88,6 +91,16 @@ class Narrative:
             tuple(self.assumptions),
             tuple(self.questions),
         )  # fmt: skip
+
+    def _keep(self, actor: int, quote: st.Quote) -> None:
+        """Let somebody keep its first speed until its first deed, throughout where it has none."""
+        first = next((doing for doing in self.doings if doing.actor == actor), None)
+        first = first or self.begin(actor, st.Verb.DRIVE, None, set(), quote)
+        speeds = [each for each in self.conditions[st.START] if isinstance(each, st.Measure) and each.actor == actor
+                  and (each.quantity, each.op, each.other) == (st.Quantity.SPEED, "==", None)]  # fmt: skip
+        if first.verb != st.Verb.DRIVE or first.begins != st.START or len(speeds) != 1:
+            self.refuse("it is not clear which speed is kept, or until when", quote)
+        first.throughout.append(speeds[0])
 
     # -- people -------------------------------------------------------------------------------------------------------
     def who(self, chunk: Chunk) -> int:
@@ -204,6 +217,7 @@ class Narrative:
             self.refuse("the ego is driven by the policy under test: say what the others do", quote)
         before = self.last(actor)
         if before is None:
+            moment = self.moment() if moment is None and "then" in leads else moment
             if moment is not None and moment != st.START:
                 self.doings.append(Doing(actor, st.Verb.DRIVE, st.START, moment, quote=quote))
             begins = st.START if moment is None else moment

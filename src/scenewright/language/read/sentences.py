@@ -32,8 +32,6 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
     ----------
     answers
         Alternatives chosen, by the slot of their question; what is not answered takes its default and is noted.
-    name
-        What to call the text in messages.
 
     Raises
     ------
@@ -126,15 +124,11 @@ class _Sentence:
     # -- moments ------------------------------------------------------------------------------------------------------
     def _conditions(self, items: Sequence[Item], *taken: str) -> list[st.Condition]:
         """Return what a list says is so; `taken` are attributes of its clauses that something else takes."""
-        found: list[st.Condition] = []
         for item in items:
-            if isinstance(item, st.Compound):
-                found.append(item)
-                continue
-            if item.says_more_than("measures", *taken):
+            if isinstance(item, Clause) and item.says_more_than("measures", *taken):
                 self.narrative.refuse("this is no condition", item.quote)
-            found += item.measures
-        return found
+        lists = [item.measures if isinstance(item, Clause) else [item] for item in items]
+        return [condition for each in lists for condition in each]
 
     def _moment(self, items: Sequence[Item]) -> int:
         """Return the moment that a list of clauses tells: one that is known, or a new one."""
@@ -251,14 +245,17 @@ class _Sentence:
     def _facts(self, items: list[Item], rest: list[Segment]) -> None:
         """Take what is so at the start, all the while, later, or of somebody's way."""
         story = self.narrative
+        plain: list[Item] = []
         for item in items:
             if isinstance(item, Clause):
                 if item.facts or item.relations or "way" in item.flags:
                     self._way(item)
-                    item = replace(item, flags=item.flags - {"way"})
+                if "kept" in item.flags and item.subject is not None:
+                    story.kept.append((item.subject, item.quote))
                 story.subject = item.subject
-        plain = [replace(each, flags=each.flags - {"way"}) if isinstance(each, Clause) else each for each in items]
-        conditions = self._conditions(plain, "facts", "relations")
+                item = replace(item, flags=item.flags - {"way", "kept"}, facts={}, relations=[])
+            plain.append(item)
+        conditions = self._conditions(plain)
         measures = [each for each in conditions if isinstance(each, st.Measure)]
         if rest:
             self._refuse("it is not clear when this is so")
@@ -296,6 +293,8 @@ class _Sentence:
         told = clause.says_more_than("deed", "phase", "measures", "rate", "times", "flags")
         if clause.subject is None or clause.deed is None or told or clause.flags & {"first", "way"}:
             story.refuse("it is not clear what is done here", self.quote)
+        if "kept" in clause.flags and not clause.measures:
+            self._refuse("it is not clear which speed is kept")
         if clause.phase == "finishes" or "after the start" in clause.times:
             self._refuse("nothing was told of this deed before")
         moment = None if when is None else self._moment(when)
