@@ -31,12 +31,10 @@ def test_facts_that_one_way_fits_become_that_way() -> None:
 def test_relations_decide_with_the_other_way() -> None:
     story = ways("The ego is headed west and goes straight on. The hero is oncoming and turns left.")
     assert told(story)[1] == "is headed east and turns left"
-    story = ways("The ego turns left out of the driveway. A car comes from its left and goes straight on.")
-    assert (
-        told(story)[1] == "is headed east and goes straight on"
-        or told(story)[1] == "is headed west and goes straight on"
-    )
-    assert not story.questions
+    for side, heading in (("left", "west"), ("right", "east")):  # of a driver who comes out of it headed south
+        story = ways(f"The ego turns left out of the driveway. A car comes from its {side} and goes straight on.")
+        assert told(story)[1] == f"is headed {heading} and goes straight on"
+        assert not story.questions
 
 
 def test_who_is_ahead_is_so_at_the_start() -> None:
