@@ -36,21 +36,14 @@ from scenewright.units import SI_SYMBOL, UNITS, Dimension, unit_of_name
 
 OPERATORS: tuple[Operator, ...] = ("==", "==", "==", "<=", ">=", "<", ">")
 PARAMETERS: dict[Dimension, tuple[str, ...]] = {
-    "length": ("gap_m", "distance_to_line_m", "way_ft"),
-    "time": ("tta_s", "delay_s"),
-    "speed": ("first_speed_mps", "limit_kmph"),
-    "acceleration": ("rate_mpss",),
-}
+    "length": ("gap_m", "distance_to_line_m", "way_ft"), "time": ("tta_s", "delay_s"),
+    "speed": ("first_speed_mps", "limit_kmph"), "acceleration": ("rate_mpss",),
+}  # fmt: skip
 NAMES = ("hero", "truck", "van", "bus", "taxi", "blue_car", "other", "hero2", "the", "A1")
 OF: dict[Quantity, Dimension] = {
-    Quantity.PLACE: "length",
-    Quantity.GAP: "length",
-    Quantity.SPEED: "speed",
-    Quantity.RATE: "acceleration",
-    Quantity.ARRIVAL: "time",
-    Quantity.HEADWAY: "time",
-    Quantity.COLLISION: "time",
-}
+    Quantity.PLACE: "length", Quantity.GAP: "length", Quantity.SPEED: "speed", Quantity.RATE: "acceleration",
+    Quantity.ARRIVAL: "time", Quantity.HEADWAY: "time", Quantity.COLLISION: "time",
+}  # fmt: skip
 
 
 class Teller:
@@ -65,10 +58,8 @@ class Teller:
         pick = self.random
         names = ["ego", *pick.sample(NAMES, pick.choice((1, 1, 1, 2, 3, 5)))]
         self.actors = list(range(len(names)))
-        actors = tuple(
-            Actor(number, name, self.way(), name if name in ("truck", "van", "bus", "taxi") else "car")
-            for number, name in enumerate(names)
-        )
+        kinds = {name: name for name in ("truck", "van", "bus", "taxi")}
+        actors = tuple(Actor(each, name, self.way(), kinds.get(name, "car")) for each, name in enumerate(names))
         count = pick.randint(1, 2) + sum(pick.random() < 0.5 for _ in names) + pick.randint(0, 2)
         chains = {actor: sorted(pick.sample(range(1, count + 1), pick.randint(1, count))) for actor in self.actors[1:]}
         ego = sorted(pick.sample(range(1, count + 1), pick.randint(0, count)))
@@ -83,18 +74,15 @@ class Teller:
             timed = number not in owned and number not in ego
             time = self.amount("time", parameter=not timed) if timed or pick.random() < 0.1 else None
             nobody = number not in owned
-            few = 1 if nobody else 0
-            moments.append(Moment(self.conditions(pick.choice((few, 1, 1, 2, 3)), simple=nobody), time))
+            moments.append(Moment(self.conditions(pick.choice((int(nobody), 1, 1, 2, 3)), simple=nobody), time))
         # A program knows a moment that is nobody's by its time alone.
         named = [number for number in range(count + 1) if not self.si or number in (START, *owned, *ego)]
         orders, holds = self.orders(named), tuple(self.hold(named) for _ in range(pick.choice((0, 0, 0, 1, 2))))
         manner = manner_of([("stands_s", Fraction(2), None)]) if pick.random() < 0.1 else USUAL
         title = pick.choice((None, None, "left turn, yields", "a 'title'; with marks."))
         map_name = pick.choice((DEFAULT_MAP, DEFAULT_MAP, "maps/town 7.xodr"))
-        return arranged(
-            Story(actors, tuple(moments), tuple(ego), tuple(deeds), orders, holds, self.parameters(), manner,
-                  map_name, title)
-        )  # fmt: skip
+        parts = (actors, tuple(moments), tuple(ego), tuple(deeds), orders, holds, self.parameters())
+        return arranged(Story(*parts, manner, map_name, title))
 
     def way(self) -> Way:
         pick = self.random
@@ -155,7 +143,8 @@ class Teller:
 
     def throughout(self, actor: int) -> tuple[Measure, ...]:
         found = [self.measure(actor, alone=True) for _ in range(self.random.choice((0, 0, 0, 1, 2)))]
-        return tuple(dict.fromkeys(each for each in found if not _says_that_it_stands(each)))
+        standing = [each for each in found if each.op == "==" and each.amount is not None and each.amount.value == 0]
+        return tuple(dict.fromkeys(each for each in found if each not in standing))  # a deed of its own says that
 
     def conditions(self, count: int, simple: bool = False) -> tuple[Condition, ...]:
         found: list[Condition] = [self.measure() for _ in range(count)]
@@ -211,12 +200,6 @@ class Teller:
         value = pick.choice((None, Fraction(5, 2)))
         return (pick.choice((Parameter("gap_m", Fraction(20)), Parameter("rate_mpss", value, Fraction(1), Fraction(4)),
                              Parameter("unused_mps"))),)  # fmt: skip
-
-
-def _says_that_it_stands(measure: Measure) -> bool:
-    return measure.quantity is Quantity.SPEED and measure.op == "==" and measure.amount is not None and (
-        measure.amount.value == 0
-    )  # fmt: skip
 
 
 def random_story(seed: int, si: bool = False) -> Story:

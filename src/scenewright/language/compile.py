@@ -35,7 +35,6 @@ _DERIVED: dict[st.Quantity, ex.DerivedKind] = {
     st.Quantity.COLLISION: "ttc",
     st.Quantity.ARRIVAL: "tta",
 }
-_NOTHING = Fraction(0)
 
 
 def compile_story(story: st.Story, description: str | None = None) -> pt.Program:
@@ -193,7 +192,7 @@ class _Compiler:
         sketch = self.sketches[deed.actor]
         piece = ex.PieceRef(sketch.piece_names()[self.story.deeds_of(deed.actor).index(deed)])
         if deed.verb == st.Verb.STAND:
-            self._add(ex.Compare("==", ex.State(deed.actor, 1, piece), ex.Number(_NOTHING)), deed.quote)
+            self._add(ex.Compare("==", ex.State(deed.actor, 1, piece), ex.Number(Fraction(0))), deed.quote)
         for measure in deed.throughout:
             if measure.quantity in _ORDERS and measure.other is None and measure.actor == deed.actor:
                 self._add(self._measure(measure, piece), measure.quote)

@@ -177,8 +177,8 @@ class _Teller:
 
     def _comes_after(self, earlier: int, later: int) -> bool:
         """Whether what has been told of one actor says so."""
-        told = [(deed.actor, moment) for deed in self.begun for moment in (deed.begins, deed.ends)]
-        return any({(hero.id, earlier), (hero.id, later)} <= set(told) for hero in self.story.heroes)
+        told = {(deed.actor, deed.begins) for deed in self.begun} | {(deed.actor, deed.ends) for deed in self.ended}
+        return any({(hero.id, earlier), (hero.id, later)} <= told for hero in self.story.heroes)
 
     def _items(self, moment: int, it: int | None = None) -> list[str]:
         """Return what is so at a moment, as clauses; only its name where it has been told."""
@@ -220,6 +220,7 @@ class _Teller:
             return  # "When ..., the hero begins to brake" says it
         self.begun += [each for each in chain[: index + 1] if each not in self.begun]
         self.ended += chain[:index] if waits else chain[: index + 1]
+        self._introduce(deed.begins)
         does, begin, _ = DOES[deed.verb]
         text = f"{lead}{self.phrases.name(deed.actor)} {f'begins to {begin}' if begins else does}"
         text += (
@@ -250,7 +251,6 @@ class _Teller:
             return "", False
         if chain[index - 1].verb in (st.Verb.DRIVE, st.Verb.STAND):
             items = self._items(deed.begins)
-            self._introduce(deed.begins)
             return (f"When {listed(items)}, ", True) if items else ("Then ", False)
         moving = deed.verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)
         at_rest = any(_is_standstill(each, deed.actor) for each in self.story.moments[deed.begins].conditions)
@@ -264,7 +264,8 @@ class _Teller:
         for condition in found.conditions:
             shared = sum(condition in each.conditions for each in story.moments) > 1
             if isinstance(condition, st.Measure) and st.is_event(condition) and not shared:
-                return self.phrases.clause(condition, passing=True)
+                stands = any(_is_standstill(each, condition.actor) for each in found.conditions)
+                return self.phrases.clause(condition, passing=not stands)
         for deed in self.begun:
             if deed.begins == moment and moment != st.START:
                 return f"{self.phrases.name(deed.actor)} begins to {DOES[deed.verb][1]}{self._time(deed)}"

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import pytest
+
+from scenewright.errors import UnknownWordsError
 from scenewright.language.read.sentences import read
 from scenewright.language.story import Verb
 
@@ -32,3 +35,21 @@ def test_two_heroes_at_moments_of_the_ego_whose_order_is_not_said() -> None:
     either, later = question.alternatives
     assert [len(read(text, {question.slot: answer}).ego) for answer in (either, later)] == [1, 2]
     assert not read(f"{text} In the ego's order: the truck begins to brake.").questions
+
+
+def test_deeds_at_the_moment_that_was_told() -> None:
+    start = "The ego has an open way. When the ego is 30 m before the stop line, "
+    both = read(f"{start}the truck brakes and the van speeds up.")
+    assert len({deed.begins for deed in both.deeds if deed.verb != Verb.DRIVE}) == 1
+    later = read(f"{start}the van is 20 m before the conflict point. Then the van speeds up.")
+    assert later.deeds[1].begins == 1
+    assert len(later.moments[1].conditions) == 2
+
+
+def test_a_deed_after_an_event_begins_after_it() -> None:
+    story = read("The ego has an open way. The hero brakes to a stop 2 s after the ego is at the stop line.")
+    (order,) = story.orders
+    assert (order.first, order.second) == (story.ego[0], story.deeds[1].begins)
+    assert story.deeds[0].verb == Verb.DRIVE
+    with pytest.raises(UnknownWordsError, match="nothing was told of this event"):
+        read("The ego has an open way. The hero brakes to a stop after it passes the stop line.")

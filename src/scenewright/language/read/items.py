@@ -168,3 +168,9 @@ class _Items:
         while at < len(self.chunks) and (self.chunks[at].kind == "comma" or self.chunks[at].value == "and"):
             at += 1
         return at < len(self.chunks) and self.chunks[at].kind in _BEGINS_A_CLAUSE
+
+
+def is_told_twice(item: Item, following: Item | None) -> bool:
+    """Whether two clauses tell one deed: "it brakes at 3 m/s^2 and stops at the stop line"."""
+    both = isinstance(item, Clause) and isinstance(following, Clause) and item.subject == following.subject
+    return both and (item.deed, following.deed) == (st.Verb.BRAKE, "stop")  # type: ignore[union-attr]

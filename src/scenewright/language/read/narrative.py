@@ -15,7 +15,7 @@ from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
 from scenewright.language.compile import DRIVEN, kind_of
 from scenewright.language.phrases import speaks_of_ego
-from scenewright.language.read.chunks import Chunk
+from scenewright.language.read.chunks import Chunk, nearest_words, word_as
 from scenewright.language.read.clauses import Clause
 from scenewright.program.manner import USUAL, Manner
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
@@ -50,6 +50,7 @@ class Narrative:
     doings: list[Doing] = field(default_factory=list)
     orders: list[st.Order] = field(default_factory=list)
     holds: list[st.Hold] = field(default_factory=list)
+    pending: int | None = None  # a moment that the last sentence told, at which nobody does anything yet
     kept: list[tuple[int, st.Quote]] = field(default_factory=list)  # who keeps the speed that it has at the start
     parameters: list[Parameter] = field(default_factory=list)
     manner: Manner = USUAL
@@ -111,11 +112,10 @@ class Narrative:
 
     def whom(self, chunk: Chunk, subject: int | None) -> int:
         """Return the one that "it" means who is not the subject."""
-        others = [each for each in dict.fromkeys(self.mentioned) if each != subject]
-        others = others or [actor.id for actor in self.actors if actor.id != subject]
+        others = set(self.mentioned) - {subject} or {actor.id for actor in self.actors} - {subject}
         if len(others) != 1:
             self.refuse("it is not clear who is meant", chunk.quote)
-        return others[0]
+        return others.pop()
 
     def where(self, chunk: Chunk) -> st.Place:
         """Return the place that "it" means: the one that was spoken of last."""
@@ -155,10 +155,6 @@ class Narrative:
         """Return somebody by number."""
         return next(actor for actor in self.actors if actor.id == number)
 
-    def put(self, changed: st.Actor) -> None:
-        """Replace what is known of somebody."""
-        self.actors = [changed if actor.id == changed.id else actor for actor in self.actors]
-
     # -- moments ------------------------------------------------------------------------------------------------------
     def moment(self, conditions: Sequence[st.Condition] = (), quote: st.Quote | None = None) -> int:
         """Add a moment and return its number."""
@@ -182,12 +178,17 @@ class Narrative:
                 return number
         return None
 
+    def is_owned(self, moment: int) -> bool:
+        """Whether somebody begins or ends a deed at a moment."""
+        return any(moment in (doing.begins, doing.ends) for doing in self.doings)
+
     def ego_comes(self, moment: int, quote: st.Quote) -> None:
         """Note that the ego comes through a moment that asks something of it, after those that were told before."""
-        owned = any(moment in (doing.begins, doing.ends) for doing in self.doings)
-        if moment in self.ego or moment == st.START or not owned or not speaks_of_ego(self.conditions[moment]):
+        owned = self.is_owned(moment)
+        timed = moment in self.times and not owned
+        if moment in self.ego or moment == st.START or timed or not speaks_of_ego(self.conditions[moment]):
             return
-        if self.ego and not self._follows(self.ego[-1], moment):
+        if owned and self.ego and not self._follows(self.ego[-1], moment):
             later, either = "it comes after the ego's moments that were told before", "it may come before or after them"
             asked = f"How does this moment lie to the ego's others: {quote.text}"
             if self.ask(f"ego {quote.start}", asked, [either, later], 0, quote) == either:
@@ -261,6 +262,21 @@ class Narrative:
         if all(each.slot != slot for each in self.questions):
             self.questions.append(st.Question(slot, text, tuple(alternatives), default, quote))
         return "" if default is None else alternatives[default]
+
+    def known_words(self, chunks: Sequence[Chunk]) -> tuple[list[Chunk], bool]:
+        """Ask what unknown words mean: return the chunks with those that are answered, and whether some are not."""
+        known, is_open = [], False
+        for chunk in chunks:
+            if chunk.kind != "unknown":
+                known.append(chunk)
+                continue
+            meant = {f"it means '{word}'": word for word in nearest_words(chunk.text)}
+            asked = f"What is '{chunk.text}'?"
+            answer = self.ask(f"word {chunk.start}", asked, [*meant, "set it aside"], None, chunk.quote)
+            is_open |= not answer
+            if answer in meant:
+                known.append(word_as(chunk, meant[answer]))
+        return known, is_open
 
     def refuse(self, message: str, quote: st.Quote, fix: str | None = None) -> NoReturn:
         """Raise the error that says what could not be read."""

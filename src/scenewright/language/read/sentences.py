@@ -12,9 +12,9 @@ from dataclasses import dataclass, field, replace
 from scenewright.errors import Place as Where
 from scenewright.errors import TranslationError
 from scenewright.language import story as st
-from scenewright.language.read.chunks import Chunk, nearest_words, sentences, word_as
+from scenewright.language.read.chunks import Chunk, sentences
 from scenewright.language.read.clauses import PEOPLE, Clause
-from scenewright.language.read.items import Item, Segment, items_of, parted, segments_of
+from scenewright.language.read.items import Item, Segment, is_told_twice, items_of, parted, segments_of
 from scenewright.language.read.labels import take_labels
 from scenewright.language.read.narrative import Doing, Narrative, standstill
 from scenewright.program.types import EGO
@@ -44,7 +44,8 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
         if all(chunk.kind in _SAYS_NOTHING for chunk in chunks):
             narrative.asides.append(quote)
             continue
-        sentence = _Sentence(narrative, chunks, quote)
+        sentence = _Sentence(narrative, chunks, quote, narrative.pending)
+        narrative.pending = None
         try:
             sentence.read()
         except TranslationError as error:
@@ -60,13 +61,14 @@ class _Sentence:
     narrative: Narrative
     chunks: list[Chunk]
     quote: st.Quote
+    pending: int | None  # a moment that was told just before, and nobody did anything at it
     leads: set[str] = field(default_factory=set)
     is_open: bool = False  # a word in it must be asked about first
 
     def read(self) -> None:
         story = self.narrative
         story.mentioned, story.doer = [], None
-        self._ask_about_words()
+        self.chunks, self.is_open = story.known_words(self.chunks)
         how = next((chunk for chunk in self.chunks if chunk.kind == "link" and chunk.value in _HOW), None)
         if not self.chunks:
             return
@@ -77,21 +79,6 @@ class _Sentence:
         else:
             self._take_leads()
             self._cut()
-
-    def _ask_about_words(self) -> None:
-        """Put the nearest word of the domain in for an unknown one, or set it aside: whoever wrote it says which."""
-        known = []
-        for chunk in self.chunks:
-            if chunk.kind != "unknown":
-                known.append(chunk)
-                continue
-            meant = {f"it means '{word}'": word for word in nearest_words(chunk.text)}
-            options, asked = [*meant, "set it aside"], f"What is '{chunk.text}'?"
-            answer = self.narrative.ask(f"word {chunk.start}", asked, options, None, chunk.quote)
-            self.is_open |= not answer
-            if answer in meant:
-                known.append(word_as(chunk, meant[answer]))
-        self.chunks = known
 
     def _take_leads(self) -> None:
         """Take the words that say when a sentence is, at its front or behind its subject: ``then``, ``initially``."""
@@ -186,7 +173,7 @@ class _Sentence:
             story.refuse("this is no event of anything that was told", clause.quote)
         doing = story.last(clause.subject)
         if doing is None or doing.ends is not None:
-            doing = story.begin(clause.subject, st.Verb.DRIVE, None, {"then"}, clause.quote)
+            doing = story.begin(clause.subject, st.Verb.DRIVE, None, {"then"} if doing else set(), clause.quote)
         doing.ends = story.moment(clause.measures, clause.quote)
         return doing.ends
 
@@ -207,6 +194,8 @@ class _Sentence:
             self._goes_first(clause)
         elif when is not None:
             moment = self._moment(when)
+            if moment not in self.narrative.times and not self.narrative.is_owned(moment):
+                self.narrative.pending = moment
             self.narrative.add(moment, self._conditions(items))
             self.narrative.ego_comes(moment, self.quote)
             self._orders(moment, rest)
@@ -225,13 +214,14 @@ class _Sentence:
         """Take "it brakes to a stop, waits for 3 s and drives on": what follows the sentence is of the last deed."""
         for number, item in enumerate(items):
             following = items[number + 1] if number + 1 < len(items) else None
-            if _is_told_twice(item, following) and isinstance(item, Clause) and isinstance(following, Clause):
+            if is_told_twice(item, following) and isinstance(item, Clause) and isinstance(following, Clause):
                 following.rate = following.rate or item.rate
                 following.measures = [*item.measures, *following.measures]
                 following.times = {**item.times, **following.times}
                 continue
             self._main([item], when, rest if following is None else [])
-            self.leads, when = {"then"}, None
+            if isinstance(following, Clause) and isinstance(item, Clause) and following.subject == item.subject:
+                self.leads, when = {"then"}, None
 
     def _goes_first(self, clause: Clause) -> None:
         """Take "it goes first": whoever it is passes the conflict point before the ego does."""
@@ -285,7 +275,8 @@ class _Sentence:
             if getattr(way, name) not in (None, (), whole):
                 story.refuse(f"two things are said of the way of {actor.name}", clause.quote)
             way = replace(way, **{name: whole})  # type: ignore[arg-type]
-        story.put(replace(actor, way=way, relations=(*actor.relations, *clause.relations)))
+        changed = replace(actor, way=way, relations=(*actor.relations, *clause.relations))
+        story.actors = [changed if each is actor else each for each in story.actors]
 
     # -- deeds --------------------------------------------------------------------------------------------------------
     def _deed(self, clause: Clause, when: list[Item] | None, rest: list[Segment]) -> None:
@@ -297,7 +288,8 @@ class _Sentence:
             self._refuse("it is not clear which speed is kept")
         if clause.phase == "finishes" or "after the start" in clause.times:
             self._refuse("nothing was told of this deed before")
-        moment = None if when is None else self._moment(when)
+        moment = self.pending if when is None else self._moment(when)
+        self.leads |= {"then"} if any(each.link == "after" for each in rest) else set()  # it drives on until then
         verb = st.Verb.BRAKE if clause.deed == "stop" else clause.deed
         doing = story.begin(clause.subject, verb, moment, self.leads, self.quote)
         story.subject = clause.subject
@@ -307,8 +299,10 @@ class _Sentence:
         doing.duration = clause.times.get("for")
         ends = self._ends(clause, doing)
         self._end(doing, clause, ends, next((each for each in rest if each.link == "until"), None))
-        at = doing.ends if ends and doing.ends is not None else doing.begins
-        self._orders(at, [each for each in rest if each.link != "until"])
+        for each in rest:
+            begins = each.link == "after" or not ends or doing.ends is None
+            if each.link != "until":
+                self._orders(doing.begins if begins else doing.ends or st.START, [each], doing.actor)
 
     def _ends(self, clause: Clause, doing: Doing) -> list[st.Condition]:
         """Return what is so where a deed ends, by its own clause; what is so where it begins goes there."""
@@ -341,11 +335,15 @@ class _Sentence:
             story.ego_comes(doing.ends, self.quote)
 
     # -- orders and holds ---------------------------------------------------------------------------------------------
-    def _orders(self, moment: int, rest: list[Segment]) -> None:
+    def _orders(self, moment: int, rest: list[Segment], actor: int | None = None) -> None:
+        """Take what comes before or after a moment, which is not a new event of the `actor` whose deed it is."""
         for segment in rest:
             if segment.link not in _ORDERS:
                 self._refuse("it is not clear before or after what")
+            count = len(self.narrative.doings)
             other = self._event_of(segment.chunks)
+            if actor is not None and any(each.actor == actor for each in self.narrative.doings[count:]):
+                self._refuse("nothing was told of this event before")
             first, second = (other, moment) if segment.link == "after" else (moment, other)
             plain: tuple[st.Operator, None] = (">=" if segment.link == "no later than" else ">", None)
             op, margin = segment.margin or plain
@@ -392,9 +390,3 @@ class _Sentence:
         if [chunk.value for chunk in chunks] == ["the start"]:
             return st.Point(st.START, offset, earlier)
         return st.Point(self._event_of(chunks), offset, earlier)
-
-
-def _is_told_twice(item: Item, following: Item | None) -> bool:
-    """Whether two clauses tell one deed: "it brakes at 3 m/s^2 and stops at the stop line"."""
-    both = isinstance(item, Clause) and isinstance(following, Clause) and item.subject == following.subject
-    return both and (item.deed, following.deed) == (st.Verb.BRAKE, "stop")  # type: ignore[union-attr]
