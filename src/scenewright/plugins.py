@@ -9,13 +9,66 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from importlib.metadata import EntryPoint, PackageNotFoundError, distribution, entry_points
 from types import MappingProxyType
 
-from scenewright.errors import MissingExtraError
+from scenewright.errors import InputError, MissingExtraError, ScenewrightError
 
 _REQUIREMENT = re.compile(r"""(?P<name>[\w.-]+)[^;]*;\s*extra\s*==\s*['"](?P<extra>[^'"]+)['"]\s*""")
 _OUR_PACKAGE = "scenewright"
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """Parts that are named by the user, each a class without arguments.
+
+    Attributes
+    ----------
+    group, ours
+        Their entry points: those of packages, and our own.
+    noun, does
+        What messages call one, and what it does; ``scenewright NOUNs`` lists them.
+    fault
+        The error where one cannot be imported.
+    libraries
+        As in `missing_extra`.
+    """
+
+    group: str
+    ours: tuple[EntryPoint, ...]
+    noun: str
+    does: str
+    fault: type[ScenewrightError]
+    libraries: Mapping[str, str] = field(default_factory=dict)
+
+    def known(self) -> dict[str, MissingExtraError | None]:
+        """Return those that can be named, each with what it misses; nothing is imported for that."""
+        found = points(self.group, self.ours)
+        return {name: missing_extra(point, self.does, self.libraries) for name, point in found.items()}
+
+    def called(self, name: str) -> object:
+        """Return a new one; raises InputError, MissingExtraError or `fault`."""
+        point = named(name.lower(), self.group, self.ours)
+        if point is None:
+            raise InputError(
+                f"there is no such {self.noun}",
+                found=repr(name),
+                expected=", ".join(self.known()),
+                fix=f"scenewright {self.noun}s lists them",
+            )
+        missing = missing_extra(point, self.does, self.libraries)
+        if missing is not None:
+            raise missing
+        try:
+            return point.load()()
+        except Exception as error:  # whatever a plug-in does at import is its fault, and the user should read it
+            raise self.fault(
+                f"the {self.noun} {name!r} cannot be imported",
+                found=f"{type(error).__name__}: {error}".splitlines()[0],
+                expected=f"a class without arguments in {point.value}",
+                fix="repair or reinstall the package that offers it",
+            ) from error
 
 
 def named(name: str, group: str, ours: Iterable[EntryPoint]) -> EntryPoint | None:

@@ -63,8 +63,7 @@ def follow(driver: WaypointDriver, ego: str = "constant") -> tuple[Run, Followin
     assert planned is not None
     planner, start, _ = planned
     heroes = FollowingHeroes(planner, world.limits, {HERO: driver}, 0.02)
-    world.ego.reset(start.s_m, start.speed_mps)
-    return simulate(world.scene, world.ego, heroes, Rates(0.02, None)), heroes, planner
+    return simulate(world.simulator, world.start(start, heroes.plan), heroes, Rates(0.02, None)), heroes, planner
 
 
 def test_model_takes_over_after_one_second_of_our_motion() -> None:

@@ -99,6 +99,13 @@ def complete_solver(incomplete: str) -> list[str]:
     return [name for name, missing in known().items() if missing is None and name.startswith(incomplete)]
 
 
+def complete_simulator(incomplete: str) -> list[str]:
+    """Offer the simulators that miss nothing."""
+    from scenewright.simulate.port import known
+
+    return [name for name, missing in known().items() if missing is None and name.startswith(incomplete)]
+
+
 def complete_run_directory(incomplete: str) -> list[str]:
     """Offer run directories here and under `runs`."""
     found = [path.parent for folder in (Path(), Path("runs")) for path in sorted(folder.glob("*/manifest.json"))]
@@ -160,6 +167,10 @@ Translator = Annotated[
 ]
 _SOLVER_HELP = "What refutes; `scenewright solvers` lists what there is."
 Solver = Annotated[str, typer.Option("--solver", metavar="NAME", help=_SOLVER_HELP, autocompletion=complete_solver)]
+_SIMULATOR_HELP = "What everybody drives in; `scenewright simulators` lists what there is."
+Simulator = Annotated[
+    str, typer.Option("--simulator", metavar="NAME", help=_SIMULATOR_HELP, autocompletion=complete_simulator)
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout and nothing else there.")]
 ModeOption = Annotated[
     Mode, typer.Option("--mode", help="Re-solve while the ego drives (closed), or carry out the first plan (open).")

@@ -11,11 +11,14 @@ from scenewright.plan.prediction import ConstantSpeed, Predictor, predictor_call
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
+from scenewright.simulate.ego_start import EgoFirstState
 from scenewright.simulate.loop import Rates
+from scenewright.simulate.port import DEFAULT, Simulator, Start, simulator_called
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.feasibility import EgoBounds, Feasibility
 from scenewright.solve.limits import Limits, limits_on
 from scenewright.solve.parameters import settle
+from scenewright.solve.plan import Plan
 from scenewright.solve.proofs.refuters import refuter_called
 
 
@@ -32,11 +35,13 @@ class World:
         Name of how the ego is foreseen.
     solver
         The name of what refutes.
+    simulator
+        The name of what everybody drives in. One that drives the ego itself keeps no promise of the policy's.
 
     Raises
     ------
     ScenewrightError
-        Where there is no such policy, predictor or solver.
+        Where there is no such policy, predictor, solver or simulator.
     """
 
     def __init__(
@@ -47,6 +52,7 @@ class World:
         rates: Rates,
         predictor: str = "road",
         solver: str = "z3",
+        simulator: str = DEFAULT,
     ) -> None:
         self.scene = scene
         self.rates = rates
@@ -56,7 +62,8 @@ class World:
         self.structure: Structure = read_structure(scene.program)
         self.limits: dict[int, Limits] = {i: limits_on(route, scene.road_map) for i, route in scene.routes.items()}
         self.refuter = refuter_called(solver)
-        promise = guarded.envelope
+        self.simulator: Simulator = simulator_called(simulator)
+        promise = None if self.simulator.capabilities.drives_ego else guarded.envelope
         self.ego_bounds = (
             EgoBounds(promise.speed_max_mps, promise.accel_max_mpss, -promise.accel_min_mpss, promise.holds_speed)
             if promise is not None
@@ -71,3 +78,7 @@ class World:
         """Give open parameters values, and ask whether the scenario can happen with them."""
         self.scene, answer = settle(self.scene, self.structure, self.limits, self.ego_bounds, self.refuter)
         return answer
+
+    def start(self, ego: EgoFirstState, heroes: Plan) -> Start:
+        """Return the start of a run with the ego at its first state."""
+        return Start.of(self.scene, self.ego, (ego.s_m, ego.speed_mps), heroes)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from contextlib import closing
 from dataclasses import dataclass, replace
 from itertools import islice
 
@@ -70,8 +71,7 @@ class Staging:
         world = self.world
         world.rates = Rates(world.rates.step_s, replan_s=None)
         with self.stages("simulate"):
-            world.ego.reset(self.start.s_m, self.start.speed_mps)
-            result.run = simulate(world.scene, world.ego, heroes, world.rates)
+            result.run = simulate(world.simulator, world.start(self.start, heroes.plan), heroes, world.rates)
         judge_run(self.request, result, world, self.stages, hindsight=False)
 
 
@@ -107,7 +107,8 @@ def _staged(
     if result.not_held:  # who starts from it would miss as much, whatever the method
         result.status = "gave up"
         return result
-    result = drive(Staging(request, world, stages, planner, start, plan, option), result)
+    with closing(world.simulator):
+        result = drive(Staging(request, world, stages, planner, start, plan, option), result)
     if result.run is not None:
         result.run.findings.append(f"The hero was driven by the rival method {method}, not by Scenewright.")
         if request.out is not None:

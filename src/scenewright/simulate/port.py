@@ -1,0 +1,194 @@
+"""What a simulator is to the loop: it is reset, told how heroes are to move, stepped and looked at; found by name.
+
+What enters: a start, and at every step the heroes' motions. What leaves: where everybody really is. Nothing here steps
+anything: `builtin` is the first adapter, others come by an entry point of the group ``scenewright.simulators``, a class
+without arguments. `scenewright.testing.check_simulator` is the contract as a test.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib.metadata import EntryPoint
+from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
+
+from scenewright.errors import MissingExtraError, ScenewrightError, SimulatorError, told_by
+from scenewright.plugins import Kind
+from scenewright.program.types import EGO
+
+if TYPE_CHECKING:
+    from scenewright.motion.profile import Profile
+    from scenewright.roads.grounding import Scene
+    from scenewright.roads.routes import Route
+    from scenewright.simulate.vehicles import EgoVehicle
+    from scenewright.solve.plan import Plan
+
+GROUP = "scenewright.simulators"
+DEFAULT = "builtin"
+_KIND = Kind(
+    GROUP, (EntryPoint(DEFAULT, "scenewright.simulate.builtin:BuiltIn", GROUP),), "simulator", "drives", SimulatorError
+)
+
+
+class ActorState(NamedTuple):
+    """One actor at one instant, as the simulator has it, in the order of a trace's columns.
+
+    Position (m) and heading (rad) of its box's centre in the map's frame; speed and acceleration along its heading; arc
+    length on its route and offset from it, left positive. The acceleration is that of the step to come where it is
+    known already, else that of the last one.
+    """
+
+    x_m: float
+    y_m: float
+    heading_rad: float
+    speed_mps: float
+    accel_mps2: float
+    s_m: float
+    d_m: float
+
+    @classmethod
+    def on(cls, route: Route, motion: tuple[float, float, float]) -> ActorState:
+        """Return who is on its route, from arc length (m), speed (m/s) and acceleration (m/s^2)."""
+        return cls(*route.path.pose(motion[0]), *motion[1:], motion[0], 0.0)
+
+    @classmethod
+    def at(
+        cls, route: Route, pose: tuple[float, float, float], speed_mps: float, accel_mps2: float, near_s_m: float
+    ) -> ActorState:
+        """Return who is somewhere in the map, expected near an arc length of its route."""
+        return cls(*pose, speed_mps, accel_mps2, *route.path.to_frenet(*pose, near_s_m)[:2])
+
+
+class Snapshot(NamedTuple):
+    """Everybody at one instant, by actor id (`EGO` is the ego's); it stays as it is when the simulator goes on."""
+
+    time_s: float
+    actors: Mapping[int, ActorState]
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """How a run begins; the same start may be begun again and again.
+
+    Attributes
+    ----------
+    scene
+        Map, routes by actor id, and who takes part.
+    ego
+        The policy under test on its route, for a simulator that does not drive the ego itself: `EgoVehicle.reset` it,
+        then let it `decide` and `advance` in every step.
+    first
+        The first state of everybody, by actor id.
+    """
+
+    scene: Scene
+    ego: EgoVehicle
+    first: Mapping[int, ActorState]
+
+    @classmethod
+    def of(cls, scene: Scene, ego: EgoVehicle, ego_first: tuple[float, float], heroes: Plan) -> Start:
+        """Return the start with the ego at an arc length (m) and speed (m/s), and heroes where their plan begins."""
+        motions = {EGO: (*ego_first, 0.0)} | {h.id: heroes.profiles[h.id].state(0.0) for h in scene.program.heroes}
+        return cls(scene, ego, {actor: ActorState.on(scene.routes[actor], motion) for actor, motion in motions.items()})
+
+
+@dataclass(frozen=True, slots=True)
+class Capabilities:
+    """What can be expected of a simulator.
+
+    Attributes
+    ----------
+    drives_ego
+        Whether the stack under test drives the ego in there; the policy of ``--ego`` is not asked then.
+    repeatable
+        Whether the same start and motions give the same run, to the last bit.
+    place_error_m, speed_error_mps
+        How far vehicles may be from where, and from how fast, they are told to be.
+    """
+
+    drives_ego: bool = False
+    repeatable: bool = True
+    place_error_m: float = 0.0
+    speed_error_mps: float = 0.0
+
+    def words(self) -> str:
+        """Say it in a line."""
+        exact = self.place_error_m == self.speed_error_mps == 0.0
+        near = f"heroes within {self.place_error_m:g} m and {self.speed_error_mps:g} m/s of their motion"
+        return ", ".join(
+            [
+                "drives the ego itself" if self.drives_ego else "drives the policy of --ego",
+                "heroes exactly on their motion" if exact else near,
+                "repeatable" if self.repeatable else "not repeatable",
+            ]
+        )
+
+
+class Simulator(Protocol):
+    """A world in which the ego and the heroes drive. Nothing is opened before the first `reset`.
+
+    What goes wrong in there is a `SimulatorError`; a `PolicyError` of the ego's policy is let through.
+    """
+
+    capabilities: Capabilities
+
+    def reset(self, start: Start, step_s: float) -> None:
+        """Put everybody at `start`, at time 0; whatever was before is forgotten."""
+        ...
+
+    def apply(self, heroes: Mapping[int, Profile]) -> None:
+        """Take how heroes are to move from now on; called before every step.
+
+        ``heroes[actor].state(time_s)`` is arc length on its route, speed and acceleration, now and in the next seconds.
+        No time passes.
+        """
+        ...
+
+    def step(self) -> None:
+        """Let `step_s` pass."""
+        ...
+
+    def observe(self) -> Snapshot:
+        """Return where everybody is; this changes nothing."""
+        ...
+
+    def close(self) -> None:
+        """Give back what was opened; may be called more than once."""
+        ...
+
+
+# -- by name --------------------------------------------------------------------------------------------------------
+def known() -> dict[str, MissingExtraError | None]:
+    """Return the simulators that can be named, each with what it misses; nothing is imported for that."""
+    return _KIND.known()
+
+
+def simulator_called(name: str = DEFAULT) -> Simulator:
+    """Return the simulator of that name, not yet reset.
+
+    Raises
+    ------
+    InputError
+        Where there is none.
+    MissingExtraError
+        Where it needs something that is not installed.
+    SimulatorError
+        Where it cannot be imported.
+    """
+    return cast("Simulator", _KIND.called(name))
+
+
+@contextmanager
+def blamed(simulator: Simulator) -> Iterator[None]:
+    """Turn whatever an adapter raises inside into an error that says whose it is."""
+    try:
+        yield
+    except ScenewrightError:
+        raise
+    except Exception as error:  # an adapter, and what it talks to, may raise anything
+        raise SimulatorError(
+            f"the simulator {type(simulator).__name__} failed",
+            found=told_by(error),
+            fix="scenewright.testing.check_simulator finds what an adapter does wrong",
+        ) from error
