@@ -27,6 +27,7 @@ from scenewright.simulate.beginning import first_plan, is_timed_by_ego
 from scenewright.simulate.ego_start import EgoFirstState
 from scenewright.simulate.hindsight import drive_profile, ego_left_no_room
 from scenewright.simulate.loop import Rates, Run, simulate
+from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
 from scenewright.solve.holding import NotHeld, not_held
@@ -218,7 +219,8 @@ def _drive(
     """Carry out one take from its first second, and judge it."""
     planner, start, result.attempt = planned
     with stages("simulate"):
-        result.run = simulate(world.simulator, world.start(start, planner.plan), planner, world.rates, progress)
+        begin_at = Start.of(world.scene, world.ego, (start.s_m, start.speed_mps), planner.plan)
+        result.run = simulate(world.simulator, begin_at, planner, world.rates, progress)
     judge_run(request, result, world, stages)
 
 

@@ -5,7 +5,7 @@ What enters: a map's name or file, or nothing. What leaves: lists and tables, fo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from itertools import combinations
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -16,7 +16,7 @@ from scenewright.cli.options import AsJson, argument, complete_map
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from scenewright.errors import MissingExtraError
+    from scenewright.plugins import Kind, Part
     from scenewright.roads.model import RoadMap
 
 _SHOWN = 30
@@ -68,33 +68,32 @@ def egos(as_json: AsJson = False) -> None:
 def solvers(as_json: AsJson = False) -> None:
     """List the solvers that check --solver can name: what each can do, or what it misses."""
     with told(as_json):
-        from scenewright.solve.proofs.refuters import GROUP, known, refuter_called
+        from scenewright.solve.proofs.refuters import SOLVERS
 
-        _list_parts(GROUP, known(), lambda name: refuter_called(name).capabilities.words(), as_json)
+        _list_parts(SOLVERS, lambda each: each.capabilities.words(), as_json)
 
 
 def simulators(as_json: AsJson = False) -> None:
     """List the simulators that run --simulator can name: what each can do, or what it misses."""
     with told(as_json):
-        from scenewright.simulate.port import GROUP, known, simulator_called
+        from scenewright.simulate.port import SIMULATORS
 
-        _list_parts(GROUP, known(), lambda name: simulator_called(name).capabilities.words(), as_json)
+        _list_parts(SIMULATORS, lambda each: each.capabilities.words(), as_json)
 
 
-def _list_parts(
-    group: str, parts: Mapping[str, MissingExtraError | None], words: Callable[[str], str], as_json: bool
-) -> None:
+def _list_parts(kind: Kind[Part], words: Callable[[Part], str], as_json: bool) -> None:
     """Print what each part can do in the words of its capabilities, or what it misses."""
     from scenewright.cli import tables
 
     described = {
-        name: words(name) if missing is None else f"{missing.message}: {missing.fix}" for name, missing in parts.items()
+        name: words(kind.called(name)) if missing is None else f"{missing.message}: {missing.fix}"
+        for name, missing in kind.known().items()
     }
     if as_json:
         print_json(described)
         return
     stdout().print(tables.facts(described.items()))
-    stdout().print(f"\nYour own: a package with an entry point in the group {group}.")
+    stdout().print(f"\nYour own: a package with an entry point in the group {kind.group}.")
 
 
 def describe(road_map: RoadMap) -> dict[str, Any]:

@@ -101,9 +101,9 @@ def complete_solver(incomplete: str) -> list[str]:
 
 def complete_simulator(incomplete: str) -> list[str]:
     """Offer the simulators that miss nothing."""
-    from scenewright.simulate.port import known
+    from scenewright.simulate.port import SIMULATORS
 
-    return [name for name, missing in known().items() if missing is None and name.startswith(incomplete)]
+    return [name for name, missing in SIMULATORS.known().items() if missing is None and name.startswith(incomplete)]
 
 
 def complete_run_directory(incomplete: str) -> list[str]:

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from scenewright.drive.protocol import EgoMotion
 from scenewright.motion.profile import Profile
 from scenewright.program.types import EGO
-from scenewright.simulate.port import ActorState, Capabilities, Snapshot, Start
+from scenewright.simulate.port import Capabilities, Snapshot, Start, on_route
 from scenewright.simulate.vehicles import seen
 
 
@@ -53,4 +53,4 @@ class BuiltIn:
 
     def _place_heroes(self) -> None:
         routes, now_s = self._scene.routes, self._time_s
-        self._heroes = {hero: ActorState.on(routes[hero], m.state(now_s)) for hero, m in self._motions.items()}
+        self._heroes = {hero: on_route(routes[hero], m.state(now_s)) for hero, m in self._motions.items()}

@@ -18,9 +18,9 @@ from scenewright.plan.planner import Replan
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.heroes import HeroDriver
-from scenewright.simulate.port import ActorState, Simulator, Snapshot, Start, blamed
+from scenewright.simulate.port import SIMULATORS, Simulator, Snapshot, Start
 from scenewright.solve.plan import Plan
-from scenewright.trace.model import ActorTrace, Trace
+from scenewright.trace.model import ActorState, ActorTrace, Trace
 
 DEFAULT_STEP_S = 0.02
 DEFAULT_REPLAN_S = 0.1
@@ -78,7 +78,7 @@ def simulate(
     scene, first_plan, log = start.scene, heroes.plan, _Log(start.scene)
     steps_a_tick = max(1, round(rates.replan_s / rates.step_s)) if rates.replan_s else 0
     status, fault, step, astray_m = "finished", None, 0, 0.0
-    with blamed(simulator):
+    with SIMULATORS.blamed(simulator):
         simulator.reset(start, rates.step_s)
         now = simulator.observe()
     try:
@@ -88,7 +88,7 @@ def simulate(
                 if progress is not None:
                     progress(now.time_s)
             motions = {hero.id: heroes.plan.profiles[hero.id] for hero in scene.program.heroes}
-            with blamed(simulator):
+            with SIMULATORS.blamed(simulator):
                 simulator.apply(motions)
                 now = simulator.observe()
             log.add(now)
@@ -97,7 +97,7 @@ def simulate(
                 astray_m = max(astray_m, hypot(there.s_m - motions[hero].state(now.time_s)[0], there.d_m))
             if _is_over(scene, heroes, now.actors[EGO], driven, now.time_s):
                 break
-            with blamed(simulator):
+            with SIMULATORS.blamed(simulator):
                 simulator.step()
                 now = simulator.observe()
             step += 1

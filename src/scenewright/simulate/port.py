@@ -7,15 +7,15 @@ without arguments. `scenewright.testing.check_simulator` is the contract as a te
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.metadata import EntryPoint
-from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-from scenewright.errors import MissingExtraError, ScenewrightError, SimulatorError, told_by
+from scenewright.errors import SimulatorError
 from scenewright.plugins import Kind
 from scenewright.program.types import EGO
+from scenewright.trace.model import ActorState
 
 if TYPE_CHECKING:
     from scenewright.motion.profile import Profile
@@ -26,38 +26,18 @@ if TYPE_CHECKING:
 
 GROUP = "scenewright.simulators"
 DEFAULT = "builtin"
-_KIND = Kind(
-    GROUP, (EntryPoint(DEFAULT, "scenewright.simulate.builtin:BuiltIn", GROUP),), "simulator", "drives", SimulatorError
-)
 
 
-class ActorState(NamedTuple):
-    """One actor at one instant, as the simulator has it, in the order of a trace's columns.
+def on_route(route: Route, motion: tuple[float, float, float]) -> ActorState:
+    """Return who is exactly on its route, from arc length (m), speed (m/s) and acceleration (m/s^2)."""
+    return ActorState(*route.path.pose(motion[0]), *motion[1:], motion[0], 0.0)
 
-    Position (m) and heading (rad) of its box's centre in the map's frame; speed and acceleration along its heading; arc
-    length on its route and offset from it, left positive. The acceleration is that of the step to come where it is
-    known already, else that of the last one.
-    """
 
-    x_m: float
-    y_m: float
-    heading_rad: float
-    speed_mps: float
-    accel_mps2: float
-    s_m: float
-    d_m: float
-
-    @classmethod
-    def on(cls, route: Route, motion: tuple[float, float, float]) -> ActorState:
-        """Return who is on its route, from arc length (m), speed (m/s) and acceleration (m/s^2)."""
-        return cls(*route.path.pose(motion[0]), *motion[1:], motion[0], 0.0)
-
-    @classmethod
-    def at(
-        cls, route: Route, pose: tuple[float, float, float], speed_mps: float, accel_mps2: float, near_s_m: float
-    ) -> ActorState:
-        """Return who is somewhere in the map, expected near an arc length of its route."""
-        return cls(*pose, speed_mps, accel_mps2, *route.path.to_frenet(*pose, near_s_m)[:2])
+def at_pose(
+    route: Route, pose: tuple[float, float, float], speed_mps: float, accel_mps2: float, near_s_m: float
+) -> ActorState:
+    """Return who is at a pose in the map, sought near an arc length of its route."""
+    return ActorState(*pose, speed_mps, accel_mps2, *route.path.to_frenet(*pose, near_s_m)[:2])
 
 
 class Snapshot(NamedTuple):
@@ -90,7 +70,7 @@ class Start:
     def of(cls, scene: Scene, ego: EgoVehicle, ego_first: tuple[float, float], heroes: Plan) -> Start:
         """Return the start with the ego at an arc length (m) and speed (m/s), and heroes where their plan begins."""
         motions = {EGO: (*ego_first, 0.0)} | {h.id: heroes.profiles[h.id].state(0.0) for h in scene.program.heroes}
-        return cls(scene, ego, {actor: ActorState.on(scene.routes[actor], motion) for actor, motion in motions.items()})
+        return cls(scene, ego, {actor: on_route(scene.routes[actor], motion) for actor, motion in motions.items()})
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,7 +115,6 @@ class Simulator(Protocol):
 
     def reset(self, start: Start, step_s: float) -> None:
         """Put everybody at `start`, at time 0; whatever was before is forgotten."""
-        ...
 
     def apply(self, heroes: Mapping[int, Profile]) -> None:
         """Take how heroes are to move from now on; called before every step.
@@ -143,52 +122,17 @@ class Simulator(Protocol):
         ``heroes[actor].state(time_s)`` is arc length on its route, speed and acceleration, now and in the next seconds.
         No time passes.
         """
-        ...
 
     def step(self) -> None:
         """Let `step_s` pass."""
-        ...
 
     def observe(self) -> Snapshot:
         """Return where everybody is; this changes nothing."""
-        ...
 
     def close(self) -> None:
         """Give back what was opened; may be called more than once."""
-        ...
 
 
-# -- by name --------------------------------------------------------------------------------------------------------
-def known() -> dict[str, MissingExtraError | None]:
-    """Return the simulators that can be named, each with what it misses; nothing is imported for that."""
-    return _KIND.known()
-
-
-def simulator_called(name: str = DEFAULT) -> Simulator:
-    """Return the simulator of that name, not yet reset.
-
-    Raises
-    ------
-    InputError
-        Where there is none.
-    MissingExtraError
-        Where it needs something that is not installed.
-    SimulatorError
-        Where it cannot be imported.
-    """
-    return cast("Simulator", _KIND.called(name))
-
-
-@contextmanager
-def blamed(simulator: Simulator) -> Iterator[None]:
-    """Turn whatever an adapter raises inside into an error that says whose it is."""
-    try:
-        yield
-    except ScenewrightError:
-        raise
-    except Exception as error:  # an adapter, and what it talks to, may raise anything
-        raise SimulatorError(
-            f"the simulator {type(simulator).__name__} failed",
-            found=told_by(error),
-            fix="scenewright.testing.check_simulator finds what an adapter does wrong",
-        ) from error
+SIMULATORS: Kind[Simulator] = Kind(
+    GROUP, (EntryPoint(DEFAULT, "scenewright.simulate.builtin:BuiltIn", GROUP),), "simulator", "drives", SimulatorError
+)

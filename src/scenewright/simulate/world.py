@@ -11,14 +11,12 @@ from scenewright.plan.prediction import ConstantSpeed, Predictor, predictor_call
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
-from scenewright.simulate.ego_start import EgoFirstState
 from scenewright.simulate.loop import Rates
-from scenewright.simulate.port import DEFAULT, Simulator, Start, simulator_called
+from scenewright.simulate.port import DEFAULT, SIMULATORS
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.feasibility import EgoBounds, Feasibility
 from scenewright.solve.limits import Limits, limits_on
 from scenewright.solve.parameters import settle
-from scenewright.solve.plan import Plan
 from scenewright.solve.proofs.refuters import refuter_called
 
 
@@ -62,7 +60,7 @@ class World:
         self.structure: Structure = read_structure(scene.program)
         self.limits: dict[int, Limits] = {i: limits_on(route, scene.road_map) for i, route in scene.routes.items()}
         self.refuter = refuter_called(solver)
-        self.simulator: Simulator = simulator_called(simulator)
+        self.simulator = SIMULATORS.called(simulator)
         promise = None if self.simulator.capabilities.drives_ego else guarded.envelope
         self.ego_bounds = (
             EgoBounds(promise.speed_max_mps, promise.accel_max_mpss, -promise.accel_min_mpss, promise.holds_speed)
@@ -78,7 +76,3 @@ class World:
         """Give open parameters values, and ask whether the scenario can happen with them."""
         self.scene, answer = settle(self.scene, self.structure, self.limits, self.ego_bounds, self.refuter)
         return answer
-
-    def start(self, ego: EgoFirstState, heroes: Plan) -> Start:
-        """Return the start of a run with the ego at its first state."""
-        return Start.of(self.scene, self.ego, (ego.s_m, ego.speed_mps), heroes)

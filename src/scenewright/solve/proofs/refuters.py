@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from importlib.metadata import EntryPoint
-from typing import Literal, Protocol, cast
+from typing import Literal, Protocol
 
 from scenewright.errors import MissingExtraError, SolverError
 from scenewright.plugins import Kind
@@ -29,7 +29,7 @@ _OURS = tuple(
         "scip": "scip_engine:Scip [scip]",
     }.items()
 )
-_KIND = Kind(GROUP, _OURS, "solver", "refutes", SolverError, {"cvc5": "cvc5", "scip": "pyscipopt"})
+SOLVERS: Kind[Refuter] = Kind(GROUP, _OURS, "solver", "refutes", SolverError, {"cvc5": "cvc5", "scip": "pyscipopt"})
 _SHRINK_S = 0.5  # for each question whether a core does without one of its members
 
 
@@ -101,7 +101,7 @@ class Refuter(Protocol):
 # -- by name --------------------------------------------------------------------------------------------------------
 def known() -> dict[str, MissingExtraError | None]:
     """Return the solvers that can be named, each with what it misses; nothing is imported for that."""
-    return _KIND.known()
+    return SOLVERS.known()
 
 
 def refuter_called(name: str = "z3") -> Refuter:
@@ -116,7 +116,7 @@ def refuter_called(name: str = "z3") -> Refuter:
     SolverError
         Where it cannot be imported.
     """
-    return cast("Refuter", _KIND.called(name))
+    return SOLVERS.called(name)
 
 
 # -- what all of them need --------------------------------------------------------------------------------------------

@@ -31,6 +31,7 @@ from scenewright.simulate.beginning import first_plan
 from scenewright.simulate.ego_start import EgoFirstState
 from scenewright.simulate.heroes import HeroDriver
 from scenewright.simulate.loop import Rates, simulate
+from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
 from scenewright.solve.holding import not_held
 from scenewright.solve.plan import Plan
@@ -71,7 +72,8 @@ class Staging:
         world = self.world
         world.rates = Rates(world.rates.step_s, replan_s=None)
         with self.stages("simulate"):
-            result.run = simulate(world.simulator, world.start(self.start, heroes.plan), heroes, world.rates)
+            first = Start.of(world.scene, world.ego, (self.start.s_m, self.start.speed_mps), heroes.plan)
+            result.run = simulate(world.simulator, first, heroes, world.rates)
         judge_run(self.request, result, world, self.stages, hindsight=False)
 
 
