@@ -167,7 +167,7 @@ class Stage:
         self.plans = [self.planner.plan]
         return simulate(
             BuiltIn(),
-            Start.of(self.scene, self.ego, self.first, self.planner.plan),
+            Start.of(self.scene, self.ego, self.first, self.planner.plan.profiles),
             self.planner,
             Rates(STEP_S, TICK_S),
             lambda _: self.plans.append(self.planner.plan),

@@ -270,7 +270,7 @@ def test_two_that_drive_otherwise_are_told() -> None:
     made: list[Simulator] = []
 
     def make() -> Simulator:
-        made.append(BuiltIn() if made else Bicycles())
+        made.append(BuiltIn() if len(made) == 2 else Bicycles())
         return made[-1]
 
     with pytest.raises(AssertionError, match="a second one of it"):

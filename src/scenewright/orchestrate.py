@@ -219,7 +219,7 @@ def _drive(
     """Carry out one take from its first second, and judge it."""
     planner, start, result.attempt = planned
     with stages("simulate"):
-        begin_at = Start.of(world.scene, world.ego, (start.s_m, start.speed_mps), planner.plan)
+        begin_at = Start.of(world.scene, world.ego, (start.s_m, start.speed_mps), planner.plan.profiles)
         result.run = simulate(world.simulator, begin_at, planner, world.rates, progress)
     judge_run(request, result, world, stages)
 

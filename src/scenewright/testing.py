@@ -24,7 +24,6 @@ from scenewright.roads.grounding import ground
 from scenewright.roads.load import load_map
 from scenewright.simulate.port import Capabilities, Simulator, Snapshot, Start
 from scenewright.simulate.vehicles import EgoVehicle
-from scenewright.solve.plan import Plan
 from scenewright.trace.model import ActorState
 
 _PROGRAM = """\
@@ -66,7 +65,7 @@ def check_simulator(make: Callable[[], Simulator], step_s: float = 0.02) -> None
     Parameters
     ----------
     make
-        Makes a simulator, such as the adapter's class; called twice.
+        Makes a simulator, such as the adapter's class; called up to three times.
     step_s
         The step to check with (s).
 
@@ -75,6 +74,7 @@ def check_simulator(make: Callable[[], Simulator], step_s: float = 0.02) -> None
     AssertionError
         Where something of it is not so, with what was found.
     """
+    make().close()  # nothing was opened
     simulator, start = make(), _start()
     can = simulator.capabilities
     errors = (can.place_error_m, can.speed_error_mps)
@@ -121,7 +121,7 @@ def _start() -> Start:
     program = parse_program(_PROGRAM)
     scene = ground(program, load_map(program.map_name))
     ego = EgoVehicle(GuardedPolicy(_Recorder(), "recorder"), scene.routes[EGO], scene.road_map)
-    return Start.of(scene, ego, _EGO_FIRST, Plan(_motions()))
+    return Start.of(scene, ego, _EGO_FIRST, _motions())
 
 
 def _motions(before: Mapping[int, Profile] | None = None) -> dict[int, Profile]:

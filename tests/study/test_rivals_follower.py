@@ -64,7 +64,7 @@ def follow(driver: WaypointDriver, ego: str = "constant") -> tuple[Run, Followin
     assert planned is not None
     planner, start, _ = planned
     heroes = FollowingHeroes(planner, world.limits, {HERO: driver}, 0.02)
-    first = Start.of(world.scene, world.ego, (start.s_m, start.speed_mps), heroes.plan)
+    first = Start.of(world.scene, world.ego, (start.s_m, start.speed_mps), heroes.plan.profiles)
     return simulate(world.simulator, first, heroes, Rates(0.02, None)), heroes, planner
 
 

@@ -5,7 +5,6 @@ What enters: a map's name or file, or nothing. What leaves: lists and tables, fo
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from itertools import combinations
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -16,7 +15,7 @@ from scenewright.cli.options import AsJson, argument, complete_map
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from scenewright.plugins import Kind, Part
+    from scenewright.plugins import Kind
     from scenewright.roads.model import RoadMap
 
 _SHOWN = 30
@@ -70,7 +69,7 @@ def solvers(as_json: AsJson = False) -> None:
     with told(as_json):
         from scenewright.solve.proofs.refuters import SOLVERS
 
-        _list_parts(SOLVERS, lambda each: each.capabilities.words(), as_json)
+        _list_parts(SOLVERS, as_json)
 
 
 def simulators(as_json: AsJson = False) -> None:
@@ -78,15 +77,15 @@ def simulators(as_json: AsJson = False) -> None:
     with told(as_json):
         from scenewright.simulate.port import SIMULATORS
 
-        _list_parts(SIMULATORS, lambda each: each.capabilities.words(), as_json)
+        _list_parts(SIMULATORS, as_json)
 
 
-def _list_parts(kind: Kind[Part], words: Callable[[Part], str], as_json: bool) -> None:
+def _list_parts(kind: Kind[Any], as_json: bool) -> None:
     """Print what each part can do in the words of its capabilities, or what it misses."""
     from scenewright.cli import tables
 
     described = {
-        name: words(kind.called(name)) if missing is None else f"{missing.message}: {missing.fix}"
+        name: kind.called(name).capabilities.words() if missing is None else f"{missing.message}: {missing.fix}"
         for name, missing in kind.known().items()
     }
     if as_json:

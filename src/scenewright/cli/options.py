@@ -9,12 +9,15 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
 from scenewright.errors import ParameterError
 from scenewright.units import decimal_fraction
+
+if TYPE_CHECKING:
+    from scenewright.plugins import Kind
 
 _NUMBER = re.compile(r"[-+]?[\d_]*\.?[\d_]+(e[-+]?\d+)?", re.IGNORECASE)
 Mode = Literal["closed", "open"]
@@ -94,16 +97,20 @@ def complete_translator(incomplete: str) -> list[str]:
 
 def complete_solver(incomplete: str) -> list[str]:
     """Offer the solvers that refute and miss nothing."""
-    from scenewright.solve.proofs.refuters import known
+    from scenewright.solve.proofs.refuters import SOLVERS
 
-    return [name for name, missing in known().items() if missing is None and name.startswith(incomplete)]
+    return _complete(SOLVERS, incomplete)
 
 
 def complete_simulator(incomplete: str) -> list[str]:
     """Offer the simulators that miss nothing."""
     from scenewright.simulate.port import SIMULATORS
 
-    return [name for name, missing in SIMULATORS.known().items() if missing is None and name.startswith(incomplete)]
+    return _complete(SIMULATORS, incomplete)
+
+
+def _complete(kind: Kind[Any], incomplete: str) -> list[str]:
+    return [name for name, missing in kind.known().items() if missing is None and name.startswith(incomplete)]
 
 
 def complete_run_directory(incomplete: str) -> list[str]:

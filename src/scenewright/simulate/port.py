@@ -22,10 +22,8 @@ if TYPE_CHECKING:
     from scenewright.roads.grounding import Scene
     from scenewright.roads.routes import Route
     from scenewright.simulate.vehicles import EgoVehicle
-    from scenewright.solve.plan import Plan
 
 GROUP = "scenewright.simulators"
-DEFAULT = "builtin"
 
 
 def on_route(route: Route, motion: tuple[float, float, float]) -> ActorState:
@@ -67,9 +65,9 @@ class Start:
     first: Mapping[int, ActorState]
 
     @classmethod
-    def of(cls, scene: Scene, ego: EgoVehicle, ego_first: tuple[float, float], heroes: Plan) -> Start:
-        """Return the start with the ego at an arc length (m) and speed (m/s), and heroes where their plan begins."""
-        motions = {EGO: (*ego_first, 0.0)} | {h.id: heroes.profiles[h.id].state(0.0) for h in scene.program.heroes}
+    def of(cls, scene: Scene, ego: EgoVehicle, ego_first: tuple[float, float], heroes: Mapping[int, Profile]) -> Start:
+        """Return the start with the ego at an arc length (m) and speed (m/s), and heroes where their motions begin."""
+        motions = {EGO: (*ego_first, 0.0)} | {hero.id: heroes[hero.id].state(0.0) for hero in scene.program.heroes}
         return cls(scene, ego, {actor: on_route(scene.routes[actor], motion) for actor, motion in motions.items()})
 
 
@@ -130,9 +128,13 @@ class Simulator(Protocol):
         """Return where everybody is; this changes nothing."""
 
     def close(self) -> None:
-        """Give back what was opened; may be called more than once."""
+        """Give back what was opened, if anything was; may be called more than once, and whatever went wrong before."""
 
 
 SIMULATORS: Kind[Simulator] = Kind(
-    GROUP, (EntryPoint(DEFAULT, "scenewright.simulate.builtin:BuiltIn", GROUP),), "simulator", "drives", SimulatorError
+    GROUP,
+    (EntryPoint("builtin", "scenewright.simulate.builtin:BuiltIn", GROUP),),
+    "simulator",
+    "drives",
+    SimulatorError,
 )

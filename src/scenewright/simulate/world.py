@@ -12,7 +12,7 @@ from scenewright.program.structure import Structure, read_structure
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.loop import Rates
-from scenewright.simulate.port import DEFAULT, SIMULATORS
+from scenewright.simulate.port import SIMULATORS
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.feasibility import EgoBounds, Feasibility
 from scenewright.solve.limits import Limits, limits_on
@@ -50,7 +50,7 @@ class World:
         rates: Rates,
         predictor: str = "road",
         solver: str = "z3",
-        simulator: str = DEFAULT,
+        simulator: str = "builtin",
     ) -> None:
         self.scene = scene
         self.rates = rates

@@ -14,7 +14,7 @@ from fractions import Fraction
 from importlib.metadata import EntryPoint
 from typing import Literal, Protocol
 
-from scenewright.errors import MissingExtraError, SolverError
+from scenewright.errors import SolverError
 from scenewright.plugins import Kind
 from scenewright.solve.proofs.events import Unknown
 from scenewright.solve.proofs.polynomials import All, Atom, atoms
@@ -99,11 +99,6 @@ class Refuter(Protocol):
 
 
 # -- by name --------------------------------------------------------------------------------------------------------
-def known() -> dict[str, MissingExtraError | None]:
-    """Return the solvers that can be named, each with what it misses; nothing is imported for that."""
-    return SOLVERS.known()
-
-
 def refuter_called(name: str = "z3") -> Refuter:
     """Return the solver of that name.
 

@@ -72,7 +72,7 @@ class Staging:
         world = self.world
         world.rates = Rates(world.rates.step_s, replan_s=None)
         with self.stages("simulate"):
-            first = Start.of(world.scene, world.ego, (self.start.s_m, self.start.speed_mps), heroes.plan)
+            first = Start.of(world.scene, world.ego, (self.start.s_m, self.start.speed_mps), heroes.plan.profiles)
             result.run = simulate(world.simulator, first, heroes, world.rates)
         judge_run(self.request, result, world, self.stages, hindsight=False)
 
