@@ -1,4 +1,4 @@
-"""The port of simulators: what it helps adapters with, whom it finds, and whole runs in others than the built-in one."""
+"""The port of simulators: what it helps adapters with, whom it finds, and whole runs in others than the built-in."""
 
 from __future__ import annotations
 
