@@ -118,7 +118,7 @@ class InKmh(Changed):
 class StacksSpeedInKmh(OwnStack):
     def ego_state(self) -> ActorState:
         state = super().ego_state()
-        return state._replace(speed_mps=3.6 * state.speed_mps) if self.steps else state
+        return state._replace(speed_mps=3.6 * state.speed_mps) if self.steps else state  # the start would tell
 
 
 class InDegrees(Changed):

@@ -57,8 +57,8 @@ _UNITS = 0.1  # of what was driven; a unit that is mistaken makes more of a diff
 def check_simulator(make: Callable[[], Simulator], step_s: float = 0.02) -> None:
     """Check what the closed loop relies on.
 
-    Everybody begins where the start says; a step takes `step_s`; heroes, and an ego that a policy drives, are where
-    they are told to be, as near as the adapter declares; looking changes nothing; the policy is asked once a step, sees
+    A step takes `step_s`; everybody at the start, and then heroes and an ego that a policy drives, are where they are
+    told to be, as near as the adapter declares; looking changes nothing; the policy is asked once a step, sees
     where everybody is and not where they are going, and its faults are let through; a start can be begun again, and
     gives the same run where the adapter says so.
 
@@ -156,7 +156,7 @@ def _drive(simulator: Simulator, start: Start, step_s: float, until_s: float = _
 
 
 def _check_fault(simulator: Simulator, start: Start, step_s: float) -> None:
-    """Drive a little, until the policy fails where it is asked; what comes next is begun on the way."""
+    """Drive a little, until the policy fails where it is asked; the next run begins from there."""
     policy = _recorder(start)
     policy.fails_at_s = _FAULT_S
     try:
@@ -196,7 +196,7 @@ class _Run:
         """Check all that one run tells."""
         self._check_time()
         for actor, first in self.start.first.items():
-            self._check_near(self.seen[0], actor, (first.s_m, first.speed_mps), (0.0, 0.0))
+            self._check_near(self.seen[0], actor, (first.s_m, first.speed_mps))
         for motions, *both in zip(self.motions, self.before, self.after[1:], strict=True):
             for now in both:
                 for hero, motion in motions.items():
@@ -232,15 +232,8 @@ class _Run:
             along = cos(heading_rad - state.heading_rad) > _ALONG
             _require(along, f"it does not head along its route; {where}")
 
-    def _check_near(
-        self,
-        now: Snapshot,
-        actor: int,
-        wanted: tuple[float, float],
-        errors: tuple[float, float] | None = None,
-    ) -> None:
-        place_error_m, speed_error_mps = errors or (self.can.place_error_m, self.can.speed_error_mps)
-        state = now.actors[actor]
+    def _check_near(self, now: Snapshot, actor: int, wanted: tuple[float, float]) -> None:
+        place_error_m, speed_error_mps, state = self.can.place_error_m, self.can.speed_error_mps, now.actors[actor]
         off_m, off_mps = hypot(state.s_m - wanted[0], state.d_m), abs(state.speed_mps - wanted[1])
         where = f"actor {actor} at {now.time_s:.2f} s is {off_m:.3f} m and {off_mps:.3f} m/s off from what was told"
         near = off_m <= place_error_m + _ROUNDING and off_mps <= speed_error_mps + _ROUNDING

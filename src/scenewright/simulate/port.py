@@ -82,7 +82,7 @@ class Capabilities:
     repeatable
         Whether the same start and motions give the same run, to the last bit.
     place_error_m, speed_error_mps
-        How far vehicles may be from where, and from how fast, they are told to be.
+        How far heroes, and an ego that its policy drives, may be from where they are told to be, and from how fast.
     """
 
     drives_ego: bool = False
