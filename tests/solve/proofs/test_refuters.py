@@ -165,7 +165,7 @@ def test_no_two_solvers_contradict_each_other(name: str, count: int) -> None:
 def relaxed(text: str) -> tuple[list[Unknown], list[Named]]:
     scene = ground(parse_program(text), T)
     events, lowering = lowered(scene)
-    return events.unknowns, relaxation(events, lowering, lowering.lower(scene.program.constraints))
+    return events.unknowns, relaxation(events, lowering.narrowings, lowering.lower(scene.program.constraints))
 
 
 @pytest.mark.parametrize(("name", "every"), [("cvc5", 5), ("scip", 1)])
