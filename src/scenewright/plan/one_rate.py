@@ -74,11 +74,12 @@ class _Leg:
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """What a solver is asked, and what is known already, by number."""
+    """What a solver is asked; what is known already, by number, and which moments have passed."""
 
     unknowns: Sequence[Unknown]
     formulas: Sequence[Named]
     known: Mapping[int, Fraction]
+    passed: frozenset[int]
     broken: tuple[str, ...] = ()  # constraints of which what happened has broken a part: nobody can mend it
 
     def values(self, found: Sequence[float]) -> list[float]:
@@ -220,7 +221,7 @@ class OneRate:
                     broken.append(each.origin)  # it has happened, and is nobody's to mend
                 elif left != TRUE:
                     rest.append(Named(left, each.origin))
-        return Question(self.events.unknowns, rest, known, tuple(dict.fromkeys(broken)))
+        return Question(self.events.unknowns, rest, known, passed, tuple(dict.fromkeys(broken)))
 
     # -- how everybody may move ---------------------------------------------------------------------------------------
     def _motion(self, actor: Actor, known: Mapping[int, Fraction], passed: frozenset[int]) -> Iterator[Formula]:
@@ -329,9 +330,10 @@ class OneRate:
         """Return when every moment is."""
         return {instant: time.value(values) for instant, time in enumerate(self.events.times)}
 
-    def profile(self, actor: Actor, values: Sequence[float], driven: Profile | None, now_s: float) -> Profile:
+    def profile(self, actor: Actor, question: Question, values: Sequence[float], driven: Profile | None) -> Profile:
         """Return an actor's motion from now on, after what it drove."""
         times = self.moments_s(values)
+        now_s = times[self.now]
         if driven is None:
             here = self.events.state(actor.id, self.now)
             s_m, speed, past = here.place.value(values), here.speed.value(values), list[Segment]()
@@ -341,7 +343,7 @@ class OneRate:
             past = [s if s.end_s <= now_s else s.part(s.start_s, now_s) for s in begun]
         at_s = now_s
         for leg in self._legs[actor.id]:
-            for _, late, rate in leg.parts(self.now):
+            for _, late, rate in () if leg.last in question.passed else leg.parts(self.now):
                 lasts, accel = times[late] - at_s, rate.value(values)
                 if lasts <= 1e-9:
                     continue

@@ -76,7 +76,7 @@ class SmtPlanner:
         answer = self._ask(question)
         if answer.kind != "met":
             raise NoPlan(self._why(question, answer))
-        self._keep(question, answer, ZERO_S, 0.0)
+        self._keep(question, answer, 0.0)
         wall_s = time.perf_counter() - started
         self.records = [Replan(0.0, "sat", "z3", wall_s, 0.0, "")]
         return Attempt(self.plan, Missed(), wall_s, 1)
@@ -98,7 +98,7 @@ class SmtPlanner:
             answer = self._ask(question)
             if answer.kind == "met":
                 status, reached = "relaxed" if tolerance else "sat", float(tolerance)
-                self._keep(question, answer, time_s, reached)
+                self._keep(question, answer, reached)
                 break
             told.append(f"{_SAYS[answer.kind]} at {tolerance}")
         else:
@@ -124,11 +124,11 @@ class SmtPlanner:
     def _ask(self, question: Question) -> Answer:
         return self._solver.ask(question.unknowns, question.formulas, LIMIT_S)
 
-    def _keep(self, question: Question, answer: Answer, time_s: float, tolerance: float) -> None:
+    def _keep(self, question: Question, answer: Answer, tolerance: float) -> None:
         values, profiles = question.values(answer.values), dict[int, Profile]()
         for actor in self.scene.program.actors:
             driven = self.plan.profiles[actor.id] if self.records and actor.id != EGO else None
-            profiles[actor.id] = self._motions.profile(actor, values, driven, time_s)
+            profiles[actor.id] = self._motions.profile(actor, question, values, driven)
         self._moments_s = self._motions.moments_s(values)
         style = "relaxed" if tolerance else "sat"
         parameters = {name: float(value) for name, value in self.scene.parameters.items()}
@@ -145,5 +145,4 @@ class SmtPlanner:
         return "; ".join(f"{name}: {formulas[name]}" if name in formulas else name for name in origins)
 
 
-ZERO_S = 0.0
 _SAYS = {"refuted": "unsat", "timeout": "timed out", "unknown": "unknown"}
