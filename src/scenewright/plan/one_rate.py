@@ -158,8 +158,11 @@ class OneRate:
                     return True
         return False
 
-    def first(self, ego: tuple[float, float]) -> Question:
-        """Return what is asked of a first plan, from the ego's place (m) and speed (m/s), with nothing weakened."""
+    def first(self, ego: tuple[float, float], *, even: bool) -> Question:
+        """Return what is asked of a first plan, from the ego's place (m) and speed (m/s), with nothing weakened.
+
+        With `even` the ego holds its speed, else it may have any rate in each piece.
+        """
         events, known = self.events, self._own(self.now, 0.0, {EGO: ego})
         known |= _told(events.state(EGO, events.start), ego)
         same = []
@@ -169,9 +172,9 @@ class OneRate:
             marks = self.scene.landmarks_m[hero.id]
             if "turn_end" in marks:  # whoever is past most of a turn shows no longer where it came from
                 same.append(compare("<=", there.place, pin(0.5 * (marks["turn_start"] + marks["turn_end"]))))
-        return self._question(ZERO, known, frozenset({events.start}), same)
+        return self._question(ZERO, known, frozenset({events.start}), [*same, *self._held(even)])
 
-    def again(self, past: Past, tolerance: Fraction) -> Question:
+    def again(self, past: Past, tolerance: Fraction, *, even: bool) -> Question:
         """Return what is asked of the rest, after what has happened."""
         known = self._own(self.now, past.time_s, {a: states(past.time_s)[:2] for a, states in past.states.items()})
         passed = {self.events.start, *self._clocks(past.time_s), *self._passed(past)}
@@ -182,7 +185,10 @@ class OneRate:
             for (actor, at), rate in self._lowering.rates.items():
                 if at == instant and at_s < past.time_s:
                     known |= _equal(rate, past.states[actor](at_s)[2])
-        return self._question(max(tolerance, ROUNDED), known, frozenset(passed), [])
+        return self._question(max(tolerance, ROUNDED), known, frozenset(passed), self._held(even))
+
+    def _held(self, even: bool) -> list[Formula]:
+        return [compare("==", leg.rate, ZERO) for leg in self._legs[EGO]] if even else []
 
     def _clocks(self, time_s: float) -> Iterator[int]:
         for instant, time in enumerate(self.events.times):
@@ -209,7 +215,7 @@ class OneRate:
         self, tolerance: Fraction, known: Mapping[int, Fraction], passed: frozenset[int], more: Sequence[Formula]
     ) -> Question:
         named = [*self.asked(tolerance), *(Named(rule, origin) for rule, origin in self.events.rules)]
-        named += [Named(formula, "where heroes start") for formula in more]
+        named += [Named(formula, "how everybody begins") for formula in more]
         for actor in self.scene.program.actors:
             named += [Named(held, f"how {actor.name} may move") for held in self._motion(actor, known, passed)]
         rest, broken = [], []
@@ -317,13 +323,13 @@ class OneRate:
         most, start, end = pin(_OF_TURN * self.limits[actor].turn_speed_max_mps), pin(turn.start_m), pin(turn.end_m)
         for early, late, rate in parts:
             a, b = self.events.state(actor, early), self.events.state(actor, late)
-            yield some([compare("<=", b.place, start), compare(">=", b.place, end), compare("<=", b.speed, most)])
+            yield some([compare("<=", b.place, start), compare(">", b.place, end), compare("<=", b.speed, most)])
             for place in (start, end):
                 squared = a.speed * a.speed + rate * (place - a.place) * 2
                 outside = [compare(">=", a.place, place), compare("<=", b.place, place)]
                 yield some([*outside, compare("<=", squared, most * most)])
         then = self.events.state(actor, last)
-        yield some([compare(">=", then.place, end), compare("<=", then.speed, most)])
+        yield some([compare(">", then.place, end), compare("<=", then.speed, most)])
 
     # -- back ---------------------------------------------------------------------------------------------------------
     def moments_s(self, values: Sequence[float]) -> dict[int, float]:

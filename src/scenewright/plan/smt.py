@@ -31,6 +31,8 @@ from scenewright.solve.proofs.z3_engine import Z3
 # tolerance of places and speeds.
 TOLERANCES = tuple(map(Fraction, (0, 1, 2, 4)))
 # z3's own count of its work in one question, which does not depend on the machine; and the paper's limit (s), beyond it.
+EVEN=(True,False)
+ORDER=[(t,e) for t in TOLERANCES for e in (True,False)]
 MOST_WORK, LIMIT_S = 2_000_000, 10.0
 
 
@@ -72,8 +74,12 @@ class SmtPlanner:
         started = time.perf_counter()
         if self._motions.refused:
             raise NoPlan("no solver takes " + self._words([each.constraint.id for each in self._motions.refused]))
-        self._samples, question = [ego], self._motions.first(ego[1:3])
-        answer = self._ask(question)
+        self._samples = [ego]
+        for even in EVEN:
+            question = self._motions.first(ego[1:3], even=even)
+            answer = self._ask(question)
+            if answer.kind == "met":
+                break
         if answer.kind != "met":
             raise NoPlan(self._why(question, answer))
         self._keep(question, answer, 0.0)
@@ -93,8 +99,8 @@ class SmtPlanner:
         states = {actor: profile.state for actor, profile in self.plan.profiles.items()} | {EGO: ego}
         past, told = Past(time_s, self._moments_s, states), list[str]()
         status, reached = "unsat", self.plan.tolerance
-        for tolerance in TOLERANCES:
-            question = self._motions.again(past, tolerance)
+        for tolerance, even in ORDER:
+            question = self._motions.again(past, tolerance, even=even)
             answer = self._ask(question)
             if answer.kind == "met":
                 status, reached = "relaxed" if tolerance else "sat", float(tolerance)
