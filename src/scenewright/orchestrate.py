@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Mapping
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -27,6 +27,7 @@ from scenewright.simulate.beginning import first_plan, is_timed_by_ego
 from scenewright.simulate.ego_start import EgoFirstState
 from scenewright.simulate.hindsight import drive_profile, ego_left_no_room
 from scenewright.simulate.loop import Rates, Run, simulate
+from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
 from scenewright.solve.holding import NotHeld, not_held
@@ -65,7 +66,10 @@ _SLOW_PACE = 0.43
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What a user asks for: the command line of ``scenewright run``, as data; `solver` is what refutes."""
+    """What a user asks for: the command line of ``scenewright run``, as data; `solver` is what refutes.
+
+    A `simulator` may drive the ego itself; the policy `ego` is then only asked how it would start.
+    """
 
     source: str
     parameters: Mapping[str, float | str] = field(default_factory=dict)
@@ -80,6 +84,7 @@ class Request:
     predictor: str = "road"
     takes: int = 3
     solver: str = "z3"
+    simulator: str = "builtin"
     translation: TranslatorSettings = field(default_factory=TranslatorSettings)
 
 
@@ -169,8 +174,9 @@ def orchestrate(
     if result.not_held or until == "plan":
         result.status = "gave up" if result.not_held else "success"
         return result
-    _drive(request, result, world, planned, stages, progress)
-    result = _rehearse(request, result, world, stages, progress)
+    with closing(world.simulator):
+        _drive(request, result, world, planned, stages, progress)
+        result = _rehearse(request, result, world, stages, progress)
     if request.out is not None:
         with stages("write"):
             write_result(request.out, request, result, world, stages.seconds)
@@ -213,8 +219,8 @@ def _drive(
     """Carry out one take from its first second, and judge it."""
     planner, start, result.attempt = planned
     with stages("simulate"):
-        world.ego.reset(start.s_m, start.speed_mps)
-        result.run = simulate(world.scene, world.ego, planner, world.rates, progress)
+        begin_at = Start.of(world.scene, world.ego, (start.s_m, start.speed_mps), planner.plan.profiles)
+        result.run = simulate(world.simulator, begin_at, planner, world.rates, progress)
     judge_run(request, result, world, stages)
 
 
@@ -281,7 +287,7 @@ def set_up(request: Request, stages: Stages) -> tuple[World, Translation | None]
         check_values(program, scene.parameters, name=program.name)
     rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
     ego, seed, predictor = request.ego, request.seed, request.predictor
-    world = World(scene, ego, seed, rates, predictor, request.solver)
+    world = World(scene, ego, seed, rates, predictor, request.solver, request.simulator)
     return world, translation
 
 
@@ -328,9 +334,11 @@ def write_result(
     assert result.verdict is not None
     given = frozenset(request.parameters)
     driven = bool(result.attempt)  # a witness is nobody's driving
+    ego = (world.policy.name, world.policy.options) if driven else ("none", {})
+    if driven and world.simulator.capabilities.drives_ego:
+        ego = f"{request.simulator}'s own", {}
     circumstances = Circumstances(
-        world.policy.name if driven else "none",
-        world.policy.options if driven else {},
+        *ego,
         request.mode if driven else "witness",
         request.tolerance,
         request.seed,
@@ -341,6 +349,7 @@ def write_result(
         timings_s,
         notes_of(result.translation),
         result.take,
+        request.simulator if driven else "none",
     )
     write_run(directory, world.scene, result.run, world.limits, circumstances)
     write_verdict(result.verdict, directory / "verdict.json")

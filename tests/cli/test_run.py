@@ -165,3 +165,12 @@ def test_same_inputs_and_seed_give_the_same_trace(command: Command) -> None:
     for out in ("a", "b"):
         assert command("run", SENTENCE, "--ego", "noisy", "--seed", "7", "--out", out, "--quiet").exit_code in (0, 1)
     assert Path("a/trace.parquet").read_bytes() == Path("b/trace.parquet").read_bytes()
+
+
+def test_simulators_are_listed_and_others_refused(command: Command, folder: Path) -> None:
+    assert "drives the policy of --ego" in command("simulators").stdout
+    assert json.loads(command("simulators", "--json").stdout)["builtin"].endswith("repeatable")
+    refused = command("run", SENTENCE, "--simulator", "none", "--out", "here")
+    assert refused.exit_code == 2
+    assert "no such simulator" in refused.stderr
+    assert "builtin" in refused.stderr

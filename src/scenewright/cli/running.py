@@ -18,7 +18,7 @@ import typer
 from scenewright.cli.console import print_json, stderr, stdout
 from scenewright.cli.directories import claim
 from scenewright.cli.faults import error_data, tell, told
-from scenewright.cli.options import AsJson, FailOn, FailOnOption, ModeOption, ToleranceOption
+from scenewright.cli.options import AsJson, FailOn, FailOnOption, ModeOption, Simulator, ToleranceOption
 from scenewright.cli.translators import Asked, with_asked
 from scenewright.errors import PolicyError
 
@@ -64,6 +64,7 @@ def run(
     predictor: Annotated[
         str, typer.Option(help="How the ego is foreseen: road (slows for turns and lines), acceleration or speed.")
     ] = "road",
+    simulator: Simulator = "builtin",
     as_json: AsJson = False,
     quiet: Annotated[bool, typer.Option("--quiet", help="Print nothing but where the run is.")] = False,
     open_page: Annotated[bool, typer.Option("--open", help="Open the run's page in the browser afterwards.")] = False,
@@ -77,6 +78,7 @@ def run(
             replan_hz=replan_hz,
             predictor=predictor,
             takes=takes,
+            simulator=simulator,
         )
         folder = claim(out, asked.source)
         request = replace(request, out=folder.path)
@@ -284,7 +286,7 @@ def report_verdict(
     console.print(tables.routine(verdict))
     missed = len(tables.missed(verdict, tolerance))
     if status != "finished":
-        end = "was interrupted" if status == "interrupted" else "ended in a fault of the policy"
+        end = "was interrupted" if status == "interrupted" else "ended in a fault"
         headline = f"The run {end}; as far as it got, {missed} conditions miss the {tolerance} tolerance."
     elif missed:
         headline = f"Failure: {missed} of {len(verdict.conditions)} conditions miss the {tolerance} tolerance."

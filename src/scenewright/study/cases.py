@@ -286,7 +286,7 @@ def keep_run(directory: Path, request: Request, result: Result, page: bool = Fal
     shutil.rmtree(part, ignore_errors=True)
     part.mkdir(parents=True)
     rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
-    world = World(result.scene, request.ego, request.seed, rates)
+    world = World(result.scene, request.ego, request.seed, rates, simulator=request.simulator)
     write_result(part, request, result, world, result.timings_s, page=False)
     manifest = json.loads((part / "manifest.json").read_text(encoding="utf-8"))
     manifest["map"]["file"] = result.scene.road_map.name

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from contextlib import closing
 from dataclasses import dataclass, replace
 from itertools import islice
 
@@ -30,6 +31,7 @@ from scenewright.simulate.beginning import first_plan
 from scenewright.simulate.ego_start import EgoFirstState
 from scenewright.simulate.heroes import HeroDriver
 from scenewright.simulate.loop import Rates, simulate
+from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
 from scenewright.solve.holding import not_held
 from scenewright.solve.plan import Plan
@@ -70,8 +72,8 @@ class Staging:
         world = self.world
         world.rates = Rates(world.rates.step_s, replan_s=None)
         with self.stages("simulate"):
-            world.ego.reset(self.start.s_m, self.start.speed_mps)
-            result.run = simulate(world.scene, world.ego, heroes, world.rates)
+            first = Start.of(world.scene, world.ego, (self.start.s_m, self.start.speed_mps), heroes.plan.profiles)
+            result.run = simulate(world.simulator, first, heroes, world.rates)
         judge_run(self.request, result, world, self.stages, hindsight=False)
 
 
@@ -107,7 +109,8 @@ def _staged(
     if result.not_held:  # who starts from it would miss as much, whatever the method
         result.status = "gave up"
         return result
-    result = drive(Staging(request, world, stages, planner, start, plan, option), result)
+    with closing(world.simulator):
+        result = drive(Staging(request, world, stages, planner, start, plan, option), result)
     if result.run is not None:
         result.run.findings.append(f"The hero was driven by the rival method {method}, not by Scenewright.")
         if request.out is not None:
