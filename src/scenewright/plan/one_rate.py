@@ -8,7 +8,7 @@ no solver.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
 
@@ -29,6 +29,7 @@ from scenewright.solve.proofs.polynomials import (
     Formula,
     Polynomial,
     atom,
+    atoms,
     compare,
     every,
     polynomial,
@@ -39,10 +40,11 @@ from scenewright.solve.tolerances import compared_dimension
 from scenewright.solve.turns import TurnSpan
 from scenewright.units import pin
 
-# What happened is told in 0.1 mm: an equality that is about it and about what comes may be off by so many tight tolerances.
+# What happened is told in 0.1 mm: an equality of that and of what comes may be off by so many tight tolerances.
 ROUNDED = Fraction(1, 100)
 _HAPPENED = 1e-2  # what comparisons of nothing but what happened may be off by (SI)
 _OF_TURN = 0.98  # of the speed that a turn allows: rounding
+_PULLS = {PieceKind.DEC, PieceKind.ACC}
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,21 +120,19 @@ class OneRate:
 
     def _laid_out(self, actor: Actor) -> Iterator[_Leg]:
         manner, kinds = self.scene.program.manner.stricter(ROOM), actor.sketch.pieces
-        for number, (kind, (first, last)) in enumerate(zip(kinds, pairwise(self._knots(actor)), strict=True)):
+        knots = [self.events.knot(actor.id, name) for name in actor.sketch.knots]
+        for number, (kind, (first, last)) in enumerate(zip(kinds, pairwise(knots), strict=True)):
             law = self.events.law_of_piece(actor.id, kind)
             low, high = law.rate_low, law.rate_high
             if actor.id != EGO:
                 high = min(high, -manner.begins_mpss) if kind is PieceKind.DEC else high
                 low = max(low, manner.begins_mpss) if kind is PieceKind.ACC else low
             even = None
-            if actor.id != EGO and kind is PieceKind.GO and _pulls(kinds[number + 1 : number + 2]):
+            if actor.id != EGO and kind is PieceKind.GO and set(kinds[number + 1 : number + 2]) & _PULLS:
                 even = self.events.instant(f"settled{actor.id}_{number}")
                 self.events.state(actor.id, even)
             rate = self.events.new(f"rate{actor.id}_{number}", low, high, "rate")
             yield _Leg(number, kind, first, last, rate, even)
-
-    def _knots(self, actor: Actor) -> list[int]:
-        return [self.events.knot(actor.id, name) for name in actor.sketch.knots]
 
     # -- what is asked ------------------------------------------------------------------------------------------------
     def asked(self, tolerance: Fraction) -> list[Named]:
@@ -177,7 +177,7 @@ class OneRate:
     def again(self, past: Past, tolerance: Fraction, *, even: bool) -> Question:
         """Return what is asked of the rest, after what has happened."""
         known = self._own(self.now, past.time_s, {a: states(past.time_s)[:2] for a, states in past.states.items()})
-        passed = {self.events.start, *self._clocks(past.time_s), *self._passed(past)}
+        passed = set(self._passed(past))
         for instant in passed:
             at_s = float(self.events.times[instant].constant or 0) or past.moments_s.get(instant, 0.0)
             states = {a: past.states[a](at_s)[:2] for a in past.states if (a, instant) in self.events.states}
@@ -190,19 +190,18 @@ class OneRate:
     def _held(self, even: bool) -> list[Formula]:
         return [compare("==", leg.rate, ZERO) for leg in self._legs[EGO]] if even else []
 
-    def _clocks(self, time_s: float) -> Iterator[int]:
-        for instant, time in enumerate(self.events.times):
-            if (constant := time.constant) is not None and float(constant) <= time_s:
-                yield instant
-
     def _passed(self, past: Past) -> Iterator[int]:
         """Yield the moments that have passed; one that is told by another only once that one has."""
         own = {leg.even_from for legs in self._legs.values() for leg in legs} | {self.now}
         early = {k for k, at_s in past.moments_s.items() if at_s <= past.time_s and k not in own}
         gone = {key for k in early if k not in self.events.defined for key in self.events.times[k].terms}
-        for instant in early:
-            told_by = self.events.defined.get(instant)
-            if told_by is None or all(key in gone for key in told_by.terms if key):
+        for instant, time in enumerate(self.events.times):
+            constant, told_by = time.constant, self.events.defined.get(instant)
+            if constant is not None:
+                happened = float(constant) <= past.time_s
+            else:
+                happened = instant in early and (told_by is None or all(key in gone for key in told_by.terms if key))
+            if happened:
                 yield instant
 
     def _own(self, instant: int, at_s: float, states: Mapping[int, Sequence[float]]) -> dict[int, Fraction]:
@@ -223,7 +222,7 @@ class OneRate:
             parts = each.formula.parts if isinstance(each.formula, All) else (each.formula,)
             for part in parts:
                 left = _left(part, known)
-                if left == FALSE and _numbers(part) <= known.keys():
+                if left == FALSE and _numbers_in(*(each.left for each in atoms(part))) <= known.keys():
                     broken.append(each.origin)  # it has happened, and is nobody's to mend
                 elif left != TRUE:
                     rest.append(Named(left, each.origin))
@@ -247,7 +246,8 @@ class OneRate:
             yield from self._slow_in_turn(actor.id, turn, parts, begins)
         own = {self.now, *(instant for part in parts for instant in part[:2])}
         for instant in events.instants_of(actor.id):
-            if instant not in own and not _numbers_of(events.state(actor.id, instant)) <= known.keys():
+            state = events.state(actor.id, instant)
+            if instant not in own and not _numbers_in(state.place, state.speed) <= known.keys():
                 yield self._somewhere(actor.id, instant, parts, begins)
         for (owner, instant), rate in self._lowering.rates.items():
             if owner == actor.id and not _numbers_in(rate) <= known.keys():
@@ -289,9 +289,7 @@ class OneRate:
         yield compare("==", b.speed - a.speed, rate * lasts)
         yield compare("==", (b.place - a.place) * 2, (a.speed + b.speed) * lasts)
 
-    def _somewhere(
-        self, actor: int, instant: int, parts: Sequence[tuple[int, int, Polynomial]], last: int
-    ) -> Formula:
+    def _somewhere(self, actor: int, instant: int, parts: Sequence[tuple[int, int, Polynomial]], last: int) -> Formula:
         """Return an actor's state at a moment that is none of its own: the paper's algorithm 2.
 
         A moment before now that has not happened yet is on the piece in hand, carried back.
@@ -363,10 +361,6 @@ class OneRate:
         return Profile(tuple(past), knots)
 
 
-def _pulls(kinds: Sequence[PieceKind]) -> bool:
-    return any(kind in (PieceKind.DEC, PieceKind.ACC) for kind in kinds)
-
-
 def _named(lowered: Sequence[Lowered]) -> list[Named]:
     return [Named(each.formula, each.constraint.id) for each in lowered]
 
@@ -380,18 +374,8 @@ def _told(state: State, values: Sequence[float]) -> dict[int, Fraction]:
     return {**_equal(state.place, values[0]), **_equal(state.speed, max(0.0, values[1]))}
 
 
-def _numbers_in(value: Polynomial) -> set[int]:
-    return {number for key in value.terms for number in key}
-
-
-def _numbers_of(state: State) -> set[int]:
-    return _numbers_in(state.place) | _numbers_in(state.speed)
-
-
-def _numbers(formula: Formula) -> set[int]:
-    if isinstance(formula, Atom):
-        return _numbers_in(formula.left)
-    return {number for part in formula.parts for number in _numbers(part)}
+def _numbers_in(*values: Polynomial) -> set[int]:
+    return {number for value in values for key in value.terms for number in key}
 
 
 def _left(formula: Formula, known: Mapping[int, Fraction]) -> Formula:

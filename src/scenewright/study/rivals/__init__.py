@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 METHODS: dict[str, str] = {
     "scenewright": "plans, and re-solves in closed loop; may rehearse",
     "open-loop": "carries out the first plan whatever the ego does",
+    "smt": "the paper's own loop: an SMT solver at every tick, one rate a piece, tolerances that give way",
     "trigger-action": "distance and time conditions start a fixed manoeuvre, as OpenSCENARIO engines do it",
     "synchronise": "sets the hero's speed so that it arrives when the ego does, as SynchronizeAction does",
     "rejection": "samples the hero's first state until a run succeeds",

@@ -84,6 +84,8 @@ def run(method: str, request: Request) -> Result:
         return orchestrate(request)
     if name == "open-loop":
         return orchestrate(replace(request, mode="open"))
+    if name == "smt":
+        return orchestrate(replace(request, mode="closed", planner="smt"))
     if name not in _RIVALS:
         raise InputError("there is no such method", found=method, expected=", ".join(METHODS))
     return _staged(request, method, option, _RIVALS[name])
