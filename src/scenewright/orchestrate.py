@@ -70,8 +70,8 @@ _SLOW_PACE = 0.43
 class Request:
     """What a user asks for: the command line of ``scenewright run``, as data; `solver` is what refutes.
 
-    A `simulator` may drive the ego itself; the policy `ego` is then only asked how it would start. The `planner` ``smt`` is
-    the paper's own loop: it foresees the ego by itself, and rehearses nothing.
+    A `simulator` may drive the ego itself; the policy `ego` is then only asked how it would start. The `planner`
+    ``smt`` is the paper's own loop: it foresees the ego by itself, and rehearses nothing.
     """
 
     source: str

@@ -31,8 +31,8 @@ from scenewright.solve.proofs.z3_engine import Z3
 # By how many tight tolerances reactive constraints give way in turn: the paper has "various" and names none; 4 is the
 # loose tolerance of places and speeds.
 TOLERANCES = tuple(map(Fraction, (0, 1, 2, 4)))
-# The paper's limit for a question (s); and one in z3's own count of its work, which is the same however busy the machine
-# is and comes first (a million took about 1 s; the longest question of three runs against `idm` took 0.76 million).
+# The paper's limit for a question (s); and one in z3's own count of its work, which is the same however busy the
+# machine is and comes first (a million took 1 s; the longest question of three runs against `idm` took 0.76 million).
 LIMIT_S, MOST_WORK = 10.0, 5_000_000
 _EVEN_FIRST = (True, False)
 _STANDS_MPS = 0.1

@@ -6,7 +6,8 @@ package loads nothing; the methods are loaded when one is run.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from scenewright.orchestrate import Request, Result
@@ -20,6 +21,14 @@ METHODS: dict[str, str] = {
     "rejection": "samples the hero's first state until a run succeeds",
     "follower": "a driver model follows the waypoint that the plan gives 4 s ahead, re-issued once a second",
 }
+
+# Those that ask `orchestrate` for something else than it does by itself.
+_ASKS: dict[str, dict[str, Any]] = {"open-loop": {"mode": "open"}, "smt": {"mode": "closed", "planner": "smt"}}
+
+
+def request_of(method: str, request: Request) -> Request:
+    """Return what a method makes of a request before it carries it out."""
+    return replace(request, **_ASKS.get(method, {}))
 
 
 def run_method(method: str, request: Request) -> Result:
