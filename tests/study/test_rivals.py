@@ -16,7 +16,7 @@ from scenewright.orchestrate import Request, Result
 from scenewright.plan import planner
 from scenewright.program.types import EGO
 from scenewright.solve.limits import Limits
-from scenewright.study.rivals import METHODS, run_method
+from scenewright.study.rivals import METHODS, request_of, run_method
 from scenewright.study.rivals.script import SpeedAction
 
 HERO = 1
@@ -77,6 +77,11 @@ def test_succeeds_where_the_ego_does_as_foreseen(method: str) -> None:
 
 def test_gap_trigger_is_fired_by_conditions_too() -> None:
     assert driven("trigger-action", "noisy", BRAKES).status == "success"
+
+
+def test_a_method_that_is_ours_otherwise_says_how() -> None:
+    assert [request_of(method, Request(YIELDS)).planner for method in ("scenewright", "smt")] == ["convex", "smt"]
+    assert request_of("open-loop", Request(YIELDS)).mode == "open"
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -43,7 +43,7 @@ from scenewright.units import pin
 # What happened is told in 0.1 mm: an equality of that and of what comes may be off by so many tight tolerances.
 ROUNDED = Fraction(1, 100)
 _HAPPENED = 1e-2  # what comparisons of nothing but what happened may be off by (SI)
-_OF_TURN = 0.98  # of the speed that a turn allows: rounding
+_OF_TURN = 0.98  # of the speed that a turn allows: how tight it is was looked at every 0.5 m only
 _PULLS = {PieceKind.DEC, PieceKind.ACC}
 
 
@@ -60,6 +60,7 @@ class Past:
 class _Leg:
     """A piece of an actor's way: between which moments, at which rate, and from which moment on it is even."""
 
+    actor: int
     piece: int
     kind: PieceKind
     first: int
@@ -132,7 +133,7 @@ class OneRate:
                 even = self.events.instant(f"settled{actor.id}_{number}")
                 self.events.state(actor.id, even)
             rate = self.events.new(f"rate{actor.id}_{number}", low, high, "rate")
-            yield _Leg(number, kind, first, last, rate, even)
+            yield _Leg(actor.id, number, kind, first, last, rate, even)
 
     # -- what is asked ------------------------------------------------------------------------------------------------
     def asked(self, tolerance: Fraction) -> list[Named]:
@@ -222,7 +223,7 @@ class OneRate:
             parts = each.formula.parts if isinstance(each.formula, All) else (each.formula,)
             for part in parts:
                 left = _left(part, known)
-                if left == FALSE and _numbers_in(*(each.left for each in atoms(part))) <= known.keys():
+                if left == FALSE and _numbers_in(*(found.left for found in atoms(part))) <= known.keys():
                     broken.append(each.origin)  # it has happened, and is nobody's to mend
                 elif left != TRUE:
                     rest.append(Named(left, each.origin))
@@ -236,8 +237,8 @@ class OneRate:
             if leg.last in passed:
                 continue
             parts += leg.parts(begins)
-            yield from self._kept(actor, leg, begins)
-            yield from self._settled(leg, begins)
+            if actor.id != EGO:
+                yield from self._kept(leg, begins)
             begins = leg.last
         for early, late, rate in parts:
             yield from self._driven(actor.id, early, late, rate)
@@ -253,12 +254,10 @@ class OneRate:
             if owner == actor.id and not _numbers_in(rate) <= known.keys():
                 yield self._rate_at(instant, rate, parts)
 
-    def _kept(self, actor: Actor, leg: _Leg, begins: int) -> Iterator[Formula]:
-        """Yield what the program's manner and a piece's kind ask of it."""
-        events, manner = self.events, self.scene.program.manner.stricter(ROOM)
-        if actor.id == EGO:
-            return
-        lasts, ends = events.times[leg.last] - events.times[leg.first], events.state(actor.id, leg.last).speed
+    def _kept(self, leg: _Leg, begins: int) -> Iterator[Formula]:
+        """Yield what the program's manner and a piece's kind ask of a hero; it is even so long before it pulls."""
+        times, manner = self.events.times, self.scene.program.manner.stricter(ROOM)
+        lasts, ends = times[leg.last] - times[leg.first], self.events.state(leg.actor, leg.last).speed
         match leg.kind:
             case PieceKind.STOP:
                 yield compare(">=", lasts, manner.stands_s)
@@ -268,19 +267,11 @@ class OneRate:
             case _ if leg.even_from is not None:
                 yield compare(">=", ends, pin(MOVING_MPS))
                 yield compare(">=", lasts, manner.settled_s)
-
-    def _settled(self, leg: _Leg, begins: int) -> Iterator[Formula]:
-        """Yield when a piece becomes even: so long before its end, at once where that is gone by."""
-        if leg.even_from is None:
-            return
-        times, even_s = self.events.times, self.scene.program.manner.stricter(ROOM).settled_s
-        late = every(
-            [
-                compare("==", times[leg.even_from], times[begins]),
-                compare("<=", times[leg.last] - times[begins], even_s),
-            ]
-        )
-        yield some([compare("==", times[leg.last] - times[leg.even_from], even_s), late])
+                late = [  # from now on, where it is less than so long until then
+                    compare("==", times[leg.even_from], times[begins]),
+                    compare("<=", times[leg.last] - times[begins], manner.settled_s),
+                ]
+                yield some([compare("==", times[leg.last] - times[leg.even_from], manner.settled_s), every(late)])
 
     def _driven(self, actor: int, early: int, late: int, rate: Polynomial) -> Iterator[Formula]:
         """Yield the equations of motion at one rate."""
