@@ -32,7 +32,8 @@ from scenewright.solve.proofs.z3_engine import Z3
 # loose tolerance of places and speeds.
 TOLERANCES = tuple(map(Fraction, (0, 1, 2, 4)))
 # The paper's limit for a question (s); and one in z3's own count of its work, which is the same however busy the
-# machine is and comes first (a million took 1 s; the longest question of three runs against `idm` took 0.76 million).
+# machine is, and comes first on one that is up to three times slower: here z3 counts 1.5 million in a second. The
+# longest question of rows 1, 4, 20 and 60 against `idm` took 0.76 million.
 LIMIT_S, MOST_WORK = 10.0, 5_000_000
 _EVEN_FIRST = (True, False)
 _STANDS_MPS = 0.1
