@@ -17,14 +17,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from scenewright.judge.tolerance import LOOSE, TIGHT, dimension_of
-from scenewright.plan.planner import Attempt, Planner
+from scenewright.plan.planner import Attempt
 from scenewright.plan.rehearsal import Rehearsed
 from scenewright.program.check import check_values
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
-from scenewright.simulate.beginning import first_plan, is_timed_by_ego
+from scenewright.simulate.beginning import first_plan, first_plan_of_smt, is_timed_by_ego
 from scenewright.simulate.ego_start import EgoFirstState
+from scenewright.simulate.heroes import HeroDriver
 from scenewright.simulate.hindsight import drive_profile, ego_left_no_room
 from scenewright.simulate.loop import Rates, Run, simulate
 from scenewright.simulate.port import Start
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
     from scenewright.translate.translation import Translation
 
 Mode = Literal["closed", "open"]
+PlannerName = Literal["convex", "smt"]
 Tolerance = Literal["tight", "loose"]
 Status = Literal["success", "failure", "infeasible", "gave up", "interrupted", "failed"]
 EXIT_STATUS: dict[Status, int] = {
@@ -68,7 +70,8 @@ _SLOW_PACE = 0.43
 class Request:
     """What a user asks for: the command line of ``scenewright run``, as data; `solver` is what refutes.
 
-    A `simulator` may drive the ego itself; the policy `ego` is then only asked how it would start.
+    A `simulator` may drive the ego itself; the policy `ego` is then only asked how it would start. The `planner`
+    ``smt`` is the paper's own loop: it foresees the ego by itself, and rehearses nothing.
     """
 
     source: str
@@ -85,6 +88,7 @@ class Request:
     takes: int = 3
     solver: str = "z3"
     simulator: str = "builtin"
+    planner: PlannerName = "convex"
     translation: TranslatorSettings = field(default_factory=TranslatorSettings)
 
 
@@ -107,6 +111,8 @@ class Result:
         ``success`` or ``failure`` are verdicts; ``failed`` and ``interrupted`` runs were cut short.
     not_held
         What the first plan breaks beyond the loose tolerance; nothing was driven then.
+    no_plan
+        Why there is no first plan; empty where there is one.
     hindsight
         For a run that missed: the proof that against the ego as it drove no hero could have done it, if there is one.
     run_directory
@@ -123,6 +129,7 @@ class Result:
     feasibility: Feasibility | None = None
     attempt: Attempt | None = None
     not_held: tuple[NotHeld, ...] = ()
+    no_plan: str = ""
     run: Run | None = None
     hindsight: Feasibility | None = None
     verdict: Verdict | None = None
@@ -167,9 +174,12 @@ def orchestrate(
             _write_witness(request.out, request, result, world, result.feasibility.witness, stages)
         return result
     with stages("plan"):
-        planned = first_plan(world, world.predictor)
+        planned = first_plan_of_smt(world) if request.planner == "smt" else first_plan(world, world.predictor)
         assert planned is not None
-        result.attempt = planned[2]
+    if isinstance(planned, str):
+        result.status, result.no_plan = "gave up", planned
+        return result
+    result.attempt = planned[2]
     result.not_held = tuple(not_held(world.scene, result.attempt.plan.profiles, dimension_of, LOOSE.of))
     if result.not_held or until == "plan":
         result.status = "gave up" if result.not_held else "success"
@@ -212,7 +222,7 @@ def _drive(
     request: Request,
     result: Result,
     world: World,
-    planned: tuple[Planner, EgoFirstState, Attempt],
+    planned: tuple[HeroDriver, EgoFirstState, Attempt],
     stages: Stages,
     progress: Callable[[float], None] | None,
 ) -> None:
@@ -233,7 +243,7 @@ def _rehearse(
     known from a drive in which the hero drove otherwise: from the third take on the hero comes more slowly, too.
     """
     last = first
-    for take in range(2, request.takes + 1):
+    for take in range(2, 1 + (request.takes if request.planner == "convex" else 1)):
         if last.status != "failure" or request.mode == "open" or world.ego_bounds.holds_speed or last.run is None:
             break
         drive = drive_profile(last.run.trace.actors[world.scene.program.ego.name])
@@ -350,6 +360,7 @@ def write_result(
         notes_of(result.translation),
         result.take,
         request.simulator if driven else "none",
+        request.planner if driven else "none",
     )
     write_run(directory, world.scene, result.run, world.limits, circumstances)
     write_verdict(result.verdict, directory / "verdict.json")

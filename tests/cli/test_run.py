@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pytest
 from sentences import IMPOSSIBLE, OPEN_SENTENCE, SENTENCE
 
 from forms import FORMS, PROBE
@@ -159,6 +160,15 @@ def test_gives_up_with_what_the_planner_cannot_hold(command: Command, tmp_path: 
     data = json.loads(command("run", program, "--json").stdout)
     assert (data["status"], data["exit_status"]) == ("gave up", 4)
     assert PROBE in data["tried"]
+
+
+def test_gives_up_where_the_smt_planner_finds_nothing(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("scenewright.plan.smt.MOST_WORK", 1)
+    result = command("run", SENTENCE, "--planner", "smt")
+    assert result.exit_code == 4
+    assert "Nothing was driven: the SMT planner found no first plan" in result.stderr
+    assert "z3 gave up" in json.loads(command("run", SENTENCE, "--planner", "smt", "--json").stdout)["tried"]
+    assert command("run", SENTENCE, "--planner", "paper").exit_code == 2
 
 
 def test_same_inputs_and_seed_give_the_same_trace(command: Command) -> None:

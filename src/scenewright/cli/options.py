@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 _NUMBER = re.compile(r"[-+]?[\d_]*\.?[\d_]+(e[-+]?\d+)?", re.IGNORECASE)
 Mode = Literal["closed", "open"]
 Tolerance = Literal["tight", "loose"]
+PlannerName = Literal["convex", "smt"]
 FailOn = Literal["collision"]
 
 
@@ -181,6 +182,14 @@ Simulator = Annotated[
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout and nothing else there.")]
 ModeOption = Annotated[
     Mode, typer.Option("--mode", help="Re-solve while the ego drives (closed), or carry out the first plan (open).")
+]
+PlannerOption = Annotated[
+    PlannerName,
+    typer.Option(
+        "--planner",
+        help="What plans: convex optimisation, or an SMT solver at every tick, as in the paper "
+        "(`run examples/demo.txt --ego constant --planner smt`).",
+    ),
 ]
 ToleranceOption = Annotated[
     Tolerance, typer.Option("--tolerance", help="Which tolerance decides whether the run is a success.")

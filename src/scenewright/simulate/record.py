@@ -49,6 +49,7 @@ class Circumstances:
     notes: tuple[str, ...] = ()
     take: int = 1
     simulator: str = "builtin"
+    planner: str = "convex"
 
 
 def prepare_directory(directory: Path) -> None:
@@ -138,6 +139,7 @@ def _manifest(scene: Scene, run: Run, limits: Mapping[int, Limits], circumstance
         "tolerance": circumstances.tolerance,
         "translator": circumstances.translator,
         "simulator": circumstances.simulator,
+        "planner": circumstances.planner,
         "ego": {"name": circumstances.ego_name, "options": dict(circumstances.ego_options)},
         "map": _map(scene.road_map),
         "routes": {actor.name: _route(scene, actor.id) for actor in program.actors},

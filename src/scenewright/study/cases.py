@@ -118,9 +118,9 @@ def run_bench_case(case: BenchCase) -> CaseRecord:
 
 def carry_out_case(case: BenchCase, row: BenchmarkRow) -> tuple[CaseRecord, Request, Result]:
     """Run one case; raises `ScenewrightError` where the request is wrong."""
-    from scenewright.study.rivals import run_method
+    from scenewright.study.rivals import request_of, run_method
 
-    request = case.request(row)
+    request = request_of(case.method, case.request(row))
     started = time.perf_counter()
     result = run_method(case.method, request)
     record = replace(record_of(case, row, result), wall_s=time.perf_counter() - started)

@@ -35,7 +35,7 @@ from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
 from scenewright.solve.holding import not_held
 from scenewright.solve.plan import Plan
-from scenewright.study.rivals import METHODS
+from scenewright.study.rivals import METHODS, request_of
 from scenewright.study.rivals.follower import FollowingHeroes
 from scenewright.study.rivals.rejection import sampled_scripts
 from scenewright.study.rivals.script import Script, write_scripts
@@ -80,10 +80,8 @@ class Staging:
 def run(method: str, request: Request) -> Result:
     """Carry out `request` by `method`; see `scenewright.study.rivals.run_method`."""
     name, _, option = method.partition(":")
-    if name == "scenewright":
-        return orchestrate(request)
-    if name == "open-loop":
-        return orchestrate(replace(request, mode="open"))
+    if method in ("scenewright", "open-loop", "smt"):
+        return orchestrate(request_of(method, request))
     if name not in _RIVALS:
         raise InputError("there is no such method", found=method, expected=", ".join(METHODS))
     return _staged(request, method, option, _RIVALS[name])
