@@ -2,6 +2,7 @@
 
     description --translate--> program --ground on a map--> scene --check--> feasible, or a proof that it cannot happen
         --plan--> first plan --simulate, re-solve each tick--> trace --judge--> verdict --> page
+        where it missed: --explain--> its cause, and what would do
 
 What enters: a `Request`. What leaves: a `Result` and, where something was driven, a run directory.
 """
@@ -16,10 +17,16 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from scenewright.errors import ScenewrightError
+from scenewright.explain.cause import cause_of
+from scenewright.explain.in_way import InWay, hero_in_way
+from scenewright.explain.ways_out import ways_out
 from scenewright.judge.tolerance import LOOSE, TIGHT, dimension_of
+from scenewright.judge.tolerance import Tolerance as Tolerances
 from scenewright.plan.planner import Attempt, Planner
 from scenewright.plan.rehearsal import Rehearsed
 from scenewright.program.check import check_values
+from scenewright.program.printer import print_program
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
@@ -39,6 +46,7 @@ if TYPE_CHECKING:
 
     from scenewright.judge.case import Case
     from scenewright.judge.verdict import Condition, Verdict
+    from scenewright.program.types import Program
     from scenewright.solve.proofs.witness import Witness
     from scenewright.trace.model import Trace
     from scenewright.translate.translation import Translation
@@ -65,7 +73,10 @@ _SLOW_PACE = 0.43
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What a user asks for: the command line of ``scenewright run``, as data; `solver` is what refutes."""
+    """What a user asks for: the command line of ``scenewright run``, as data.
+
+    `solver` is what refutes. With `ways_out`, other numbers are tried where the run misses.
+    """
 
     source: str
     parameters: Mapping[str, float | str] = field(default_factory=dict)
@@ -79,17 +90,19 @@ class Request:
     replan_hz: float = 10.0
     predictor: str = "road"
     takes: int = 3
+    ways_out: bool = False
     solver: str = "z3"
     translation: TranslatorSettings = field(default_factory=TranslatorSettings)
 
 
 @dataclass(frozen=True, slots=True)
 class Take:
-    """How one take was judged, and what was driven; `hindsight` as in `Result`."""
+    """How one take was judged, and what was driven; `hindsight` and `in_way` as in `Result`."""
 
     verdict: Verdict
     hindsight: Feasibility | None
     trace: Trace | None = None
+    in_way: InWay | None = None
 
 
 @dataclass(slots=True)
@@ -104,6 +117,8 @@ class Result:
         What the first plan breaks beyond the loose tolerance; nothing was driven then.
     hindsight
         For a run that missed: the proof that against the ego as it drove no hero could have done it, if there is one.
+    in_way
+        For a run that missed: the hero in its way for which the ego slowed down before the trigger, if there is one.
     run_directory
         Where the files are; None where nothing was driven or nothing was to be written.
     take
@@ -120,6 +135,7 @@ class Result:
     not_held: tuple[NotHeld, ...] = ()
     run: Run | None = None
     hindsight: Feasibility | None = None
+    in_way: InWay | None = None
     verdict: Verdict | None = None
     run_directory: Path | None = None
     take: int = 1
@@ -171,6 +187,8 @@ def orchestrate(
         return result
     _drive(request, result, world, planned, stages, progress)
     result = _rehearse(request, result, world, stages, progress)
+    if result.status == "failure":
+        _explain(request, result, world, stages)
     if request.out is not None:
         with stages("write"):
             write_result(request.out, request, result, world, stages.seconds)
@@ -240,7 +258,7 @@ def _rehearse(
                 break
         else:
             break  # nothing to drive, however the take begins
-        last = replace(first, take=take, takes=last.takes, hindsight=None)
+        last = replace(first, take=take, takes=last.takes, hindsight=None, in_way=None)
         _drive(request, last, world, planned, stages, progress)
         if last.status == "success":
             return last
@@ -266,6 +284,31 @@ def _missed(result: Result) -> list[Condition]:
 
 def _missed_only_outcome(result: Result) -> bool:
     return {condition.kind for condition in _missed(result)} == {"outcome"}
+
+
+def _tolerance(request: Request) -> Tolerances:
+    return TIGHT if request.tolerance == "tight" else LOOSE
+
+
+def _explain(request: Request, result: Result, world: World, stages: Stages) -> None:
+    """Put into the verdict why the run missed and, where that is asked for, what would do."""
+    assert result.run is not None
+    assert result.verdict is not None
+    with stages("explain"):
+        cause = cause_of(world, result.run, result.verdict, _tolerance(request), result.hindsight, result.in_way)
+    if request.ways_out:
+        with stages("ways out"):
+
+            def succeeds(program: Program, parameters: Mapping[str, float]) -> bool:
+                tried = replace(request, source=print_program(program), out=None, ways_out=False, takes=1)
+                try:
+                    return orchestrate(replace(tried, parameters={**request.parameters, **parameters})).status == "success"
+                except ScenewrightError:
+                    return False  # a value that is out of range, say
+
+            found = ways_out(world.scene, result.verdict, _tolerance(request), succeeds)
+            cause = replace(cause, would_do=found)
+    result.verdict = replace(result.verdict, cause=cause)
 
 
 def set_up(request: Request, stages: Stages) -> tuple[World, Translation | None]:
@@ -294,20 +337,19 @@ def judge_run(request: Request, result: Result, world: World, stages: Stages, hi
     assert run is not None
     with stages("judge"):
         result.verdict = judge(case_of(world.scene, run, world.limits))
-    holds = result.verdict.holds_at(TIGHT if request.tolerance == "tight" else LOOSE)
+    holds = result.verdict.holds_at(_tolerance(request))
     result.status = "success" if holds else "failure"
     if run.status != "finished":
         result.status = "interrupted" if run.status == "interrupted" else "failed"
     elif hindsight and not holds:
         with stages("hindsight"):
             result.hindsight = ego_left_no_room(world.scene, world.structure, world.limits, run.trace)
-        if result.hindsight is not None:
-            run.findings.append(
-                "The ego left no room: against the way it drove no vehicle within its limits could have met all "
-                "conditions."
-            )
+            facts = result.verdict.facts
+            came = [time_s for time_s in facts["trigger_time_s"].values() if time_s is not None]
+            never = facts["ego_never_met_condition"] or not came
+            result.in_way = hero_in_way(world, run.trace, run.trace.duration_s if never else max(came))
     if run.status == "finished":
-        result.takes = (*result.takes, Take(result.verdict, result.hindsight, run.trace))
+        result.takes = (*result.takes, Take(result.verdict, result.hindsight, run.trace, result.in_way))
 
 
 def write_result(

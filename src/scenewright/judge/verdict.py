@@ -1,13 +1,14 @@
-"""The verdict: conditions with required and measured values, what came of the run, and facts.
+"""The verdict: conditions with required and measured values, what came of the run, facts, and why it missed.
 
-What enters: these. What leaves: success at any tolerance, and the plain data of `verdict.json`.
+What enters: these. What leaves: success at any tolerance, and the plain data of `verdict.json`. Why a run missed is found
+by whoever drove it (`scenewright.explain`); here it only has its form.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
 from scenewright.judge.aftermath import Aftermath
@@ -16,6 +17,7 @@ from scenewright.units import Dimension
 
 SCHEMA_VERSION = 1
 Kind = Literal["initial", "route", "trigger", "interaction", "outcome", "safety"]
+CauseKind = Literal["ego", "way", "prediction", "authority", "order", "plan"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,12 +71,53 @@ class Condition:
 
 
 @dataclass(frozen=True, slots=True)
+class WayOut:
+    """Another value of one number with which it happened, when it was tried with the same ego and seed.
+
+    Attributes
+    ----------
+    what
+        The parameter's name, or the number and where it stands.
+    value, instead_of
+        In `unit`.
+    parameter
+        The name to set; None for a number that is written in the description or program.
+    """
+
+    what: str
+    value: float
+    instead_of: float
+    unit: str
+    parameter: str | None = None
+
+    def __str__(self) -> str:
+        unit = f" {self.unit}" if self.unit else ""
+        if self.parameter is not None:
+            return f"{self.parameter} = {self.value:g} instead of {self.instead_of:g}{unit}"
+        return f"{self.value:g}{unit} instead of {self.what}"
+
+
+@dataclass(frozen=True, slots=True)
+class Cause:
+    """Why a run missed: one kind of cause, in words, with the numbers that it rests on (SI units, by name)."""
+
+    kind: CauseKind
+    text: str
+    evidence: Mapping[str, Any]
+    would_do: tuple[WayOut, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class Verdict:
-    """The judgement of one run: whether it happened as described, and, apart from that, what came of it."""
+    """The judgement of one run: whether it happened as described, and, apart from that, what came of it.
+
+    `cause` is why it missed, where that was asked.
+    """
 
     conditions: tuple[Condition, ...]
     aftermath: Aftermath
     facts: Mapping[str, Any]
+    cause: Cause | None = None
 
     def holds_at(self, tolerance: Tolerance) -> bool:
         """Whether every condition holds within the tolerance."""
@@ -94,6 +137,7 @@ class Verdict:
             "success": {"tight": self.holds_at(TIGHT), "loose": self.holds_at(LOOSE)},
             "conditions": [condition.as_dict() for condition in self.conditions],
             "aftermath": _plain(self.aftermath.as_dict()),
+            "cause": _plain(asdict(self.cause)) if self.cause is not None else None,
             "facts": _plain(dict(self.facts)),
         }
 

@@ -1,0 +1,129 @@
+"""What would do: other values of one number with which a run that missed happens after all, each of them tried.
+
+What enters: the scene, how its run was judged, and a way to drive another program or other parameters. What leaves: the
+values that led to a success. It reckons nothing out: what is tried first is what was measured, then more and less of each
+number that what failed, the trigger and the start speak of.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from scenewright.judge.tolerance import Tolerance
+from scenewright.judge.verdict import Verdict, WayOut
+from scenewright.program.expressions import Number
+from scenewright.program.printer import print_expression
+from scenewright.program.structure import Role, read_structure
+from scenewright.program.types import Program
+from scenewright.roads.grounding import Scene
+from scenewright.solve.suggestions import Lever, levers
+from scenewright.units import SI_SYMBOL
+
+# No more runs than this, and none is begun after this time (s): who waits for an answer waits for its runs, too.
+_TRIES, _ALL_S = 8, 10.0
+_ENOUGH = 3
+_SAME = 1e-6
+_SHARES = (Fraction(3, 2), Fraction(2, 3), Fraction(2), Fraction(1, 2))
+
+Drive = Callable[[Program, Mapping[str, float]], bool]
+
+
+@dataclass(frozen=True, slots=True)
+class _Trial:
+    """Another value of a lever, in the unit that the user knows it in."""
+
+    lever: Lever
+    value: Fraction
+    unit: str
+    si_factor: Fraction
+
+    @property
+    def is_parameter(self) -> bool:
+        return self.lever.number is None
+
+    def way_out(self) -> WayOut:
+        name = self.lever.name if self.is_parameter else None
+        instead_of = float(self.lever.value / self.si_factor)
+        return WayOut(self.lever.what, float(self.value), instead_of, self.unit, name)
+
+
+def ways_out(scene: Scene, verdict: Verdict, tolerance: Tolerance, succeeds: Drive) -> tuple[WayOut, ...]:
+    """Return other values of single numbers with which it happens.
+
+    Parameters
+    ----------
+    succeeds
+        Drives a program with some parameters set (in their own units) with the same ego and seed, and returns whether
+        it was judged a success.
+    """
+    found: dict[str, WayOut] = {}
+    until, tries = time.monotonic() + _ALL_S, 0
+    for trial in _trials(scene, verdict, tolerance):
+        if tries >= _TRIES or len(found) >= _ENOUGH or time.monotonic() > until:
+            break
+        if trial.lever.what in found:
+            continue
+        tries += 1
+        program = trial.lever.put(scene.program, Number(trial.value * trial.si_factor))
+        parameters = {trial.lever.name: float(trial.value)} if trial.is_parameter else {}
+        if succeeds(program, parameters):
+            found[trial.lever.what] = trial.way_out()
+    return tuple(found.values())
+
+
+def _trials(scene: Scene, verdict: Verdict, tolerance: Tolerance) -> Iterator[_Trial]:
+    """Yield values to try, those first that are nearest to what was seen."""
+    roles = read_structure(scene.program).roles
+    failed = [each.id for each in verdict.conditions if not each.holds_at(tolerance)]
+    told = [constraint.id for constraint in scene.program.constraints]
+    groups: list[Sequence[str]] = [
+        [name for name in told if name in failed],
+        [name for name in told if roles[name] is Role.TRIGGER],
+        [name for name in told if roles[name] is Role.INITIAL],
+    ]
+    known = {lever.what: lever for group in groups for lever in levers(scene, group)}
+    seen: set[tuple[str, Fraction]] = set()
+    for lever, value in [*_measured(scene, verdict, failed), *_steps(list(known.values()))]:
+        trial = _readable(scene, lever, value)
+        key = (lever.what, trial.value)
+        if trial.value * trial.si_factor != lever.value and key not in seen:
+            seen.add(key)
+            yield trial
+
+
+def _steps(known: Sequence[Lever]) -> Iterator[tuple[Lever, Fraction]]:
+    for share in _SHARES:
+        for lever in known:
+            yield lever, lever.value * share
+
+
+def _measured(scene: Scene, verdict: Verdict, failed: Sequence[str]) -> Iterator[tuple[Lever, Fraction]]:
+    """Yield what was measured, for numbers that were required; and how near the ego came to its side of the trigger."""
+    for condition in verdict.conditions:
+        if condition.id not in failed or condition.required is None or condition.measured is None:
+            continue
+        for lever in levers(scene, [condition.id]):
+            for sign in (1, -1):  # a rate of slowing down is often written without its sign
+                if abs(sign * float(lever.value) - condition.required) < _SAME:
+                    yield lever, Fraction(sign * condition.measured)
+    formulas = {print_expression(constraint.formula): constraint.id for constraint in scene.program.constraints}
+    for side in verdict.facts["closest"]:
+        if side["met"] or side["error"] is None or side["side"] not in formulas:
+            continue
+        for lever in levers(scene, [formulas[side["side"]]]):
+            for sign in (1, -1):
+                yield lever, lever.value + sign * Fraction(side["error"])
+
+
+def _readable(scene: Scene, lever: Lever, value: Fraction) -> _Trial:
+    """Return a value as people would write it, in the unit of the parameter's name or in SI units."""
+    unit, factor = SI_SYMBOL.get(lever.dimension, ""), Fraction(1)  # type: ignore[call-overload]
+    if lever.number is None:
+        own = next(p for p in scene.program.parameters if p.name == lever.name).unit
+        unit, factor = own.symbol, own.si_factor
+    inside = value / factor
+    digits = 1 if abs(inside) >= 1 else 2
+    return _Trial(lever, Fraction(round(inside * 10**digits), 10**digits), unit, factor)
