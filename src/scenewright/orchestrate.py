@@ -296,19 +296,23 @@ def _explain(request: Request, result: Result, world: World, stages: Stages) -> 
     assert result.verdict is not None
     with stages("explain"):
         cause = cause_of(world, result.run, result.verdict, _tolerance(request), result.hindsight, result.in_way)
+        result.verdict = replace(result.verdict, cause=cause)
     if request.ways_out:
         with stages("ways out"):
 
-            def succeeds(program: Program, parameters: Mapping[str, float]) -> bool:
-                tried = replace(request, source=print_program(program), out=None, ways_out=False, takes=1)
+            def succeeds(program: Program, parameters: Mapping[str, float], progress: Callable[[float], None]) -> bool:
+                values = {**request.parameters, **parameters}
+                other = replace(request, source=print_program(program), parameters=values, out=None, ways_out=False)
                 try:
-                    return orchestrate(replace(tried, parameters={**request.parameters, **parameters})).status == "success"
+                    tried = orchestrate(replace(other, takes=min(2, request.takes)), progress=progress)
                 except ScenewrightError:
                     return False  # a value that is out of range, say
+                if tried.status == "interrupted":
+                    raise KeyboardInterrupt
+                return tried.status == "success"
 
             found = ways_out(world.scene, result.verdict, _tolerance(request), succeeds)
-            cause = replace(cause, would_do=found)
-    result.verdict = replace(result.verdict, cause=cause)
+            result.verdict = replace(result.verdict, cause=replace(cause, would_do=found))
 
 
 def set_up(request: Request, stages: Stages) -> tuple[World, Translation | None]:

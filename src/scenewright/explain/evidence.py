@@ -45,21 +45,23 @@ def last_good(run: Run, until_s: float) -> Replan | None:
     return good[-1] if good else None
 
 
-def foreseen_otherwise(world: World, run: Run, tick: Replan, hero: Actor, at_s: float | None) -> Finding | None:
-    """Return by how much the ego was off what the plan of `tick` foresaw at `at_s` (None: where its trigger was to be).
+def foreseen_otherwise(
+    world: World, run: Run, tick: Replan, hero: Actor, until_s: float, *, at_trigger: bool
+) -> Finding | None:
+    """Return by how much the ego was off what the plan of `tick` foresaw; None for no more than the tight tolerance.
 
-    None where it was there within the tight tolerance.
+    What counts is the instant `until_s`; with `at_trigger` the one at which the trigger was to come by that plan.
     """
     ego, foreseen = run.trace.actors[world.scene.program.ego.name], tick.foreseen
     assert foreseen is not None
-    knot = world.structure.trigger_knot(EGO) or ""
-    planned = foreseen.knot_times_s.get(knot)
-    then_s = min(run.trace.duration_s, planned if at_s is None and planned is not None else at_s or run.trace.duration_s)
+    knot = world.structure.trigger_knot(EGO)
+    if at_trigger and knot is not None:
+        until_s = foreseen.knot_times_s.get(knot, until_s)
+    then_s = min(until_s, run.trace.duration_s)
     seen_m, seen_mps, _ = foreseen.state(then_s)
     drove_m, drove_mps = ego.position(then_s), ego.speed(then_s)
     off_m, off_mps = drove_m - seen_m, drove_mps - seen_mps
-    # A place is off by its own tolerance, or by the way of a tight tolerance in time.
-    if abs(off_m) <= max(TIGHT.length_m, 0.0) and abs(off_mps) <= TIGHT.speed_mps:
+    if not _is_off((seen_m, seen_mps, 0.0), ego, then_s):
         return None
     times = np.arange(tick.time_s, then_s + 1e-9, _LOOKED_AT_S)
     left = (t for t in times.tolist() if _is_off(foreseen.state(t), ego, t))
@@ -87,54 +89,56 @@ def _is_off(foreseen: tuple[float, float, float], ego: ActorTrace, time_s: float
 
 # -- authority ------------------------------------------------------------------------------------------------------
 def limit_reached(world: World, run: Run, hero: Actor, from_s: float, to_s: float) -> Finding | None:
-    """Return which limit of `hero` was reached for the longest time between two instants; None where none was."""
+    """Return which limit of its motion a hero was at for the longest time between two instants; None for none.
+
+    What lasts less than a tick is not answered by anybody, and does not count.
+    """
     states, limits, route = run.trace.actors[hero.name], world.limits[hero.id], world.scene.routes[hero.id]
-    times = states.time_s
-    inside = (times >= from_s) & (times <= to_s)
-    accel, speed = states.accel_mps2, states.speed_mps
-    lateral = speed**2 * np.abs([route.path.curvature(float(s)) for s in states.s_m])
-    for names in (
-        {
-            "braking": (-accel, limits.brake_max_mpss, "m/s^2"),
-            "acceleration": (accel, limits.accel_max_mpss, "m/s^2"),
-            "speed": (speed, limits.speed_max_mps, "m/s"),
-            "lateral acceleration in the bend": (lateral, limits.lateral_max_mpss, "m/s^2"),
-        },
-        _settled(world, hero, times, accel, to_s),
-    ):
-        reached = {name: inside & (values >= _REACHED * most) for name, (values, most, _) in names.items()}
-        name = max(reached, key=lambda name: int(np.count_nonzero(reached[name])), default="")
-        if name and reached[name].any():
-            values, most, unit = names[name]
-            at = np.flatnonzero(reached[name])
-            worst = int(at[np.argmax(values[at])])
-            text = (
-                f"{hero.name} was at the limit of its {name} ({most:.3g} {unit}): it came to {values[worst]:.2f} {unit} at "
-                f"{times[worst]:.1f} s"
-            )
-            return Finding(
-                text,
-                {
-                    "hero": hero.name, "limit": name, "most": most, "unit": unit, "reached": float(values[worst]),
-                    "time_s": float(times[worst]), "from_s": float(times[at[0]]), "to_s": float(times[at[-1]]),
-                },
-            )  # fmt: skip
-    return None
+    bends = np.abs([route.path.curvature(float(s)) for s in states.s_m])
+    reached = {
+        "braking": (-states.accel_mps2, limits.brake_max_mpss, "m/s^2"),
+        "acceleration": (states.accel_mps2, limits.accel_max_mpss, "m/s^2"),
+        "speed": (states.speed_mps, limits.speed_max_mps, "m/s"),
+        "lateral acceleration in the bend": (states.speed_mps**2 * bends, limits.lateral_max_mpss, "m/s^2"),
+    }
+    found = [_at_limit(hero, name, states.time_s, *each, from_s, to_s) for name, each in reached.items()]
+    lasting = [each for each in found if each is not None and each.evidence["for_s"] >= (world.rates.replan_s or 0.0)]
+    return max(lasting, key=lambda each: float(each.evidence["for_s"]), default=None)
 
 
-def _settled(
-    world: World, hero: Actor, times: FloatArray, accel: FloatArray, trigger_s: float
-) -> dict[str, tuple[FloatArray, float, str]]:
-    """Return how hard a hero did, while it was to be settled, what was to begin at its trigger, and how hard it might."""
-    knot, manner = world.structure.trigger_knot(hero.id), world.scene.program.manner
+def settled_limit_reached(world: World, run: Run, hero: Actor, trigger_s: float) -> Finding | None:
+    """Return how hard a hero did what was to begin at its trigger while it was to be settled, where it could no more."""
+    knot, manner, states = world.structure.trigger_knot(hero.id), world.scene.program.manner, run.trace.actors[hero.name]
     if knot is None or knot == hero.sketch.knots[-1]:
-        return {}
-    piece = hero.sketch.pieces[hero.sketch.knot_index(knot)]
-    if piece not in (PieceKind.DEC, PieceKind.ACC):
-        return {}
-    pull = accel if piece is PieceKind.ACC else -accel
-    waits = (times >= trigger_s - float(manner.settled_s)) & (times < trigger_s)
-    return {"settled manner before the trigger": (np.where(waits, pull, 0.0), float(calm_mpss(manner)), "m/s^2")}
+        return None
+    sense = {PieceKind.ACC: 1.0, PieceKind.DEC: -1.0}.get(hero.sketch.pieces[hero.sketch.knot_index(knot)])
+    if sense is None:
+        return None
+    name, pull, most = "manner, settled before its trigger", sense * states.accel_mps2, float(calm_mpss(manner))
+    return _at_limit(
+        hero, name, states.time_s, pull, most, "m/s^2", trigger_s - float(manner.settled_s), trigger_s - _LOOKED_AT_S
+    )
+
+
+def _at_limit(
+    hero: Actor, name: str, times: FloatArray, values: FloatArray, most: float, unit: str, from_s: float, to_s: float
+) -> Finding | None:
+    at = np.flatnonzero((times >= from_s) & (times <= to_s) & (values >= _REACHED * most))
+    if not len(at):
+        return None
+    worst = int(at[np.argmax(values[at])])
+    for_s = float(len(at) * (times[-1] - times[0]) / max(1, len(times) - 1))
+    text = (
+        f"{hero.name} was at the limit of its {name} ({most:.3g} {unit}) and could do no more: it came to "
+        f"{values[worst]:.2f} {unit} at {times[worst]:.1f} s"
+    )
+    return Finding(
+        text,
+        {
+            "hero": hero.name, "limit": name, "most": most, "unit": unit, "reached": float(values[worst]),
+            "reached_s": float(times[worst]), "from_s": float(times[at[0]]), "to_s": float(times[at[-1]]), "for_s": for_s,
+        },
+    )  # fmt: skip
 
 
 # -- order ----------------------------------------------------------------------------------------------------------

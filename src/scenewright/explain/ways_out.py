@@ -15,7 +15,6 @@ from fractions import Fraction
 from scenewright.judge.tolerance import Tolerance
 from scenewright.judge.verdict import Verdict, WayOut
 from scenewright.program.expressions import Number
-from scenewright.program.printer import print_expression
 from scenewright.program.structure import Role, read_structure
 from scenewright.program.types import Program
 from scenewright.roads.grounding import Scene
@@ -26,9 +25,13 @@ from scenewright.units import SI_SYMBOL
 _TRIES, _ALL_S = 8, 10.0
 _ENOUGH = 3
 _SAME = 1e-6
-_SHARES = (Fraction(3, 2), Fraction(2, 3), Fraction(2), Fraction(1, 2))
+_SHARES = (Fraction(3, 2), Fraction(2), Fraction(2, 3), Fraction(1, 2))
 
-Drive = Callable[[Program, Mapping[str, float]], bool]
+Drive = Callable[[Program, Mapping[str, float], Callable[[float], None]], bool]
+
+
+class _OutOfTime(Exception):  # noqa: N818 - the end of a search, not an error
+    """It has been tried for long enough."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,22 +58,32 @@ def ways_out(scene: Scene, verdict: Verdict, tolerance: Tolerance, succeeds: Dri
 
     Parameters
     ----------
+    verdict
+        With the run's cause: what it names is varied first.
     succeeds
         Drives a program with some parameters set (in their own units) with the same ego and seed, and returns whether
-        it was judged a success.
+        it was judged a success. It is given what to call as it goes on. Who interrupts it wants no more tries.
     """
     found: dict[str, WayOut] = {}
     until, tries = time.monotonic() + _ALL_S, 0
+
+    def in_time(_: float) -> None:
+        if time.monotonic() > until:
+            raise _OutOfTime
+
     for trial in _trials(scene, verdict, tolerance):
         if tries >= _TRIES or len(found) >= _ENOUGH or time.monotonic() > until:
             break
-        if trial.lever.what in found:
+        program = trial.lever.put(scene.program, Number(trial.value * trial.si_factor))
+        if trial.lever.what in found or not (trial.is_parameter or program != scene.program):
             continue
         tries += 1
-        program = trial.lever.put(scene.program, Number(trial.value * trial.si_factor))
         parameters = {trial.lever.name: float(trial.value)} if trial.is_parameter else {}
-        if succeeds(program, parameters):
-            found[trial.lever.what] = trial.way_out()
+        try:
+            if succeeds(program, parameters, in_time):
+                found[trial.lever.what] = trial.way_out()
+        except (_OutOfTime, KeyboardInterrupt):
+            break
     return tuple(found.values())
 
 
@@ -79,43 +92,41 @@ def _trials(scene: Scene, verdict: Verdict, tolerance: Tolerance) -> Iterator[_T
     roles = read_structure(scene.program).roles
     failed = [each.id for each in verdict.conditions if not each.holds_at(tolerance)]
     told = [constraint.id for constraint in scene.program.constraints]
+    named = verdict.cause.evidence.get("condition") if verdict.cause is not None else None
     groups: list[Sequence[str]] = [
+        [name for name in told if name == named],
         [name for name in told if name in failed],
         [name for name in told if roles[name] is Role.TRIGGER],
         [name for name in told if roles[name] is Role.INITIAL],
     ]
     known = {lever.what: lever for group in groups for lever in levers(scene, group)}
     seen: set[tuple[str, Fraction]] = set()
-    for lever, value in [*_measured(scene, verdict, failed), *_steps(list(known.values()))]:
+    first = [(lever, lever.value * share) for lever in levers(scene, groups[0]) for share in _SHARES]
+    steps = [(lever, lever.value * share) for share in _SHARES for lever in known.values()]
+    for lever, value in [*_measured(scene, verdict, failed), *first, *steps]:
         trial = _readable(scene, lever, value)
         key = (lever.what, trial.value)
-        if trial.value * trial.si_factor != lever.value and key not in seen:
+        if trial.value * lever.value > 0 and trial.value * trial.si_factor != lever.value and key not in seen:
             seen.add(key)
             yield trial
 
 
-def _steps(known: Sequence[Lever]) -> Iterator[tuple[Lever, Fraction]]:
-    for share in _SHARES:
-        for lever in known:
-            yield lever, lever.value * share
-
-
 def _measured(scene: Scene, verdict: Verdict, failed: Sequence[str]) -> Iterator[tuple[Lever, Fraction]]:
-    """Yield what was measured, for numbers that were required; and how near the ego came to its side of the trigger."""
-    for condition in verdict.conditions:
-        if condition.id not in failed or condition.required is None or condition.measured is None:
-            continue
-        for lever in levers(scene, [condition.id]):
-            for sign in (1, -1):  # a rate of slowing down is often written without its sign
-                if abs(sign * float(lever.value) - condition.required) < _SAME:
-                    yield lever, Fraction(sign * condition.measured)
-    formulas = {print_expression(constraint.formula): constraint.id for constraint in scene.program.constraints}
-    for side in verdict.facts["closest"]:
-        if side["met"] or side["error"] is None or side["side"] not in formulas:
-            continue
-        for lever in levers(scene, [formulas[side["side"]]]):
-            for sign in (1, -1):
-                yield lever, lever.value + sign * Fraction(side["error"])
+    """Yield what was measured for numbers that were required, what was named first; else what was off, either way."""
+    named = verdict.cause.evidence if verdict.cause is not None else {}
+    conditions = {condition.id: condition for condition in verdict.conditions if condition.id in failed}
+    if verdict.facts["ego_never_met_condition"]:  # what was measured at a trigger that never came says nothing
+        conditions = {name: each for name, each in conditions.items() if each.kind != "trigger"}
+    for name in sorted(conditions, key=lambda name: name != named.get("condition")):
+        condition = conditions[name]
+        for lever in levers(scene, [name]):
+            if condition.required is not None and condition.measured is not None:
+                for sign in (1, -1):  # a rate of slowing down is often written without its sign
+                    if abs(sign * float(lever.value) - condition.required) < _SAME:
+                        yield lever, Fraction(sign * condition.measured)
+            elif name == named.get("condition") and named.get("off"):
+                for sign in (1, -1):
+                    yield lever, lever.value + sign * Fraction(named["off"])
 
 
 def _readable(scene: Scene, lever: Lever, value: Fraction) -> _Trial:

@@ -184,8 +184,7 @@ def _replaced(node: Node, old: Number, new: Term) -> Node:
             return replace(node, operand=_replaced(operand, old, new))  # type: ignore[arg-type]
         case Logic(operands=operands):
             return replace(node, operands=tuple(_replaced(o, old, new) for o in operands))  # type: ignore[misc]
-        case Temporal(start=start, end=end, body=body):
-            parts = (_replaced(part, old, new) for part in (start, end, body))
-            return Temporal(node.operator, *parts, node.span)  # type: ignore[arg-type]
+        case Temporal(body=body):
+            return replace(node, body=_replaced(body, old, new))  # type: ignore[arg-type]
         case _:
             return node
