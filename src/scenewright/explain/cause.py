@@ -103,7 +103,11 @@ def _ego_did(
     for side in verdict.facts["closest"]:
         if side["who"] == "ego" and not side["met"]:
             off, unit = side["error"], side["unit"]
-            near = "" if off is None else f": it came no nearer than {off:.2f} {unit}".rstrip() + f", at {side['time_s']:.1f} s"
+            near = (
+                ""
+                if off is None
+                else f": it came no nearer than {off:.2f} {unit}".rstrip() + f", at {side['time_s']:.1f} s"
+            )
             return Finding(
                 f"The ego never came to its side of the trigger ({side['side']}){near}; no hero can make it",
                 {"condition": ids.get(side["side"]), "off": off, "unit": unit, "time_s": side["time_s"]},

@@ -108,7 +108,11 @@ def limit_reached(world: World, run: Run, hero: Actor, from_s: float, to_s: floa
 
 def settled_limit_reached(world: World, run: Run, hero: Actor, trigger_s: float) -> Finding | None:
     """Return how hard a hero did what was to begin at its trigger while it was to be settled, where it could no more."""
-    knot, manner, states = world.structure.trigger_knot(hero.id), world.scene.program.manner, run.trace.actors[hero.name]
+    knot, manner, states = (
+        world.structure.trigger_knot(hero.id),
+        world.scene.program.manner,
+        run.trace.actors[hero.name],
+    )
     if knot is None or knot == hero.sketch.knots[-1]:
         return None
     sense = {PieceKind.ACC: 1.0, PieceKind.DEC: -1.0}.get(hero.sketch.pieces[hero.sketch.knot_index(knot)])

@@ -67,7 +67,9 @@ def hero_in_way(world: World, trace: Trace, until_s: float) -> InWay | None:
     ego = trace.actors[world.scene.program.ego.name]
     times = np.arange(float(ego.time_s[0]), until_s, _LOOKED_AT_S)
     place, speed = (np.interp(times, ego.time_s, values) for values in (ego.s_m, ego.speed_mps))
-    touched = {hero.name: _touched_m(world, trace.actors[hero.name], times, place) for hero in world.scene.program.heroes}
+    touched = {
+        hero.name: _touched_m(world, trace.actors[hero.name], times, place) for hero in world.scene.program.heroes
+    }
     if not any(np.isfinite(ahead).any() for ahead in touched.values()):
         return None
     alone = _drive_alone(world, float(place[0]), float(speed[0]), trace.duration_s)
