@@ -14,12 +14,12 @@ import time
 from collections.abc import Callable, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from scenewright.errors import ScenewrightError
 from scenewright.explain.cause import cause_of
-from scenewright.explain.in_way import InWay, hero_in_way
 from scenewright.explain.ways_out import ways_out
 from scenewright.judge.tolerance import LOOSE, TIGHT, dimension_of
 from scenewright.judge.tolerance import Tolerance as Tolerances
@@ -75,7 +75,7 @@ _SLOW_PACE = 0.43
 class Request:
     """What a user asks for: the command line of ``scenewright run``, as data.
 
-    `solver` is what refutes. With `ways_out`, other numbers are tried where the run misses.
+    `solver` is what refutes; `explain` says what is found out about a run that misses.
     """
 
     source: str
@@ -90,19 +90,18 @@ class Request:
     replan_hz: float = 10.0
     predictor: str = "road"
     takes: int = 3
-    ways_out: bool = False
+    explain: Literal["nothing", "cause", "ways out"] = "cause"
     solver: str = "z3"
     translation: TranslatorSettings = field(default_factory=TranslatorSettings)
 
 
 @dataclass(frozen=True, slots=True)
 class Take:
-    """How one take was judged, and what was driven; `hindsight` and `in_way` as in `Result`."""
+    """How one take was judged, and what was driven; `hindsight` as in `Result`."""
 
     verdict: Verdict
     hindsight: Feasibility | None
     trace: Trace | None = None
-    in_way: InWay | None = None
 
 
 @dataclass(slots=True)
@@ -117,8 +116,6 @@ class Result:
         What the first plan breaks beyond the loose tolerance; nothing was driven then.
     hindsight
         For a run that missed: the proof that against the ego as it drove no hero could have done it, if there is one.
-    in_way
-        For a run that missed: the hero in its way for which the ego slowed down before the trigger, if there is one.
     run_directory
         Where the files are; None where nothing was driven or nothing was to be written.
     take
@@ -135,7 +132,6 @@ class Result:
     not_held: tuple[NotHeld, ...] = ()
     run: Run | None = None
     hindsight: Feasibility | None = None
-    in_way: InWay | None = None
     verdict: Verdict | None = None
     run_directory: Path | None = None
     take: int = 1
@@ -187,7 +183,7 @@ def orchestrate(
         return result
     _drive(request, result, world, planned, stages, progress)
     result = _rehearse(request, result, world, stages, progress)
-    if result.status == "failure":
+    if result.status == "failure" and request.explain != "nothing":
         _explain(request, result, world, stages)
     if request.out is not None:
         with stages("write"):
@@ -258,7 +254,7 @@ def _rehearse(
                 break
         else:
             break  # nothing to drive, however the take begins
-        last = replace(first, take=take, takes=last.takes, hindsight=None, in_way=None)
+        last = replace(first, take=take, takes=last.takes, hindsight=None)
         _drive(request, last, world, planned, stages, progress)
         if last.status == "success":
             return last
@@ -295,24 +291,29 @@ def _explain(request: Request, result: Result, world: World, stages: Stages) -> 
     assert result.run is not None
     assert result.verdict is not None
     with stages("explain"):
-        cause = cause_of(world, result.run, result.verdict, _tolerance(request), result.hindsight, result.in_way)
+        cause = cause_of(world, result.run, result.verdict, _tolerance(request), result.hindsight)
         result.verdict = replace(result.verdict, cause=cause)
-    if request.ways_out:
+    if request.explain == "ways out":
         with stages("ways out"):
+            found, tried = ways_out(
+                world.scene, result.verdict, _tolerance(request), partial(_happens, request), stages.say
+            )
+        result.verdict = replace(result.verdict, cause=replace(cause, would_do=found, tried=tried))
 
-            def succeeds(program: Program, parameters: Mapping[str, float], progress: Callable[[float], None]) -> bool:
-                values = {**request.parameters, **parameters}
-                other = replace(request, source=print_program(program), parameters=values, out=None, ways_out=False)
-                try:
-                    tried = orchestrate(replace(other, takes=min(2, request.takes)), progress=progress)
-                except ScenewrightError:
-                    return False  # a value that is out of range, say
-                if tried.status == "interrupted":
-                    raise KeyboardInterrupt
-                return tried.status == "success"
 
-            found = ways_out(world.scene, result.verdict, _tolerance(request), succeeds)
-            result.verdict = replace(result.verdict, cause=replace(cause, would_do=found))
+def _happens(
+    request: Request, program: Program, parameters: Mapping[str, float], progress: Callable[[float], None]
+) -> bool:
+    """Whether another program, or other parameters, are judged a success in their first take."""
+    values = {**request.parameters, **parameters}
+    other = replace(request, source=print_program(program), parameters=values, out=None, takes=1, explain="nothing")
+    try:
+        tried = orchestrate(other, progress=progress)
+    except ScenewrightError:
+        return False  # a value that is out of range, say
+    if tried.status == "interrupted":
+        raise KeyboardInterrupt
+    return tried.status == "success"
 
 
 def set_up(request: Request, stages: Stages) -> tuple[World, Translation | None]:
@@ -345,15 +346,11 @@ def judge_run(request: Request, result: Result, world: World, stages: Stages, hi
     result.status = "success" if holds else "failure"
     if run.status != "finished":
         result.status = "interrupted" if run.status == "interrupted" else "failed"
-    elif hindsight and not holds:
+    elif hindsight and not holds and request.explain != "nothing":
         with stages("hindsight"):
             result.hindsight = ego_left_no_room(world.scene, world.structure, world.limits, run.trace)
-            facts = result.verdict.facts
-            came = [time_s for time_s in facts["trigger_time_s"].values() if time_s is not None]
-            never = facts["ego_never_met_condition"] or not came
-            result.in_way = hero_in_way(world, run.trace, run.trace.duration_s if never else max(came))
     if run.status == "finished":
-        result.takes = (*result.takes, Take(result.verdict, result.hindsight, run.trace, result.in_way))
+        result.takes = (*result.takes, Take(result.verdict, result.hindsight, run.trace))
 
 
 def write_result(
@@ -427,13 +424,12 @@ class Stages:
 
     def __init__(self, report: Report | None) -> None:
         self.seconds: dict[str, float] = {}
-        self._report = report
+        self.say: Report = report or (lambda _: None)
 
     @contextmanager
     def __call__(self, name: str) -> Iterator[None]:
         """Time what is done inside as the stage `name`."""
-        if self._report is not None:
-            self._report(name)
+        self.say(name)
         started = time.perf_counter()
         try:
             yield

@@ -83,7 +83,7 @@ def run(
             replan_hz=replan_hz,
             predictor=predictor,
             takes=takes,
-            ways_out=ways_out,
+            explain="ways out" if ways_out else "cause",
         )
         folder = claim(out, asked.source)
         request = replace(request, out=folder.path)

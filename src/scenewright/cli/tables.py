@@ -209,8 +209,8 @@ def cause(judged: Verdict) -> Iterator[Text]:
     """Yield lines on why the run missed and what would do, where that is known."""
     if judged.cause is not None:
         yield Text(f"Why: {judged.cause.text}")
-        for way_out in judged.cause.would_do:
-            yield Text(f"It happens with {way_out}.")
+        if judged.cause.way_out():
+            yield Text(judged.cause.way_out())
 
 
 def missed(judged: Verdict, tolerance: str) -> list[Condition]:

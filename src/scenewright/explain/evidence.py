@@ -12,17 +12,17 @@ from typing import Any
 
 import numpy as np
 
-from scenewright.judge.tolerance import TIGHT, FloatArray
+from scenewright.judge.tolerance import TIGHT
 from scenewright.judge.verdict import Verdict
 from scenewright.plan.planner import GOOD, Replan
 from scenewright.program.expressions import Compare, Elapsed
 from scenewright.program.printer import print_expression
-from scenewright.program.types import EGO, Actor, Constraint, PieceKind
+from scenewright.program.types import EGO, Actor, Constraint
 from scenewright.roads.routes import Route
 from scenewright.simulate.loop import Run
 from scenewright.simulate.world import World
-from scenewright.solve.arrival import linear_conditions
-from scenewright.solve.limits import Limits, calm_mpss
+from scenewright.solve.arrival import linear_conditions, tight_of
+from scenewright.solve.limits import Limits
 from scenewright.trace.model import ActorTrace
 
 # Plans keep a few percent of room to limits (`plan.asked`, `solve.limits.ROOM`): from here on one is made use of.
@@ -38,6 +38,44 @@ class Finding:
     evidence: Mapping[str, Any]
 
 
+# -- the ego --------------------------------------------------------------------------------------------------------
+def ego_never_there(world: World, run: Run, verdict: Verdict) -> Finding | None:
+    """Return how near the ego came to its side of the trigger, where it never came to all of it at once."""
+    program = world.scene.program
+    asked = {print_expression(constraint.formula): constraint for constraint in program.constraints}
+    for side in verdict.facts["closest"]:
+        if side["who"] == "ego" and not side["met"]:
+            constraint = asked.get(side["side"])
+            words = (constraint and program.words_of(constraint)) or side["side"]
+            off = None if side["error"] is None else f"off by {side['error']:.2f} {side['unit']}".rstrip()
+            return _never(words, off, side["time_s"], {"condition": constraint and constraint.id, "off": side["error"]})
+    ego, knot = run.trace.actors[program.ego.name], world.structure.trigger_knot(EGO)
+    off_by = {}
+    for side in linear_conditions(world.scene, world.structure):
+        if side.moments == {(EGO, knot)} and set(side.weights) == {EGO}:
+            tight = [
+                tight_of(side, speed) if side.weights[EGO][0] else TIGHT.speed_mps for speed in ego.speed_mps.tolist()
+            ]
+            off_by[side.constraint_id] = np.abs(side.value({EGO: (ego.s_m, ego.speed_mps)})) / tight  # type: ignore[dict-item]
+    if not off_by:
+        return None
+    worst = np.max(list(off_by.values()), axis=0)
+    best = int(worst.argmin())
+    if worst[best] <= 1.0:
+        return None
+    words = " and ".join(dict.fromkeys(program.words_of(each) or each.id for each in map(program.constraint, off_by)))
+    off = f"off by {worst[best]:.1f} tight tolerances"
+    return _never(words, off, float(ego.time_s[best]), {"off_tolerances": float(worst[best])})
+
+
+def _never(words: str, off: str | None, time_s: float | None, evidence: Mapping[str, Any]) -> Finding:
+    near = "" if off is None or time_s is None else f": it was nearest at {time_s:.1f} s, {off}"
+    return Finding(
+        f'the ego never came to its side of the trigger ("{words}"){near}',
+        {**evidence, "time_s": time_s, "proof": [f"{words}{near}"]},
+    )
+
+
 # -- prediction -----------------------------------------------------------------------------------------------------
 def last_good(run: Run, until_s: float) -> Replan | None:
     """Return the last plan before `until_s` that did what was asked, with the ego as it was foreseen."""
@@ -45,9 +83,7 @@ def last_good(run: Run, until_s: float) -> Replan | None:
     return good[-1] if good else None
 
 
-def foreseen_otherwise(
-    world: World, run: Run, tick: Replan, hero: Actor, until_s: float, *, at_trigger: bool
-) -> Finding | None:
+def foreseen_otherwise(world: World, run: Run, tick: Replan, until_s: float, *, at_trigger: bool) -> Finding | None:
     """Return by how much the ego was off what the plan of `tick` foresaw; None for no more than the tight tolerance.
 
     What counts is the instant `until_s`; with `at_trigger` the one at which the trigger was to come by that plan.
@@ -66,16 +102,15 @@ def foreseen_otherwise(
     times = np.arange(tick.time_s, then_s + 1e-9, _LOOKED_AT_S)
     left = (t for t in times.tolist() if _is_off(foreseen.state(t), ego, t))
     since_s = next(left, then_s)
-    side = "further on" if off_m > 0 else "further back"
-    by = f"{abs(off_m):.1f} m {side}" + (f" and {abs(off_mps):.1f} m/s {'faster' if off_mps > 0 else 'slower'}")
     text = (
-        f"The ego did not drive as foreseen: the plan of {tick.time_s:.1f} s would have done, but at {then_s:.1f} s the ego "
-        f"was {by} than it foresaw; from {since_s:.1f} s on it was off by more than the tight tolerance"
+        f"the ego did not drive as foreseen: the plan of {tick.time_s:.1f} s would have done, but at {then_s:.1f} s "
+        f"the ego was {abs(off_m):.1f} m further {'on' if off_m > 0 else 'back'} and {abs(off_mps):.1f} m/s "
+        f"{'faster' if off_mps > 0 else 'slower'} than that, and off by more than tight from {since_s:.1f} s on"
     )
     return Finding(
         text,
         {
-            "hero": hero.name, "planned_s": tick.time_s, "time_s": then_s, "since_s": since_s,
+            "planned_s": tick.time_s, "time_s": then_s, "since_s": since_s,
             "foreseen_m": seen_m, "drove_m": drove_m, "off_m": off_m,
             "foreseen_mps": seen_mps, "drove_mps": drove_mps, "off_mps": off_mps,
         },
@@ -101,48 +136,18 @@ def limit_reached(world: World, run: Run, hero: Actor, from_s: float, to_s: floa
         "speed": (states.speed_mps, limits.speed_max_mps, "m/s"),
         "lateral acceleration in the bend": (states.speed_mps**2 * bends, limits.lateral_max_mpss, "m/s^2"),
     }
-    found = [_at_limit(hero, name, states.time_s, *each, from_s, to_s) for name, each in reached.items()]
-    lasting = [each for each in found if each is not None and each.evidence["for_s"] >= (world.rates.replan_s or 0.0)]
-    return max(lasting, key=lambda each: float(each.evidence["for_s"]), default=None)
-
-
-def settled_limit_reached(world: World, run: Run, hero: Actor, trigger_s: float) -> Finding | None:
-    """Return how hard a hero did what was to begin at its trigger while it was to be settled, where it could no more."""
-    knot, manner, states = (
-        world.structure.trigger_knot(hero.id),
-        world.scene.program.manner,
-        run.trace.actors[hero.name],
-    )
-    if knot is None or knot == hero.sketch.knots[-1]:
+    within = (states.time_s >= from_s) & (states.time_s <= to_s)
+    found = {name: np.flatnonzero(within & (values >= _REACHED * most)) for name, (values, most, _) in reached.items()}
+    name = max(found, key=lambda name: len(found[name]))
+    for_s = len(found[name]) * world.rates.step_s
+    if for_s < (world.rates.replan_s or world.rates.step_s):
         return None
-    sense = {PieceKind.ACC: 1.0, PieceKind.DEC: -1.0}.get(hero.sketch.pieces[hero.sketch.knot_index(knot)])
-    if sense is None:
-        return None
-    name, pull, most = "manner, settled before its trigger", sense * states.accel_mps2, float(calm_mpss(manner))
-    return _at_limit(
-        hero, name, states.time_s, pull, most, "m/s^2", trigger_s - float(manner.settled_s), trigger_s - _LOOKED_AT_S
-    )
-
-
-def _at_limit(
-    hero: Actor, name: str, times: FloatArray, values: FloatArray, most: float, unit: str, from_s: float, to_s: float
-) -> Finding | None:
-    at = np.flatnonzero((times >= from_s) & (times <= to_s) & (values >= _REACHED * most))
-    if not len(at):
-        return None
-    worst = int(at[np.argmax(values[at])])
-    for_s = float(len(at) * (times[-1] - times[0]) / max(1, len(times) - 1))
-    text = (
-        f"{hero.name} was at the limit of its {name} ({most:.3g} {unit}) and could do no more: it came to "
-        f"{values[worst]:.2f} {unit} at {times[worst]:.1f} s"
-    )
-    return Finding(
-        text,
-        {
-            "hero": hero.name, "limit": name, "most": most, "unit": unit, "reached": float(values[worst]),
-            "reached_s": float(times[worst]), "from_s": float(times[at[0]]), "to_s": float(times[at[-1]]), "for_s": for_s,
-        },
-    )  # fmt: skip
+    values, most, unit = reached[name]
+    worst = int(found[name][np.argmax(values[found[name]])])
+    at_s = float(states.time_s[worst])
+    text = f"{hero.name} could do no more: at {at_s:.1f} s it was at the limit of its {name} ({most:.3g} {unit})"
+    evidence = {"hero": hero.name, "limit": name, "most": most, "unit": unit, "time_s": at_s, "for_s": for_s}
+    return Finding(text, {**evidence, "reached": float(values[worst])})
 
 
 # -- order ----------------------------------------------------------------------------------------------------------
@@ -169,36 +174,27 @@ def came_too_late(world: World, run: Run, verdict: Verdict, constraint: Constrai
     hero_s, ego_s = (_finite(times[program.actor(each.actor).name].get(each.knot)) for each in order)
     if ego_s is None:
         return None
-    states = run.trace.actors[hero.name]
-    place_m = _place_m(world, (hero.id, order[0].knot)) if hero_s is None else states.position(hero_s)
-    safe_s = None if place_m is None else _latest_safe_s(world, hero.id, states, place_m, ego_s)
-    late = "never came" if hero_s is None else f"came {hero_s - ego_s:.1f} s after the ego"
-    still = (
-        "speeding up as hard as it can, it never could have been first" if safe_s is None
-        else f"speeding up as hard as it can, it could have been first until {safe_s:.1f} s"
-    )  # fmt: skip
+    states, trigger_s = run.trace.actors[hero.name], verdict.facts["trigger_time_s"].get(hero.name)
+    safe_s, late = None, "never came"
+    if hero_s is not None:
+        safe_s = _latest_safe_s(world, hero.id, states, states.position(hero_s), ego_s)
+        until = "never, not even" if safe_s is None else f"until {safe_s:.1f} s,"
+        late = (
+            f"came {hero_s - ego_s:.1f} s after the ego; it could have been {until} with full acceleration from then on"
+        )
+    came = "" if trigger_s is None else f"; its trigger came at {trigger_s:.1f} s"
     words = program.words_of(constraint) or print_expression(constraint.formula)
     return Finding(
-        f"{hero.name} was to be first ({words}) and {late}; {still}",
+        f'{hero.name} was to be first ("{words}") and {late}{came}',
         {
             "hero": hero.name, "hero_s": hero_s, "ego_s": ego_s, "late_s": None if hero_s is None else hero_s - ego_s,
-            "place_m": place_m, "latest_safe_s": safe_s,
+            "latest_safe_s": safe_s, "trigger_s": trigger_s,
         },
     )  # fmt: skip
 
 
 def _finite(value: Any) -> float | None:
     return float(value) if value is not None and np.isfinite(value) else None
-
-
-def _place_m(world: World, moment: tuple[int, str]) -> float | None:
-    """Return where the program says that an actor is at one of its knots."""
-    for condition in linear_conditions(world.scene, world.structure):
-        if condition.moments == {moment} and set(condition.weights) == {moment[0]}:
-            per_metre, per_speed = condition.weights[moment[0]]
-            if per_metre and not per_speed:
-                return -condition.constant / per_metre
-    return None
 
 
 def _latest_safe_s(world: World, hero: int, states: ActorTrace, place_m: float, before_s: float) -> float | None:

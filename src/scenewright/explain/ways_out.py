@@ -1,13 +1,12 @@
 """What would do: other values of one number with which a run that missed happens after all, each of them tried.
 
 What enters: the scene, how its run was judged, and a way to drive another program or other parameters. What leaves: the
-values that led to a success. It reckons nothing out: what is tried first is what was measured, then more and less of each
-number that what failed, the trigger and the start speak of.
+values that led to a success. It reckons nothing out: what is tried first is what was measured, then more and less of
+each number that what failed, the trigger and the start speak of.
 """
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -21,17 +20,17 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.suggestions import Lever, levers
 from scenewright.units import SI_SYMBOL
 
-# No more runs than this, and none is begun after this time (s): who waits for an answer waits for its runs, too.
-_TRIES, _ALL_S = 8, 10.0
-_ENOUGH = 3
+# No more runs than this, of no more simulated seconds than this in all: who waits for an answer waits for them, too.
+_TRIES, _ALL_S = 8, 100.0
+_ENOUGH = 2
 _SAME = 1e-6
 _SHARES = (Fraction(3, 2), Fraction(2), Fraction(2, 3), Fraction(1, 2))
 
 Drive = Callable[[Program, Mapping[str, float], Callable[[float], None]], bool]
 
 
-class _OutOfTime(Exception):  # noqa: N818 - the end of a search, not an error
-    """It has been tried for long enough."""
+class _LongEnough(Exception):  # noqa: N818 - the end of a search, not an error
+    """All that may be simulated has been."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,8 +52,10 @@ class _Trial:
         return WayOut(self.lever.what, float(self.value), instead_of, self.unit, name)
 
 
-def ways_out(scene: Scene, verdict: Verdict, tolerance: Tolerance, succeeds: Drive) -> tuple[WayOut, ...]:
-    """Return other values of single numbers with which it happens.
+def ways_out(
+    scene: Scene, verdict: Verdict, tolerance: Tolerance, succeeds: Drive, report: Callable[[str], None]
+) -> tuple[tuple[WayOut, ...], int]:
+    """Return other values of single numbers with which it happens, and how many were tried.
 
     Parameters
     ----------
@@ -62,29 +63,35 @@ def ways_out(scene: Scene, verdict: Verdict, tolerance: Tolerance, succeeds: Dri
         With the run's cause: what it names is varied first.
     succeeds
         Drives a program with some parameters set (in their own units) with the same ego and seed, and returns whether
-        it was judged a success. It is given what to call as it goes on. Who interrupts it wants no more tries.
+        it was judged a success. It is given what to call with the simulated time as it goes on. Who interrupts it
+        wants no more tries.
+    report
+        Called with what is tried next.
     """
     found: dict[str, WayOut] = {}
-    until, tries = time.monotonic() + _ALL_S, 0
+    tries, driven_s, last_s = 0, 0.0, 0.0
 
-    def in_time(_: float) -> None:
-        if time.monotonic() > until:
-            raise _OutOfTime
+    def goes_on(time_s: float) -> None:
+        nonlocal driven_s, last_s
+        driven_s, last_s = driven_s + max(0.0, time_s - last_s), time_s
+        if driven_s > _ALL_S:
+            raise _LongEnough
 
     for trial in _trials(scene, verdict, tolerance):
-        if tries >= _TRIES or len(found) >= _ENOUGH or time.monotonic() > until:
+        if tries >= _TRIES or len(found) >= _ENOUGH:
             break
         program = trial.lever.put(scene.program, Number(trial.value * trial.si_factor))
         if trial.lever.what in found or not (trial.is_parameter or program != scene.program):
             continue
-        tries += 1
-        parameters = {trial.lever.name: float(trial.value)} if trial.is_parameter else {}
+        report(f"trying what would do: {trial.way_out()}")
         try:
-            if succeeds(program, parameters, in_time):
-                found[trial.lever.what] = trial.way_out()
-        except (_OutOfTime, KeyboardInterrupt):
+            happens = succeeds(program, {trial.lever.name: float(trial.value)} if trial.is_parameter else {}, goes_on)
+        except (_LongEnough, KeyboardInterrupt):
             break
-    return tuple(found.values())
+        tries += 1
+        if happens:
+            found[trial.lever.what] = trial.way_out()
+    return tuple(found.values()), tries
 
 
 def _trials(scene: Scene, verdict: Verdict, tolerance: Tolerance) -> Iterator[_Trial]:

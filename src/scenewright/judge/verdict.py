@@ -1,7 +1,7 @@
 """The verdict: conditions with required and measured values, what came of the run, facts, and why it missed.
 
-What enters: these. What leaves: success at any tolerance, and the plain data of `verdict.json`. Why a run missed is found
-by whoever drove it (`scenewright.explain`); here it only has its form.
+What enters: these. What leaves: success at any tolerance, and the plain data of `verdict.json`. Why a run missed is
+found by whoever drove it (`scenewright.explain`); here it only has its form.
 """
 
 from __future__ import annotations
@@ -99,12 +99,27 @@ class WayOut:
 
 @dataclass(frozen=True, slots=True)
 class Cause:
-    """Why a run missed: one kind of cause, in words, with the numbers that it rests on (SI units, by name)."""
+    """Why a run missed: one kind of cause, in words, with the numbers that it rests on (SI units, by name).
+
+    `tried` is how many other numbers were tried, of which `would_do` did.
+    """
 
     kind: CauseKind
     text: str
     evidence: Mapping[str, Any]
     would_do: tuple[WayOut, ...] = ()
+    tried: int = 0
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the cause in the form of `verdict.json`."""
+        would_do = [{**asdict(way), "text": str(way)} for way in self.would_do]
+        return {**asdict(self), "would_do": would_do, "way_out": self.way_out()}
+
+    def way_out(self) -> str:
+        """Return in words what would do; empty where nothing was tried."""
+        if self.would_do:
+            return f"It happens with {', or with '.join(map(str, self.would_do))}."
+        return f"None of {self.tried} other numbers that were tried would do." if self.tried else ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,7 +152,7 @@ class Verdict:
             "success": {"tight": self.holds_at(TIGHT), "loose": self.holds_at(LOOSE)},
             "conditions": [condition.as_dict() for condition in self.conditions],
             "aftermath": _plain(self.aftermath.as_dict()),
-            "cause": _plain(asdict(self.cause)) if self.cause is not None else None,
+            "cause": _plain(self.cause.as_dict()) if self.cause is not None else None,
             "facts": _plain(dict(self.facts)),
         }
 

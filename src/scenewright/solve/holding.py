@@ -47,8 +47,8 @@ def not_held(
     """Yield the constraints that motions break by more than is `allowed` of the dimension of what they compare.
 
     Who comes before the ego is not asked about: it may still give way. Nor is what speaks of a knot of the ego that
-    nobody foresees, of how the ego and another are to each other at a trigger, or of what the ego alone does once it has
-    started: the run brings that about.
+    nobody foresees, of how the ego and another are to each other at a trigger, or of what the ego alone does once it
+    has started: the run brings that about.
     """
     roles = read_structure(scene.program).roles
     parameters = {name: float(value) for name, value in scene.parameters.items()}
