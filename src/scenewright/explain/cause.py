@@ -43,10 +43,8 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
     missed = [condition for condition in verdict.conditions if not condition.holds_at(tolerance)]
     asked = {constraint.id: constraint for constraint in world.scene.program.constraints}
     failed = [asked[condition.id] for condition in missed if condition.id in asked]
-    came = [time_s for time_s in verdict.facts["trigger_time_s"].values() if time_s is not None]
-    never = ego_never_there(world, run, verdict)
-    in_way = hero_in_way(world, run.trace, max(came) if came and never is None else run.trace.duration_s)
-    ego = never or _denied(world.scene.program, missed, failed, proof)
+    in_way = hero_in_way(world, run)
+    ego = ego_never_there(world, run, verdict) or _denied(world.scene.program, missed, failed, proof)
     if in_way is not None and (ego or any(condition.id == "no_collision" for condition in missed)):
         return _cause("way", Finding(_capital(f"{in_way}; what it did then is no finding about it"), asdict(in_way)))
     if ego is not None:
@@ -62,17 +60,16 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
         until_s = max(run.last_plan.profiles[hero.id].knot_times_s.values())
     good = last_good(run, until_s)
     otherwise = good and foreseen_otherwise(world, run, good, until_s, at_trigger=not later)
-    if otherwise and in_way is not None:
-        otherwise = Finding(f"{otherwise.text}: {in_way}", {**otherwise.evidence, "in_way": asdict(in_way)})
     limit = limit_reached(world, run, hero, good.time_s if good else 0.0, until_s)
+    if limit is not None and otherwise:
+        since = f"after the ego drove otherwise than foreseen from {otherwise.evidence['since_s']:.1f} s on"
+        return _cause("authority", Finding(f"{limit.text}, {since}", {**otherwise.evidence, **limit.evidence}))
     if limit is not None:
-        since = f"; {otherwise.text}" if otherwise else ""
-        return _cause(
-            "authority", Finding(limit.text + since, {**(otherwise.evidence if otherwise else {}), **limit.evidence})
-        )
-    if otherwise:
-        return _cause("prediction", otherwise)
-    return _cause("plan", _planned_so(run, hero, until_s))
+        return _cause("authority", limit)
+    left = otherwise or _planned_so(run, hero, until_s)
+    if in_way is not None:
+        left = Finding(f"{left.text}; {in_way}", {**left.evidence, "in_way": asdict(in_way)})
+    return _cause("prediction" if otherwise else "plan", left)
 
 
 def _cause(kind: CauseKind, found: Finding) -> Cause:

@@ -103,9 +103,9 @@ def foreseen_otherwise(world: World, run: Run, tick: Replan, until_s: float, *, 
     left = (t for t in times.tolist() if _is_off(foreseen.state(t), ego, t))
     since_s = next(left, then_s)
     text = (
-        f"the ego did not drive as foreseen: the plan of {tick.time_s:.1f} s would have done, but at {then_s:.1f} s "
-        f"the ego was {abs(off_m):.1f} m further {'on' if off_m > 0 else 'back'} and {abs(off_mps):.1f} m/s "
-        f"{'faster' if off_mps > 0 else 'slower'} than that, and off by more than tight from {since_s:.1f} s on"
+        f"the ego did not drive as foreseen: at {then_s:.1f} s it was {abs(off_m):.1f} m further "
+        f"{'on' if off_m > 0 else 'back'} and {abs(off_mps):.1f} m/s {'faster' if off_mps > 0 else 'slower'} than in "
+        f"the plan of {tick.time_s:.1f} s, which would have done; it was off from {since_s:.1f} s on"
     )
     return Finding(
         text,
@@ -178,14 +178,12 @@ def came_too_late(world: World, run: Run, verdict: Verdict, constraint: Constrai
     safe_s, late = None, "never came"
     if hero_s is not None:
         safe_s = _latest_safe_s(world, hero.id, states, states.position(hero_s), ego_s)
-        until = "never, not even" if safe_s is None else f"until {safe_s:.1f} s,"
-        late = (
-            f"came {hero_s - ego_s:.1f} s after the ego; it could have been {until} with full acceleration from then on"
-        )
-    came = "" if trigger_s is None else f"; its trigger came at {trigger_s:.1f} s"
+        came = "" if trigger_s is None else f"its trigger came at {trigger_s:.1f} s, and "
+        until = "never have been first" if safe_s is None else f"have been first until {safe_s:.1f} s"
+        late = f"came {hero_s - ego_s:.1f} s after the ego: {came}at full acceleration it could {until}"
     words = program.words_of(constraint) or print_expression(constraint.formula)
     return Finding(
-        f'{hero.name} was to be first ("{words}") and {late}{came}',
+        f'{hero.name} was to be first ("{words}") and {late}',
         {
             "hero": hero.name, "hero_s": hero_s, "ego_s": ego_s, "late_s": None if hero_s is None else hero_s - ego_s,
             "latest_safe_s": safe_s, "trigger_s": trigger_s,

@@ -2,6 +2,7 @@
 
 What enters: a world and what was driven in it. What leaves: an `InWay` with its evidence, or None. Whether it slowed
 down for somebody is found by driving it again from the same start, alone on its road: nothing else is different there.
+From its trigger on a hero is where it is to be, and what the ego does is an answer to the test.
 """
 
 from __future__ import annotations
@@ -12,8 +13,8 @@ import numpy as np
 
 from scenewright.errors import PolicyError
 from scenewright.judge.tolerance import TIGHT, FloatArray
+from scenewright.simulate.loop import Run
 from scenewright.simulate.world import World
-from scenewright.trace.model import Trace
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +29,7 @@ class InWay:
         From when on.
     time_s, apart_m, ego_mps, alone_mps
         The instant at which it was slower by most; how far from the hero and how fast it was then, and how fast it is
-        alone: at that place or at that moment, whichever is slower. A bend slows it down alone, a whim does too.
+        alone, at that place or at that moment, whichever is slower: bends and whims slow it down alone, too.
     """
 
     hero: str
@@ -45,8 +46,11 @@ class InWay:
         )
 
 
-def hero_in_way(world: World, trace: Trace, until_s: float) -> InWay | None:
-    """Return the hero for which the ego slowed down before `until_s`; None for nobody."""
+def hero_in_way(world: World, run: Run) -> InWay | None:
+    """Return the hero for which the ego slowed down before the last trigger was acted upon; None for nobody."""
+    trace, plans, triggers = run.trace, run.last_plan.profiles, world.structure.trigger_knot
+    begun_s = [plans[hero.id].knot_times_s.get(triggers(hero.id) or "", 0.0) for hero in world.scene.program.heroes]
+    until_s = min(max(begun_s), trace.duration_s)
     ego = trace.actors[world.scene.program.ego.name]
     alone = _drive_alone(world, float(ego.s_m[0]), float(ego.speed_mps[0]), until_s)
     if alone is None:

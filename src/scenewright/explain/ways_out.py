@@ -21,7 +21,7 @@ from scenewright.solve.suggestions import Lever, levers
 from scenewright.units import SI_SYMBOL
 
 # No more runs than this, of no more simulated seconds than this in all: who waits for an answer waits for them, too.
-_TRIES, _ALL_S = 8, 100.0
+_TRIES, _ALL_S = 6, 60.0
 _ENOUGH = 2
 _SAME = 1e-6
 _SHARES = (Fraction(3, 2), Fraction(2), Fraction(2, 3), Fraction(1, 2))

@@ -119,7 +119,7 @@ class Cause:
         """Return in words what would do; empty where nothing was tried."""
         if self.would_do:
             return f"It happens with {', or with '.join(map(str, self.would_do))}."
-        return f"None of {self.tried} other numbers that were tried would do." if self.tried else ""
+        return f"Other numbers tried: {self.tried}; none would do." if self.tried else ""
 
 
 @dataclass(frozen=True, slots=True)
