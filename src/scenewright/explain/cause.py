@@ -55,15 +55,15 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
     hero = _hero(world.scene.program, failed)
     # What is asked of both after the trigger is missed by how the ego then drives; all else by what came to be at it.
     later = len(failed) == len(missed) and all(world.structure.roles[each.id] is Role.OUTCOME for each in failed)
-    until_s = verdict.facts["trigger_time_s"].get(hero.name) or run.trace.duration_s
-    if later:
-        until_s = max(run.last_plan.profiles[hero.id].knot_times_s.values())
+    knots_s = run.last_plan.profiles[hero.id].knot_times_s
+    acted_s = knots_s.get(world.structure.trigger_knot(hero.id) or "", run.trace.duration_s)
+    until_s = min(max(knots_s.values()) if later else acted_s, run.trace.duration_s)
     good = last_good(run, until_s)
     otherwise = good and foreseen_otherwise(world, run, good, until_s, at_trigger=not later)
     limit = limit_reached(world, run, hero, good.time_s if good else 0.0, until_s)
     if limit is not None and otherwise:
-        since = f"after the ego drove otherwise than foreseen from {otherwise.evidence['since_s']:.1f} s on"
-        return _cause("authority", Finding(f"{limit.text}, {since}", {**otherwise.evidence, **limit.evidence}))
+        why = in_way or f"the ego drove otherwise than foreseen from {otherwise.evidence['since_s']:.1f} s on"
+        return _cause("authority", Finding(f"{limit.text}, and {why}", {**otherwise.evidence, **limit.evidence}))
     if limit is not None:
         return _cause("authority", limit)
     left = otherwise or _planned_so(run, hero, until_s)

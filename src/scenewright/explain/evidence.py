@@ -86,31 +86,32 @@ def last_good(run: Run, until_s: float) -> Replan | None:
 def foreseen_otherwise(world: World, run: Run, tick: Replan, until_s: float, *, at_trigger: bool) -> Finding | None:
     """Return by how much the ego was off what the plan of `tick` foresaw; None for no more than the tight tolerance.
 
-    What counts is the instant `until_s`; with `at_trigger` the one at which the trigger was to come by that plan.
+    What counts is the instant `until_s`; with `at_trigger` that is when the trigger was acted upon, and what counts is
+    the instant at which it was to come by that plan, and when that is.
     """
     ego, foreseen = run.trace.actors[world.scene.program.ego.name], tick.foreseen
     assert foreseen is not None
     knot = world.structure.trigger_knot(EGO)
-    if at_trigger and knot is not None:
-        until_s = foreseen.knot_times_s.get(knot, until_s)
-    then_s = min(until_s, run.trace.duration_s)
+    planned_s = foreseen.knot_times_s.get(knot or "", until_s) if at_trigger else until_s
+    off_s, then_s = until_s - planned_s, min(planned_s, run.trace.duration_s)
     seen_m, seen_mps, _ = foreseen.state(then_s)
     drove_m, drove_mps = ego.position(then_s), ego.speed(then_s)
     off_m, off_mps = drove_m - seen_m, drove_mps - seen_mps
-    if not _is_off((seen_m, seen_mps, 0.0), ego, then_s):
+    if not _is_off((seen_m, seen_mps, 0.0), ego, then_s) and abs(off_s) <= TIGHT.time_s:
         return None
     times = np.arange(tick.time_s, then_s + 1e-9, _LOOKED_AT_S)
     left = (t for t in times.tolist() if _is_off(foreseen.state(t), ego, t))
     since_s = next(left, then_s)
+    came = f", and the trigger came {abs(off_s):.1f} s {'later' if off_s > 0 else 'sooner'}" if at_trigger else ""
     text = (
         f"the ego did not drive as foreseen: at {then_s:.1f} s it was {abs(off_m):.1f} m further "
         f"{'on' if off_m > 0 else 'back'} and {abs(off_mps):.1f} m/s {'faster' if off_mps > 0 else 'slower'} than in "
-        f"the plan of {tick.time_s:.1f} s, which would have done; it was off from {since_s:.1f} s on"
+        f"the plan of {tick.time_s:.1f} s, which would have done{came}; it was off from {since_s:.1f} s on"
     )
     return Finding(
         text,
         {
-            "planned_s": tick.time_s, "time_s": then_s, "since_s": since_s,
+            "planned_s": tick.time_s, "off_s": off_s, "time_s": then_s, "since_s": since_s,
             "foreseen_m": seen_m, "drove_m": drove_m, "off_m": off_m,
             "foreseen_mps": seen_mps, "drove_mps": drove_mps, "off_mps": off_mps,
         },
