@@ -85,7 +85,7 @@ def test_cause_is_written_and_read_back(tmp_path: Path) -> None:
 
 
 def test_what_an_ego_alone_is_asked_for_is_its_own_to_miss() -> None:
-    text = STORIES["yields, distance"] + "afterwards: A0v(t2) == 3\nA0x(t2) == conflict_point + 20\n"
-    found = cause(orchestrate(Request(text, ego="constant", takes=1)))
+    text = STORIES["yields, distance"] + "afterwards: A0v(t2) == 11\nA0x(t2) == conflict_point + 20\n"
+    found = cause(orchestrate(Request(text, ego="answering:Heedless:keep_mps=10.5", takes=1)))
     assert (found.kind, found.evidence["condition"]) == ("ego", "afterwards")
     assert "the ego alone decides" in found.text.lower()

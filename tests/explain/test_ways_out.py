@@ -14,7 +14,7 @@ from scenewright.program.types import Program
 from scenewright.simulate.world import World
 from stories import STORIES
 
-WITH_NAME = STORIES["goes first, distance"].replace("conflict_point - 14", "conflict_point - hero_gap_m")
+WITH_NAME = STORIES["goes first, distance"].replace("conflict_point - 40", "conflict_point - ego_gap_m")
 
 
 def missed(text: str, **settings: object) -> Result:
@@ -60,15 +60,14 @@ def test_written_number_that_is_proposed_would_do() -> None:
 
 
 def test_parameter_that_is_proposed_would_do() -> None:
-    result = missed(WITH_NAME, parameters={"hero_gap_m": 14}, explain="ways out")
+    result = missed(WITH_NAME, parameters={"ego_gap_m": 40}, explain="ways out")
     assert result.verdict is not None
     assert result.verdict.cause is not None
-    print(result.verdict.cause)
     named = [way for way in result.verdict.cause.would_do if way.parameter is not None]
     assert named
     for way in named:
-        assert (way.parameter, way.instead_of, way.unit) == ("hero_gap_m", 14.0, "m")
-        again = Request(WITH_NAME, {"hero_gap_m": way.value}, ego="speeder")
+        assert (way.parameter, way.instead_of, way.unit) == ("ego_gap_m", 40.0, "m")
+        again = Request(WITH_NAME, {"ego_gap_m": way.value}, ego="speeder")
         assert orchestrate(again).status == "success"
 
 

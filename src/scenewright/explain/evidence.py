@@ -102,7 +102,8 @@ def foreseen_otherwise(world: World, run: Run, tick: Replan, until_s: float, *, 
     times = np.arange(tick.time_s, then_s + 1e-9, _LOOKED_AT_S)
     left = (t for t in times.tolist() if _is_off(foreseen.state(t), ego, t))
     since_s = next(left, then_s)
-    came = f", and the trigger came {abs(off_s):.1f} s {'later' if off_s > 0 else 'sooner'}" if at_trigger else ""
+    late = f", and the trigger came {abs(off_s):.1f} s {'later' if off_s > 0 else 'sooner'}"
+    came = late if abs(off_s) > TIGHT.time_s else ""
     text = (
         f"the ego did not drive as foreseen: at {then_s:.1f} s it was {abs(off_m):.1f} m further "
         f"{'on' if off_m > 0 else 'back'} and {abs(off_mps):.1f} m/s {'faster' if off_mps > 0 else 'slower'} than in "

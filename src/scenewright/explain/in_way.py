@@ -40,9 +40,10 @@ class InWay:
     alone_mps: float
 
     def __str__(self) -> str:
+        when = f"at {self.time_s:.1f} s, {self.apart_m:.0f} m away"
         return (
-            f"the ego slowed down for {self.hero} before the trigger: at {self.time_s:.1f} s, {self.apart_m:.0f} m away, "
-            f"it drove {self.ego_mps:.1f} m/s, and drives {self.alone_mps:.1f} m/s where it is alone"
+            f"the ego slowed down for {self.hero} before the trigger: {when}, it drove {self.ego_mps:.1f} m/s, "
+            f"and drives {self.alone_mps:.1f} m/s where it is alone"
         )
 
 

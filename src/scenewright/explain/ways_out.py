@@ -24,7 +24,7 @@ from scenewright.units import SI_SYMBOL
 _TRIES, _ALL_S = 6, 60.0
 _ENOUGH = 2
 _SAME = 1e-6
-_SHARES = (Fraction(3, 2), Fraction(2), Fraction(2, 3), Fraction(1, 2))
+_SHARES = (Fraction(3, 2), Fraction(2, 3), Fraction(2), Fraction(1, 2))
 
 Drive = Callable[[Program, Mapping[str, float], Callable[[float], None]], bool]
 

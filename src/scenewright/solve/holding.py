@@ -35,7 +35,8 @@ class NotHeld:
     def __str__(self) -> str:
         words = f'  ("{self.words}")' if self.words else ""
         off = f", off by {self.by:.3g} {self.unit}".rstrip() if math.isfinite(self.by) else ""
-        return f"{self.constraint.id}: {print_expression(self.constraint.formula)}{words}{off}"
+        whose = "; the ego is nobody's to hold to it" if actors_of(self.constraint.formula) == {EGO} else ""
+        return f"{self.constraint.id}: {print_expression(self.constraint.formula)}{words}{off}{whose}"
 
 
 def not_held(
@@ -47,8 +48,7 @@ def not_held(
     """Yield the constraints that motions break by more than is `allowed` of the dimension of what they compare.
 
     Who comes before the ego is not asked about: it may still give way. Nor is what speaks of a knot of the ego that
-    nobody foresees, of how the ego and another are to each other at a trigger, or of what the ego alone does once it
-    has started: the run brings that about.
+    nobody foresees, or of how the ego and another are to each other at a trigger: the run brings that about.
     """
     roles = read_structure(scene.program).roles
     parameters = {name: float(value) for name, value in scene.parameters.items()}
@@ -58,8 +58,7 @@ def not_held(
     )
     world = PlanWorld(scene, {**profiles, EGO: passed}, parameters)
     for constraint in scene.program.constraints:
-        role, actors = roles[constraint.id], actors_of(constraint.formula)
-        if (role is Role.TRIGGER and actors > {EGO}) or (role is not Role.INITIAL and actors == {EGO}):
+        if roles[constraint.id] is Role.TRIGGER and actors_of(constraint.formula) > {EGO}:
             continue
         for part in _asked(constraint.formula):
             if any(actor == EGO and math.isinf(world.knot_time_s(EGO, knot)) for actor, knot in knots_of(part)):
