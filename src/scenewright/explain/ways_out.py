@@ -1,8 +1,9 @@
 """What would do: other values of one number with which a run that missed happens after all, each of them tried.
 
 What enters: the scene, how its run was judged, and a way to drive another program or other parameters. What leaves: the
-values that led to a success. It reckons nothing out: what is tried first is what was measured, then more and less of
-each number that what failed, the trigger and the start speak of.
+value that led to a success. It reckons nothing out: what is tried first is what was measured, then other values of
+each number that what failed, the trigger and the start speak of: more where it is the ego's, for that comes later then,
+and less where it is a hero's, which has less to do then; at last the other way.
 """
 
 from __future__ import annotations
@@ -14,17 +15,17 @@ from fractions import Fraction
 from scenewright.judge.tolerance import Tolerance
 from scenewright.judge.verdict import Verdict, WayOut
 from scenewright.program.expressions import Number
-from scenewright.program.structure import Role, read_structure
-from scenewright.program.types import Program
+from scenewright.program.structure import Role, actors_of, read_structure
+from scenewright.program.types import EGO, Program
 from scenewright.roads.grounding import Scene
 from scenewright.solve.suggestions import Lever, levers
 from scenewright.units import SI_SYMBOL
 
 # No more runs than this, of no more simulated seconds than this in all: who waits for an answer waits for them, too.
 _TRIES, _ALL_S = 6, 60.0
-_ENOUGH = 2
+_ENOUGH = 1
 _SAME = 1e-6
-_SHARES = (Fraction(3, 2), Fraction(2, 3), Fraction(2), Fraction(1, 2))
+_MORE, _LESS = (Fraction(3, 2), Fraction(2)), (Fraction(2, 3), Fraction(1, 2))
 
 Drive = Callable[[Program, Mapping[str, float], Callable[[float], None]], bool]
 
@@ -106,11 +107,18 @@ def _trials(scene: Scene, verdict: Verdict, tolerance: Tolerance) -> Iterator[_T
         [name for name in told if roles[name] is Role.TRIGGER],
         [name for name in told if roles[name] is Role.INITIAL],
     ]
-    known = {lever.what: lever for group in groups for lever in levers(scene, group)}
+    known: dict[str, tuple[Lever, bool]] = {}
+    for name in dict.fromkeys(name for group in groups for name in group):
+        of_ego = EGO in actors_of(scene.program.constraint(name).formula)
+        if of_ego or named is None:  # where it is the ego's doing no hero's number helps
+            for lever in levers(scene, [name]):
+                known.setdefault(lever.what, (lever, of_ego))
     seen: set[tuple[str, Fraction]] = set()
-    first = [(lever, lever.value * share) for lever in levers(scene, groups[0]) for share in _SHARES]
-    steps = [(lever, lever.value * share) for share in _SHARES for lever in known.values()]
-    for lever, value in [*_measured(scene, verdict, failed), *first, *steps]:
+    shares = [*zip(_MORE, _LESS, strict=True), *zip(_LESS, _MORE, strict=True)]
+    steps = [
+        (lever, lever.value * (egos if of_ego else heros)) for egos, heros in shares for lever, of_ego in known.values()
+    ]
+    for lever, value in [*_measured(scene, verdict, failed), *steps]:
         trial = _readable(scene, lever, value)
         key = (lever.what, trial.value)
         if trial.value * lever.value > 0 and trial.value * trial.si_factor != lever.value and key not in seen:

@@ -184,7 +184,7 @@ def _plain(value: Any) -> Any:
         return {str(key): _plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
         return [_plain(item) for item in value]
-    if isinstance(value, bool | str) or value is None:
+    if isinstance(value, bool | int | str) or value is None:
         return value
     number = float(value)
     return number if math.isfinite(number) else None
