@@ -113,7 +113,8 @@ def _hero(program: Program, failed: Sequence[Constraint]) -> Actor:
 
 def _planned_so(run: Run, hero: Actor, until_s: float) -> Finding:
     """Return what is left: it was planned so, though nothing stood against it."""
-    last = [tick for tick in run.replans if tick.foreseen is not None and tick.time_s < until_s][-1]
+    planned = [tick for tick in run.replans if tick.foreseen is not None and tick.time_s < until_s]
+    last = planned[-1] if planned else run.replans[0]
     return Finding(
         f"no plan was found that does all that was asked of {hero.name}, though it was at no limit of its motion: the "
         f"last one, of {last.time_s:.1f} s, missed by {last.tolerance:.1f} tight tolerances",

@@ -75,15 +75,17 @@ def hero_in_way(world: World, run: Run) -> InWay | None:
 
 
 def _drive_alone(world: World, s_m: float, speed_mps: float, for_s: float) -> tuple[FloatArray, FloatArray] | None:
-    """Return where the ego is how fast, alone on its road; None where it does not drive so."""
+    """Return where the ego is how fast, alone on its road; None where it cannot drive so."""
     ego, step_s = world.ego, world.rates.step_s
+    if world.simulator.capabilities.drives_ego:
+        return None
     states = [(s_m, speed_mps)]
     try:
         ego.reset(s_m, speed_mps)
         for step in range(round(for_s / step_s)):
             ego.advance(ego.decide(round(step * step_s, 9), (), step_s), step_s)
-            states.append((ego.s_m, ego.speed_mps))
-            if ego.s_m >= ego.route.path.length_m - 3.0:
+            states.append((ego.state.s_m, ego.state.speed_mps))
+            if ego.state.s_m >= ego.route.path.length_m - 3.0:
                 break
     except PolicyError:
         return None
