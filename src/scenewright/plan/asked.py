@@ -112,7 +112,8 @@ class Asked:
             norms[k] = TIGHT["time"] * speed_mps * max(abs(float(gradients[k, place])), 1e-9)
         levels, equal = values / norms, self._formulas.equal
         for k in self._formulas.chosen(np.where(equal, np.abs(levels), levels)):
-            slope = np.einsum("i,ij->j", gradients[k], slopes, optimize=False) / norms[k]
+            on = np.flatnonzero(gradients[k])
+            slope = np.einsum("i,ij->j", gradients[k, on], slopes[on], optimize=False) / norms[k]
             yield Row(float(levels[k]), slope, bool(equal[k]), self._orders[k] and not equal[k])
 
     def _is_order(self, atom: Atom) -> bool:

@@ -358,13 +358,10 @@ class Planner:
     def _made(self, problem: Problem, solution: Solution, prediction: Profile) -> _Found:
         """Return the plan that values stand for, with what was driven before it."""
         times = [moment.value(solution.z) for moment in problem.moments]
-        profiles: dict[int, Profile] = {}
+        profiles = {hero: drive.motion for hero, drive in problem.now.heroes.items()}
         for hero, shot in problem.shots(solution.z).items():
             sketch = self.scene.program.actor(hero).sketch
             drive = problem.now.heroes.get(hero)
-            if drive is not None and drive.piece >= len(sketch.pieces):
-                profiles[hero] = drive.motion
-                continue
             past = [] if drive is None else [
                 segment if segment.end_s <= drive.begin_s else segment.part(segment.start_s, drive.begin_s)
                 for segment in drive.motion.segments

@@ -21,6 +21,7 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.solve.proofs.narrowing import Narrowing
 
 Array = NDArray[np.float64]
+Columns = NDArray[np.intp]
 
 SOONEST_S = 0.02  # how soon after now a knot may come
 _ANY = float("inf")
@@ -35,17 +36,23 @@ _SENSE = {PieceKind.DEC: -1.0, PieceKind.ACC: 1.0}
 
 @dataclass(slots=True)
 class Rows:
-    """Values and slopes; `most` is from where on a row's cost grows evenly, not with the square."""
+    """Values and slopes; `most` is from where on a row's cost grows evenly, not with the square.
+
+    Slopes are by all unknowns, or by those only that `by` says when a row is added.
+    """
 
     values: list[float] = field(default_factory=list)
     slopes: list[Array] = field(default_factory=list)
     most: list[float] = field(default_factory=list)
+    columns: list[Columns | None] = field(default_factory=list)
+    by: Columns | None = None
 
     def add(self, value: float, slope: Array, weight: float = 1.0, most: float = _ANY) -> None:
         """Add one row."""
         self.values.append(weight * value)
         self.slopes.append(weight * slope)
         self.most.append(most)
+        self.columns.append(self.by)
 
     def beyond(self, value: float, slope: Array, weight: float) -> None:
         """Add what is unpleasant only where it is greater than zero."""

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from scenewright.plan.problem import Missed, Problem
 from scenewright.plan.rows import Rows
+from scenewright.plan.sparse_steps import DAMPING, sparse_step
 
 Array = NDArray[np.float64]
 
-_DAMPING = 0.02  # of a longest step: what nothing else decides stays as it is
 _ENOUGH = 1e-4  # a step that gains a smaller share is the last
 _SHORTER, _LONGER, _LEAST_TRUST, _NO_STEP = 0.3, 2.5, 1e-3, 1e-6
 _FREE, _EXACT, _MOST_ITERATIONS = 1e30, 1e-9, 4000
@@ -65,6 +65,8 @@ def _cost(costs: Rows, bounds: Rows) -> float:
 
 def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float) -> Array | None:
     """Return the best step for the linearised rows, within a share of the longest; None where there is none."""
+    if any(by is not None for by in costs.columns):
+        return sparse_step(problem, z, costs, bounds, trusted)
     import daqp
 
     longest, size = problem.step, problem.size
@@ -77,7 +79,7 @@ def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float)
     # Each row has a slack of its own, so that its price is the same here as in the cost.
     count, sizes = len(levels), np.maximum(np.linalg.norm(rows, axis=1), 1.0)
     hessian = np.zeros((size + count, size + count))
-    hessian[:size, :size] = _product(slopes.T, slopes) + _DAMPING**2 * np.eye(size)
+    hessian[:size, :size] = _product(slopes.T, slopes) + DAMPING**2 * np.eye(size)
     hessian[size:, size:] = np.diag(sizes**2)
     scale = 1.0 / max(1.0, float(np.max(np.diag(hessian))))
     low, high = (np.clip((bound - z) / longest, -trusted, trusted) for bound in (problem.low, problem.high))

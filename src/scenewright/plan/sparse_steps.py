@@ -1,0 +1,89 @@
+"""One Gauss-Newton step where each row is by a few unknowns: many heroes, each with its own.
+
+What enters: rows with the unknowns that they are by. What leaves: the best step for them, as `solving` takes it. Dense
+problems grow with the cube of all rows; of this one only the unknowns count, and of the rows those beyond their bounds.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.linalg import cho_factor, cho_solve
+
+from scenewright.plan.rows import Columns, Rows
+
+if TYPE_CHECKING:
+    from scenewright.plan.problem import Problem
+
+Array = NDArray[np.float64]
+Matrix = sparse.csr_array
+
+DAMPING = 0.02  # of a longest step: what nothing else decides stays as it is
+# A step beyond what an unknown may be costs as if a bound so dear were broken: none is by more than rounding.
+_WALL = 1e5
+_STANDS, _MOST_NEWTON_STEPS = 1e-9, 100
+
+
+def sparse_step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float) -> Array:
+    """Return the best step for the linearised rows, within a share of the longest."""
+    longest, size = problem.step, problem.size
+    slopes, rows = _matrix(costs, longest), _matrix(bounds, longest)
+    levels, most = np.array(bounds.values), np.array(bounds.most)
+    softened = np.sqrt(np.minimum(1.0, most / np.maximum(levels, 1e-9)))
+    low, high = (np.clip((bound - z) / longest, -trusted, trusted) for bound in (problem.low, problem.high))
+    walls = _WALL * sparse.eye_array(size)
+    rows = sparse.vstack([sparse.diags_array(softened) @ rows, walls, -walls], format="csr")
+    levels = np.concatenate([softened * levels, -_WALL * high, _WALL * low])
+    hessian = (slopes.T @ slopes).toarray() + DAMPING**2 * np.eye(size)
+    x = least(hessian, slopes.T @ np.array(costs.values), rows, levels)
+    return np.asarray(np.clip(x, low, high) * longest, dtype=np.float64)
+
+
+def least(hessian: Array, slope: Array, rows: Matrix, levels: Array) -> Array:
+    """Return where half a quadratic form, a slope and half the squares of what of rows is beyond zero are least.
+
+    That is convex, and quadratic in parts: Newton's steps, each as long as is best, end at its least (Sun 1997).
+    """
+    x, over = np.zeros(len(slope)), levels
+    for _ in range(_MOST_NEWTON_STEPS):
+        beyond = over > 0.0
+        counted, pull = rows[beyond], hessian @ x + slope
+        bent = cho_factor(hessian + (counted.T @ counted).toarray(), check_finite=False)
+        way = -cho_solve(bent, pull + counted.T @ over[beyond], check_finite=False)
+        changes = rows @ way
+        if np.array_equal(beyond, over + changes > 0.0) or np.max(np.abs(way)) < _STANDS:
+            return x + way
+        share = _best_share(float(way @ pull), float(way @ (hessian @ way)), over, changes)
+        x, over = x + share * way, over + share * changes
+    return x
+
+
+def _best_share(falls: float, bends: float, over: Array, changes: Array) -> float:
+    """Return which share of a step is best: where its slope, that grows in pieces, is zero.
+
+    Without the rows it falls by `falls` and bends by `bends`; each row counts while it is beyond zero.
+    """
+    with np.errstate(divide="ignore", invalid="ignore"):
+        at = -over / changes
+    turns = np.flatnonzero((at > 0.0) & np.isfinite(at))
+    turns = turns[np.argsort(at[turns], kind="stable")]
+    counts = (over > 0.0) | ((over == 0.0) & (changes > 0.0))
+    sense = np.sign(changes[turns])
+    falls_then = falls + over[counts] @ changes[counts] + np.cumsum([0.0, *(sense * over[turns] * changes[turns])])
+    bends_then = bends + changes[counts] @ changes[counts] + np.cumsum([0.0, *(sense * changes[turns] ** 2)])
+    zeros = -falls_then / np.maximum(bends_then, 1e-300)
+    return float(zeros[np.argmax(zeros <= np.append(at[turns], np.inf))])
+
+
+def _matrix(rows: Rows, longest: Array) -> Matrix:
+    """Return the slopes of rows by all unknowns, each in its longest step."""
+    columns, slopes = list[Columns](), list[Array]()
+    for by, slope in zip(rows.columns, rows.slopes, strict=True):
+        columns.append(np.flatnonzero(slope) if by is None else by)
+        slopes.append(slope[columns[-1]] if by is None else slope)
+    column = np.concatenate(columns)
+    ends = np.cumsum([0, *map(len, columns)])
+    return sparse.csr_array((np.concatenate(slopes) * longest[column], column, ends), (len(columns), len(longest)))
