@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.asked import Asked
 from scenewright.plan.foresight import Foresight
+from scenewright.plan.pairs import Meeting, in_order, meetings_of
 from scenewright.plan.prediction import EgoSample, Predictor
 from scenewright.plan.problem import Missed, Problem
 from scenewright.plan.shooting import profile_of
@@ -33,6 +34,8 @@ _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
 _PACES, _JOINT_S = (0.8, 0.45, 0.25), (3.5, 6.0)
 # How often a first plan is solved for again with an ego that follows a hero and answers what that does.
 _AGAIN_LED = 16
+# How many meetings of heroes are turned at most, and what is clear enough (m^2, summed over times).
+_MOST_TURNS, _CLEAR_ENOUGH = 6, 0.02
 # A plan that misses no more than this (tight tolerances) does what was asked.
 GOOD = 0.2
 # A hero that was a little less than settled a moment ago was so from now on; how far back that is looked at (s).
@@ -73,12 +76,16 @@ class Attempt:
 
 @dataclass(frozen=True, slots=True)
 class _Found:
-    """A plan, how it was found, all its moments by instant, and what is no motion of it, by number."""
+    """A plan, how it was found, all its moments by instant, and what is no motion of it, by number.
+
+    And the dearest of its meetings of heroes.
+    """
 
     plan: Plan
     solution: Solution
     moments_s: Mapping[int, float]
     others: Mapping[int, float]
+    dearest: tuple[float, int]
 
 
 @dataclass(slots=True)
@@ -112,6 +119,7 @@ class Planner:
     _moments_s: Mapping[int, float] = field(init=False, default_factory=dict)  # as in _Found, of the plan
     _others: Mapping[int, float] = field(init=False, default_factory=dict)
     _ego: Foresight = field(init=False)
+    _meetings: tuple[Meeting, ...] = field(init=False, default=())
     _joint_s: dict[int, float] = field(init=False, default_factory=dict)  # first planned, where both decide when
 
     def __post_init__(self) -> None:
@@ -136,6 +144,7 @@ class Planner:
         best = min(tries, key=lambda found: found.solution.cost)
         self._keep(best)
         best = self._led(best) if self._ego.leaders else self._planned_first(prediction, 0.0, best.plan.profiles)
+        best = self._clear(best)
         self._keep(best)
         for hero in self._heroes:
             if (name := self._trigger(hero)) is not None:
@@ -155,10 +164,34 @@ class Planner:
 
         Of a longest step `trusted` is the share by which it may be off from them; 1 is no limit.
         """
-        problem = Problem(self._asked, self._first_situation(prediction, joint_s, guesses))
+        problem = Problem(self._asked, self._first_situation(prediction, joint_s, guesses), self._meetings)
         if trusted < 1.0:
             problem.keep_near(trusted)
         return self._made(problem, solve(problem, problem.guess, _FIRST_STEPS), prediction)
+
+    def _clear(self, best: _Found) -> _Found:
+        """Return a first plan in which heroes keep clear of each other, from one in which they need not.
+
+        Who goes first is taken from that; then the meeting is turned that is the dearest, where that makes it cheaper.
+        """
+        self._meetings = in_order(meetings_of(self.scene), self.scene, self.structure, best.plan.profiles)
+        if not self._meetings:
+            return best
+        self._keep(best)
+        guesses = best.plan.profiles
+        best = self._planned_first(guesses[EGO], 0.0, guesses)
+        for _ in range(_MOST_TURNS):
+            short, number = best.dearest
+            if short < _CLEAR_ENOUGH:
+                break
+            kept = self._meetings
+            self._meetings = tuple(m.turned() if k == number else m for k, m in enumerate(kept))
+            trial = self._planned_first(guesses[EGO], 0.0, guesses)
+            if trial.solution.cost >= best.solution.cost:
+                self._meetings = kept
+                break
+            best = trial
+        return best
 
     def _led(self, best: _Found) -> _Found:
         """Return a first plan with an ego that answers it, from one without; where a step is too long it is halved."""
@@ -178,7 +211,7 @@ class Planner:
         """Return a first plan, and what it costs, with the ego that answers it: it was made with one that did not."""
         self._keep(found)
         foreseen = self._ego.foreseen(found.plan.profiles)
-        problem = Problem(self._asked, self._first_situation(foreseen, 0.0, found.plan.profiles))
+        problem = Problem(self._asked, self._first_situation(foreseen, 0.0, found.plan.profiles), self._meetings)
         return self._made(problem, solve(problem, problem.guess, 0), foreseen)
 
     def _even_motions(self, prediction: Profile, joint_s: float, pace: float) -> dict[int, Profile]:
@@ -277,7 +310,7 @@ class Planner:
         else:
             prediction = self._ego.foreseen(self.plan.profiles)
             situation, moved_s = self._situation(time_s, prediction)
-            problem = Problem(self._asked, situation)
+            problem = Problem(self._asked, situation, self._meetings)
             steps = _TICK_STEPS + min(_MOST_STEPS_MORE, int(_STEPS_A_SECOND * moved_s))
             solution = solve(problem, problem.guess, steps)
             self._keep(self._made(problem, solution, prediction))
@@ -374,7 +407,8 @@ class Planner:
         profiles[EGO] = Profile(prediction.segments, {name: times[self._asked.knot(EGO, name)] for name in names})
         parameters = {name: float(value) for name, value in self.scene.parameters.items()}
         plan = Plan(profiles, solution.missed.by, _status(solution), parameters)
-        return _Found(plan, solution, dict(enumerate(times)), problem.others(solution.z))
+        dearest = problem.dearest(solution.z) if self._meetings else (0.0, 0)
+        return _Found(plan, solution, dict(enumerate(times)), problem.others(solution.z), dearest)
 
     # -- what is known ------------------------------------------------------------------------------------------------
     @property

@@ -6,7 +6,7 @@ are the times of moments that are not known, where a hero begins where that is f
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from scenewright.motion.profile import Profile
 from scenewright.plan.asked import TIGHT, Asked, number_of
+from scenewright.plan.pairs import AFTER_S, LOOK_S, Meeting, PairRows, Way, passes_s
 from scenewright.plan.rows import SOONEST_S, Columns, HeroRows, Rows
 from scenewright.plan.shooting import Leg, Moment, Shot, Start, shoot
 from scenewright.plan.situation import Situation
@@ -25,6 +26,7 @@ _CELL_S, _MOST_CELLS, _AFTER_S = 0.6, 18, 3.0
 _LEAST_S = 0.05  # between two knots of one hero
 _LEAST_APPROACH_S = 0.4  # before the settled end of an approach, for it to have a leg of its own
 _LATEST_S, _FASTEST_MPS = 200.0, 60.0
+_BETWEEN_S = 2.0  # after one that goes first, where the other comes much later
 _STEP_S, _STEP_M, _STEP_MPS, _STEP_MPSS, _STEP_OTHER = 0.6, 40.0, 5.0, 3.0, 4.0
 
 
@@ -55,7 +57,7 @@ class Problem:
         Of each unknown: its first value, its bounds, and the longest step that a linear model of it is good for.
     """
 
-    def __init__(self, asked: Asked, now: Situation) -> None:
+    def __init__(self, asked: Asked, now: Situation, meetings: Sequence[Meeting] = ()) -> None:
         self.asked, self.now = asked, now
         self._guess: list[float] = []
         self._low: list[float] = []
@@ -73,6 +75,9 @@ class Problem:
                 self._span[hero.id] = range(first, len(self._guess))
         self._others = self._rest()
         self._own = {hero: self._owned(hero) for hero in self._legs}
+        ends_s = [leg.last.value(self._guess) for legs in self._legs.values() for leg in legs]
+        self._looks = np.arange(np.ceil(now.time_s / LOOK_S), (max([0.0, *ends_s]) + AFTER_S) / LOOK_S) * LOOK_S
+        self._meetings = [each for meeting in meetings for each in self._open(meeting)]
         self.guess, self.low, self.high, self.step = map(np.array, (self._guess, self._low, self._high, self._step))
 
     @property
@@ -147,6 +152,29 @@ class Problem:
             for number, unknown in enumerate(asked.events.unknowns)
             if number not in known
         }
+
+    def _open(self, meeting: Meeting) -> Iterator[tuple[Meeting, int | None]]:
+        """Yield a meeting, and the unknown moment between the two, if anybody is still planned for it."""
+        if meeting.first not in self._legs and meeting.second not in self._legs:
+            return
+        left_s, enters_s = None, 0.0
+        if meeting.zones_m is not None:
+            left_s = passes_s(self._motion(meeting.first), meeting.zones_m[0][1])
+            enters_s = passes_s(self._motion(meeting.second), meeting.zones_m[1][0])
+            if left_s <= self.now.time_s:
+                meeting = replace(meeting, zones_m=None)
+        if meeting.zones_m is None and meeting.lane_m is None:
+            return
+        if meeting.zones_m is None or left_s is None or left_s > self._looks[-1]:
+            yield meeting, None
+            return
+        between_s = 0.5 * (left_s + min(enters_s, left_s + _BETWEEN_S))
+        yield meeting, self._new(between_s, self.now.time_s, _LATEST_S, _STEP_S)
+
+    def _motion(self, hero: int) -> Profile:
+        """Return what a hero drives or is first planned from."""
+        drive = self.now.heroes.get(hero)
+        return self.now.guesses[hero] if drive is None else drive.motion
 
     # -- legs ---------------------------------------------------------------------------------------------------------
     def _lay_out(self, hero: Actor) -> None:
@@ -275,7 +303,21 @@ class Problem:
             actor, own = self.asked.scene.program.actor(hero), self._own[hero]
             costs.by = bounds.by = own.columns if len(own.columns) < self.size else None
             HeroRows(self.asked, self.now, actor, shot, own.moments, self._nodes[hero], costs, bounds).add_all()
+        if self._meetings:
+            missed = replace(missed, by=max(missed.by, self._pairs(z, shots).add(bounds)))
         return costs, bounds, missed
+
+    def dearest(self, z: Array) -> tuple[float, int]:
+        """Return by how much the two that are worst too near each other are so (m^2), and which meeting it is."""
+        return self._pairs(z, self.shots(z)).dearest()
+
+    def _pairs(self, z: Array, shots: Mapping[int, Shot]) -> PairRows:
+        ways = {}
+        for hero in self.asked.scene.program.heroes:
+            drive, shot = self.now.heroes.get(hero.id), shots.get(hero.id)
+            motion = None if drive is None else drive.motion
+            ways[hero.id] = Way(motion) if shot is None else Way(motion, shot, self._own[hero.id].columns)
+        return PairRows(self._meetings, ways, self._looks, self.asked.wanted, z)
 
     def _add_asked(self, z: Array, shots: Mapping[int, Shot], costs: Rows, bounds: Rows) -> Missed:
         wanted, tight_s = self.asked.wanted, TIGHT["time"]

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -99,6 +100,28 @@ class Shot:
         d_speed = dv + since * da + 0.5 * since * d_jerk_s + now * d_since
         d_place = self.d_s[node] + since * dv + 0.5 * since**2 * da + since**2 * d_jerk_s / 6.0 + speed * d_since
         return place, speed, d_place, d_speed
+
+    def along(self, times: Array) -> tuple[Array, Array, Array]:
+        """Return places and speeds at times that nothing moves, and the derivatives of the places, a row for each."""
+        last = len(self.time) - 1
+        node = np.clip(np.searchsorted(self.time, times, side="right") - 1, 0, last)
+        behind, beyond = np.minimum(node + 1, last), node == last
+        since = times - self.time[node]
+        lasts = np.where(beyond, 1.0, np.maximum(self.time[behind] - self.time[node], 1e-6))
+        a, b = np.where(beyond, 0.0, self.accel[node]), np.where(beyond, 0.0, self.accel_after[node])
+        jerk = (b - a) / lasts
+        speed = self.v[node] + (a + 0.5 * jerk * since) * since
+        place = self.s[node] + (self.v[node] + (0.5 * a + jerk * since / 6.0) * since) * since
+        by_jerk, d_lasts = since**3 / 6.0 / lasts, self.d_time[behind] - self.d_time[node]
+        d_place = self.d_s[node] + since[:, None] * self.d_v[node]
+        d_place += -speed[:, None] * self.d_time[node] - (by_jerk * jerk)[:, None] * d_lasts
+        for leg, (first, end) in zip(self.legs, pairwise(self.first_node), strict=True):
+            if leg.accels:
+                here, accels = np.flatnonzero((node >= first) & (node < end)), np.array(leg.accels)
+                number = node[here] - first
+                d_place[here, accels[number]] += 0.5 * since[here] ** 2 - by_jerk[here]
+                d_place[here, accels[number + 1]] += by_jerk[here]
+        return place, speed, d_place
 
     def rate_at(self, time_s: float, before: bool) -> tuple[float, Array]:
         """Return the acceleration at an instant, that which begins there or that `before` it, with its derivatives."""
