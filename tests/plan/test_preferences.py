@@ -16,7 +16,11 @@ from scenewright.solve.limits import ROOM, calm_mpss
 # Which way is stricter; what a manner says nothing of is what it is.
 MORE = ("least_rate_mpss", "beginning_mpss", "beginning_s", "settled_s", "shortest_s", "shortest_stand_s", "stands_s")
 LESS = ("settled_mpss",)
-REST = [each.name for each in fields(Preferences) if each.name not in (*MORE, *LESS, "early_mpss")]
+REST = [
+    each.name
+    for each in fields(Preferences)
+    if each.name not in (*MORE, *LESS, "early_mpss", "least_s", "least_stand_s")
+]
 manners = st.builds(
     Manner, **{name: st.fractions(of.low, of.high, max_denominator=900) for name, of in NUMBERS.items()}
 )
@@ -34,6 +38,7 @@ def test_no_manner_is_asked_for_less_than_usual_and_none_is_done_less_than_it_as
     assert found.least_rate_mpss >= float(kept.begins_mpss) - 1e-9
     assert found.beginning_mpss >= float(manner.begins_mpss) - 1e-9
     assert found.beginning_s >= float(kept.begins_s) - 1e-9
+    assert (found.least_s, found.least_stand_s) == (float(kept.begins_s), float(kept.stands_s))
     assert found.early_mpss <= float(manner.begins_mpss)
     assert found.settled_s >= float(kept.settled_s) - 1e-9
     assert found.settled_mpss <= float(calm_mpss(manner)) + 1e-9

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import sparse
 
 from scenewright.plan.preferences import preferences_of
 from scenewright.program.structure import Structure, actors_of, knots_of
@@ -111,10 +112,12 @@ class Asked:
             speed_mps = max(float(point[speed]), self.wanted.moves_mps)
             norms[k] = TIGHT["time"] * speed_mps * max(abs(float(gradients[k, place])), 1e-9)
         levels, equal = values / norms, self._formulas.equal
-        for k in self._formulas.chosen(np.where(equal, np.abs(levels), levels)):
-            on = np.flatnonzero(gradients[k])
-            slope = np.einsum("i,ij->j", gradients[k, on], slopes[on], optimize=False) / norms[k]
-            yield Row(float(levels[k]), slope, bool(equal[k]), self._orders[k] and not equal[k])
+        changes = (sparse.csr_array(gradients) @ slopes) / norms[:, None]
+        missed = np.where(equal, np.abs(levels), levels)
+        # An alternative that does not hold is none where nothing that is still to be planned changes it.
+        settled = (missed > 0.0) & ~np.any(changes != 0.0, axis=1)
+        for k in self._formulas.chosen(np.where(settled, np.inf, missed)):
+            yield Row(float(levels[k]), changes[k], bool(equal[k]), self._orders[k] and not equal[k])
 
     def _is_order(self, atom: Atom) -> bool:
         """Whether a comparison is of nothing but times, the ego's among them."""
@@ -148,14 +151,11 @@ class Caps:
     most: Array
     comfortable: Array
 
-    def at(self, s_m: float) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Return both caps at a place, each with how it changes from there (1/s)."""
-        around = [s_m - _STEP_M, s_m, s_m + _STEP_M]
+    def at(self, s_m: Array) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+        """Return both caps at places, each with how it changes from there (1/s)."""
+        around = np.array([s_m - _STEP_M, s_m, s_m + _STEP_M])
         most, comfortable = (np.interp(around, self.places, caps) for caps in (self.most, self.comfortable))
-        return (float(most[1]), float(most[2] - most[0])), (
-            float(comfortable[1]),
-            float(comfortable[2] - comfortable[0]),
-        )
+        return (most[1], most[2] - most[0]), (comfortable[1], comfortable[2] - comfortable[0])
 
 
 def _caps(route: Route, limits: Limits, comfortable_mpss: float) -> Caps:

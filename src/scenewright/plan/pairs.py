@@ -127,11 +127,11 @@ def _contacts(scene: Scene, structure: Structure, motions: Mapping[int, Profile]
     for instant in {*structure.instants, *structure.triggers.values()}:
         placed = {actor: name for actor, name in instant if actor in _placed(scene, instant) and actor in motions}
         for a, b in combinations(sorted(placed), 2):
-            poses = [
+            pose_a, pose_b = (
                 scene.routes[actor].path.poses(np.array([motions[actor].state(motions[actor].knot_times_s[name])[0]]))
                 for actor, name in ((a, placed[a]), (b, placed[b]))
-            ]
-            if overlap(*poses, CAR, CAR)[0]:
+            )
+            if overlap(pose_a, pose_b, CAR, CAR)[0]:
                 yield a, b
 
 
@@ -164,8 +164,9 @@ class Way:
         if self.shot is not None:
             planned = times >= self.shot.time[0] - 1e-9
             s[planned], v[planned], d_s[planned] = self.shot.along(times[planned])
-        for k in np.flatnonzero(~planned) if self.motion is not None else ():
-            s[k], v[k], _ = self.motion.state(float(times[k]))
+        if self.motion is not None:
+            for k in np.flatnonzero(~planned):
+                s[k], v[k], _ = self.motion.state(float(times[k]))
         return s, v, d_s
 
 

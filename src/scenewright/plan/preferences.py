@@ -60,6 +60,9 @@ class Preferences:
     early_price: float = 4.0
     shortest_s: float = 0.45
     shortest_stand_s: float = 0.45
+    # What the program's manner asks for, with the room that the proofs leave: shorter than this no piece is.
+    least_s: float = 0.33
+    least_stand_s: float = 0.33
     # Slower at its trigger than this, a hero does hardly drive; and nobody does who is slower than the second.
     slowest_mps: float = 1.8
     slowest_price: float = 6.0
@@ -97,5 +100,7 @@ def preferences_of(manner: Manner) -> Preferences:
         settled_s=max(usual.settled_s, float(kept.settled_s) + 0.05),
         shortest_s=max(usual.shortest_s, float(kept.begins_s)),
         shortest_stand_s=max(usual.shortest_stand_s, float(kept.stands_s)),
+        least_s=float(kept.begins_s),
+        least_stand_s=float(kept.stands_s),
         stands_s=max(usual.stands_s, 1.2 * float(kept.stands_s)),
     )

@@ -138,12 +138,12 @@ class HeroRows:
         """Add what no motion exceeds: nobody drives backwards, or faster than road and bends allow."""
         wanted, caps = self.asked.wanted, self.asked.caps[self.hero.id]
         natural = self.asked.limits[self.hero.id].natural_approach_speed_mps
+        (most, slope), (comfortable, other) = caps.at(self.shot.s)
         for node in range(1, len(self.shot.time)):
-            s, v, d_s, d_v = self.shot.at_node(node)
+            _, v, d_s, d_v = self.shot.at_node(node)
             self.bounds.add(-v, -d_v, _FIRM * wanted.price)
-            (most, slope), (comfortable, other) = caps.at(s)
-            self.bounds.add(v - most, d_v - slope * d_s, _FIRM * wanted.price)
-            self.costs.beyond(v - comfortable, d_v - other * d_s, wanted.lateral_weight)
+            self.bounds.add(v - float(most[node]), d_v - slope[node] * d_s, _FIRM * wanted.price)
+            self.costs.beyond(v - float(comfortable[node]), d_v - other[node] * d_s, wanted.lateral_weight)
             self.costs.beyond(v - natural, d_v, wanted.over_limit_weight)
 
     # -- manner -------------------------------------------------------------------------------------------------------
@@ -172,7 +172,8 @@ class HeroRows:
             return
         firm = _FIRM * wanted.price
         stands = leg.kind is PieceKind.STOP
-        self.bounds.add((wanted.shortest_stand_s if stands else wanted.shortest_s) - lasts, -slope, firm)
+        self.bounds.add((wanted.least_stand_s if stands else wanted.least_s) - lasts, -slope, firm)
+        self.bounds.add((wanted.shortest_stand_s if stands else wanted.shortest_s) - lasts, -slope, wanted.price)
         if leg.first.unknown is None and leg.last.unknown is not None:
             self.bounds.add(self.now.time_s + SOONEST_S - last.value(z), -slope, firm)
         if stands:

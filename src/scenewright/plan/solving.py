@@ -76,24 +76,24 @@ def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float)
     levels, rows, most = levels[matters], rows[matters], most[matters]
     softened = np.sqrt(np.minimum(1.0, most / np.maximum(levels, 1e-9)))
     levels, rows = levels * softened, rows * softened[:, None]
-    # Each row has a slack of its own, so that its price is the same here as in the cost.
-    count, sizes = len(levels), np.maximum(np.linalg.norm(rows, axis=1), 1.0)
-    hessian = np.zeros((size + count, size + count))
-    hessian[:size, :size] = _product(slopes.T, slopes) + DAMPING**2 * np.eye(size)
-    hessian[size:, size:] = np.diag(sizes**2)
-    scale = 1.0 / max(1.0, float(np.max(np.diag(hessian))))
+    # Each row has a slack of its own, so that its price is the same here as in the cost. Unknowns are scaled so that
+    # each curves the cost alike: the solver stops far from the best where some curve it a million times more.
+    count, curved = len(levels), _product(slopes.T, slopes) + DAMPING**2 * np.eye(size)
+    scales = 1.0 / np.sqrt(np.diag(curved))
+    hessian = np.eye(size + count)
+    hessian[:size, :size] = curved * scales[:, None] * scales
     low, high = (np.clip((bound - z) / longest, -trusted, trusted) for bound in (problem.low, problem.high))
     x, _, flag, _ = daqp.solve(
-        scale * hessian,
-        scale * np.concatenate([_product(slopes.T, residuals[:, None])[:, 0], np.zeros(count)]),
-        np.ascontiguousarray(np.hstack([rows / sizes[:, None], -np.eye(count)])),
-        np.concatenate([high, np.full(count, _FREE), -levels / sizes]),
-        np.concatenate([low, np.zeros(count), np.full(count, -_FREE)]),
+        hessian,
+        np.concatenate([scales * _product(slopes.T, residuals[:, None])[:, 0], np.zeros(count)]),
+        np.ascontiguousarray(np.hstack([rows * scales, -np.eye(count)])),
+        np.concatenate([high / scales, np.full(count, _FREE), -levels]),
+        np.concatenate([low / scales, np.zeros(count), np.full(count, -_FREE)]),
         np.zeros(size + 2 * count, dtype=np.int32),
         primal_tol=_EXACT,
         iter_limit=_MOST_ITERATIONS,
     )
-    return None if flag < 1 else np.clip(np.asarray(x)[:size], low, high) * longest
+    return None if flag < 1 else np.clip(scales * np.asarray(x)[:size], low, high) * longest
 
 
 def _product(left: Array, right: Array) -> Array:

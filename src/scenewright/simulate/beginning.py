@@ -92,7 +92,7 @@ def _on_time(start: EgoFirstState, motion: Profile, world: World, predictor: Pre
     return start
 
 
-def _rank(attempt: Attempt) -> tuple[bool, bool, int]:
-    """Return how a first plan compares with others: it does what was asked, promises the outcome, misses little."""
-    missed = 0 if attempt.is_good else round(attempt.missed.by / GOOD)
-    return not attempt.is_good, not attempt.promises_outcome, missed
+def _rank(attempt: Attempt) -> tuple[bool, float, float]:
+    """Return how a first plan compares with others: it does what was asked, is hardly late, misses little."""
+    missed = 0.0 if attempt.is_good else round(attempt.missed.by / GOOD)
+    return not attempt.is_good, round(max(0.0, attempt.missed.late_s), 1), missed
