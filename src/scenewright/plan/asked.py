@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from scenewright.plan.preferences import preferences_of
+from scenewright.plan.triggers import adapts_until
 from scenewright.program.structure import Structure, actors_of, knots_of
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
@@ -50,6 +51,7 @@ class Asked:
 
     def __init__(self, scene: Scene, structure: Structure, limits: Mapping[int, Limits]) -> None:
         self.scene, self.structure, self.limits = scene, structure, limits
+        self.adapts_until = adapts_until(scene.program, structure)
         self.wanted = preferences_of(scene.program.manner)
         self.events = Events(scene, limits, EgoBounds())
         self.lowering = Lowering(self.events)
@@ -91,8 +93,8 @@ class Asked:
         return self.events.knot(actor, name)
 
     def trigger(self, hero: int) -> int | None:
-        """Return the instant of a hero's trigger; None where it has none."""
-        name = self.structure.trigger_knot(hero)
+        """Return the instant of a hero's trigger, or of what hangs on another's; None where it has none."""
+        name = self.adapts_until.get(hero)
         return None if name is None else self.knot(hero, name)
 
     def rows(self, point: Array, slopes: Array) -> Iterator[Row]:

@@ -455,12 +455,12 @@ class Planner:
     def _open_piece(self, hero: Actor, time_s: float) -> int | None:
         """Return the piece from which on a hero is still solved for, or None once it only carries out.
 
-        Before its trigger that is the piece it is in. After it, pieces from the first standing one on that a reactive
+        Before its trigger (or what hangs on another's) that is the piece it is in. After it, pieces from the first standing one on that a reactive
         constraint speaks of, up to the moment they have begun to move again.
         """
         times, sketch = self.plan.profiles[hero.id].knot_times_s, hero.sketch
         current = sum(1 for knot in sketch.knots[1:] if times.get(knot, float("inf")) <= time_s)
-        trigger = self._trigger(hero)
+        trigger = self._asked.adapts_until.get(hero.id)
         if trigger is None:
             return None
         if current < sketch.knot_index(trigger):

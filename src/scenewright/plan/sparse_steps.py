@@ -66,7 +66,7 @@ def _best_share(falls: float, bends: float, over: Array, changes: Array) -> floa
 
     Without the rows it falls by `falls` and bends by `bends`; each row counts while it is beyond zero.
     """
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         at = -over / changes
     turns = np.flatnonzero((at > 0.0) & np.isfinite(at))
     turns = turns[np.argsort(at[turns], kind="stable")]
