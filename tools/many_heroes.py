@@ -70,7 +70,7 @@ def chain(count: int) -> str:
 
 
 def mixed(count: int) -> str:
-    """Return a program in which half brake ahead of the ego in turn, and half go through the junction across its way."""
+    """Return a program in which half brake ahead of the ego, and half go through the junction across its way."""
     ahead = (count + 1) // 2
     heroes, rows = list[tuple[str, str]](), list[str]()
     for k in range(1, count + 1):

@@ -1,8 +1,8 @@
 """Heroes keep clear of each other: who goes first wherever the ways of two of them meet, and the rows for that.
 
-What enters: a scene, motions, and motions as functions of unknowns. What leaves: meetings, each with who goes first, and
-bounds. Nobody drives backwards, so of a stretch that two must not both be in this says all: at some moment the one is
-out of it, and the other not yet in. That moment is an unknown of the plan. In one lane the gap is looked at often.
+What enters: a scene, motions, and motions as functions of unknowns. What leaves: meetings, each with who goes first,
+and bounds. Nobody drives backwards, so of a stretch that two must not both be in this says all: at some moment the one
+is out of it, and the other not yet in. That moment is an unknown of the plan. In one lane the gap is looked at often.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from scenewright.roads.grounding import Scene
 from scenewright.roads.zones import Zone, overlap
 
 Array = NDArray[np.float64]
+Along = tuple[Array, Array, Array]
 
 # How often the gap in a lane is looked at: between two looks even an emergency stop takes 0.25 m of it at most.
 LOOK_S = 0.4
@@ -157,7 +158,7 @@ class Way:
     shot: Shot | None = None
     columns: Columns = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
 
-    def along(self, times: Array) -> tuple[Array, Array, Array]:
+    def along(self, times: Array) -> Along:
         """Return places and speeds at times, and how the places depend on its unknowns, shape (times, unknowns)."""
         s, v, d_s = np.zeros(len(times)), np.zeros(len(times)), np.zeros((len(times), len(self.columns)))
         planned = np.zeros(len(times), dtype=bool)
@@ -183,21 +184,24 @@ class PairRows:
         Of all heroes.
     times
         When lanes are looked at; the last is the end of all plans.
+    driven
+        What ways that nothing can change are at these times, as `Way.along` gives it.
     """
 
     meetings: Sequence[tuple[Meeting, int | None]]
     ways: Mapping[int, Way]
     times: Array
+    driven: Mapping[int, Along]
     wanted: Preferences
     z: Array
 
     def add(self, bounds: Rows) -> float:
         """Add all bounds; return the largest share of a margin that is missing: from 1 on boxes may touch."""
         worst = 0.0
-        for number, short_m, slope, columns, margin_m in self._all():
+        for _, short_m, slopes, columns, margin_m in self._all():
             bounds.by = columns
-            bounds.add(short_m, slope, self.wanted.clear_price)
-            worst = max(worst, short_m / margin_m)
+            bounds.add_all(short_m, slopes, self.wanted.clear_price)
+            worst = max(worst, float(short_m.max()) / margin_m)
         bounds.by = None
         return worst
 
@@ -205,40 +209,47 @@ class PairRows:
         """Return by how much the worst meeting is too near, in squares summed (m^2), and its number."""
         costs = np.zeros(len(self.meetings))
         for number, short_m, *_ in self._all():
-            costs[number] += max(0.0, short_m) ** 2
-        return float(np.max(costs)), int(np.argmax(costs))
+            costs[number] += np.sum(np.maximum(short_m, 0.0) ** 2)
+        return (float(np.max(costs)), int(np.argmax(costs))) if len(costs) else (0.0, 0)
 
-    def _all(self) -> Iterator[tuple[int, float, Array, Columns, float]]:
-        """Yield bounds: the number of a meeting, what is missing (m), by which unknowns how much, and the margin (m)."""
-        along = {hero: way.along(self.times) for hero, way in self.ways.items()}
-        for number, (meeting, moment) in enumerate(self.meetings):
-            for row in self._zone(meeting, moment):
-                yield number, *row, self.wanted.clear_m
-            for row in self._lane(meeting, along):
-                yield number, *row, self.wanted.clear_in_lane_m
-
-    def _zone(self, meeting: Meeting, moment: int | None) -> Iterator[tuple[float, Array, Columns]]:
-        if meeting.zones_m is None:
-            return
-        out_m, in_m = meeting.zones_m[0][1] + self.wanted.clear_m, meeting.zones_m[1][0] - self.wanted.clear_m
-        at = self.times[-1:] if moment is None else self.z[moment : moment + 1]
-        for hero, sense, place_m in ((meeting.first, -1.0, out_m), (meeting.second, 1.0, in_m)):
-            s, v, d_s = self.ways[hero].along(at)
-            columns, slope = self.ways[hero].columns, sense * d_s[0]
+    def _all(self) -> Iterator[tuple[int, Array, Array, Columns, float]]:
+        """Yield bounds: of which meeting, what is missing (m), its slopes by which unknowns, and the margin (m)."""
+        moments: dict[int, list[int]] = {hero: [] for hero in self.ways}
+        for meeting, moment in self.meetings:
             if moment is not None:
-                columns, slope = np.append(columns, moment), np.append(slope, sense * v[0])
-            if moment is not None or hero == meeting.second:
-                yield sense * (float(s[0]) - place_m), slope, columns
+                moments[meeting.first].append(moment)
+                moments[meeting.second].append(moment)
+        looked, between = {}, {}
+        for hero, way in self.ways.items():
+            known, at = self.driven.get(hero), self.z[moments[hero]]
+            s, v, d_s = way.along(at if known is not None else np.append(self.times, at))
+            count = 0 if known is not None else len(self.times)
+            looked[hero] = known or (s[:count], v[:count], d_s[:count])
+            between[hero] = zip(s[count:], v[count:], d_s[count:], strict=True)
+        for number, (meeting, moment) in enumerate(self.meetings):
+            if meeting.zones_m is not None:
+                out_m, in_m = meeting.zones_m[0][1] + self.wanted.clear_m, meeting.zones_m[1][0] - self.wanted.clear_m
+                for hero, sense, place_m in ((meeting.first, -1.0, out_m), (meeting.second, 1.0, in_m)):
+                    columns = self.ways[hero].columns
+                    if moment is not None:
+                        s, v, d_s = next(between[hero])
+                        slope, columns = np.append(d_s, v), np.append(columns, moment)
+                    elif hero == meeting.second:
+                        s, slope = looked[hero][0][-1], looked[hero][2][-1]
+                    else:
+                        continue
+                    yield number, np.array([sense * (s - place_m)]), sense * slope[None], columns, self.wanted.clear_m
+            if meeting.lane_m is not None:
+                short_m, slopes, columns = self._in_lane(meeting, looked[meeting.first], looked[meeting.second])
+                if len(short_m):
+                    yield number, short_m, slopes, columns, self.wanted.clear_in_lane_m
 
-    def _lane(
-        self, meeting: Meeting, along: Mapping[int, tuple[Array, Array, Array]]
-    ) -> Iterator[tuple[float, Array, Columns]]:
-        if meeting.lane_m is None:
-            return
+    def _in_lane(self, meeting: Meeting, first: Along, second: Along) -> tuple[Array, Array, Columns]:
+        """Return what is missing between two in their common lane (m), wherever that is near."""
+        assert meeting.lane_m is not None
         (since_m, until_m), (_, other_until_m) = meeting.lane_m
-        (s, _, d_s), (other, _, d_other) = along[meeting.first], along[meeting.second]
+        (s, _, d_s), (other, _, d_other) = first, second
         short_m = self.wanted.clear_in_lane_m + VEHICLE_LENGTH_M - (s - meeting.offset_m - other)
-        both = (s >= since_m) & (s < until_m) & (other < other_until_m) & (short_m > -_NEAR_M)
+        near = (s >= since_m) & (s < until_m) & (other < other_until_m) & (short_m > -_NEAR_M)
         columns = np.concatenate([self.ways[meeting.first].columns, self.ways[meeting.second].columns])
-        for k in np.flatnonzero(both):
-            yield float(short_m[k]), np.concatenate([-d_s[k], d_other[k]]), columns
+        return short_m[near], np.hstack([-d_s[near], d_other[near]]), columns

@@ -32,6 +32,8 @@ _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
 # First plans are solved for from these speeds (shares of the natural one) and, where both decide, triggers (s): Newton
 # finds the nearest plan, not the best.
 _PACES, _JOINT_S = (0.8, 0.45, 0.25), (3.5, 6.0)
+# What a step has to gain for each further hero: the next tick goes on from there.
+_ENOUGH_EACH = 0.3
 # How often a first plan is solved for again with an ego that follows a hero and answers what that does.
 _AGAIN_LED = 16
 # How many meetings of heroes are turned at most, and what is clear enough (m^2, summed over times).
@@ -76,16 +78,13 @@ class Attempt:
 
 @dataclass(frozen=True, slots=True)
 class _Found:
-    """A plan, how it was found, all its moments by instant, and what is no motion of it, by number.
-
-    And the dearest of its meetings of heroes.
-    """
+    """A plan, how and for what problem it was found, all its moments by instant, and its other unknowns, by number."""
 
     plan: Plan
     solution: Solution
     moments_s: Mapping[int, float]
     others: Mapping[int, float]
-    dearest: tuple[float, int]
+    problem: Problem
 
 
 @dataclass(slots=True)
@@ -167,7 +166,7 @@ class Planner:
         problem = Problem(self._asked, self._first_situation(prediction, joint_s, guesses), self._meetings)
         if trusted < 1.0:
             problem.keep_near(trusted)
-        return self._made(problem, solve(problem, problem.guess, _FIRST_STEPS), prediction)
+        return self._made(problem, solve(problem, problem.guess, _FIRST_STEPS, self._enough), prediction)
 
     def _clear(self, best: _Found) -> _Found:
         """Return a first plan in which heroes keep clear of each other, from one in which they need not.
@@ -181,7 +180,7 @@ class Planner:
         guesses = best.plan.profiles
         best = self._planned_first(guesses[EGO], 0.0, guesses)
         for _ in range(_MOST_TURNS):
-            short, number = best.dearest
+            short, number = best.problem.dearest(best.solution.z)
             if short < _CLEAR_ENOUGH:
                 break
             kept = self._meetings
@@ -312,7 +311,7 @@ class Planner:
             situation, moved_s = self._situation(time_s, prediction)
             problem = Problem(self._asked, situation, self._meetings)
             steps = _TICK_STEPS + min(_MOST_STEPS_MORE, int(_STEPS_A_SECOND * moved_s))
-            solution = solve(problem, problem.guess, steps)
+            solution = solve(problem, problem.guess, steps, self._enough)
             self._keep(self._made(problem, solution, prediction))
             record = Replan(time_s, _status(solution), "daqp", 0.0, solution.missed.by, "")
         record = replace(record, wall_s=time.perf_counter() - started)
@@ -407,13 +406,16 @@ class Planner:
         profiles[EGO] = Profile(prediction.segments, {name: times[self._asked.knot(EGO, name)] for name in names})
         parameters = {name: float(value) for name, value in self.scene.parameters.items()}
         plan = Plan(profiles, solution.missed.by, _status(solution), parameters)
-        dearest = problem.dearest(solution.z) if self._meetings else (0.0, 0)
-        return _Found(plan, solution, dict(enumerate(times)), problem.others(solution.z), dearest)
+        return _Found(plan, solution, dict(enumerate(times)), problem.others(solution.z), problem)
 
     # -- what is known ------------------------------------------------------------------------------------------------
     @property
     def _heroes(self) -> Iterable[Actor]:
         return self.scene.program.heroes
+
+    @property
+    def _enough(self) -> float:
+        return _ENOUGH_EACH * (len(self.scene.program.heroes) - 1)
 
     def _trigger(self, hero: Actor) -> str | None:
         return self.structure.trigger_knot(hero.id)
@@ -455,8 +457,8 @@ class Planner:
     def _open_piece(self, hero: Actor, time_s: float) -> int | None:
         """Return the piece from which on a hero is still solved for, or None once it only carries out.
 
-        Before its trigger (or what hangs on another's) that is the piece it is in. After it, pieces from the first standing one on that a reactive
-        constraint speaks of, up to the moment they have begun to move again.
+        Before its trigger (or what hangs on another's) that is the piece it is in. After it, pieces from the first
+        standing one on that a reactive constraint speaks of, up to the moment they have begun to move again.
         """
         times, sketch = self.plan.profiles[hero.id].knot_times_s, hero.sketch
         current = sum(1 for knot in sketch.knots[1:] if times.get(knot, float("inf")) <= time_s)

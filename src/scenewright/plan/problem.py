@@ -74,10 +74,18 @@ class Problem:
                 self._lay_out(hero)
                 self._span[hero.id] = range(first, len(self._guess))
         self._others = self._rest()
+        self._shot: tuple[Array, dict[int, Shot]] | None = None
         self._own = {hero: self._owned(hero) for hero in self._legs}
         ends_s = [leg.last.value(self._guess) for legs in self._legs.values() for leg in legs]
-        self._looks = np.arange(np.ceil(now.time_s / LOOK_S), (max([0.0, *ends_s]) + AFTER_S) / LOOK_S) * LOOK_S
+        end_s = max([now.time_s, *ends_s])  # from there on everybody holds its speed: gaps change evenly
+        looks = np.arange(np.ceil(now.time_s / LOOK_S), end_s / LOOK_S + 1.0) * LOOK_S
+        self._looks = np.append(looks, end_s + AFTER_S)
         self._meetings = [each for meeting in meetings for each in self._open(meeting)]
+        self._driven = {
+            hero: Way(drive.motion).along(self._looks)
+            for hero, drive in now.heroes.items()
+            if self._meetings and hero not in self._legs
+        }
         self.guess, self.low, self.high, self.step = map(np.array, (self._guess, self._low, self._high, self._step))
 
     @property
@@ -288,7 +296,10 @@ class Problem:
 
     def shots(self, z: Array) -> dict[int, Shot]:
         """Return the motions of all that are still planned; slopes are by their own unknowns."""
-        return {hero: shoot(own.legs, own.start, z[own.columns]) for hero, own in self._own.items()}
+        if self._shot is None or not np.array_equal(self._shot[0], z):  # they are often asked for twice
+            shots = {hero: shoot(own.legs, own.start, z[own.columns]) for hero, own in self._own.items()}
+            self._shot = z.copy(), shots
+        return self._shot[1]
 
     def rows(self, z: Array) -> tuple[Rows, Rows, Missed]:
         """Return residuals, rows that are to be at most zero, and what is missed."""
@@ -317,7 +328,7 @@ class Problem:
             drive, shot = self.now.heroes.get(hero.id), shots.get(hero.id)
             motion = None if drive is None else drive.motion
             ways[hero.id] = Way(motion) if shot is None else Way(motion, shot, self._own[hero.id].columns)
-        return PairRows(self._meetings, ways, self._looks, self.asked.wanted, z)
+        return PairRows(self._meetings, ways, self._looks, self._driven, self.asked.wanted, z)
 
     def _add_asked(self, z: Array, shots: Mapping[int, Shot], costs: Rows, bounds: Rows) -> Missed:
         wanted, tight_s = self.asked.wanted, TIGHT["time"]

@@ -170,22 +170,26 @@ def shoot(legs: Sequence[Leg], start: Start, z: Array) -> Shot:
             d_lasts[leg.first.unknown] -= 1.0 / leg.cells
         if leg.last.unknown is not None:
             d_lasts[leg.last.unknown] += 1.0 / leg.cells
+        cells = np.arange(leg.cells)
+        here, behind = slice(node, node + leg.cells), slice(node + 1, node + leg.cells + 1)
         time[node], d_time[node] = begin, d_begin
-        for k in range(leg.cells):
-            a, b = (z[leg.accels[k]], z[leg.accels[k + 1]]) if leg.accels else (0.0, 0.0)
-            accel[node], after[node] = a, b
-            time[node + 1], d_time[node + 1] = begin + (k + 1) * lasts, d_begin + (k + 1) * d_lasts
-            mean, way = 0.5 * (a + b), (2.0 * a + b) / 6.0
-            v[node + 1] = v[node] + mean * lasts
-            s[node + 1] = s[node] + v[node] * lasts + way * lasts**2
-            d_v[node + 1] = d_v[node] + mean * d_lasts
-            d_s[node + 1] = d_s[node] + lasts * d_v[node] + (v[node] + 2.0 * way * lasts) * d_lasts
-            if leg.accels:
-                d_v[node + 1, leg.accels[k]] += 0.5 * lasts
-                d_v[node + 1, leg.accels[k + 1]] += 0.5 * lasts
-                d_s[node + 1, leg.accels[k]] += lasts**2 / 3.0
-                d_s[node + 1, leg.accels[k + 1]] += lasts**2 / 6.0
-            node += 1
+        time[behind], d_time[behind] = begin + (cells + 1) * lasts, d_begin + (cells + 1)[:, None] * d_lasts
+        one, other = np.array(leg.accels[:-1], dtype=np.intp), np.array(leg.accels[1:], dtype=np.intp)
+        if leg.accels:
+            accel[here], after[here] = z[one], z[other]
+        mean, way = 0.5 * (accel[here] + after[here]), (2.0 * accel[here] + after[here]) / 6.0
+        more = mean[:, None] * d_lasts
+        if leg.accels:
+            more[cells, one] += 0.5 * lasts
+            more[cells, other] += 0.5 * lasts
+        v[behind], d_v[behind] = v[node] + lasts * np.cumsum(mean), d_v[node] + np.cumsum(more, axis=0)
+        more = lasts * d_v[here] + (v[here] + 2.0 * way * lasts)[:, None] * d_lasts
+        if leg.accels:
+            more[cells, one] += lasts**2 / 3.0
+            more[cells, other] += lasts**2 / 6.0
+        s[behind] = s[node] + np.cumsum(v[here] * lasts + way * lasts**2)
+        d_s[behind] = d_s[node] + np.cumsum(more, axis=0)
+        node += leg.cells
     first_node.append(node)
     return Shot(legs, time, s, v, accel, after, d_time, d_s, d_v, first_node, z)
 

@@ -32,8 +32,11 @@ class Solution:
     steps: int
 
 
-def solve(problem: Problem, z: Array, most_steps: int) -> Solution:
-    """Return the best that so many steps from `z` lead to; where one gains nothing the next is shorter."""
+def solve(problem: Problem, z: Array, most_steps: int, enough: float = 0.0) -> Solution:
+    """Return the best that so many steps from `z` lead to; where one gains nothing the next is shorter.
+
+    One that gains, or loses, less than `enough` is the last.
+    """
     z = problem.ordered(z)
     costs, bounds, missed = problem.rows(z)
     cost, trusted = _cost(costs, bounds), 1.0
@@ -46,12 +49,15 @@ def solve(problem: Problem, z: Array, most_steps: int) -> Solution:
             return Solution(z, cost, missed, count)
         found = problem.rows(trial)
         better = _cost(*found[:2])
+        least = max(enough, _ENOUGH * (1.0 + cost))
+        if 0.0 <= better - cost < enough:  # as good as the best: a shorter step hardly gains more
+            return Solution(z, cost, missed, count + 1)
         if better >= cost:
             trusted *= _SHORTER
             continue
         gained, cost, trusted = cost - better, better, min(1.0, _LONGER * trusted)
         z, (costs, bounds, missed) = trial, found
-        if gained < _ENOUGH * (1.0 + cost):
+        if gained < least:
             return Solution(z, cost, missed, count + 1)
     return Solution(z, cost, missed, most_steps)
 

@@ -30,12 +30,10 @@ _STANDS, _MOST_NEWTON_STEPS = 1e-9, 100
 def sparse_step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float) -> Array:
     """Return the best step for the linearised rows, within a share of the longest."""
     longest, size = problem.step, problem.size
-    slopes, rows = _matrix(costs, longest), _matrix(bounds, longest)
     levels, most = np.array(bounds.values), np.array(bounds.most)
     softened = np.sqrt(np.minimum(1.0, most / np.maximum(levels, 1e-9)))
     low, high = (np.clip((bound - z) / longest, -trusted, trusted) for bound in (problem.low, problem.high))
-    walls = _WALL * sparse.eye_array(size)
-    rows = sparse.vstack([sparse.diags_array(softened) @ rows, walls, -walls], format="csr")
+    slopes, rows = _matrix(costs, longest), _matrix(bounds, longest, softened, walls=True)
     levels = np.concatenate([softened * levels, -_WALL * high, _WALL * low])
     hessian = (slopes.T @ slopes).toarray() + DAMPING**2 * np.eye(size)
     x = least(hessian, slopes.T @ np.array(costs.values), rows, levels)
@@ -78,12 +76,18 @@ def _best_share(falls: float, bends: float, over: Array, changes: Array) -> floa
     return float(zeros[np.argmax(zeros <= np.append(at[turns], np.inf))])
 
 
-def _matrix(rows: Rows, longest: Array) -> Matrix:
-    """Return the slopes of rows by all unknowns, each in its longest step."""
+def _matrix(rows: Rows, longest: Array, weights: Array | None = None, *, walls: bool = False) -> Matrix:
+    """Return the slopes of rows, weighted, by all unknowns, each in its longest step; below them both its walls."""
     columns, slopes = list[Columns](), list[Array]()
     for by, slope in zip(rows.columns, rows.slopes, strict=True):
         columns.append(np.flatnonzero(slope) if by is None else by)
         slopes.append(slope[columns[-1]] if by is None else slope)
-    column = np.concatenate(columns)
-    ends = np.cumsum([0, *map(len, columns)])
-    return sparse.csr_array((np.concatenate(slopes) * longest[column], column, ends), (len(columns), len(longest)))
+    column, counts = np.concatenate(columns), np.array([len(each) for each in columns])
+    values = np.concatenate(slopes) * longest[column]
+    if weights is not None:
+        values *= np.repeat(weights, counts)
+    if walls:
+        one = np.arange(len(longest))
+        column, counts = np.concatenate([column, one, one]), np.append(counts, np.ones(2 * len(one), dtype=np.intp))
+        values = np.concatenate([values, np.full(len(one), _WALL), np.full(len(one), -_WALL)])
+    return sparse.csr_array((values, column, np.cumsum([0, *counts])), (len(counts), len(longest)))
