@@ -322,7 +322,7 @@ class Events:
             if not isinstance(part, Atom) or part.left.degree != 1:
                 continue
             terms = {key: value for key, value in part.left.terms.items() if key != ()}
-            if (found := self._difference(part.left)) is not None:
+            if (found := self.difference(part.left)) is not None:
                 early, late, most_s = found
                 self._note(late, early, -most_s)
                 if part.relation == "==":
@@ -344,13 +344,13 @@ class Events:
         """Whether something contradicts what is certain of the order of instants."""
         if not isinstance(part, Atom) or part.relation == "==" or part.left.degree != 1:
             return False
-        found = self._difference(part.left)
+        found = self.difference(part.left)
         if found is None:
             return False
         early, late, most_s = found
         return bool(least[early, late] > float(most_s) - (1e-9 if part.relation == "<" else -1e-9))
 
-    def _difference(self, left: Polynomial) -> tuple[int, int, Fraction] | None:
+    def difference(self, left: Polynomial) -> tuple[int, int, Fraction] | None:
         """Return `early`, `late` and `most_s` where ``left <= 0`` says that ``late - early <= most_s``."""
         parts = [(self._instant_of[key], factor) for key, factor in left.terms.items() if key in self._instant_of]
         size = abs(parts[0][1]) if parts else ZERO
