@@ -6,12 +6,12 @@ problems grow with the cube of all rows; of this one only the unknowns count, an
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
-from scipy.linalg import cho_factor, cho_solve
+from scipy.sparse.linalg import splu
 
 from scenewright.plan.rows import Columns, Rows
 
@@ -24,6 +24,7 @@ Matrix = sparse.csr_array
 DAMPING = 0.02  # of a longest step: what nothing else decides stays as it is
 # A step beyond what an unknown may be costs as if a bound so dear were broken: none is by more than rounding.
 _WALL = 1e5
+_SYMMETRIC: dict[str, Any] = {"diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
 _STANDS, _MOST_NEWTON_STEPS = 1e-9, 100
 
 
@@ -35,12 +36,12 @@ def sparse_step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: 
     low, high = (np.clip((bound - z) / longest, -trusted, trusted) for bound in (problem.low, problem.high))
     slopes, rows = _matrix(costs, longest), _matrix(bounds, longest, softened, walls=True)
     levels = np.concatenate([softened * levels, -_WALL * high, _WALL * low])
-    hessian = (slopes.T @ slopes).toarray() + DAMPING**2 * np.eye(size)
+    hessian = slopes.T @ slopes + DAMPING**2 * sparse.eye_array(size, format="csr")
     x = least(hessian, slopes.T @ np.array(costs.values), rows, levels)
     return np.asarray(np.clip(x, low, high) * longest, dtype=np.float64)
 
 
-def least(hessian: Array, slope: Array, rows: Matrix, levels: Array) -> Array:
+def least(hessian: Matrix, slope: Array, rows: Matrix, levels: Array) -> Array:
     """Return where half a quadratic form, a slope and half the squares of what of rows is beyond zero are least.
 
     That is convex, and quadratic in parts: Newton's steps, each as long as is best, end at its least (Sun 1997).
@@ -49,8 +50,8 @@ def least(hessian: Array, slope: Array, rows: Matrix, levels: Array) -> Array:
     for _ in range(_MOST_NEWTON_STEPS):
         beyond = over > 0.0
         counted, pull = rows[beyond], hessian @ x + slope
-        bent = cho_factor(hessian + (counted.T @ counted).toarray(), check_finite=False)
-        way = -cho_solve(bent, pull + counted.T @ over[beyond], check_finite=False)
+        bent = splu(sparse.csc_array(hessian + counted.T @ counted), "MMD_AT_PLUS_A", **_SYMMETRIC)
+        way = -bent.solve(pull + counted.T @ over[beyond])
         changes = rows @ way
         if np.array_equal(beyond, over + changes > 0.0) or np.max(np.abs(way)) < _STANDS:
             return x + way
