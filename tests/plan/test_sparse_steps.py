@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import sparse
@@ -40,7 +41,7 @@ def test_a_step_is_as_good_as_that_by_all_unknowns(story: str, seed: int, at_s: 
     problem = problem_of(STORIES[story], at_s)
     z = problem.ordered(near(problem, seed))
     costs, bounds, _ = problem.rows(z)
-    dense, own = _step(problem, z, costs, bounds, 1.0), sparse_step(problem, z, costs, bounds, 1.0)
+    (dense, _), (own, promised) = _step(problem, z, costs, bounds, 1.0), sparse_step(problem, z, costs, bounds, 1.0)
     assert dense is not None
 
     def cost(step: np.ndarray) -> float:
@@ -51,3 +52,4 @@ def test_a_step_is_as_good_as_that_by_all_unknowns(story: str, seed: int, at_s: 
         return float(0.5 * residuals @ residuals + 0.5 * softened @ over**2)
 
     assert cost(own) <= cost(dense) * 1.001 + 1e-3
+    assert promised == pytest.approx(cost(own), rel=1e-3, abs=1e-3)

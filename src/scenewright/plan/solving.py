@@ -35,13 +35,13 @@ class Solution:
 def solve(problem: Problem, z: Array, most_steps: int, enough: float = 0.0) -> Solution:
     """Return the best that so many steps from `z` lead to; where one gains nothing the next is shorter.
 
-    One that gains, or loses, less than `enough` is the last.
+    One that gains or loses less than `enough` is the last, and one that comes so near to the best of the linear rows.
     """
     z = problem.ordered(z)
     costs, bounds, missed = problem.rows(z)
     cost, trusted = _cost(costs, bounds), 1.0
     for count in range(most_steps):
-        step = _step(problem, z, costs, bounds, trusted)
+        step, promised = _step(problem, z, costs, bounds, trusted)
         if step is None or trusted < _LEAST_TRUST:
             return Solution(z, cost, missed, count)
         trial = problem.ordered(z + step)
@@ -55,9 +55,10 @@ def solve(problem: Problem, z: Array, most_steps: int, enough: float = 0.0) -> S
         if better >= cost:
             trusted *= _SHORTER
             continue
+        arrived = better - promised < enough and np.all(np.abs(step) < 0.999 * trusted * problem.step)
         gained, cost, trusted = cost - better, better, min(1.0, _LONGER * trusted)
         z, (costs, bounds, missed) = trial, found
-        if gained < least:
+        if gained < least or arrived:
             return Solution(z, cost, missed, count + 1)
     return Solution(z, cost, missed, most_steps)
 
@@ -69,8 +70,11 @@ def _cost(costs: Rows, bounds: Rows) -> float:
     return 0.5 * float(np.sum(np.array(costs.values) ** 2)) + float(np.sum(within * (over - 0.5 * within)))
 
 
-def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float) -> Array | None:
-    """Return the best step for the linearised rows, within a share of the longest; None where there is none."""
+def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float) -> tuple[Array | None, float]:
+    """Return the best step for the linearised rows, within a share of the longest, and what it costs at least.
+
+    None where there is none.
+    """
     if any(by is not None for by in costs.columns):
         return sparse_step(problem, z, costs, bounds, trusted)
     import daqp
@@ -99,7 +103,7 @@ def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float)
         primal_tol=_EXACT,
         iter_limit=_MOST_ITERATIONS,
     )
-    return None if flag < 1 else np.clip(scales * np.asarray(x)[:size], low, high) * longest
+    return None if flag < 1 else np.clip(scales * np.asarray(x)[:size], low, high) * longest, 0.0
 
 
 def _product(left: Array, right: Array) -> Array:

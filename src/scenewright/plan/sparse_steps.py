@@ -28,8 +28,8 @@ _SYMMETRIC: dict[str, Any] = {"diag_pivot_thresh": 0.0, "options": {"SymmetricMo
 _STANDS, _MOST_NEWTON_STEPS = 1e-9, 100
 
 
-def sparse_step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float) -> Array:
-    """Return the best step for the linearised rows, within a share of the longest."""
+def sparse_step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float) -> tuple[Array, float]:
+    """Return the best step for the linearised rows, within a share of the longest, and what they cost after it."""
     longest, size = problem.step, problem.size
     levels, most = np.array(bounds.values), np.array(bounds.most)
     softened = np.sqrt(np.minimum(1.0, most / np.maximum(levels, 1e-9)))
@@ -37,8 +37,10 @@ def sparse_step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: 
     slopes, rows = _matrix(costs, longest), _matrix(bounds, longest, softened, walls=True)
     levels = np.concatenate([softened * levels, -_WALL * high, _WALL * low])
     hessian = slopes.T @ slopes + DAMPING**2 * sparse.eye_array(size, format="csr")
-    x = least(hessian, slopes.T @ np.array(costs.values), rows, levels)
-    return np.asarray(np.clip(x, low, high) * longest, dtype=np.float64)
+    values = np.array(costs.values)
+    x = np.clip(least(hessian, slopes.T @ values, rows, levels), low, high)
+    after, over = values + slopes @ x, np.maximum(levels + rows @ x, 0.0)
+    return np.asarray(x * longest, dtype=np.float64), 0.5 * float(after @ after + over @ over)
 
 
 def least(hessian: Matrix, slope: Array, rows: Matrix, levels: Array) -> Array:
