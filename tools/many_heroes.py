@@ -27,6 +27,7 @@ from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.simulate.beginning import first_plan
 from scenewright.simulate.loop import Rates, Run, simulate
+from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
 from scenewright.trace.model import ActorTrace
 
@@ -152,9 +153,9 @@ def drive(text: str, ego: str, seed: int = 0) -> Driven:
     planned = first_plan(world, world.predictor)
     assert planned is not None
     planned_s = time.process_time() - began_s
-    heroes = Clocked(planned[0])
-    world.ego.reset(planned[1].s_m, planned[1].speed_mps)
-    run = simulate(scene, world.ego, heroes, world.rates)
+    heroes, start = Clocked(planned[0]), planned[1]
+    begin_at = Start.of(scene, world.ego, (start.s_m, start.speed_mps), heroes.plan.profiles)
+    run = simulate(world.simulator, begin_at, heroes, world.rates)
     return Driven(scene, run, judge(case_of(scene, run, world.limits)), planned_s, heroes.ticks_s)
 
 

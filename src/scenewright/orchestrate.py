@@ -11,22 +11,24 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Mapping
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from scenewright.judge.tolerance import LOOSE, TIGHT, dimension_of
-from scenewright.plan.planner import Attempt, Planner
+from scenewright.plan.planner import Attempt
 from scenewright.plan.rehearsal import Rehearsed
 from scenewright.program.check import check_values
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
-from scenewright.simulate.beginning import first_plan, is_timed_by_ego
+from scenewright.simulate.beginning import first_plan, first_plan_of_smt, is_timed_by_ego
 from scenewright.simulate.ego_start import EgoFirstState
+from scenewright.simulate.heroes import HeroDriver
 from scenewright.simulate.hindsight import drive_profile, ego_left_no_room
 from scenewright.simulate.loop import Rates, Run, simulate
+from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
 from scenewright.solve.holding import NotHeld, not_held
@@ -44,6 +46,7 @@ if TYPE_CHECKING:
     from scenewright.translate.translation import Translation
 
 Mode = Literal["closed", "open"]
+PlannerName = Literal["convex", "smt"]
 Tolerance = Literal["tight", "loose"]
 Status = Literal["success", "failure", "infeasible", "gave up", "interrupted", "failed"]
 EXIT_STATUS: dict[Status, int] = {
@@ -65,7 +68,11 @@ _SLOW_PACE = 0.43
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What a user asks for: the command line of ``scenewright run``, as data; `solver` is what refutes."""
+    """What a user asks for: the command line of ``scenewright run``, as data; `solver` is what refutes.
+
+    A `simulator` may drive the ego itself; the policy `ego` is then only asked how it would start. The `planner`
+    ``smt`` is the paper's own loop: it foresees the ego by itself, and rehearses nothing.
+    """
 
     source: str
     parameters: Mapping[str, float | str] = field(default_factory=dict)
@@ -80,6 +87,8 @@ class Request:
     predictor: str = "road"
     takes: int = 3
     solver: str = "z3"
+    simulator: str = "builtin"
+    planner: PlannerName = "convex"
     translation: TranslatorSettings = field(default_factory=TranslatorSettings)
 
 
@@ -102,6 +111,8 @@ class Result:
         ``success`` or ``failure`` are verdicts; ``failed`` and ``interrupted`` runs were cut short.
     not_held
         What the first plan breaks beyond the loose tolerance; nothing was driven then.
+    no_plan
+        Why there is no first plan; empty where there is one.
     hindsight
         For a run that missed: the proof that against the ego as it drove no hero could have done it, if there is one.
     run_directory
@@ -118,6 +129,7 @@ class Result:
     feasibility: Feasibility | None = None
     attempt: Attempt | None = None
     not_held: tuple[NotHeld, ...] = ()
+    no_plan: str = ""
     run: Run | None = None
     hindsight: Feasibility | None = None
     verdict: Verdict | None = None
@@ -162,15 +174,19 @@ def orchestrate(
             _write_witness(request.out, request, result, world, result.feasibility.witness, stages)
         return result
     with stages("plan"):
-        planned = first_plan(world, world.predictor)
+        planned = first_plan_of_smt(world) if request.planner == "smt" else first_plan(world, world.predictor)
         assert planned is not None
-        result.attempt = planned[2]
+    if isinstance(planned, str):
+        result.status, result.no_plan = "gave up", planned
+        return result
+    result.attempt = planned[2]
     result.not_held = tuple(not_held(world.scene, result.attempt.plan.profiles, dimension_of, LOOSE.of))
     if result.not_held or until == "plan":
         result.status = "gave up" if result.not_held else "success"
         return result
-    _drive(request, result, world, planned, stages, progress)
-    result = _rehearse(request, result, world, stages, progress)
+    with closing(world.simulator):
+        _drive(request, result, world, planned, stages, progress)
+        result = _rehearse(request, result, world, stages, progress)
     if request.out is not None:
         with stages("write"):
             write_result(request.out, request, result, world, stages.seconds)
@@ -206,15 +222,15 @@ def _drive(
     request: Request,
     result: Result,
     world: World,
-    planned: tuple[Planner, EgoFirstState, Attempt],
+    planned: tuple[HeroDriver, EgoFirstState, Attempt],
     stages: Stages,
     progress: Callable[[float], None] | None,
 ) -> None:
     """Carry out one take from its first second, and judge it."""
     planner, start, result.attempt = planned
     with stages("simulate"):
-        world.ego.reset(start.s_m, start.speed_mps)
-        result.run = simulate(world.scene, world.ego, planner, world.rates, progress)
+        begin_at = Start.of(world.scene, world.ego, (start.s_m, start.speed_mps), planner.plan.profiles)
+        result.run = simulate(world.simulator, begin_at, planner, world.rates, progress)
     judge_run(request, result, world, stages)
 
 
@@ -227,7 +243,7 @@ def _rehearse(
     known from a drive in which the hero drove otherwise: from the third take on the hero comes more slowly, too.
     """
     last = first
-    for take in range(2, request.takes + 1):
+    for take in range(2, 1 + (request.takes if request.planner == "convex" else 1)):
         if last.status != "failure" or request.mode == "open" or world.ego_bounds.holds_speed or last.run is None:
             break
         drive = drive_profile(last.run.trace.actors[world.scene.program.ego.name])
@@ -281,7 +297,7 @@ def set_up(request: Request, stages: Stages) -> tuple[World, Translation | None]
         check_values(program, scene.parameters, name=program.name)
     rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
     ego, seed, predictor = request.ego, request.seed, request.predictor
-    world = World(scene, ego, seed, rates, predictor, request.solver)
+    world = World(scene, ego, seed, rates, predictor, request.solver, request.simulator)
     return world, translation
 
 
@@ -328,9 +344,11 @@ def write_result(
     assert result.verdict is not None
     given = frozenset(request.parameters)
     driven = bool(result.attempt)  # a witness is nobody's driving
+    ego = (world.policy.name, world.policy.options) if driven else ("none", {})
+    if driven and world.simulator.capabilities.drives_ego:
+        ego = f"{request.simulator}'s own", {}
     circumstances = Circumstances(
-        world.policy.name if driven else "none",
-        world.policy.options if driven else {},
+        *ego,
         request.mode if driven else "witness",
         request.tolerance,
         request.seed,
@@ -341,6 +359,8 @@ def write_result(
         timings_s,
         notes_of(result.translation),
         result.take,
+        request.simulator if driven else "none",
+        request.planner if driven else "none",
     )
     write_run(directory, world.scene, result.run, world.limits, circumstances)
     write_verdict(result.verdict, directory / "verdict.json")

@@ -30,7 +30,7 @@ def judged_in_manner(scene: Scene, run: Run, text: str) -> Verdict:
     ("story", "ego", "numbers", "condition"),
     [
         ("stops and goes", "idm", "- stands_s = 2", "hero_standstill"),
-        ("goes first, distance", "stop-and-go", "- settled_s = 2\n- settled_mpss = 0.1", "hero_settled"),
+        ("goes first, time", "noisy", "- settled_s = 2\n- settled_mpss = 0.1", "hero_settled"),
         ("yields, distance", "stop-and-go", "- settled_s = 1\n- settled_mpss = 0.1", "hero_settled"),
     ],
 )

@@ -171,6 +171,7 @@ def _about(manifest: Json) -> list[list[str]]:
     rates = manifest.get("rates") or {}
     rows = [
         ("Ego", f"{ego.get('name', '')}{f' ({setting})' if setting else ''}"),
+        ("Simulator", manifest.get("simulator")),
         ("Map", (manifest.get("map") or {}).get("name")),
         ("Mode", manifest.get("mode")),
         ("Tolerance", manifest.get("tolerance")),

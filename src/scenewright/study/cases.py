@@ -118,9 +118,9 @@ def run_bench_case(case: BenchCase) -> CaseRecord:
 
 def carry_out_case(case: BenchCase, row: BenchmarkRow) -> tuple[CaseRecord, Request, Result]:
     """Run one case; raises `ScenewrightError` where the request is wrong."""
-    from scenewright.study.rivals import run_method
+    from scenewright.study.rivals import request_of, run_method
 
-    request = case.request(row)
+    request = request_of(case.method, case.request(row))
     started = time.perf_counter()
     result = run_method(case.method, request)
     record = replace(record_of(case, row, result), wall_s=time.perf_counter() - started)
@@ -286,7 +286,7 @@ def keep_run(directory: Path, request: Request, result: Result, page: bool = Fal
     shutil.rmtree(part, ignore_errors=True)
     part.mkdir(parents=True)
     rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
-    world = World(result.scene, request.ego, request.seed, rates)
+    world = World(result.scene, request.ego, request.seed, rates, simulator=request.simulator)
     write_result(part, request, result, world, result.timings_s, page=False)
     manifest = json.loads((part / "manifest.json").read_text(encoding="utf-8"))
     manifest["map"]["file"] = result.scene.road_map.name

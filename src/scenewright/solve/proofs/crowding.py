@@ -18,9 +18,8 @@ from scenewright.program.structure import actors_of, synchronised
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import conflicts, shared_stretches
 from scenewright.roads.grounding import Scene
-from scenewright.solve.proofs.events import Events
+from scenewright.solve.proofs.events import Events, conjuncts
 from scenewright.solve.proofs.lowering import Lowered
-from scenewright.solve.proofs.polynomials import All, Atom, Formula
 
 Array = NDArray[np.float64]
 Point = Mapping[int, float]  # one place of the map, as the arc length on the way of each hero that passes it
@@ -70,7 +69,7 @@ class _Facts:
         """Gather the facts of some constraints."""
         found = cls(events, events.least_differences())
         owners = {key: owner for owner, state in events.states.items() for key in state.place.terms if key != ()}
-        for part in (part for each in lowered for part in _parts(each.formula)):
+        for part in conjuncts(each.formula for each in lowered):
             if (difference := events.difference(part.left)) is not None:
                 early, late, most_s = difference
                 found.least[late, early] = max(found.least[late, early], -float(most_s))
@@ -132,15 +131,6 @@ class _Facts:
             if told and hero in point and abs(at_m - point[hero]) < VEHICLE_LENGTH_M:
                 near.setdefault(instant, set()).add(hero)
         yield from set(point) - {hero for heroes in near.values() if len(heroes) > 1 for hero in heroes}
-
-
-def _parts(formula: Formula) -> Iterator[Atom]:
-    """Yield the comparisons that hold where a formula does."""
-    if isinstance(formula, Atom):
-        yield formula
-    elif isinstance(formula, All):
-        for part in formula.parts:
-            yield from _parts(part)
 
 
 def _points(scene: Scene, facts: _Facts) -> Iterator[Point]:
