@@ -65,6 +65,8 @@ class Asked:
         self._formulas = Compiled(
             [each.formula for each in lowered] + [rule for rule, _ in self.events.rules], self.size
         )
+        self.events.learn_from(each.formula for each in lowered)
+        self.least_s = self.events.least_differences()  # how much later each instant is at least than another
         self.narrowings = tuple(self.lowering.narrowings)
         self.times = [number_of(time) for time in self.events.times]
         self._scale = np.array([*(TIGHT[unknown.kind] for unknown in self.events.unknowns), 0.0])

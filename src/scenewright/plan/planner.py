@@ -9,6 +9,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from itertools import product
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.asked import Asked
@@ -135,11 +136,11 @@ class Planner:
         self.ego_knots_s = {self.scene.program.ego.sketch.knots[0]: 0.0}
         prediction = self.predictor.predict([ego])
         joint = any(self._trigger(hero) is not None and not self._ego_decides(hero) for hero in self._heroes)
-        tries = [
-            self._planned_first(prediction, joint_s, self._even_motions(prediction, joint_s, pace))
-            for joint_s in (_JOINT_S if joint else (0.0,))
-            for pace in _PACES
-        ]
+        tries: list[_Found] = []
+        for joint_s, pace in product(_JOINT_S if joint else (0.0,), _PACES):
+            tries.append(self._planned_first(prediction, joint_s, self._even_motions(prediction, joint_s, pace)))
+            if tries[-1].solution.cost < self._enough:
+                break
         best = min(tries, key=lambda found: found.solution.cost)
         self._keep(best)
         best = self._led(best) if self._ego.leaders else self._planned_first(prediction, 0.0, best.plan.profiles)
@@ -257,7 +258,10 @@ class Planner:
             for name in actor.sketch.knots:
                 instant = self._asked.knot(actor.id, name)
                 if instant not in knots:
-                    expected.setdefault(instant, told.get(name, now + self._asked.wanted.lasts_s))
+                    soonest_s = [at_s + self._asked.least_s[known, instant] for known, at_s in knots.items()]
+                    chained = self._trigger(actor) is None and actor.id in self._asked.adapts_until
+                    usual_s = max([now + self._asked.wanted.lasts_s, *(soonest_s if chained else ())])
+                    expected.setdefault(instant, told.get(name, usual_s))
                 now = knots.get(instant, expected.get(instant, now))
         for instant, at_s in self._moments_s.items():
             if instant not in knots:
