@@ -125,13 +125,15 @@ class Driven:
         return sum(not any(hero.id in actors for actors in of_broken) for hero in self.scene.program.heroes)
 
     def apart_m(self, *, of_ego: bool) -> float:
-        """Return what heroes surely keep from each other, or each from the ego until its own trigger."""
-        actors, known = self.run.trace.actors, self.verdict.facts["trigger_time_s"]
+        """Return what heroes surely keep from each other, or each from the ego until its first moment."""
+        actors, knots = self.run.trace.actors, self.verdict.facts["knot_times_s"]
+
+        def until_s(hero: str) -> float:
+            return float(knots[hero].get("t1", np.inf)) if of_ego else np.inf
+
         return min(
             (
-                surely_apart_m(
-                    *(_until(actors[each], known.get(b, np.inf) if of_ego else np.inf) for each in (a, b)), (CAR, CAR)
-                )
+                surely_apart_m(*(_until(actors[each], until_s(b)) for each in (a, b)), (CAR, CAR))
                 for a, b in combinations(actors, 2)
                 if (a == self.scene.program.ego.name) == of_ego
             ),

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.plan.asked import Asked
+from scenewright.plan.clearance import LEAST_GAP_M
 from scenewright.plan.shooting import Leg, Moment, Shot
 from scenewright.plan.situation import Situation
 from scenewright.program.types import Actor, PieceKind
-from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.solve.proofs.narrowing import Narrowing
 
 Array = NDArray[np.float64]
@@ -24,7 +24,6 @@ Columns = NDArray[np.intp]
 
 SOONEST_S = 0.02  # how soon after now a knot may come
 _ANY = float("inf")
-_APART_M = VEHICLE_LENGTH_M + 1.5  # between two on one lane, before a trigger
 _STILL_MPS = 0.1  # what is as bad as a tight tolerance for one that is to stand
 _FIRM = 20.0  # of a price: what no motion exceeds
 _TIGHT_SPEED, _TIGHT_RATE, _TIGHT_LENGTH, _TIGHT_TIME = 0.25, 0.25, 0.5, 0.1
@@ -248,6 +247,7 @@ class HeroRows:
         if hero in self.now.lanes.apart:
             for node in range(first, last + 1):
                 self._apart(node)
+        if hero in self.now.lanes.plainly:
             self._plainly(last)
 
     def _apart(self, node: int) -> None:
@@ -255,7 +255,7 @@ class HeroRows:
         side, offset_m = self.now.lanes.apart[self.hero.id]
         s_m, _, d_s, _ = self.shot.at_node(node)
         ego_m, ego_mps, _ = self.now.ego(float(self.shot.time[node]))
-        room_m = side * (s_m + offset_m - ego_m) - _APART_M
+        room_m = side * (s_m + offset_m - ego_m) - LEAST_GAP_M
         slope = -side * (d_s - ego_mps * self.shot.d_time[node])
         self.bounds.add(-room_m, slope, self.asked.wanted.price / _TIGHT_LENGTH)
 
