@@ -2,6 +2,7 @@
 
     description --translate--> program --ground on a map--> scene --check--> feasible, or a proof that it cannot happen
         --plan--> first plan --simulate, re-solve each tick--> trace --judge--> verdict --> page
+        where it missed: --explain--> its cause, and what would do
 
 What enters: a `Request`. What leaves: a `Result` and, where something was driven, a run directory.
 """
@@ -13,13 +14,19 @@ import time
 from collections.abc import Callable, Mapping
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from scenewright.errors import ScenewrightError
+from scenewright.explain.cause import cause_of
+from scenewright.explain.ways_out import ways_out
 from scenewright.judge.tolerance import LOOSE, TIGHT, dimension_of
+from scenewright.judge.tolerance import Tolerance as Tolerances
 from scenewright.plan.planner import Attempt
 from scenewright.plan.rehearsal import Rehearsed
 from scenewright.program.check import check_values
+from scenewright.program.printer import print_program
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
@@ -41,6 +48,7 @@ if TYPE_CHECKING:
 
     from scenewright.judge.case import Case
     from scenewright.judge.verdict import Condition, Verdict
+    from scenewright.program.types import Program
     from scenewright.solve.proofs.witness import Witness
     from scenewright.trace.model import Trace
     from scenewright.translate.translation import Translation
@@ -68,8 +76,9 @@ _SLOW_PACE = 0.43
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What a user asks for: the command line of ``scenewright run``, as data; `solver` is what refutes.
+    """What a user asks for: the command line of ``scenewright run``, as data.
 
+    `solver` is what refutes; `explain` says what is found out about a run that misses.
     A `simulator` may drive the ego itself; the policy `ego` is then only asked how it would start. The `planner`
     ``smt`` is the paper's own loop: it foresees the ego by itself, and rehearses nothing.
     """
@@ -86,6 +95,7 @@ class Request:
     replan_hz: float = 10.0
     predictor: str = "road"
     takes: int = 3
+    explain: Literal["nothing", "cause", "ways out"] = "cause"
     solver: str = "z3"
     simulator: str = "builtin"
     planner: PlannerName = "convex"
@@ -187,6 +197,8 @@ def orchestrate(
     with closing(world.simulator):
         _drive(request, result, world, planned, stages, progress)
         result = _rehearse(request, result, world, stages, progress)
+    if result.status == "failure" and request.explain != "nothing":
+        _explain(request, result, world, stages)
     if request.out is not None:
         with stages("write"):
             write_result(request.out, request, result, world, stages.seconds)
@@ -284,6 +296,40 @@ def _missed_only_outcome(result: Result) -> bool:
     return {condition.kind for condition in _missed(result)} == {"outcome"}
 
 
+def _tolerance(request: Request) -> Tolerances:
+    return TIGHT if request.tolerance == "tight" else LOOSE
+
+
+def _explain(request: Request, result: Result, world: World, stages: Stages) -> None:
+    """Put into the verdict why the run missed and, where that is asked for, what would do."""
+    assert result.run is not None
+    assert result.verdict is not None
+    with stages("explain"):
+        cause = cause_of(world, result.run, result.verdict, _tolerance(request), result.hindsight)
+        result.verdict = replace(result.verdict, cause=cause)
+    if request.explain == "ways out":
+        with stages("ways out"):
+            found, tried = ways_out(
+                world.scene, result.verdict, _tolerance(request), partial(_happens, request), stages.say
+            )
+        result.verdict = replace(result.verdict, cause=replace(cause, would_do=found, tried=tried))
+
+
+def _happens(
+    request: Request, program: Program, parameters: Mapping[str, float], progress: Callable[[float], None]
+) -> bool:
+    """Whether another program, or other parameters, are judged a success in their first take."""
+    values = {**request.parameters, **parameters}
+    other = replace(request, source=print_program(program), parameters=values, out=None, takes=1, explain="nothing")
+    try:
+        tried = orchestrate(other, progress=progress)
+    except ScenewrightError:
+        return False  # a value that is out of range, say
+    if tried.status == "interrupted":
+        raise KeyboardInterrupt
+    return tried.status == "success"
+
+
 def set_up(request: Request, stages: Stages) -> tuple[World, Translation | None]:
     """Read the source, put it on its map, and load the policy; nothing that is wrong with them is found out late."""
     if request.out is not None:
@@ -310,18 +356,13 @@ def judge_run(request: Request, result: Result, world: World, stages: Stages, hi
     assert run is not None
     with stages("judge"):
         result.verdict = judge(case_of(world.scene, run, world.limits))
-    holds = result.verdict.holds_at(TIGHT if request.tolerance == "tight" else LOOSE)
+    holds = result.verdict.holds_at(_tolerance(request))
     result.status = "success" if holds else "failure"
     if run.status != "finished":
         result.status = "interrupted" if run.status == "interrupted" else "failed"
-    elif hindsight and not holds:
+    elif hindsight and not holds and request.explain != "nothing":
         with stages("hindsight"):
             result.hindsight = ego_left_no_room(world.scene, world.structure, world.limits, run.trace)
-        if result.hindsight is not None:
-            run.findings.append(
-                "The ego left no room: against the way it drove no vehicle within its limits could have met all "
-                "conditions."
-            )
     if run.status == "finished":
         result.takes = (*result.takes, Take(result.verdict, result.hindsight, run.trace))
 
@@ -401,13 +442,12 @@ class Stages:
 
     def __init__(self, report: Report | None) -> None:
         self.seconds: dict[str, float] = {}
-        self._report = report
+        self.say: Report = report or (lambda _: None)
 
     @contextmanager
     def __call__(self, name: str) -> Iterator[None]:
         """Time what is done inside as the stage `name`."""
-        if self._report is not None:
-            self._report(name)
+        self.say(name)
         started = time.perf_counter()
         try:
             yield

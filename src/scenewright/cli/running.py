@@ -36,6 +36,9 @@ _SAYS = {
     "plan": "planning",
     "simulate": "driving",
     "judge": "judging",
+    "hindsight": "asking whether the ego left room",
+    "explain": "asking why it missed",
+    "ways out": "trying what would do",
     "write": "writing the run directory",
 }
 _UNBROKEN = ("judge", "write")
@@ -64,6 +67,9 @@ def run(
     predictor: Annotated[
         str, typer.Option(help="How the ego is foreseen: road (slows for turns and lines), acceleration or speed.")
     ] = "road",
+    ways_out: Annotated[
+        bool, typer.Option("--ways-out/--no-ways-out", help="Where the run misses, try other numbers for some seconds.")
+    ] = True,
     simulator: Simulator = "builtin",
     planner: PlannerOption = "convex",
     as_json: AsJson = False,
@@ -79,6 +85,7 @@ def run(
             replan_hz=replan_hz,
             predictor=predictor,
             takes=takes,
+            explain="ways out" if ways_out else "cause",
             simulator=simulator,
             planner=planner,
         )
@@ -300,12 +307,14 @@ def report_verdict(
     console.print(tables.aftermath(verdict), soft_wrap=True)
     if status == "finished":
         console.print(_trigger(verdict))
+    for line in tables.cause(verdict):
+        console.print(line, soft_wrap=True)
 
 
 def _trigger(verdict: Verdict) -> str:
     facts = verdict.facts
     if facts.get("ego_never_met_condition"):
-        return "The ego never came within the tight tolerance of its side of the trigger: a finding about this policy."
+        return "The ego never came within the tight tolerance of its side of the trigger."
     times = {hero: time_s for hero, time_s in (facts.get("trigger_time_s") or {}).items() if time_s is not None}
     if len(times) > 1:
         return "The triggers came at " + ", ".join(f"{time_s:.2f} s ({hero})" for hero, time_s in times.items()) + "."

@@ -47,7 +47,7 @@ _NEARLY_MPSS, _LOOKED_AT_S, _LOOKED_BACK = 0.1, 0.05, 12
 
 @dataclass(frozen=True, slots=True)
 class Replan:
-    """What one tick's re-solve came to; `tolerance` is what it misses, in tight tolerances."""
+    """What one tick's re-solve came to: what its plan misses, in tight tolerances, and how it foresees the ego."""
 
     time_s: float
     status: str
@@ -55,6 +55,7 @@ class Replan:
     wall_s: float
     tolerance: float
     reason: str
+    foreseen: Profile | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,7 +152,8 @@ class Planner:
                 self._joint_s[hero.id] = self.plan.profiles[hero.id].knot_times_s[name]
         missed, steps = best.solution.missed, best.solution.steps
         attempt = Attempt(self.plan, missed, time.perf_counter() - started, steps)
-        self.records = [Replan(0.0, _status(best.solution), "daqp", attempt.wall_s, missed.by, "")]
+        foreseen = self.plan.profiles[EGO]
+        self.records = [Replan(0.0, _status(best.solution), "daqp", attempt.wall_s, missed.by, "", foreseen)]
         return attempt
 
     def _keep(self, found: _Found) -> None:
@@ -317,7 +319,8 @@ class Planner:
             steps = _TICK_STEPS + min(_MOST_STEPS_MORE, int(_STEPS_A_SECOND * moved_s))
             solution = solve(problem, problem.guess, steps, self._enough)
             self._keep(self._made(problem, solution, prediction))
-            record = Replan(time_s, _status(solution), "daqp", 0.0, solution.missed.by, "")
+            foreseen = self.plan.profiles[EGO]
+            record = Replan(time_s, _status(solution), "daqp", 0.0, solution.missed.by, "", foreseen)
         record = replace(record, wall_s=time.perf_counter() - started)
         self.records.append(record)
         return record

@@ -83,7 +83,8 @@ class SmtPlanner:
             answer = self._ask(question)
             if answer.kind == "met":
                 self._keep(question, answer, 0.0)
-                self.records = [Replan(0.0, "sat", "z3", time.perf_counter() - started, 0.0, "")]
+                wall_s = time.perf_counter() - started
+                self.records = [Replan(0.0, "sat", "z3", wall_s, 0.0, "", self.plan.profiles[EGO])]
                 return Attempt(self.plan, Missed(), self.records[0].wall_s, 1)
         self.why = self._clash(question) if answer.kind == "refuted" else f"z3 gave up ({answer.kind})"
         return None
@@ -96,7 +97,8 @@ class SmtPlanner:
             record = Replan(time_s, "frozen", "", 0.0, self.plan.tolerance, "all pieces are over")
         else:
             status, reason = self._planned_again(self._past(time_s))
-            record = Replan(time_s, status, "z3", time.perf_counter() - started, self.plan.tolerance, reason)
+            wall_s, foreseen = time.perf_counter() - started, self.plan.profiles[EGO]
+            record = Replan(time_s, status, "z3", wall_s, self.plan.tolerance, reason, foreseen)
         self.records.append(record)
         return record
 

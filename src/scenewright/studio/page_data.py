@@ -59,6 +59,7 @@ def collect(run_dir: Path) -> Json:
         "name": manifest.get("name") or run_dir.resolve().name,
         "outcome": _outcome(manifest, verdict),
         "aftermath": _aftermath(verdict),
+        "cause": _cause(verdict),
         "about": _about(manifest),
         "description": clauses(program) if program and program.description else _plain(manifest.get("description")),
         "program": _text(run_dir / "program.scene"),
@@ -162,6 +163,12 @@ def _aftermath(verdict: Json | None) -> Json | None:
     if not came.get("text"):
         return None
     return {"text": came["text"], "collision_s": (came.get("collision") or {}).get("time_s")}
+
+
+def _cause(verdict: Json | None) -> str | None:
+    """Say why it missed and what would do, as whoever drove it found; None where nothing is told."""
+    cause = (verdict or {}).get("cause") or {}
+    return " ".join(filter(None, (cause.get("text"), cause.get("way_out")))) or None
 
 
 def _about(manifest: Json) -> list[list[str]]:

@@ -23,6 +23,8 @@ function buildHeader() {
   byId('about').append(...run.about.map(([label, value]) => make('div', {}, make('dt', { text: label }), make('dd', { text: value }))));
   byId('missing').hidden = !run.missing.length;
   byId('missing').append(...run.missing.map((text) => make('li', { text })));
+  byId('cause').hidden = !run.cause;
+  byId('cause').textContent = run.cause ? `Why: ${run.cause}`.replaceAll('^2', '²') : '';
   buildAftermath();
   buildDescription();
 }
