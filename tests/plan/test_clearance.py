@@ -57,6 +57,13 @@ def test_places_of_both_tell_it_too(ego_m: int, hero_m: int, ahead: bool | None)
     assert clearance is None or not clearance.of_distance
 
 
+@pytest.mark.parametrize(("start", "ahead"), [("gap(A0, A1, t0) == 20", True), ("A0x(t0) - A1x(t0) == 15", False)])
+def test_where_both_start_tells_it_where_the_trigger_does_not(start: str, ahead: bool) -> None:
+    clearance = clearance_of(scene_with(f"{start}\nA0x(t1) == 250\nA1v(t1) == 8"))
+    assert clearance is not None
+    assert (clearance.ahead, clearance.of_distance) == (ahead, False)
+
+
 def test_who_only_crosses_need_not_keep_clear() -> None:
     assert clearance_of(YIELDS.scene()) is None
 

@@ -24,9 +24,9 @@ _TYPICAL_MPS = 10.0
 
 @dataclass(frozen=True, slots=True)
 class Clearance:
-    """Whether the hero is ahead, and what to add to its arc length to compare it with the ego's (m).
+    """Whether the hero is ahead, what to add to its arc length to compare it with the ego's (m).
 
-    And whether the trigger speaks of the distance itself, or tells the place of each.
+    And whether the trigger speaks of the distance itself.
     """
 
     ahead: bool
@@ -37,27 +37,39 @@ class Clearance:
     def of(
         cls, scene: Scene, structure: Structure, conditions: Sequence[LinearCondition], hero: Actor
     ) -> Clearance | None:
-        """Return it for a hero whose trigger tells the distance between the two on their lane, else None."""
+        """Return it for a hero whose trigger, or else whose start, tells where both are on their lane, else None.
+
+        Nobody drives through anybody, so whoever is ahead at one moment is so all along.
+        """
         conflict = scene.conflict(EGO, hero.id)
         if conflict is None or conflict.kind != "following":
             return None
-        offset_m, instant = scene.offset_m(EGO, hero.id), structure.triggers.get(hero.id, frozenset())
-        for condition in conditions:
-            if set(condition.weights) != {EGO, hero.id} or not condition.moments <= instant:
-                continue
-            formula = scene.program.constraint(condition.constraint_id).formula
-            distance = next((n for n in walk(formula) if isinstance(n, Derived) and isinstance(n.target, int)), None)
-            if distance is not None:
-                return cls(distance.actor == EGO, offset_m)  # its first actor is the one behind
-            gap_m = _gap_m(condition, hero.id, offset_m)
-            if gap_m is not None:
-                return cls(gap_m > 0.0, offset_m)
-        alone = [c for c in conditions if c.moments <= instant and len(c.weights) == 1]
-        places_m = {actor: -c.constant / w[0] for c in alone for actor, w in c.weights.items() if w[0] and not w[1]}
-        if {EGO, hero.id} <= set(places_m):
-            gap_m = places_m[hero.id] + offset_m - places_m[EGO]
-            if abs(gap_m) >= LEAST_GAP_M:
-                return cls(gap_m > 0.0, offset_m, of_distance=False)
+        start = frozenset((actor.id, actor.sketch.knots[0]) for actor in scene.program.actors)
+        trigger, offset_m = structure.triggers.get(hero.id, frozenset()), scene.offset_m(EGO, hero.id)
+        for instant in (trigger, start):
+            told = [condition for condition in conditions if condition.moments <= instant]
+            for condition in told:
+                if set(condition.weights) != {EGO, hero.id}:
+                    continue
+                formula = scene.program.constraint(condition.constraint_id).formula
+                distance = next(
+                    (n for n in walk(formula) if isinstance(n, Derived) and isinstance(n.target, int)), None
+                )
+                if distance is not None:
+                    return cls(distance.actor == EGO, offset_m, instant == trigger)  # its first actor is the one behind
+                gap_m = _gap_m(condition, hero.id, offset_m)
+                if gap_m is not None:
+                    return cls(gap_m > 0.0, offset_m, instant == trigger)
+            places_m = {
+                actor: -condition.constant / metre
+                for condition in told
+                for actor, (metre, second) in condition.weights.items()
+                if len(condition.weights) == 1 and metre and not second
+            }
+            if {EGO, hero.id} <= set(places_m):
+                gap_m = places_m[hero.id] + offset_m - places_m[EGO]
+                if abs(gap_m) >= LEAST_GAP_M:
+                    return cls(gap_m > 0.0, offset_m, of_distance=False)
         return None
 
 
