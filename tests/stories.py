@@ -16,7 +16,9 @@ from scenewright.program.text import parse_program
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
+from scenewright.simulate.builtin import BuiltIn
 from scenewright.simulate.loop import Rates, Run, simulate
+from scenewright.simulate.port import Start
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.arrival import LinearCondition, linear_conditions
 from scenewright.solve.limits import Limits, limits_on
@@ -154,15 +156,19 @@ class Stage:
         predictor = predictor or RoadAware.on(self.scene.routes[EGO])
         self.planner = Planner(self.scene, self.structure, self.limits, predictor, self.conditions)
         self.plans: list[Plan] = []
+        self.first = (0.0, 0.0)
 
     def begin(self, s_m: float, speed_mps: float) -> Attempt:
-        self.ego.reset(s_m, speed_mps)
+        self.first = (s_m, speed_mps)
         return self.planner.begin((0.0, s_m, speed_mps, 0.0))
 
     def run(self) -> Run:
         """Drive; `plans` holds the plan in force after every tick, the first one at the front."""
         self.plans = [self.planner.plan]
         return simulate(
-            self.scene, self.ego, self.planner, Rates(STEP_S, TICK_S),
+            BuiltIn(),
+            Start.of(self.scene, self.ego, self.first, self.planner.plan.profiles),
+            self.planner,
+            Rates(STEP_S, TICK_S),
             lambda _: self.plans.append(self.planner.plan),
-        )  # fmt: skip
+        )

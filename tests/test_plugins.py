@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from importlib.metadata import EntryPoint
 
-from scenewright.plugins import missing_extra, named, points
+import pytest
+
+from scenewright.errors import InputError, MissingExtraError, ScenewrightError
+from scenewright.plugins import Kind, missing_extra, named, points
 
 GROUP = "scenewright.nothing_of_this"
 OURS = (EntryPoint("plots", "nowhere:nothing [plots]", GROUP), EntryPoint("plain", "nowhere:nothing", GROUP))
@@ -37,3 +41,52 @@ def test_a_library_of_ours_is_missed_where_no_installer_says_so() -> None:
     assert "no-such-library, which does nothing, is not installed" in str(missing)
     assert 'pip install "scenewright[deep]"' in str(missing)
     assert missing_extra(ours, "does nothing", {"deep": "pytest"}) is None
+
+
+# -- kinds ------------------------------------------------------------------------------------------------------------
+class PlotError(ScenewrightError):
+    """The fault of a plot."""
+
+
+class Plot:
+    def draw(self) -> None:
+        raise ZeroDivisionError("no\npaper")
+
+
+def kind(**points: str) -> Kind[Plot]:
+    ours = tuple(EntryPoint(name, value, GROUP) for name, value in points.items())
+    return Kind(GROUP, ours, "plot", "draws", PlotError, {"deep": "no-such-library"})
+
+
+def test_parts_of_a_kind_are_listed_with_what_they_miss_and_made_by_name() -> None:
+    plots = kind(line="test_plugins_plot:Plot", deep="nowhere:nothing [deep]")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(sys.modules, "test_plugins_plot", sys.modules[__name__])
+        assert isinstance(plots.called("LINE"), Plot)
+        assert plots.called("line") is not plots.called("line")
+    known = plots.known()
+    assert known["line"] is None
+    assert "no-such-library, which draws" in str(known["deep"])
+    with pytest.raises(MissingExtraError):
+        plots.called("deep")
+
+
+def test_a_part_that_is_not_there_is_refused_with_those_that_are() -> None:
+    with pytest.raises(InputError, match=r"no such plot(.|\n)*line, pie(.|\n)*scenewright plots lists them"):
+        kind(line="nowhere:a", pie="nowhere:b").called("bar")
+
+
+def test_a_part_that_cannot_be_imported_is_a_fault_of_its_kind() -> None:
+    with pytest.raises(PlotError, match="'line' cannot be imported") as broken:
+        kind(line="nowhere:nothing").called("line")
+    assert "No module named 'nowhere'" in str(broken.value.found)
+
+
+def test_whose_fault_it_is_is_told() -> None:
+    with pytest.raises(PlotError, match="the plot Plot failed") as broken, kind().blamed(Plot()):
+        Plot().draw()
+    assert str(broken.value.found).startswith("ZeroDivisionError: no (line ")
+    with pytest.raises(InputError), kind().blamed(Plot()):
+        raise InputError("is told already")
+    with pytest.raises(KeyboardInterrupt), kind().blamed(Plot()):
+        raise KeyboardInterrupt

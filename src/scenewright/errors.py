@@ -6,6 +6,7 @@ Unsatisfiable, timed-out and unknown problems are results (see `scenewright.solv
 
 from __future__ import annotations
 
+import traceback
 from dataclasses import dataclass
 
 _LONGEST_PART = 2_000  # characters of one part of a message
@@ -91,6 +92,13 @@ def _in_short(said: str) -> str:
     return f"{said[:kept]} ... ({len(said) - 2 * kept:,} characters more) ... {said[-kept:]}"
 
 
+def told_by(error: BaseException) -> str:
+    """Return an exception of somebody else's code in a line: what it is, what it says, and the line that raised it."""
+    last = next(reversed(traceback.extract_tb(error.__traceback__)), None)
+    line = f" (line {last.lineno} of {last.filename.rsplit('/', 1)[-1]}: {last.line})" if last else ""
+    return f"{type(error).__name__}: {(str(error).splitlines() or ['no message'])[0]}{line}"
+
+
 class ScenewrightError(Exception):
     """Root of all errors that a user can cause or mend.
 
@@ -170,6 +178,10 @@ class MapError(ScenewrightError):
 
 class PolicyError(ScenewrightError):
     """An ego policy could not be loaded, raised, or returned something that is not a motion."""
+
+
+class SimulatorError(ScenewrightError):
+    """A simulator could not be loaded, or failed while it drove."""
 
 
 class OutputError(ScenewrightError):

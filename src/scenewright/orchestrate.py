@@ -2,6 +2,7 @@
 
     description --translate--> program --ground on a map--> scene --check--> feasible, or a proof that it cannot happen
         --plan--> first plan --simulate, re-solve each tick--> trace --judge--> verdict --> page
+        where it missed: --explain--> its cause, and what would do
 
 What enters: a `Request`. What leaves: a `Result` and, where something was driven, a run directory.
 """
@@ -11,22 +12,30 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Mapping
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from scenewright.errors import ScenewrightError
+from scenewright.explain.cause import cause_of
+from scenewright.explain.ways_out import ways_out
 from scenewright.judge.tolerance import LOOSE, TIGHT, dimension_of
-from scenewright.plan.planner import Attempt, Planner
+from scenewright.judge.tolerance import Tolerance as Tolerances
+from scenewright.plan.planner import Attempt
 from scenewright.plan.rehearsal import Rehearsed
 from scenewright.program.check import check_values
+from scenewright.program.printer import print_program
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
-from scenewright.simulate.beginning import first_plan, is_timed_by_ego
+from scenewright.simulate.beginning import first_plan, first_plan_of_smt, is_timed_by_ego
 from scenewright.simulate.ego_start import EgoFirstState
+from scenewright.simulate.heroes import HeroDriver
 from scenewright.simulate.hindsight import drive_profile, ego_left_no_room
 from scenewright.simulate.loop import Rates, Run, simulate
+from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
 from scenewright.solve.holding import NotHeld, not_held
@@ -39,11 +48,13 @@ if TYPE_CHECKING:
 
     from scenewright.judge.case import Case
     from scenewright.judge.verdict import Condition, Verdict
+    from scenewright.program.types import Program
     from scenewright.solve.proofs.witness import Witness
     from scenewright.trace.model import Trace
     from scenewright.translate.translation import Translation
 
 Mode = Literal["closed", "open"]
+PlannerName = Literal["convex", "smt"]
 Tolerance = Literal["tight", "loose"]
 Status = Literal["success", "failure", "infeasible", "gave up", "interrupted", "failed"]
 EXIT_STATUS: dict[Status, int] = {
@@ -65,7 +76,12 @@ _SLOW_PACE = 0.43
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What a user asks for: the command line of ``scenewright run``, as data; `solver` is what refutes."""
+    """What a user asks for: the command line of ``scenewright run``, as data.
+
+    `solver` is what refutes; `explain` says what is found out about a run that misses.
+    A `simulator` may drive the ego itself; the policy `ego` is then only asked how it would start. The `planner`
+    ``smt`` is the paper's own loop: it foresees the ego by itself, and rehearses nothing.
+    """
 
     source: str
     parameters: Mapping[str, float | str] = field(default_factory=dict)
@@ -79,7 +95,10 @@ class Request:
     replan_hz: float = 10.0
     predictor: str = "road"
     takes: int = 3
+    explain: Literal["nothing", "cause", "ways out"] = "cause"
     solver: str = "z3"
+    simulator: str = "builtin"
+    planner: PlannerName = "convex"
     translation: TranslatorSettings = field(default_factory=TranslatorSettings)
 
 
@@ -102,6 +121,8 @@ class Result:
         ``success`` or ``failure`` are verdicts; ``failed`` and ``interrupted`` runs were cut short.
     not_held
         What the first plan breaks beyond the loose tolerance; nothing was driven then.
+    no_plan
+        Why there is no first plan; empty where there is one.
     hindsight
         For a run that missed: the proof that against the ego as it drove no hero could have done it, if there is one.
     run_directory
@@ -118,6 +139,7 @@ class Result:
     feasibility: Feasibility | None = None
     attempt: Attempt | None = None
     not_held: tuple[NotHeld, ...] = ()
+    no_plan: str = ""
     run: Run | None = None
     hindsight: Feasibility | None = None
     verdict: Verdict | None = None
@@ -162,15 +184,21 @@ def orchestrate(
             _write_witness(request.out, request, result, world, result.feasibility.witness, stages)
         return result
     with stages("plan"):
-        planned = first_plan(world, world.predictor)
+        planned = first_plan_of_smt(world) if request.planner == "smt" else first_plan(world, world.predictor)
         assert planned is not None
-        result.attempt = planned[2]
+    if isinstance(planned, str):
+        result.status, result.no_plan = "gave up", planned
+        return result
+    result.attempt = planned[2]
     result.not_held = tuple(not_held(world.scene, result.attempt.plan.profiles, dimension_of, LOOSE.of))
     if result.not_held or until == "plan":
         result.status = "gave up" if result.not_held else "success"
         return result
-    _drive(request, result, world, planned, stages, progress)
-    result = _rehearse(request, result, world, stages, progress)
+    with closing(world.simulator):
+        _drive(request, result, world, planned, stages, progress)
+        result = _rehearse(request, result, world, stages, progress)
+    if result.status == "failure" and request.explain != "nothing":
+        _explain(request, result, world, stages)
     if request.out is not None:
         with stages("write"):
             write_result(request.out, request, result, world, stages.seconds)
@@ -206,15 +234,15 @@ def _drive(
     request: Request,
     result: Result,
     world: World,
-    planned: tuple[Planner, EgoFirstState, Attempt],
+    planned: tuple[HeroDriver, EgoFirstState, Attempt],
     stages: Stages,
     progress: Callable[[float], None] | None,
 ) -> None:
     """Carry out one take from its first second, and judge it."""
     planner, start, result.attempt = planned
     with stages("simulate"):
-        world.ego.reset(start.s_m, start.speed_mps)
-        result.run = simulate(world.scene, world.ego, planner, world.rates, progress)
+        begin_at = Start.of(world.scene, world.ego, (start.s_m, start.speed_mps), planner.plan.profiles)
+        result.run = simulate(world.simulator, begin_at, planner, world.rates, progress)
     judge_run(request, result, world, stages)
 
 
@@ -227,7 +255,7 @@ def _rehearse(
     known from a drive in which the hero drove otherwise: from the third take on the hero comes more slowly, too.
     """
     last = first
-    for take in range(2, request.takes + 1):
+    for take in range(2, 1 + (request.takes if request.planner == "convex" else 1)):
         if last.status != "failure" or request.mode == "open" or world.ego_bounds.holds_speed or last.run is None:
             break
         drive = drive_profile(last.run.trace.actors[world.scene.program.ego.name])
@@ -268,6 +296,40 @@ def _missed_only_outcome(result: Result) -> bool:
     return {condition.kind for condition in _missed(result)} == {"outcome"}
 
 
+def _tolerance(request: Request) -> Tolerances:
+    return TIGHT if request.tolerance == "tight" else LOOSE
+
+
+def _explain(request: Request, result: Result, world: World, stages: Stages) -> None:
+    """Put into the verdict why the run missed and, where that is asked for, what would do."""
+    assert result.run is not None
+    assert result.verdict is not None
+    with stages("explain"):
+        cause = cause_of(world, result.run, result.verdict, _tolerance(request), result.hindsight)
+        result.verdict = replace(result.verdict, cause=cause)
+    if request.explain == "ways out":
+        with stages("ways out"):
+            found, tried = ways_out(
+                world.scene, result.verdict, _tolerance(request), partial(_happens, request), stages.say
+            )
+        result.verdict = replace(result.verdict, cause=replace(cause, would_do=found, tried=tried))
+
+
+def _happens(
+    request: Request, program: Program, parameters: Mapping[str, float], progress: Callable[[float], None]
+) -> bool:
+    """Whether another program, or other parameters, are judged a success in their first take."""
+    values = {**request.parameters, **parameters}
+    other = replace(request, source=print_program(program), parameters=values, out=None, takes=1, explain="nothing")
+    try:
+        tried = orchestrate(other, progress=progress)
+    except ScenewrightError:
+        return False  # a value that is out of range, say
+    if tried.status == "interrupted":
+        raise KeyboardInterrupt
+    return tried.status == "success"
+
+
 def set_up(request: Request, stages: Stages) -> tuple[World, Translation | None]:
     """Read the source, put it on its map, and load the policy; nothing that is wrong with them is found out late."""
     if request.out is not None:
@@ -281,7 +343,7 @@ def set_up(request: Request, stages: Stages) -> tuple[World, Translation | None]
         check_values(program, scene.parameters, name=program.name)
     rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
     ego, seed, predictor = request.ego, request.seed, request.predictor
-    world = World(scene, ego, seed, rates, predictor, request.solver)
+    world = World(scene, ego, seed, rates, predictor, request.solver, request.simulator)
     return world, translation
 
 
@@ -294,18 +356,13 @@ def judge_run(request: Request, result: Result, world: World, stages: Stages, hi
     assert run is not None
     with stages("judge"):
         result.verdict = judge(case_of(world.scene, run, world.limits))
-    holds = result.verdict.holds_at(TIGHT if request.tolerance == "tight" else LOOSE)
+    holds = result.verdict.holds_at(_tolerance(request))
     result.status = "success" if holds else "failure"
     if run.status != "finished":
         result.status = "interrupted" if run.status == "interrupted" else "failed"
-    elif hindsight and not holds:
+    elif hindsight and not holds and request.explain != "nothing":
         with stages("hindsight"):
             result.hindsight = ego_left_no_room(world.scene, world.structure, world.limits, run.trace)
-        if result.hindsight is not None:
-            run.findings.append(
-                "The ego left no room: against the way it drove no vehicle within its limits could have met all "
-                "conditions."
-            )
     if run.status == "finished":
         result.takes = (*result.takes, Take(result.verdict, result.hindsight, run.trace))
 
@@ -328,9 +385,11 @@ def write_result(
     assert result.verdict is not None
     given = frozenset(request.parameters)
     driven = bool(result.attempt)  # a witness is nobody's driving
+    ego = (world.policy.name, world.policy.options) if driven else ("none", {})
+    if driven and world.simulator.capabilities.drives_ego:
+        ego = f"{request.simulator}'s own", {}
     circumstances = Circumstances(
-        world.policy.name if driven else "none",
-        world.policy.options if driven else {},
+        *ego,
         request.mode if driven else "witness",
         request.tolerance,
         request.seed,
@@ -341,6 +400,8 @@ def write_result(
         timings_s,
         notes_of(result.translation),
         result.take,
+        request.simulator if driven else "none",
+        request.planner if driven else "none",
     )
     write_run(directory, world.scene, result.run, world.limits, circumstances)
     write_verdict(result.verdict, directory / "verdict.json")
@@ -381,13 +442,12 @@ class Stages:
 
     def __init__(self, report: Report | None) -> None:
         self.seconds: dict[str, float] = {}
-        self._report = report
+        self.say: Report = report or (lambda _: None)
 
     @contextmanager
     def __call__(self, name: str) -> Iterator[None]:
         """Time what is done inside as the stage `name`."""
-        if self._report is not None:
-            self._report(name)
+        self.say(name)
         started = time.perf_counter()
         try:
             yield

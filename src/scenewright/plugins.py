@@ -8,14 +8,91 @@ the package that offers one is missing. A part says what it needs besides as an 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
 from importlib.metadata import EntryPoint, PackageNotFoundError, distribution, entry_points
 from types import MappingProxyType
+from typing import Generic, TypeVar, cast
 
-from scenewright.errors import MissingExtraError
+from scenewright.errors import InputError, MissingExtraError, ScenewrightError, told_by
 
 _REQUIREMENT = re.compile(r"""(?P<name>[\w.-]+)[^;]*;\s*extra\s*==\s*['"](?P<extra>[^'"]+)['"]\s*""")
 _OUR_PACKAGE = "scenewright"
+Part = TypeVar("Part")
+
+
+@dataclass(frozen=True, slots=True)
+class Kind(Generic[Part]):
+    """Parts that the user names, each a class without arguments.
+
+    Attributes
+    ----------
+    group, ours
+        Their entry points: those of packages, and our own.
+    noun, does
+        What messages call one, and what it does; ``scenewright NOUNs`` lists them.
+    fault
+        The error where one cannot be imported, or fails at its work.
+    libraries
+        As in `missing_extra`.
+    """
+
+    group: str
+    ours: tuple[EntryPoint, ...]
+    noun: str
+    does: str
+    fault: type[ScenewrightError]
+    libraries: Mapping[str, str] = field(default_factory=dict)
+
+    def known(self) -> dict[str, MissingExtraError | None]:
+        """Return those that can be named, each with what it misses; nothing is imported for that."""
+        found = points(self.group, self.ours)
+        return {name: missing_extra(point, self.does, self.libraries) for name, point in found.items()}
+
+    def called(self, name: str) -> Part:
+        """Return a new one.
+
+        Raises
+        ------
+        InputError
+            Where there is none of that name.
+        MissingExtraError
+            Where it needs something that is not installed.
+        ScenewrightError
+            Of the kind `fault`, where it cannot be imported.
+        """
+        point = named(name.lower(), self.group, self.ours)
+        if point is None:
+            raise InputError(
+                f"there is no such {self.noun}",
+                found=repr(name),
+                expected=", ".join(self.known()),
+                fix=f"scenewright {self.noun}s lists them",
+            )
+        missing = missing_extra(point, self.does, self.libraries)
+        if missing is not None:
+            raise missing
+        try:
+            return cast("Part", point.load()())
+        except Exception as error:  # whatever a plug-in does at import is its fault, and the user should read it
+            raise self.fault(
+                f"the {self.noun} {name!r} cannot be imported",
+                found=told_by(error),
+                expected=f"a class without arguments in {point.value}",
+                fix="repair or reinstall the package that offers it",
+            ) from error
+
+    @contextmanager
+    def blamed(self, part: Part) -> Iterator[None]:
+        """Turn whatever a part raises inside into an error that says whose it is."""
+        try:
+            yield
+        except ScenewrightError:
+            raise
+        except Exception as error:  # a part, and what it talks to, may raise anything
+            what = f"the {self.noun} {type(part).__name__} failed"
+            raise self.fault(what, found=told_by(error), fix="repair it, or ask who wrote it") from error
 
 
 def named(name: str, group: str, ours: Iterable[EntryPoint]) -> EntryPoint | None:

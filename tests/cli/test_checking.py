@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from sentences import IMPOSSIBLE, SENTENCE
 
-from scenewright.solve.proofs.refuters import known
+from scenewright.solve.proofs.refuters import SOLVERS
 
 Command = Callable[..., Any]
 
@@ -62,7 +62,7 @@ def test_each_witness_has_a_folder(command: Command, folder: Path) -> None:
 
 
 def test_another_solver_refutes_what_the_first_does(command: Command, folder: Path) -> None:
-    missing = known()["cvc5"]
+    missing = SOLVERS.known()["cvc5"]
     if missing is not None:
         pytest.skip(str(missing))
     result = command("check", IMPOSSIBLE, "--solver", "cvc5")
@@ -71,7 +71,7 @@ def test_another_solver_refutes_what_the_first_does(command: Command, folder: Pa
 
 
 def test_a_numeric_solver_proves_nothing_and_is_named(command: Command, folder: Path) -> None:
-    missing = known()["scip"]
+    missing = SOLVERS.known()["scip"]
     if missing is not None:
         pytest.skip(str(missing))
     result = command("check", IMPOSSIBLE, "--solver", "scip")
@@ -83,7 +83,7 @@ def test_a_numeric_solver_proves_nothing_and_is_named(command: Command, folder: 
 
 def test_solvers_are_listed_and_others_refused(command: Command, folder: Path) -> None:
     text = command("solvers").stdout
-    assert all(name in text for name in known())
+    assert all(name in text for name in SOLVERS.known())
     assert json.loads(command("solvers", "--json").stdout)["z3"].startswith("exact")
     refused = command("check", SENTENCE, "--solver", "z4")
     assert refused.exit_code == 2

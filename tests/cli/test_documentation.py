@@ -88,6 +88,13 @@ def test_example_policy_is_the_one_in_the_documentation() -> None:
     assert step in (ROOT / "examples" / "timid.py").read_text(encoding="utf-8")
 
 
+def test_example_simulator_keeps_the_contract() -> None:
+    example, test = blocks(ROOT / "docs" / "simulators.md", "python")
+    names: dict[str, Any] = {}
+    exec(f"{example}\n{test}", names)
+    names["test_it_keeps_the_contract"]()
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_links_lead_somewhere(page: Path) -> None:
     text = page.read_text(encoding="utf-8")

@@ -45,7 +45,7 @@ def test_fault_on_the_way_keeps_what_was_driven(command: Command, policy: Policy
     assert result.exit_code == 2
     assert found in result.stderr
     assert json.loads(Path("here/manifest.json").read_text(encoding="utf-8"))["status"] == "failed"
-    assert "fault of the policy" in result.stdout
+    assert "ended in a fault" in result.stdout
     assert command("judge", "here").exit_code == 1
     assert command("view", "here", "--no-browser").exit_code == 0
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pytest
 from sentences import IMPOSSIBLE, OPEN_SENTENCE, SENTENCE
 
 from forms import FORMS, PROBE
@@ -161,7 +162,25 @@ def test_gives_up_with_what_the_planner_cannot_hold(command: Command, tmp_path: 
     assert PROBE in data["tried"]
 
 
+def test_gives_up_where_the_smt_planner_finds_nothing(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("scenewright.plan.smt.MOST_WORK", 1)
+    result = command("run", SENTENCE, "--planner", "smt")
+    assert result.exit_code == 4
+    assert "Nothing was driven: the SMT planner found no first plan" in result.stderr
+    assert "z3 gave up" in json.loads(command("run", SENTENCE, "--planner", "smt", "--json").stdout)["tried"]
+    assert command("run", SENTENCE, "--planner", "paper").exit_code == 2
+
+
 def test_same_inputs_and_seed_give_the_same_trace(command: Command) -> None:
     for out in ("a", "b"):
         assert command("run", SENTENCE, "--ego", "noisy", "--seed", "7", "--out", out, "--quiet").exit_code in (0, 1)
     assert Path("a/trace.parquet").read_bytes() == Path("b/trace.parquet").read_bytes()
+
+
+def test_simulators_are_listed_and_others_refused(command: Command, folder: Path) -> None:
+    assert "drives the policy of --ego" in command("simulators").stdout
+    assert json.loads(command("simulators", "--json").stdout)["builtin"].endswith("repeatable")
+    refused = command("run", SENTENCE, "--simulator", "none", "--out", "here")
+    assert refused.exit_code == 2
+    assert "no such simulator" in refused.stderr
+    assert "builtin" in refused.stderr

@@ -82,7 +82,7 @@ def test_ego_goes_on_as_it_starts(ego: str, initial: str) -> None:
     on.ego.reset(start.s_m, start.speed_mps)
     for step in range(25):
         on.ego.advance(on.ego.decide(0.02 * step, (), 0.02), 0.02)
-        assert on.ego.speed_mps == pytest.approx(start.speed_mps + 0.02 * (step + 1) * start.accel_mpss, abs=0.15)
+        assert on.ego.state.speed_mps == pytest.approx(start.speed_mps + 0.02 * (step + 1) * start.accel_mpss, abs=0.15)
 
 
 def test_constant_tries_natural_speeds_first() -> None:

@@ -78,8 +78,9 @@ def test_hindsight_reaches_the_result_of_a_whole_run() -> None:
     assert result.status == "failure"
     assert result.hindsight is not None
     assert result.hindsight.answer == "infeasible"
-    assert result.run is not None
-    assert any("left no room" in finding for finding in result.run.findings)
+    assert result.verdict is not None
+    assert result.verdict.cause is not None
+    assert result.verdict.cause.kind == "ego"
 
 
 def test_drive_is_read_back_from_its_trace() -> None:

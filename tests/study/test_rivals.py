@@ -16,7 +16,7 @@ from scenewright.orchestrate import Request, Result
 from scenewright.plan import planner
 from scenewright.program.types import EGO
 from scenewright.solve.limits import Limits
-from scenewright.study.rivals import METHODS, run_method
+from scenewright.study.rivals import METHODS, request_of, run_method
 from scenewright.study.rivals.script import SpeedAction
 
 HERO = 1
@@ -69,7 +69,7 @@ def failed(result: Result) -> list[str]:
     return [condition.id for condition in result.verdict.conditions if not condition.holds_at(TIGHT)]
 
 
-@pytest.mark.parametrize("method", ["scenewright", "open-loop", "trigger-action", "synchronise"])
+@pytest.mark.parametrize("method", ["scenewright", "open-loop", "smt", "trigger-action", "synchronise"])
 def test_succeeds_where_the_ego_does_as_foreseen(method: str) -> None:
     result = driven(method)
     assert (result.status, failed(result)) == ("success", [])
@@ -77,6 +77,11 @@ def test_succeeds_where_the_ego_does_as_foreseen(method: str) -> None:
 
 def test_gap_trigger_is_fired_by_conditions_too() -> None:
     assert driven("trigger-action", "noisy", BRAKES).status == "success"
+
+
+def test_a_method_that_is_ours_otherwise_says_how() -> None:
+    assert [request_of(method, Request(YIELDS)).planner for method in ("scenewright", "smt")] == ["convex", "smt"]
+    assert request_of("open-loop", Request(YIELDS)).mode == "open"
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -87,7 +92,7 @@ def test_what_is_proven_infeasible_is_driven_by_nobody(method: str) -> None:
     assert result.run is None
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", [method for method in METHODS if method != "smt"])  # it has a plan of its own
 def test_what_has_no_plan_is_driven_by_nobody(method: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(planner, "_FIRST_STEPS", 0)  # its first guess is no plan
     result = run_method(method, Request(YIELDS))

@@ -13,6 +13,7 @@ from scenewright.orchestrate import Request, Stages, set_up
 from scenewright.plan.planner import Planner
 from scenewright.simulate.beginning import first_plan
 from scenewright.simulate.loop import Rates, Run, simulate
+from scenewright.simulate.port import Start
 from scenewright.study.rivals import run_method
 from scenewright.study.rivals.follower import FollowingHeroes
 from scenewright.study.rivals.waypoints import DriverStart, SteadyFollower, View, Waypoint, WaypointDriver
@@ -63,8 +64,8 @@ def follow(driver: WaypointDriver, ego: str = "constant") -> tuple[Run, Followin
     assert planned is not None
     planner, start, _ = planned
     heroes = FollowingHeroes(planner, world.limits, {HERO: driver}, 0.02)
-    world.ego.reset(start.s_m, start.speed_mps)
-    return simulate(world.scene, world.ego, heroes, Rates(0.02, None)), heroes, planner
+    first = Start.of(world.scene, world.ego, (start.s_m, start.speed_mps), heroes.plan.profiles)
+    return simulate(world.simulator, first, heroes, Rates(0.02, None)), heroes, planner
 
 
 def test_model_takes_over_after_one_second_of_our_motion() -> None:

@@ -86,6 +86,7 @@ app.command(epilog=_examples(_TRANSLATE, "scenewright solve first.scene --out pl
 app.command(epilog=_examples(_TRANSLATE, _RUN, "scenewright judge runs/first --tolerance loose"))(looking.judge)
 app.command(epilog=_examples("scenewright maps", "scenewright maps t_intersection"))(listing.maps)
 app.command(epilog=_examples("scenewright egos", "scenewright egos --json"))(listing.egos)
+app.command(epilog=_examples("scenewright simulators", "scenewright simulators --json"))(listing.simulators)
 app.command(epilog=_examples("scenewright solvers", "scenewright solvers --json"))(listing.solvers)
 app.command(epilog=_examples(_TRANSLATE, _RUN, "scenewright view runs/first --no-browser"))(looking.view)
 app.add_typer(bench.app, name="bench")

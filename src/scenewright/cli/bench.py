@@ -57,9 +57,9 @@ app = typer.Typer(rich_markup_mode="rich")
 def experiment(
     context: typer.Context,
     quick: Annotated[bool, typer.Option("--quick", help="A spread of the benchmark in about two minutes.")] = False,
-    full: Annotated[bool, typer.Option("--full", help="All 80 rows, 3 draws, 6 egos, all methods, and a report.")] = (
-        False
-    ),
+    full: Annotated[
+        bool, typer.Option("--full", help="All 80 rows, 3 draws, 6 egos, every method but smt, and a report.")
+    ] = (False),
     rows: Annotated[str, typer.Option(metavar="1-4,20|all", help="Rows of the benchmark.", show_default=False)] = "",
     egos: Annotated[
         str, typer.Option(metavar="NAMES|all", help="Egos, commas between; all built-in ones.", show_default=False)

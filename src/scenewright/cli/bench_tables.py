@@ -12,12 +12,13 @@ from rich.text import Text
 
 from scenewright.cli.tables import table
 from scenewright.study.causes import CAUSES, INFEASIBLE, NEVER_MET, NO_ROOM
-from scenewright.study.summary import TAKES, Tally, disagreements, failures, tally, tally_by
+from scenewright.study.summary import TAKES, Tally, disagreements, failures, naturalness_by, tally, tally_by
 
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
+    from scenewright.study.approach import Naturalness
     from scenewright.study.compare import Comparison, Pair
     from scenewright.study.evaluation import Outcome
     from scenewright.study.store import CaseRecord, Results
@@ -87,6 +88,7 @@ def print_summary(console: Console, results: Results) -> None:
     console.print(tally_table("hero, trigger", by_family, _rate_cells()))
     console.print(tally_table("ego", by_ego, _cause_cells(by_ego)))
     _print_weak_rows(console, own)
+    _print_natural(console, records)
     missed = failures(own)
     told = [(f"{each.cause} ({', '.join(each.failed_conditions) or each.message})", each) for each in missed]
     _print_cases(console, "failures, each with what runs it again", told)
@@ -96,6 +98,29 @@ def print_summary(console: Console, results: Results) -> None:
         console.print(f"judge and criteria disagree in {len(odd)} cases: {names}\n", soft_wrap=True)
     console.print(f"results  {results.directory}", soft_wrap=True)
     console.print(f"report   scenewright bench report {results.directory}", soft_wrap=True)
+
+
+def _print_natural(console: Console, records: Sequence[CaseRecord]) -> None:
+    """Print how heroes drove up to their triggers in the successes of each method, for the first one by ego too."""
+    by_method = naturalness_by(records, lambda r: r.method)
+    lead = next(iter(by_method), None)
+    by_ego = naturalness_by((r for r in records if r.method == lead), lambda r: r.ego)
+    cells: dict[str, Callable[[Naturalness], str]] = {
+        "successes": lambda each: str(each.runs),
+        "harsh\nreversals": lambda each: _told(each.reversing, 100, " %"),
+        "stand on\nthe way": lambda each: _told(each.standing, 100, " %"),
+        "jerk p95\nm/s^3": lambda each: _told(each.jerk_p95_mpsss),
+        "accel. p95\nm/s^2": lambda each: _told(each.accel_p95_mpss),
+        "pace at\ntrigger": lambda each: _told(each.pace_median, 100, " %"),
+    }
+    made = table("up to the trigger", *cells, right=tuple(cells))
+    for name, each in (*by_ego.items(), *by_method.items()):
+        made.add_row(name, *(cell(each) for cell in cells.values()))
+    console.print(made)
+
+
+def _told(value: float | None, scale: float = 1.0, unit: str = "") -> str:
+    return "" if value is None else f"{scale * value:.1f}{unit}"
 
 
 def _print_weak_rows(console: Console, records: Sequence[CaseRecord]) -> None:

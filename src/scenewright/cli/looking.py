@@ -5,6 +5,7 @@ What enters: a run directory. What leaves: a verdict and its file, or the run's 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -28,11 +29,14 @@ def judge(
     """Judge a run again, from its trace and program alone, and rewrite its verdict.json."""
     with told(as_json):
         from scenewright.cli.running import fails_on, report_verdict
-        from scenewright.judge.files import VERDICT_FILE, read_case, write_verdict
+        from scenewright.judge.files import VERDICT_FILE, cause_told, read_case, write_verdict
         from scenewright.judge.judgement import judge as judge_case
+        from scenewright.judge.tolerance import TIGHT
 
         case = read_case(directory)
         verdict = judge_case(case)
+        if not verdict.holds_at(TIGHT):  # why it missed was found by driving, which is not done again
+            verdict = replace(verdict, cause=cause_told(directory))
         write_verdict(verdict, directory / VERDICT_FILE)
         data = verdict.as_dict()
         if as_json:

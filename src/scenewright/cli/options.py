@@ -9,16 +9,20 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
 from scenewright.errors import ParameterError
 from scenewright.units import decimal_fraction
 
+if TYPE_CHECKING:
+    from scenewright.plugins import Kind
+
 _NUMBER = re.compile(r"[-+]?[\d_]*\.?[\d_]+(e[-+]?\d+)?", re.IGNORECASE)
 Mode = Literal["closed", "open"]
 Tolerance = Literal["tight", "loose"]
+PlannerName = Literal["convex", "smt"]
 FailOn = Literal["collision"]
 
 
@@ -94,9 +98,20 @@ def complete_translator(incomplete: str) -> list[str]:
 
 def complete_solver(incomplete: str) -> list[str]:
     """Offer the solvers that refute and miss nothing."""
-    from scenewright.solve.proofs.refuters import known
+    from scenewright.solve.proofs.refuters import SOLVERS
 
-    return [name for name, missing in known().items() if missing is None and name.startswith(incomplete)]
+    return _complete(SOLVERS, incomplete)
+
+
+def complete_simulator(incomplete: str) -> list[str]:
+    """Offer the simulators that miss nothing."""
+    from scenewright.simulate.port import SIMULATORS
+
+    return _complete(SIMULATORS, incomplete)
+
+
+def _complete(kind: Kind[Any], incomplete: str) -> list[str]:
+    return [name for name, missing in kind.known().items() if missing is None and name.startswith(incomplete)]
 
 
 def complete_run_directory(incomplete: str) -> list[str]:
@@ -160,9 +175,21 @@ Translator = Annotated[
 ]
 _SOLVER_HELP = "What refutes; `scenewright solvers` lists what there is."
 Solver = Annotated[str, typer.Option("--solver", metavar="NAME", help=_SOLVER_HELP, autocompletion=complete_solver)]
+_SIMULATOR_HELP = "What everybody drives in; `scenewright simulators` lists what there is."
+Simulator = Annotated[
+    str, typer.Option("--simulator", metavar="NAME", help=_SIMULATOR_HELP, autocompletion=complete_simulator)
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout and nothing else there.")]
 ModeOption = Annotated[
     Mode, typer.Option("--mode", help="Re-solve while the ego drives (closed), or carry out the first plan (open).")
+]
+PlannerOption = Annotated[
+    PlannerName,
+    typer.Option(
+        "--planner",
+        help="What plans: convex optimisation, or an SMT solver at every tick, as in the paper "
+        "(`run examples/demo.txt --ego constant --planner smt`).",
+    ),
 ]
 ToleranceOption = Annotated[
     Tolerance, typer.Option("--tolerance", help="Which tolerance decides whether the run is a success.")

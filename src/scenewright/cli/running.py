@@ -18,7 +18,7 @@ import typer
 from scenewright.cli.console import print_json, stderr, stdout
 from scenewright.cli.directories import claim
 from scenewright.cli.faults import error_data, tell, told
-from scenewright.cli.options import AsJson, FailOn, FailOnOption, ModeOption, ToleranceOption
+from scenewright.cli.options import AsJson, FailOn, FailOnOption, ModeOption, PlannerOption, Simulator, ToleranceOption
 from scenewright.cli.translators import Asked, with_asked
 from scenewright.errors import PolicyError
 
@@ -36,6 +36,9 @@ _SAYS = {
     "plan": "planning",
     "simulate": "driving",
     "judge": "judging",
+    "hindsight": "asking whether the ego left room",
+    "explain": "asking why it missed",
+    "ways out": "trying what would do",
     "write": "writing the run directory",
 }
 _UNBROKEN = ("judge", "write")
@@ -64,6 +67,11 @@ def run(
     predictor: Annotated[
         str, typer.Option(help="How the ego is foreseen: road (slows for turns and lines), acceleration or speed.")
     ] = "road",
+    ways_out: Annotated[
+        bool, typer.Option("--ways-out/--no-ways-out", help="Where the run misses, try other numbers for some seconds.")
+    ] = True,
+    simulator: Simulator = "builtin",
+    planner: PlannerOption = "convex",
     as_json: AsJson = False,
     quiet: Annotated[bool, typer.Option("--quiet", help="Print nothing but where the run is.")] = False,
     open_page: Annotated[bool, typer.Option("--open", help="Open the run's page in the browser afterwards.")] = False,
@@ -77,6 +85,9 @@ def run(
             replan_hz=replan_hz,
             predictor=predictor,
             takes=takes,
+            explain="ways out" if ways_out else "cause",
+            simulator=simulator,
+            planner=planner,
         )
         folder = claim(out, asked.source)
         request = replace(request, out=folder.path)
@@ -220,6 +231,8 @@ def tell_no_plan(console: Console, result: Result) -> None:
     """Say why nothing was driven: a proof that it cannot happen, or what was tried in vain."""
     if result.status == "infeasible" and result.feasibility is not None:
         console.print(result.feasibility.explain(), soft_wrap=True)
+    elif result.no_plan:
+        console.print(f"Nothing was driven: {result.no_plan}", soft_wrap=True, markup=False)
     elif result.status == "gave up" and result.attempt is None:
         console.print(f"Undecided: {tried(result)}", soft_wrap=True)
     elif result.not_held:
@@ -241,7 +254,7 @@ def tried(result: Result) -> str | None:
         return None
     if result.not_held:
         return "the planner cannot hold yet: " + "; ".join(map(str, result.not_held))
-    return result.feasibility.reason if result.feasibility is not None else None
+    return result.no_plan or (result.feasibility.reason if result.feasibility is not None else None)
 
 
 def report_run(console: Console, request: Request, result: Result) -> None:
@@ -284,7 +297,7 @@ def report_verdict(
     console.print(tables.routine(verdict))
     missed = len(tables.missed(verdict, tolerance))
     if status != "finished":
-        end = "was interrupted" if status == "interrupted" else "ended in a fault of the policy"
+        end = "was interrupted" if status == "interrupted" else "ended in a fault"
         headline = f"The run {end}; as far as it got, {missed} conditions miss the {tolerance} tolerance."
     elif missed:
         headline = f"Failure: {missed} of {len(verdict.conditions)} conditions miss the {tolerance} tolerance."
@@ -294,12 +307,14 @@ def report_verdict(
     console.print(tables.aftermath(verdict), soft_wrap=True)
     if status == "finished":
         console.print(_trigger(verdict))
+    for line in tables.cause(verdict):
+        console.print(line, soft_wrap=True)
 
 
 def _trigger(verdict: Verdict) -> str:
     facts = verdict.facts
     if facts.get("ego_never_met_condition"):
-        return "The ego never came within the tight tolerance of its side of the trigger: a finding about this policy."
+        return "The ego never came within the tight tolerance of its side of the trigger."
     times = {hero: time_s for hero, time_s in (facts.get("trigger_time_s") or {}).items() if time_s is not None}
     if len(times) > 1:
         return "The triggers came at " + ", ".join(f"{time_s:.2f} s ({hero})" for hero, time_s in times.items()) + "."

@@ -205,6 +205,14 @@ def aftermath(judged: Verdict) -> Text:
     return Text(f"What came of it: {came.in_words()}.", style="bold yellow" if came.collision else "")
 
 
+def cause(judged: Verdict) -> Iterator[Text]:
+    """Yield lines on why the run missed and what would do, where that is known."""
+    if judged.cause is not None:
+        yield Text(f"Why: {judged.cause.text}")
+        if judged.cause.way_out():
+            yield Text(judged.cause.way_out())
+
+
 def missed(judged: Verdict, tolerance: str) -> list[Condition]:
     """Return the conditions that do not hold at a tolerance."""
     return [condition for condition in judged.conditions if not condition.as_dict()[tolerance]]

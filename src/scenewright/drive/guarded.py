@@ -7,7 +7,6 @@ findings.
 
 from __future__ import annotations
 
-import traceback
 from dataclasses import dataclass, field
 from math import hypot, isfinite
 from typing import NoReturn
@@ -15,7 +14,7 @@ from typing import NoReturn
 import numpy as np
 
 from scenewright.drive.protocol import EgoMotion, EgoPolicy, EgoStart, Envelope, Observation
-from scenewright.errors import PolicyError
+from scenewright.errors import PolicyError, told_by
 
 ACCEL_MIN_MPSS, ACCEL_MAX_MPSS = -12.0, 8.0  # what tyres and engines can do at most
 SPEED_MAX_MPS = 100.0
@@ -203,13 +202,9 @@ class GuardedPolicy:
         return PolicyError(f"policy {self.name!r} {what} at {time_s:.2f} s", found=found, expected=expected, fix=fix)
 
     def _raised(self, where: str, error: BaseException) -> NoReturn:
-        frames = traceback.extract_tb(error.__traceback__)
-        last = frames[-1] if frames else None
-        line = f" (line {last.lineno} of {last.filename.rsplit('/', 1)[-1]}: {last.line})" if last else ""
-        first_line = str(error).splitlines()[0] if str(error) else "no message"
         raise PolicyError(
             f"policy {self.name!r} raised an exception in {where}",
-            found=f"{type(error).__name__}: {first_line}{line}",
+            found=told_by(error),
             fix="correct the policy; run it alone with the same observation to see the whole traceback",
         ) from error
 

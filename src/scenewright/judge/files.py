@@ -11,12 +11,12 @@ import json
 from pathlib import Path
 from typing import TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, RootModel, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, RootModel, TypeAdapter, ValidationError
 
 from scenewright.errors import InputError, MapError, OutputError, Place
 from scenewright.judge.case import Box, Case, Limits, PathLike
 from scenewright.judge.judgement import judge
-from scenewright.judge.verdict import Verdict
+from scenewright.judge.verdict import Cause, Verdict
 from scenewright.program.text import parse_program
 from scenewright.program.types import Program
 from scenewright.trace.files import TRACE_FILE, read_trace
@@ -110,6 +110,15 @@ def judge_run_directory(directory: Path) -> Verdict:
         If the program does not parse.
     """
     return judge(read_case(directory))
+
+
+def cause_told(directory: Path) -> Cause | None:
+    """Return why a run missed as whoever drove it has written into its verdict; None where nothing is told."""
+    try:
+        told = json.loads((directory / VERDICT_FILE).read_text(encoding="utf-8"))
+        return TypeAdapter(Cause).validate_python(told["cause"])
+    except (OSError, ValueError, TypeError, KeyError):
+        return None
 
 
 def read_case(directory: Path) -> Case:

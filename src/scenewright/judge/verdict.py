@@ -1,13 +1,14 @@
-"""The verdict: conditions with required and measured values, what came of the run, and facts.
+"""The verdict: conditions with required and measured values, what came of the run, facts, and why it missed.
 
-What enters: these. What leaves: success at any tolerance, and the plain data of `verdict.json`.
+What enters: these. What leaves: success at any tolerance, and the plain data of `verdict.json`. Why a run missed is
+found by whoever drove it (`scenewright.explain`); here it only has its form.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
 from scenewright.judge.aftermath import Aftermath
@@ -16,6 +17,7 @@ from scenewright.units import Dimension
 
 SCHEMA_VERSION = 1
 Kind = Literal["initial", "route", "trigger", "interaction", "outcome", "safety"]
+CauseKind = Literal["ego", "way", "prediction", "authority", "order", "plan"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,12 +71,68 @@ class Condition:
 
 
 @dataclass(frozen=True, slots=True)
+class WayOut:
+    """Another value of one number with which it happened, when it was tried with the same ego and seed.
+
+    Attributes
+    ----------
+    what
+        The parameter's name, or the number and where it stands.
+    value, instead_of
+        In `unit`.
+    parameter
+        The name to set; None for a number that is written in the description or program.
+    """
+
+    what: str
+    value: float
+    instead_of: float
+    unit: str
+    parameter: str | None = None
+
+    def __str__(self) -> str:
+        unit = f" {self.unit}" if self.unit else ""
+        if self.parameter is not None:
+            return f"{self.parameter} = {self.value:g} instead of {self.instead_of:g}{unit}"
+        return f"{self.value:g}{unit} instead of {self.what}"
+
+
+@dataclass(frozen=True, slots=True)
+class Cause:
+    """Why a run missed: one kind of cause, in words, with the numbers that it rests on (SI units, by name).
+
+    `tried` is how many other numbers were tried, of which `would_do` did.
+    """
+
+    kind: CauseKind
+    text: str
+    evidence: Mapping[str, Any]
+    would_do: tuple[WayOut, ...] = ()
+    tried: int = 0
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the cause in the form of `verdict.json`."""
+        would_do = [{**asdict(way), "text": str(way)} for way in self.would_do]
+        return {**asdict(self), "would_do": would_do, "way_out": self.way_out()}
+
+    def way_out(self) -> str:
+        """Return in words what would do; empty where nothing was tried."""
+        if self.would_do:
+            return f"It happens with {', or with '.join(map(str, self.would_do))}."
+        return f"Other numbers tried: {self.tried}; none would do." if self.tried else ""
+
+
+@dataclass(frozen=True, slots=True)
 class Verdict:
-    """The judgement of one run: whether it happened as described, and, apart from that, what came of it."""
+    """The judgement of one run: whether it happened as described, and, apart from that, what came of it.
+
+    `cause` is why it missed, where that was asked.
+    """
 
     conditions: tuple[Condition, ...]
     aftermath: Aftermath
     facts: Mapping[str, Any]
+    cause: Cause | None = None
 
     def holds_at(self, tolerance: Tolerance) -> bool:
         """Whether every condition holds within the tolerance."""
@@ -94,6 +152,7 @@ class Verdict:
             "success": {"tight": self.holds_at(TIGHT), "loose": self.holds_at(LOOSE)},
             "conditions": [condition.as_dict() for condition in self.conditions],
             "aftermath": _plain(self.aftermath.as_dict()),
+            "cause": _plain(self.cause.as_dict()) if self.cause is not None else None,
             "facts": _plain(dict(self.facts)),
         }
 
@@ -125,7 +184,7 @@ def _plain(value: Any) -> Any:
         return {str(key): _plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
         return [_plain(item) for item in value]
-    if isinstance(value, bool | str) or value is None:
+    if isinstance(value, bool | int | str) or value is None:
         return value
     number = float(value)
     return number if math.isfinite(number) else None

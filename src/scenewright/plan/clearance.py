@@ -12,39 +12,64 @@ from dataclasses import dataclass
 from scenewright.program.expressions import Derived, walk
 from scenewright.program.structure import Structure
 from scenewright.program.types import EGO, Actor
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
 
+# Between the centres of two on one lane, before a trigger.
+LEAST_GAP_M = VEHICLE_LENGTH_M + 1.5
 # A difference of places may depend on speeds too: what people drive in town tells the side.
 _TYPICAL_MPS = 10.0
 
 
 @dataclass(frozen=True, slots=True)
 class Clearance:
-    """Whether the hero is ahead, and what to add to its arc length to compare it with the ego's (m)."""
+    """Whether the hero is ahead, what to add to its arc length to compare it with the ego's (m).
+
+    And whether the trigger speaks of the distance itself.
+    """
 
     ahead: bool
     offset_m: float
+    of_distance: bool = True
 
     @classmethod
     def of(
         cls, scene: Scene, structure: Structure, conditions: Sequence[LinearCondition], hero: Actor
     ) -> Clearance | None:
-        """Return it for a hero whose trigger speaks of the distance between the two on their lane, else None."""
+        """Return it for a hero whose trigger, or else whose start, tells where both are on their lane, else None.
+
+        Nobody drives through anybody, so whoever is ahead at one moment is so all along.
+        """
         conflict = scene.conflict(EGO, hero.id)
         if conflict is None or conflict.kind != "following":
             return None
-        offset_m, instant = scene.offset_m(EGO, hero.id), structure.triggers.get(hero.id, frozenset())
-        for condition in conditions:
-            if set(condition.weights) != {EGO, hero.id} or not condition.moments <= instant:
-                continue
-            formula = scene.program.constraint(condition.constraint_id).formula
-            distance = next((n for n in walk(formula) if isinstance(n, Derived) and isinstance(n.target, int)), None)
-            if distance is not None:
-                return cls(distance.actor == EGO, offset_m)  # its first actor is the one behind
-            gap_m = _gap_m(condition, hero.id, offset_m)
-            if gap_m is not None:
-                return cls(gap_m > 0.0, offset_m)
+        start = frozenset((actor.id, actor.sketch.knots[0]) for actor in scene.program.actors)
+        trigger, offset_m = structure.triggers.get(hero.id, frozenset()), scene.offset_m(EGO, hero.id)
+        for instant in (trigger, start):
+            told = [condition for condition in conditions if condition.moments <= instant]
+            for condition in told:
+                if set(condition.weights) != {EGO, hero.id}:
+                    continue
+                formula = scene.program.constraint(condition.constraint_id).formula
+                distance = next(
+                    (n for n in walk(formula) if isinstance(n, Derived) and isinstance(n.target, int)), None
+                )
+                if distance is not None:
+                    return cls(distance.actor == EGO, offset_m, instant == trigger)  # its first actor is the one behind
+                gap_m = _gap_m(condition, hero.id, offset_m)
+                if gap_m is not None:
+                    return cls(gap_m > 0.0, offset_m, instant == trigger)
+            places_m = {
+                actor: -condition.constant / metre
+                for condition in told
+                for actor, (metre, second) in condition.weights.items()
+                if len(condition.weights) == 1 and metre and not second
+            }
+            if {EGO, hero.id} <= set(places_m):
+                gap_m = places_m[hero.id] + offset_m - places_m[EGO]
+                if abs(gap_m) >= LEAST_GAP_M:
+                    return cls(gap_m > 0.0, offset_m, of_distance=False)
         return None
 
 

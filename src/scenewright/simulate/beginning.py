@@ -14,6 +14,7 @@ from scenewright.plan.planner import GOOD, Attempt, Planner
 from scenewright.plan.prediction import Predictor
 from scenewright.program.types import EGO
 from scenewright.simulate.ego_start import EgoFirstState, ego_starts
+from scenewright.simulate.heroes import HeroDriver
 from scenewright.simulate.world import World
 from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.feasibility import check_feasibility
@@ -50,6 +51,22 @@ def first_plan(
         if attempt.is_good and attempt.promises_outcome:
             break
     return best
+
+
+def first_plan_of_smt(world: World) -> tuple[HeroDriver, EgoFirstState, Attempt] | str:
+    """Plan by an SMT solver from the first of the ego's possible starts that it finds a plan from; else say why not."""
+    from scenewright.plan.smt import SmtPlanner
+
+    why = ""
+    for start in _starts(world, world.predictor):
+        planner = SmtPlanner(world.scene, world.limits, world.ego_bounds)
+        if planner.refused:
+            return f"the SMT planner cannot take {planner.refused}"
+        attempt = planner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
+        if attempt is not None:
+            return planner, start, attempt
+        why = planner.why
+    return f"the SMT planner found no first plan, wherever the ego starts; from the last start: {why}"
 
 
 def is_timed_by_ego(world: World) -> bool:

@@ -133,16 +133,18 @@ def _steady(
     ego.reset(target - run_up, speed_mps)
     before = _miss(ego, place, target)
     for step in range(int(120.0 / _STEP_S)):
-        last = (ego.s_m, ego.speed_mps)
+        last = (ego.state.s_m, ego.state.speed_mps)
         action = ego.decide(step * _STEP_S, (), _STEP_S)
         ego.advance(action, _STEP_S)
         after = _miss(ego, place, target)
         if before < 0.0 <= after:
             share = -before / (after - before)
-            speed = last[1] + share * (ego.speed_mps - last[1])
+            speed = last[1] + share * (ego.state.speed_mps - last[1])
             if speed < _SLOWEST_MPS:
                 break
-            return EgoFirstState(_position(scene, place, speed, conditions) if place else target, speed, ego.accel_mpss)
+            return EgoFirstState(
+                _position(scene, place, speed, conditions) if place else target, speed, ego.state.accel_mps2
+            )
         before = after
     return EgoFirstState(target, speed_mps)
 
@@ -151,12 +153,12 @@ def _first_acceleration(ego: EgoVehicle, s_m: float, speed_mps: float) -> float:
     """Return what the policy does first from a state (m/s^2), alone on the road."""
     ego.reset(s_m, speed_mps)
     ego.decide(0.0, (), _STEP_S)
-    return ego.accel_mpss
+    return ego.state.accel_mps2
 
 
 def _miss(ego: EgoVehicle, place: LinearCondition | None, target_m: float) -> float:
     """Return a number that turns from negative to positive when the ego comes to its first place."""
     if place is None:
-        return ego.s_m - target_m
+        return ego.state.s_m - target_m
     sign = 1.0 if place.weights[EGO][0] > 0 else -1.0
-    return sign * place.value({EGO: (ego.s_m, ego.speed_mps)})
+    return sign * place.value({EGO: (ego.state.s_m, ego.state.speed_mps)})

@@ -21,31 +21,24 @@ class HeroDriver(Protocol):
 
         The simulator asks for it anew at every step, so a driver may put another in its place at any time.
         """
-        ...
 
     @property
     def ego_knots_s(self) -> dict[str, float]:
         """When the ego passed its knots."""
-        ...
 
     @property
     def records(self) -> list[Replan]:
         """What each tick came to."""
-        ...
 
     @property
     def is_alarmed(self) -> bool:
         """Whether what the ego did last should not wait for the next tick: it is then called at once."""
-        ...
 
     def tick(self, time_s: float) -> Replan:
         """Solve again where that is needed; called at the re-solve rate of the run, but not at its very beginning."""
-        ...
 
     def observe(self, sample: EgoSample) -> None:
         """Take note of the ego's state; called after every step, before the heroes' states at its end are asked for."""
-        ...
 
     def ego_stood_s(self, time_s: float) -> float:
         """Return for how long the ego has not moved (s)."""
-        ...

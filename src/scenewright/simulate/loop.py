@@ -1,26 +1,26 @@
-"""The built-in simulator: steps the ego's policy and the heroes' motions, ticks their driver, records what happened.
+"""The closed loop: ticks whoever drives the heroes, steps a simulator, records what it observes.
 
-What enters: a scene, a policy, whoever drives the heroes, and rates. What leaves: a `Run` with the trace, the plans and
-every re-solve. It judges nothing. A run that is cut short, by the user or by a policy that fails, keeps what it had.
+What enters: a simulator, a start, whoever drives the heroes, and rates. What leaves: a `Run` with the trace, the plans
+and every re-solve. It judges nothing, and of a simulator it knows the port only. A run that is cut short, by the user
+or by a policy or a simulator that fails, keeps what it had.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from math import hypot
 
 import numpy as np
 
-from scenewright.drive.protocol import VehicleState
-from scenewright.errors import PolicyError
+from scenewright.errors import PolicyError, ScenewrightError, SimulatorError
 from scenewright.plan.planner import Replan
 from scenewright.program.types import EGO
-from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.heroes import HeroDriver
-from scenewright.simulate.vehicles import EgoVehicle
+from scenewright.simulate.port import SIMULATORS, Simulator, Snapshot, Start
 from scenewright.solve.plan import Plan
-from scenewright.trace.model import ActorTrace, FloatArray, Trace
+from scenewright.trace.model import ActorState, ActorTrace, Trace
 
 DEFAULT_STEP_S = 0.02
 DEFAULT_REPLAN_S = 0.1
@@ -29,8 +29,8 @@ _AFTER_HEROES_S = 2.0
 _WAIT_FOR_EGO_S = 10.0
 _STALLED_S = 20.0
 _MOVES_MPS = 0.5
-
-HeroMotion = tuple[float, float, float]  # arc length (m), speed (m/s), acceleration (m/s^2)
+_NOTED_M = 0.01  # what a finding with two decimals can say
+_DRIVES_EGO = "The simulator drove the ego by itself; the policy of --ego only told how it would start."
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +48,7 @@ class Run:
     Attributes
     ----------
     status
-        ``finished``, ``interrupted`` (by the user) or ``failed`` (by the policy, see `fault`).
+        ``finished``, ``interrupted`` (by the user) or ``failed`` (by the policy or the simulator, see `fault`).
     """
 
     trace: Trace
@@ -56,67 +56,65 @@ class Run:
     last_plan: Plan
     replans: list[Replan]
     status: str
-    fault: PolicyError | None = None
+    fault: ScenewrightError | None = None
     ego_knots_s: dict[str, float] = field(default_factory=dict)
     findings: list[str] = field(default_factory=list)
 
 
 def simulate(
-    scene: Scene,
-    ego: EgoVehicle,
+    simulator: Simulator,
+    start: Start,
     heroes: HeroDriver,
     rates: Rates,
     progress: Callable[[float], None] | None = None,
 ) -> Run:
-    """Drive the scene from the first plan of `heroes` on, with `ego` already at its first state.
+    """Drive from `start` and the first plan of `heroes` on.
 
     Parameters
     ----------
     progress
         Called with the simulated time (s) at every re-solve.
     """
-    first_plan, log = heroes.plan, _Log(scene)
+    scene, first_plan, log = start.scene, heroes.plan, _Log(start.scene)
     steps_a_tick = max(1, round(rates.replan_s / rates.step_s)) if rates.replan_s else 0
-    status, fault, step = "finished", None, 0
+    status, fault, step, astray_m = "finished", None, 0, 0.0
+    with SIMULATORS.blamed(simulator):
+        simulator.reset(start, rates.step_s)
+        now = simulator.observe()
     try:
         while True:
-            time_s = round(step * rates.step_s, 9)
             if steps_a_tick and step and (step % steps_a_tick == 0 or heroes.is_alarmed):
-                heroes.tick(time_s)
+                heroes.tick(now.time_s)
                 if progress is not None:
-                    progress(time_s)
-            states = {hero.id: heroes.plan.profiles[hero.id].state(time_s) for hero in scene.program.heroes}
-            action = ego.decide(time_s, _seen(scene, states), rates.step_s)
-            log.add(time_s, ego, states)
-            if _is_over(scene, heroes, ego, states, time_s):
+                    progress(now.time_s)
+            motions = {hero.id: heroes.plan.profiles[hero.id] for hero in scene.program.heroes}
+            with SIMULATORS.blamed(simulator):
+                simulator.apply(motions)
+                now = simulator.observe()
+            log.add(now)
+            driven = {hero: now.actors[hero] for hero in motions}
+            for hero, there in driven.items():
+                astray_m = max(astray_m, hypot(there.s_m - motions[hero].state(now.time_s)[0], there.d_m))
+            if _is_over(scene, heroes, now.actors[EGO], driven, now.time_s):
                 break
-            ego.advance(action, rates.step_s)
+            with SIMULATORS.blamed(simulator):
+                simulator.step()
+                now = simulator.observe()
             step += 1
-            heroes.observe((round(step * rates.step_s, 9), ego.s_m, ego.speed_mps, ego.accel_mpss))
+            ego = now.actors[EGO]
+            heroes.observe((now.time_s, ego.s_m, ego.speed_mps, ego.accel_mps2))
     except KeyboardInterrupt:
         if not log.steps:
             raise  # nothing was driven, so nothing is kept
         status = "interrupted"
-    except PolicyError as error:
+    except (PolicyError, SimulatorError) as error:
         if not log.steps:
             raise
         status, fault = "failed", error
-    knots, findings = dict(heroes.ego_knots_s), list(ego.policy.findings)
-    return Run(log.trace(), first_plan, heroes.plan, heroes.records, status, fault, knots, findings)
-
-
-def _seen(scene: Scene, states: Mapping[int, HeroMotion]) -> tuple[VehicleState, ...]:
-    """Return the heroes as the ego sees them: where they are, not where they are going."""
-    seen = []
-    for hero in scene.program.heroes:
-        s_m, speed, accel = states[hero.id]
-        x_m, y_m, heading = scene.routes[hero.id].path.pose(s_m)
-        seen.append(
-            VehicleState(
-                hero.name, x_m, y_m, heading, speed, accel, VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, s_m=None, route=None
-            )
-        )
-    return tuple(seen)
+    findings = [_DRIVES_EGO] if simulator.capabilities.drives_ego else list(start.ego.policy.findings)
+    if astray_m >= _NOTED_M:
+        findings.append(f"In this simulator heroes were up to {astray_m:.2f} m from where they were to be.")
+    return Run(log.trace(), first_plan, heroes.plan, heroes.records, status, fault, dict(heroes.ego_knots_s), findings)
 
 
 class _Log:
@@ -125,14 +123,13 @@ class _Log:
     def __init__(self, scene: Scene) -> None:
         self._times: list[float] = []
         self._scene = scene
-        self._rows: dict[int, list[tuple[float, ...]]] = {actor.id: [] for actor in scene.program.actors}
+        self._rows: dict[int, list[ActorState]] = {actor.id: [] for actor in scene.program.actors}
 
-    def add(self, time_s: float, ego: EgoVehicle, states: Mapping[int, HeroMotion]) -> None:
+    def add(self, now: Snapshot) -> None:
         """Write down the state of everybody at the beginning of a step."""
-        self._times.append(time_s)
-        self._rows[EGO].append((ego.s_m, ego.d_m, *ego.pose, ego.speed_mps, ego.accel_mpss))
-        for hero, state in states.items():
-            self._rows[hero].append(state)
+        self._times.append(now.time_s)
+        for actor, rows in self._rows.items():
+            rows.append(now.actors[actor])
 
     @property
     def steps(self) -> int:
@@ -142,49 +139,46 @@ class _Log:
     def trace(self) -> Trace:
         """Return all complete steps, of which there must be one."""
         count = self.steps
-        time_s, program = np.asarray(self._times[:count]), self._scene.program
-        s_m, d_m, x_m, y_m, heading, speed, accel = self._columns(EGO, count)
-        actors = {program.ego.name: ActorTrace(time_s, x_m, y_m, heading, speed, accel, s_m, d_m)}
-        for hero in program.heroes:
-            s_m, speed, accel = self._columns(hero.id, count)
-            x_m, y_m, heading = self._scene.routes[hero.id].path.poses(s_m).T[:3]
-            actors[hero.name] = ActorTrace(time_s, x_m, y_m, heading, speed, accel, s_m, np.zeros(count))
+        time_s, actors = np.asarray(self._times[:count]), {}
+        for actor in self._scene.program.actors:
+            # Each quantity contiguous: traces are asked for single states very often.
+            columns = np.ascontiguousarray(np.asarray(self._rows[actor.id][:count], dtype=np.float64).T)
+            actors[actor.name] = ActorTrace(time_s, *columns)
         return Trace(actors)
-
-    def _columns(self, actor: int, count: int) -> FloatArray:
-        """Return one row of numbers a quantity, each contiguous: traces are asked for single states very often."""
-        return np.ascontiguousarray(np.asarray(self._rows[actor][:count]).T)
 
 
 def _is_over(
-    scene: Scene, heroes: HeroDriver, ego: EgoVehicle, states: Mapping[int, HeroMotion], time_s: float
+    scene: Scene, heroes: HeroDriver, ego: ActorState, states: Mapping[int, ActorState], time_s: float
 ) -> bool:
     """Whether all that the program tells of has happened, or will not happen any more."""
     if time_s >= LONGEST_RUN_S:
         return True
-    end_m = ego.route.landmarks["route_end"]
-    if ego.s_m >= end_m - 3.0 or _any_at_end(scene, states):
+    route = scene.routes[EGO]
+    end_m = route.landmarks["route_end"]
+    if ego.s_m >= end_m - 3.0:
         return True
-    profiles = heroes.plan.profiles
-    last_knot_s = max([max(profiles[hero].knot_times_s.values()) for hero in states])
+    # Whoever is at the end of its route does nothing more that a program asks for; others may.
+    going = [heroes.plan.profiles[hero] for hero in states if not _is_at_end(scene, hero, states)]
+    last_knot_s = max((max(profile.knot_times_s.values()) for profile in going), default=-_WAIT_FOR_EGO_S)
     if time_s < last_knot_s + _AFTER_HEROES_S:
         return _stalled(heroes, time_s)
     if time_s < last_knot_s + _WAIT_FOR_EGO_S and _any_turning(scene, states):
         return False
-    passed = ego.s_m > ego.route.landmarks.get("junction_end", end_m) + 5.0
+    passed = ego.s_m > route.landmarks.get("junction_end", end_m) + 5.0
     return passed or time_s >= last_knot_s + _WAIT_FOR_EGO_S
 
 
-def _any_at_end(scene: Scene, states: Mapping[int, HeroMotion]) -> bool:
-    return any(s_m >= scene.routes[hero].landmarks["route_end"] - 3.0 for hero, (s_m, _, _) in states.items())
+def _is_at_end(scene: Scene, hero: int, states: Mapping[int, ActorState]) -> bool:
+    return states[hero].s_m >= scene.routes[hero].landmarks["route_end"] - 3.0
 
 
-def _any_turning(scene: Scene, states: Mapping[int, HeroMotion]) -> bool:
+def _any_turning(scene: Scene, states: Mapping[int, ActorState]) -> bool:
     """Whether a hero is on its way through the junction: which way it went is part of the story."""
-    for hero, (s_m, speed_mps, _) in states.items():
+    for hero, there in states.items():
         places = scene.routes[hero].landmarks
         end_m = places.get("junction_end")
-        if end_m is not None and speed_mps > _MOVES_MPS and places.get("junction_start", end_m) < s_m < end_m:
+        inside = end_m is not None and places.get("junction_start", end_m) < there.s_m < end_m
+        if inside and there.speed_mps > _MOVES_MPS:
             return True
     return False
 

@@ -48,6 +48,8 @@ class Circumstances:
     timings_s: Mapping[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     take: int = 1
+    simulator: str = "builtin"
+    planner: str = "convex"
 
 
 def prepare_directory(directory: Path) -> None:
@@ -136,6 +138,8 @@ def _manifest(scene: Scene, run: Run, limits: Mapping[int, Limits], circumstance
         "mode": circumstances.mode,
         "tolerance": circumstances.tolerance,
         "translator": circumstances.translator,
+        "simulator": circumstances.simulator,
+        "planner": circumstances.planner,
         "ego": {"name": circumstances.ego_name, "options": dict(circumstances.ego_options)},
         "map": _map(scene.road_map),
         "routes": {actor.name: _route(scene, actor.id) for actor in program.actors},

@@ -12,6 +12,7 @@ from scenewright.program.structure import Structure, read_structure
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.loop import Rates
+from scenewright.simulate.port import SIMULATORS
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.feasibility import EgoBounds, Feasibility
 from scenewright.solve.limits import Limits, limits_on
@@ -32,11 +33,13 @@ class World:
         Name of how the ego is foreseen.
     solver
         The name of what refutes.
+    simulator
+        The name of what everybody drives in. One that drives the ego itself keeps no promise of the policy's.
 
     Raises
     ------
     ScenewrightError
-        Where there is no such policy, predictor or solver.
+        Where there is no such policy, predictor, solver or simulator.
     """
 
     def __init__(
@@ -47,6 +50,7 @@ class World:
         rates: Rates,
         predictor: str = "road",
         solver: str = "z3",
+        simulator: str = "builtin",
     ) -> None:
         self.scene = scene
         self.rates = rates
@@ -56,7 +60,8 @@ class World:
         self.structure: Structure = read_structure(scene.program)
         self.limits: dict[int, Limits] = {i: limits_on(route, scene.road_map) for i, route in scene.routes.items()}
         self.refuter = refuter_called(solver)
-        promise = guarded.envelope
+        self.simulator = SIMULATORS.called(simulator)
+        promise = None if self.simulator.capabilities.drives_ego else guarded.envelope
         self.ego_bounds = (
             EgoBounds(promise.speed_max_mps, promise.accel_max_mpss, -promise.accel_min_mpss, promise.holds_speed)
             if promise is not None

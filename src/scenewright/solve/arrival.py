@@ -92,13 +92,16 @@ def linear_conditions(scene: Scene, structure: Structure) -> tuple[LinearConditi
     """Return the program's equalities over states at one moment that are linear in positions and speeds."""
     events = Events(scene, {actor.id: _ANYBODY for actor in scene.program.actors}, EgoBounds())
     lowering = Lowering(events)
+    start = frozenset((actor.id, actor.sketch.knots[0]) for actor in scene.program.actors)
     found: list[LinearCondition] = []
     for constraint in scene.program.constraints:
         formula = constraint.formula
         if not isinstance(formula, Compare) or formula.operator != "==":
             continue
         moments = frozenset(knots_of(formula))
-        if not moments or not (len(moments) == 1 or any(moments <= instant for instant in structure.instants)):
+        if not moments or not (
+            len(moments) == 1 or any(moments <= instant for instant in (start, *structure.instants))
+        ):
             continue
         (lowered,) = lowering.lower((constraint,))
         owners = {number: actor for (actor, _), state in events.states.items() for number in _numbers(state)}

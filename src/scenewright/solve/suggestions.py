@@ -7,19 +7,19 @@ that value there is a witness.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Container, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from scenewright.program.expressions import (
     Arithmetic,
     Compare,
-    Formula,
     Logic,
     Negate,
     Node,
     Number,
     ParameterRef,
+    Temporal,
     Term,
     walk,
 )
@@ -50,14 +50,33 @@ class Suggestion:
 
 
 @dataclass(frozen=True, slots=True)
-class _Lever:
-    """One number in a clashing constraint that could be another."""
+class Lever:
+    """One number of a program that could be another: a parameter, or one that is written in a constraint.
+
+    Attributes
+    ----------
+    value
+        In SI units.
+    name
+        That of the parameter; for a written number one that it can be given.
+    constraint, number
+        Where a written number stands; None for a parameter.
+    """
 
     what: str
     value: Fraction
     dimension: str
-    program: Program
     name: str
+    constraint: Constraint | None = None
+    number: Number | None = None
+
+    def put(self, program: Program, term: Term) -> Program:
+        """Return the program with `term` in place of the written number; the same one for a parameter."""
+        if self.constraint is None or self.number is None:
+            return program
+        changed = replace(self.constraint, formula=_replaced(self.constraint.formula, self.number, term))  # type: ignore[arg-type]
+        constraints = tuple(changed if c.id == changed.id else c for c in program.constraints)
+        return replace(program, constraints=constraints)
 
 
 def suggest(question: Question, core: set[str]) -> Iterator[Suggestion]:
@@ -69,7 +88,7 @@ def suggest(question: Question, core: set[str]) -> Iterator[Suggestion]:
         Ids of the constraints that clash; only their numbers are tried.
     """
     found, until = 0, time.monotonic() + _ALL_S
-    for lever in _levers(question.scene, core):
+    for lever in levers(question.scene, core):
         if found >= _SUGGESTIONS or time.monotonic() > until:
             return
         nearest = _nearest(question, lever)
@@ -79,37 +98,28 @@ def suggest(question: Question, core: set[str]) -> Iterator[Suggestion]:
             yield Suggestion(lever.what, float(lever.value), float(nearest), unit)
 
 
-def _levers(scene: Scene, core: set[str]) -> Iterator[_Lever]:
+def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
+    """Yield the numbers of a scene's program that stand in the named constraints, each once."""
     program = scene.program
     seen: set[str] = set()
     for constraint in program.constraints:
-        if constraint.id not in core:
+        if constraint.id not in constraints:
             continue
         for node in walk(constraint.formula):
             if isinstance(node, ParameterRef) and node.name in scene.parameters and node.name not in seen:
                 seen.add(node.name)
                 parameter = next(p for p in program.parameters if p.name == node.name)
-                yield _Lever(node.name, scene.parameters[node.name], parameter.unit.dimension, program, node.name)
+                yield Lever(node.name, scene.parameters[node.name], parameter.unit.dimension, node.name)
             elif isinstance(node, Number) and node.value != 0:
-                name = f"free_{constraint.id}"
-                changed = replace(constraint, formula=_with_name(constraint.formula, node, name))
                 words = program.words_of(constraint)
                 what = f"{format_fraction(node.value)} in " + (
                     f'"{words}"' if words else print_expression(constraint.formula)
                 )
-                yield _Lever(what, node.value, _dimension_of(constraint), _with_constraint(program, changed), name)
+                dimension = compared_dimension(constraint.formula)
+                yield Lever(what, node.value, dimension, f"free_{constraint.id}", constraint, node)
 
 
-def _dimension_of(constraint: Constraint) -> str:
-    return compared_dimension(constraint.formula)
-
-
-def _with_constraint(program: Program, changed: Constraint) -> Program:
-    constraints = tuple(changed if c.id == changed.id else c for c in program.constraints)
-    return replace(program, constraints=constraints)
-
-
-def _nearest(question: Question, lever: _Lever) -> Fraction | None:
+def _nearest(question: Question, lever: Lever) -> Fraction | None:
     """Return the value nearest to the lever's own with which there is a witness, rounded to a readable number."""
     freed = replace(question, scene=_freed(question.scene, lever))
 
@@ -130,11 +140,12 @@ def _nearest(question: Question, lever: _Lever) -> Fraction | None:
     return None
 
 
-def _freed(scene: Scene, lever: _Lever) -> Scene:
+def _freed(scene: Scene, lever: Lever) -> Scene:
     """Return the scene in which the lever's number is an unknown."""
     parameters = {name: value for name, value in scene.parameters.items() if name != lever.name}
-    declared = tuple(p for p in lever.program.parameters if p.name != lever.name)
-    return replace(scene, program=replace(lever.program, parameters=declared), parameters=parameters)
+    program = lever.put(scene.program, ParameterRef(lever.name))
+    declared = tuple(p for p in program.parameters if p.name != lever.name)
+    return replace(scene, program=replace(program, parameters=declared), parameters=parameters)
 
 
 def _nearest_towards(
@@ -163,11 +174,6 @@ def _rounded(found: Fraction, origin: Fraction, digits: int) -> tuple[Fraction, 
     return Fraction(round(scaled), 10**digits), Fraction(away, 10**digits)
 
 
-def _with_name(formula: Formula, number: Number, name: str) -> Formula:
-    """Return `formula` with one number (by identity) replaced by a named unknown."""
-    return _replaced(formula, number, ParameterRef(name))  # type: ignore[return-value]
-
-
 def _replaced(node: Node, old: Number, new: Term) -> Node:
     if node is old:
         return new
@@ -178,5 +184,7 @@ def _replaced(node: Node, old: Number, new: Term) -> Node:
             return replace(node, operand=_replaced(operand, old, new))  # type: ignore[arg-type]
         case Logic(operands=operands):
             return replace(node, operands=tuple(_replaced(o, old, new) for o in operands))  # type: ignore[misc]
+        case Temporal(body=body):
+            return replace(node, body=_replaced(body, old, new))  # type: ignore[arg-type]
         case _:
             return node

@@ -12,7 +12,7 @@ import shlex
 import shutil
 import time
 import zlib
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -118,9 +118,9 @@ def run_bench_case(case: BenchCase) -> CaseRecord:
 
 def carry_out_case(case: BenchCase, row: BenchmarkRow) -> tuple[CaseRecord, Request, Result]:
     """Run one case; raises `ScenewrightError` where the request is wrong."""
-    from scenewright.study.rivals import run_method
+    from scenewright.study.rivals import request_of, run_method
 
-    request = case.request(row)
+    request = request_of(case.method, case.request(row))
     started = time.perf_counter()
     result = run_method(case.method, request)
     record = replace(record_of(case, row, result), wall_s=time.perf_counter() - started)
@@ -175,6 +175,7 @@ def record_of(case: BenchCase, row: BenchmarkRow, result: Result) -> CaseRecord:
 
 def _with_takes(record: CaseRecord, row: BenchmarkRow, result: Result) -> CaseRecord:
     from scenewright.judge.tolerance import LEVELS
+    from scenewright.study.approach import Approach, approach_of
 
     takes = [judge_take(row, result, take) for take in result.takes]
     number = min(result.take, len(takes)) - 1
@@ -182,6 +183,8 @@ def _with_takes(record: CaseRecord, row: BenchmarkRow, result: Result) -> CaseRe
     conditions, criteria = kept.failed
     cause = cause_across([take.cause for take in takes])
     hindsight = result.takes[number].hindsight if cause == NO_ROOM else None
+    trace = result.takes[number].trace
+    approach = Approach() if trace is None else approach_of(result.scene, trace, kept.verdict.facts)
     levels: dict[str, Any] = {f"first_{level}": level in held[0] for level in LEVELS}
     levels |= {f"best_{level}": any(level in each for each in held) for level in LEVELS}
     return replace(
@@ -193,6 +196,7 @@ def _with_takes(record: CaseRecord, row: BenchmarkRow, result: Result) -> CaseRe
         criteria_disagree=any(take.disagrees for take in takes),
         failed_conditions=[each.id for each in conditions] + [f"criterion {each.id}" for each in criteria],
         proof=_clashes(hindsight),
+        **asdict(approach),
     )
 
 
@@ -286,7 +290,7 @@ def keep_run(directory: Path, request: Request, result: Result, page: bool = Fal
     shutil.rmtree(part, ignore_errors=True)
     part.mkdir(parents=True)
     rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
-    world = World(result.scene, request.ego, request.seed, rates)
+    world = World(result.scene, request.ego, request.seed, rates, simulator=request.simulator)
     write_result(part, request, result, world, result.timings_s, page=False)
     manifest = json.loads((part / "manifest.json").read_text(encoding="utf-8"))
     manifest["map"]["file"] = result.scene.road_map.name

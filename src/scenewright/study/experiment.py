@@ -105,6 +105,8 @@ _QUICK_ROWS = (1, 4, 7, 12, 15, 17, 20, 26, 29, 32, 37, 42, 49, 55, 60, 63, 66, 
 _QUICK_EGOS = ("constant", "idm", "staller", "stop-and-go")
 # A sample is a whole run: its method by its own default would take half of the time of all others together.
 _DEAR = {"rejection": "rejection:10"}
+# A run takes it 4 s and more: a full experiment would take half a day.
+_SLOW = ("smt",)
 
 
 def preset(name: str) -> Plan:
@@ -112,7 +114,7 @@ def preset(name: str) -> Plan:
     from scenewright.study.benchmark import benchmark_rows
     from scenewright.study.rivals import METHODS
 
-    methods = tuple(_DEAR.get(method, method) for method in METHODS)
+    methods = tuple(_DEAR.get(method, method) for method in METHODS if method not in _SLOW)
     if name == "quick":
         return Plan(_QUICK_ROWS, _QUICK_EGOS, 1, methods)
     every = tuple(row.id for row in benchmark_rows())

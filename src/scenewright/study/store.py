@@ -60,6 +60,8 @@ class CaseRecord:
         Ticks at which the solver was asked, everything counted.
     directory
         Where its run is kept, relative to the result folder.
+    reverses, stands, jerks_mpsss, accels_mpss, pace
+        How the hero drove up to its trigger in the kept take, as in `approach.Approach`.
     """
 
     case: str
@@ -98,6 +100,11 @@ class CaseRecord:
     solve_ms: list[float] = field(default_factory=list)
     message: str = ""
     directory: str | None = None
+    reverses: bool = False
+    stands: bool = False
+    jerks_mpsss: list[float] = field(default_factory=list)
+    accels_mpss: list[float] = field(default_factory=list)
+    pace: float | None = None
 
     @property
     def family(self) -> str:
@@ -252,6 +259,7 @@ def as_table(records: Iterable[CaseRecord]) -> pa.Table:
         "int": pa.int64(),
         "bool": pa.bool_(),
         "float": pa.float64(),
+        "float | None": pa.float64(),
         "list[str]": pa.list_(pa.string()),
         "list[float]": pa.list_(pa.float64()),
     }

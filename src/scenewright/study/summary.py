@@ -10,10 +10,11 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from itertools import chain
 from typing import Any, Protocol, TypeVar
 
+from scenewright.study.approach import Naturalness, naturalness
 from scenewright.study.causes import EGO_DENIED, INFEASIBLE, NOT_OURS
 from scenewright.study.store import CaseRecord
 
@@ -187,6 +188,12 @@ def disagreements(records: Iterable[CaseRecord]) -> list[CaseRecord]:
     return [record for record in records if record.criteria_disagree]
 
 
+def naturalness_by(records: Iterable[CaseRecord], key: Callable[[CaseRecord], str]) -> dict[str, Naturalness]:
+    """Return how natural the successes of each group are up to their triggers."""
+    groups = grouped((record for record in records if record.cause == "success"), key)
+    return {name: naturalness(group) for name, group in groups.items()}
+
+
 def summary(records: Sequence[CaseRecord]) -> dict[str, Any]:
     """Return all tables of a set of results as plain data: by method, and for each method by ego, family and row."""
     keys: dict[str, Callable[[CaseRecord], str]] = {
@@ -200,6 +207,11 @@ def summary(records: Sequence[CaseRecord]) -> dict[str, Any]:
         "by_method": [tally(some, method).as_dict() for method, some in own.items()],
         "methods": {
             method: {name: [each.as_dict() for each in tally_by(some, key)] for name, key in keys.items()}
+            for method, some in own.items()
+        },
+        "natural": {
+            method: {name: asdict(each) for name, each in naturalness_by(some, lambda r: r.ego).items()}
+            | {"all": asdict(naturalness(r for r in some if r.cause == "success"))}
             for method, some in own.items()
         },
         "failures": [_told(record) for record in failures(records)],

@@ -8,12 +8,32 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
-COLUMNS = ("x_m", "y_m", "heading_rad", "speed_mps", "accel_mps2", "s_m", "d_m")
+
+
+class ActorState(NamedTuple):
+    """One actor at one instant, as it really was.
+
+    Position and heading of its box's centre in the map's frame, speed and acceleration along its heading, arc length on
+    its route and offset from it, left positive. The acceleration is the one from now on where that is known, else that
+    of the last step.
+    """
+
+    x_m: float
+    y_m: float
+    heading_rad: float
+    speed_mps: float
+    accel_mps2: float
+    s_m: float
+    d_m: float
+
+
+COLUMNS = ActorState._fields
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,19 +1,21 @@
 """Scenarios planted by legal motions: programs that are true of motions of everybody, and those motions, exactly.
 
-Nobody is kept from touching others or from turning too fast: no proof may rest on either before it was shown to matter.
+Nobody is kept from touching others: no proof may rest on that before it was shown to matter. Whoever turns too fast has
+limits of its own that just admit it.
 """
 
 from __future__ import annotations
 
 import random
-from dataclasses import dataclass
+import re
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from scenewright.program.structure import read_structure
 from scenewright.program.text import parse_program
 from scenewright.roads import load_map
 from scenewright.roads.grounding import Scene, ground
-from scenewright.solve.limits import limits_on
+from scenewright.solve.limits import Limits, limits_on
 from scenewright.solve.proofs.decide import Question
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
@@ -63,10 +65,22 @@ class Planted:
 
     def question(self) -> Question:
         scene = self.scene()
-        return Question(scene, read_structure(scene.program), limits_of(scene), EGO)
+        return Question(scene, read_structure(scene.program), self.limits(), EGO)
+
+    def limits(self) -> dict[int, Limits]:
+        """Return limits within which the motions just are."""
+        scene, found = self.scene(), {}
+        end_s = max(*self.knots.values(), *map(Fraction, re.findall(r"\d+(?:\.\d+)?(?= s\b|\])", self.text)))
+        for actor, limits in limits_of(scene).items():
+            path, sideways = scene.routes[actor].path, 0.0
+            for k in range(int(50 * end_s) + 1):
+                place, speed, _ = map(float, self.motions[actor].state(Fraction(k, 50)))
+                sideways = max(sideways, abs(path.curvature(place)) * speed**2)
+            found[actor] = replace(limits, lateral_max_mpss=max(limits.lateral_max_mpss, 1.02 * sideways))
+        return found
 
 
-def limits_of(scene: Scene) -> dict[int, object]:
+def limits_of(scene: Scene) -> dict[int, Limits]:
     return {actor: limits_on(route, T) for actor, route in scene.routes.items()}
 
 

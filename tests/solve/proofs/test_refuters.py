@@ -20,10 +20,10 @@ from scenewright.solve.proofs.events import Unknown
 from scenewright.solve.proofs.polynomials import compare, some, violation
 from scenewright.solve.proofs.refuters import (
     GROUP,
+    SOLVERS,
     Capabilities,
     Refuter,
     core,
-    known,
     refuter_called,
     taken,
     tightened,
@@ -44,7 +44,7 @@ class Shy:
 
 
 def other(name: str) -> Refuter:
-    missing = known()[name]
+    missing = SOLVERS.known()[name]
     if missing is not None:
         pytest.skip(str(missing))
     return refuter_called(name)
@@ -72,13 +72,13 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def test_ours_are_registered_like_any_other() -> None:
     project = tomllib.loads((Path(__file__).parents[3] / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    assert set(project["entry-points"][GROUP]) == set(known())
-    assert known()["z3"] is None, "z3 is no extra"
+    assert set(project["entry-points"][GROUP]) == set(SOLVERS.known())
+    assert SOLVERS.known()["z3"] is None, "z3 is no extra"
     assert {name for name in OTHERS if name in project["optional-dependencies"]} == set(OTHERS)
 
 
 def test_a_package_brings_a_solver(package: Path) -> None:
-    assert {"shy", "deep", "bad", "z3"} <= set(known())
+    assert {"shy", "deep", "bad", "z3"} <= set(SOLVERS.known())
     assert "shysolver" not in sys.modules, "what is listed is not imported"
     assert refuter_called("shy").ask(UNKNOWNS, [], 1.0).kind == "unknown"
 
@@ -165,7 +165,7 @@ def test_no_two_solvers_contradict_each_other(name: str, count: int) -> None:
 def relaxed(text: str) -> tuple[list[Unknown], list[Named]]:
     scene = ground(parse_program(text), T)
     events, lowering = lowered(scene)
-    return events.unknowns, relaxation(events, lowering, lowering.lower(scene.program.constraints))
+    return events.unknowns, relaxation(events, lowering.narrowings, lowering.lower(scene.program.constraints))
 
 
 @pytest.mark.parametrize(("name", "every"), [("cvc5", 5), ("scip", 1)])

@@ -29,3 +29,9 @@ def test_refutations_name_what_clashes() -> None:
 
 def test_ranges_alone_may_refute() -> None:
     assert Z3().ask(UNKNOWNS, named(beyond=compare(">=", X, 11)), 5.0).kind == "refuted"
+
+
+def test_a_limit_of_work_ends_in_unknown_and_in_no_error() -> None:
+    hard = named(a=compare("==", X * X, 2), b=compare("<", Y * X, 0))
+    assert Z3(1).ask(UNKNOWNS, hard, 5.0).kind == "unknown"
+    assert Z3(1_000_000).ask(UNKNOWNS, hard, 5.0).kind == "met"

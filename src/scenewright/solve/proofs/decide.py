@@ -20,6 +20,8 @@ from scenewright.program.structure import Structure, actors_of
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
+from scenewright.solve.proofs.consequences import consequences
+from scenewright.solve.proofs.crowding import crowded
 from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, EgoDrive, Events, Unknown
 from scenewright.solve.proofs.guesses import carried_over, first_guess
 from scenewright.solve.proofs.lowering import Lowered, Lowering
@@ -131,7 +133,7 @@ class _Case:
     def relaxation(self) -> list[Named]:
         """Return what a refutation rests on."""
         self.lower()
-        return relaxation(self.events, self.lowering, self.lowered)
+        return relaxation(self.events, [*self.lowering.narrowings, *self.more.narrowings], self.lowered)
 
 
 def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> Decision:
@@ -143,10 +145,12 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     until = time.monotonic() + limit_s
     plain = _Case(question, plan=False)
     left_out = {each.constraint.id: each.refused for each in plain.lowered if each.refused}
+    if question.drive is None and (clashing := crowded(plain.events, plain.lowered)):
+        return Decision("infeasible", core=clashing, left_out=left_out)
     generator = np.random.default_rng(0)
     amiss: tuple[Broken, ...] = ()
     formulas: list[Named] = []
-    tried, kept = 0, None
+    tried, kept, turning = 0, None, False
     for guesses, proof_s in zip(_GUESSES, _PROOF_S, strict=True):
         for _ in range(0 if left_out or question.drive else guesses):
             owed = _OWED[tried % len(_OWED)] if tried < len(_OWED) or kept is not None else "nothing"
@@ -163,15 +167,20 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
                 return Decision("undecided", amiss=amiss)
         if kept is not None:
             continue
-        formulas = formulas or taken(question.refuter, plain.relaxation())
+        if formulas and not turning:  # it takes longer with more moments, so only where it did not without
+            turning = plain.more.sure_turns()
+            formulas = []
+        if not formulas:
+            formulas = taken(question.refuter, plain.relaxation())
+            formulas += consequences(plain.events.unknowns, formulas)
         answer = question.refuter.ask(plain.events.unknowns, formulas, min(proof_s, until - time.monotonic()))
         if answer.kind == "refuted" and not question.refuter.capabilities.exact:
             return Decision("undecided", left_out=left_out, amiss=amiss, doubted_by=question.refuter.name)
         if answer.kind == "refuted":
             clashing = _core(question.refuter, plain.events.unknowns, formulas) if explain else ()
             return Decision("infeasible", core=clashing, left_out=left_out)
-        if answer.kind == "met" and (left_out or question.drive):
-            break
+        if left_out or question.drive:
+            continue
         if answer.kind == "met" and answer.values:
             found, amiss = _mended(_Case(question), np.array(answer.values), until, None)
             if found is not None:

@@ -7,7 +7,7 @@ stretch of an actor's way, and what is certain of the order of instants. It hold
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -35,6 +35,7 @@ from scenewright.solve.proofs.polynomials import (
 from scenewright.units import pin
 
 LONGEST_S = Fraction(120)
+_PASSES = 2  # over all comparisons, to see between which places somebody is
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,6 +119,7 @@ class Events:
     _places: dict[tuple[int, Fraction], int] = field(default_factory=dict)
     _ahead: dict[tuple[int, int], Fraction] = field(default_factory=dict)
     _learned: dict[tuple[int, int], Fraction] = field(default_factory=dict)
+    _within: dict[tuple[int, int], tuple[Fraction, Fraction]] = field(default_factory=dict)  # learned of places (m)
     _instant_of: dict[tuple[int, ...], int] = field(default_factory=dict)  # by its unknown
 
     def __post_init__(self) -> None:
@@ -309,48 +311,85 @@ class Events:
             np.maximum(least, least[:, middle, None] + least[None, middle, :], out=least)
         return least
 
-    def learn_from(self, formulas: Iterator[Formula]) -> None:
+    def learn_from(self, formulas: Iterable[Formula]) -> None:
         """Note what comparisons of two times, and places that are known, say of the order of instants."""
-        places = {key: where for where, state in self.states.items() for key in state.place.terms if key != ()}
-        known: dict[tuple[int, int], Fraction] = {}
-        open_parts = list(formulas)
-        while open_parts:
-            part = open_parts.pop()
-            if isinstance(part, All):
-                open_parts += part.parts
-                continue
-            if not isinstance(part, Atom) or part.left.degree != 1:
-                continue
-            terms = {key: value for key, value in part.left.terms.items() if key != ()}
-            if (found := self._difference(part.left)) is not None:
+        linear = [part for part in conjuncts(formulas) if part.left.degree == 1]
+        for part in linear:
+            if (found := self.difference(part.left)) is not None:
                 early, late, most_s = found
                 self._note(late, early, -most_s)
                 if part.relation == "==":
                     self._note(early, late, most_s)
-            elif len(terms) == 1 and part.relation == "==" and next(iter(terms)) in places:
-                key, factor = next(iter(terms.items()))
-                known[places[key]] = -part.left.terms.get((), ZERO) / factor
-        for (actor, first), a in known.items():
-            for (other, second), b in known.items():
-                if actor == other and a < b:
-                    self._note(first, second, (b - a) / self.law_of(actor).speed_high)
-        knots = {(actor, instant) for (actor, _), instant in self._knots.items()}
-        for (actor, place), made in self._places.items():  # the start or the end where it is never passed
-            for (other, knot), at in known.items():
-                if actor == other and at != place and (actor, knot) in knots:
-                    self._note(*((knot, made) if at < place else (made, knot)), ZERO)
+        self._within = where = self._places_within(linear)
+        for (actor, place), made in self._places.items():
+            before, after = self._knots_about(actor, place)
+            if before and after:
+                where[actor, made] = place, place
+            for knot in before:  # the end where it is never passed
+                self._note(knot, made, ZERO)
+            for knot in after:  # the start where it was passed before
+                self._note(made, knot, ZERO)
+        for (actor, first), (_, most) in where.items():
+            for (other, second), (least, _) in where.items():
+                if actor == other and most < least:
+                    self._note(first, second, (least - most) / self.law_of(actor).speed_high)
+
+    def surely_passes(self, actor: int, place_m: Fraction) -> bool:
+        """Whether what was learned says that an actor begins before a place and comes past it."""
+        return all(self._knots_about(actor, place_m))
+
+    def _knots_about(self, actor: int, place_m: Fraction) -> tuple[list[int], list[int]]:
+        """Return the instants of an actor's knots that are certain to be before a place (m), and past it."""
+        knots = {instant for (owner, _), instant in self._knots.items() if owner == actor} & {
+            instant for owner, instant in self._within if owner == actor
+        }
+        before = [knot for knot in knots if self._within[actor, knot][1] < place_m]
+        return before, [knot for knot in knots if self._within[actor, knot][0] > place_m]
+
+    def _places_within(self, linear: Sequence[Atom]) -> dict[tuple[int, int], tuple[Fraction, Fraction]]:
+        """Return between which places (m) everybody is at each instant, by linear comparisons and who comes when."""
+        within = [[each.low, each.high] for each in self.unknowns]
+        told = [part.left for part in linear] + [-part.left for part in linear if part.relation == "=="]
+        own = {
+            where: next(iter(state.place.terms))[0]
+            for where, state in self.states.items()
+            if state.place.constant is None
+        }
+        later = [
+            (own[a, first], own[a, second])
+            for a, first in own
+            for first_, second in self._ahead
+            if first_ == first and (a, second) in own
+        ]
+        still = [
+            (own[a, each.first], own[a, each.last])
+            for a, found in self.stretches.items()
+            for each in found
+            if each.law.speed_high == 0 and each.last is not None
+        ]
+        for _ in range(_PASSES):
+            for left in told:
+                _narrow(left, within)
+            for first, second in (*later, *still):
+                within[second][0] = max(within[second][0], within[first][0])
+                within[first][1] = min(within[first][1], within[second][1])
+            for first, second in still:
+                within[second][1] = min(within[second][1], within[first][1])
+                within[first][0] = max(within[first][0], within[second][0])
+        made = {(actor, instant) for (actor, _), instant in self._places.items()}
+        return {where: (within[n][0], within[n][1]) for where, n in own.items() if where not in made}
 
     def impossible(self, part: Formula, least: NDArray[np.float64]) -> bool:
         """Whether something contradicts what is certain of the order of instants."""
         if not isinstance(part, Atom) or part.relation == "==" or part.left.degree != 1:
             return False
-        found = self._difference(part.left)
+        found = self.difference(part.left)
         if found is None:
             return False
         early, late, most_s = found
         return bool(least[early, late] > float(most_s) - (1e-9 if part.relation == "<" else -1e-9))
 
-    def _difference(self, left: Polynomial) -> tuple[int, int, Fraction] | None:
+    def difference(self, left: Polynomial) -> tuple[int, int, Fraction] | None:
         """Return `early`, `late` and `most_s` where ``left <= 0`` says that ``late - early <= most_s``."""
         parts = [(self._instant_of[key], factor) for key, factor in left.terms.items() if key in self._instant_of]
         size = abs(parts[0][1]) if parts else ZERO
@@ -366,3 +405,25 @@ class Events:
 
     def _note(self, first: int, second: int, least_s: Fraction) -> None:
         self._learned[first, second] = max(least_s, self._learned.get((first, second), least_s))
+
+
+def conjuncts(formulas: Iterable[Formula]) -> Iterator[Atom]:
+    """Yield what is compared in every case."""
+    for part in formulas:
+        if isinstance(part, All):
+            yield from conjuncts(part.parts)
+        elif isinstance(part, Atom):
+            yield part
+
+
+def _narrow(left: Polynomial, within: list[list[Fraction]]) -> None:
+    """Narrow the ranges of unknowns by ``left <= 0``, a linear polynomial."""
+    terms = [(key[0], factor) for key, factor in left.terms.items() if key]
+    least = left.terms.get((), ZERO) + sum(f * within[n][0 if f > 0 else 1] for n, f in terms)
+    for number, factor in terms:
+        low, high = within[number]
+        rest = least - factor * (low if factor > 0 else high)
+        if factor > 0:
+            within[number][1] = min(high, -rest / factor)
+        else:
+            within[number][0] = max(low, -rest / factor)

@@ -34,6 +34,7 @@ from scenewright.units import pin
 
 SHARES = (0.985, 0.8, 0.6, 0.4, 0.2)
 _TURN_STEP_M = 0.25
+_BENDS = 1e-3  # a route that bends less (1/m) bounds nobody's speed
 _SAFETY = 0.999  # rounding of places and speeds within a turn
 _ROOM_M = Fraction(1, 20)
 _STILL_M = Fraction(1, 1000)  # who moves no farther stands, and a search has somewhere to go
@@ -184,6 +185,15 @@ class Refinement:
         return self.events.moment(early + (late - early) * share, "between")
 
     # -- turns --------------------------------------------------------------------------------------------------------
+    def sure_turns(self) -> bool:
+        """Bound speeds where turns are sharpest, of all who surely drive through theirs; False where nobody does."""
+        for actor in self.events.scene.program.heroes:
+            tightest, bends = _bends(self.events.scene.routes[actor.id])
+            sharp = [pin(s) for s, bend in bends if bend >= SHARES[0] * tightest > _BENDS]
+            if sharp and all(self.events.surely_passes(actor.id, place) for place in (sharp[0], sharp[-1])):
+                self._bound_turn(actor.id, SHARES[0], tightest, bends)
+        return bool(self.narrowings)
+
     def _slow_in_turn(self, broken: Broken, witness: Witness) -> bool:
         """Bound the speed where the bend is so sharp, and less so where it is less."""
         route = self.events.scene.routes[broken.actor]
@@ -199,15 +209,19 @@ class Refinement:
 
     def _bound_turn(self, actor: int, share: float, tightest: float, bends: tuple[tuple[float, float], ...]) -> None:
         sharp = [s for s, bend in bends if bend >= share * tightest]
+        through = all(bend >= share * tightest for s, bend in bends if sharp[0] <= s <= sharp[-1])
         first, last = (self.events.at_place(actor, pin(s)) for s in (sharp[0], sharp[-1]))
         self.events.order(first, last)
         sideways = self.limits[actor].lateral_max_mpss
         tighter = next((each for each in reversed(SHARES) if each > share), 1.0)
         kept = pin(_SAFETY * math.sqrt(sideways / (tighter * tightest)))
         proven = pin(math.sqrt(sideways / (share * tightest)) + 1e-4)
-        self.narrowings.append(
-            Narrowing(actor, first, last, replace(ANY, speed_high=kept), replace(ANY, speed_high=proven))
+        law, origin = (
+            replace(ANY, speed_high=proven),
+            f"how fast {self.events.scene.program.actor(actor).name} may turn",
         )
+        held = law if through else None
+        self.narrowings.append(Narrowing(actor, first, last, replace(ANY, speed_high=kept), held, origin=origin))
 
     # -- apart --------------------------------------------------------------------------------------------------------
     def _keep_apart(self, broken: Broken, witness: Witness) -> bool:

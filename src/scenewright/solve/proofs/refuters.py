@@ -12,10 +12,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from importlib.metadata import EntryPoint
-from typing import Literal, Protocol, cast
+from typing import Literal, Protocol
 
-from scenewright.errors import InputError, MissingExtraError, SolverError
-from scenewright.plugins import missing_extra, named, points
+from scenewright.errors import SolverError
+from scenewright.plugins import Kind
 from scenewright.solve.proofs.events import Unknown
 from scenewright.solve.proofs.polynomials import All, Atom, atoms
 from scenewright.solve.proofs.relaxation import Named, resting_on
@@ -29,7 +29,7 @@ _OURS = tuple(
         "scip": "scip_engine:Scip [scip]",
     }.items()
 )
-_LIBRARIES = {"cvc5": "cvc5", "scip": "pyscipopt"}
+SOLVERS: Kind[Refuter] = Kind(GROUP, _OURS, "solver", "refutes", SolverError, {"cvc5": "cvc5", "scip": "pyscipopt"})
 _SHRINK_S = 0.5  # for each question whether a core does without one of its members
 
 
@@ -99,11 +99,6 @@ class Refuter(Protocol):
 
 
 # -- by name --------------------------------------------------------------------------------------------------------
-def known() -> dict[str, MissingExtraError | None]:
-    """Return the solvers that can be named, each with what it misses; nothing is imported for that."""
-    return {name: missing_extra(point, "refutes", _LIBRARIES) for name, point in points(GROUP, _OURS).items()}
-
-
 def refuter_called(name: str = "z3") -> Refuter:
     """Return the solver of that name.
 
@@ -116,26 +111,7 @@ def refuter_called(name: str = "z3") -> Refuter:
     SolverError
         Where it cannot be imported.
     """
-    point = named(name.lower(), GROUP, _OURS)
-    if point is None:
-        raise InputError(
-            "there is no such solver",
-            found=repr(name),
-            expected=", ".join(known()),
-            fix="scenewright solvers lists them",
-        )
-    missing = missing_extra(point, "refutes", _LIBRARIES)
-    if missing is not None:
-        raise missing
-    try:
-        return cast("Refuter", point.load()())
-    except Exception as error:  # whatever a plug-in does at import is its fault, and the user should read it
-        raise SolverError(
-            f"the solver {name!r} cannot be imported",
-            found=f"{type(error).__name__}: {error}".splitlines()[0],
-            expected=f"a class without arguments in {point.value}",
-            fix="repair or reinstall the package that offers it",
-        ) from error
+    return SOLVERS.called(name)
 
 
 # -- what all of them need --------------------------------------------------------------------------------------------

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from scenewright.motion.laws import Law, reach
 from scenewright.program.types import EGO
 from scenewright.solve.proofs.events import Events, Stretch
-from scenewright.solve.proofs.lowering import Lowered, Lowering
+from scenewright.solve.proofs.lowering import Lowered
+from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.polynomials import (
     FALSE,
     TRUE,
@@ -66,16 +67,16 @@ def resting_on(formulas: Sequence[Named], origins: Collection[str]) -> list[Name
     return found
 
 
-def relaxation(events: Events, lowering: Lowering, constraints: Sequence[Lowered]) -> list[Named]:
-    """Return all that must hold of any motion."""
+def relaxation(events: Events, narrowings: Sequence[Narrowing], constraints: Sequence[Lowered]) -> list[Named]:
+    """Return all that must hold of any motion; of `narrowings` what is proven of them."""
     found = [Named(each.formula, each.constraint.id) for each in constraints]
-    events.learn_from(iter([each.formula for each in constraints]))
+    events.learn_from([each.formula for each in constraints])
     found += [Named(formula, origin) for formula, origin in events.rules]
     least = events.least_differences()
     found += _order_of_knots(events)
     for actor in events.scene.program.actors:
         if not (actor.is_ego and events.drive is not None):  # how it drove is a fact
-            found += _motion(events, lowering, actor.id, least)
+            found += _motion(events, narrowings, actor.id, least)
     return [each for each in found if each.formula != TRUE]
 
 
@@ -87,7 +88,7 @@ def _order_of_knots(events: Events) -> Iterator[Named]:
             yield Named(formula, f"the knots of {actor.name} come one after another")
 
 
-def _motion(events: Events, lowering: Lowering, actor: int, least: NDArray[np.float64]) -> Iterator[Named]:
+def _motion(events: Events, narrowings: Sequence[Narrowing], actor: int, least: NDArray[np.float64]) -> Iterator[Named]:
     """Yield the law of the stretch between each two moments of an actor that may lie in one."""
     name = events.scene.program.actor(actor).name
     instants = events.instants_of(actor)
@@ -104,7 +105,7 @@ def _motion(events: Events, lowering: Lowering, actor: int, least: NDArray[np.fl
                     continue
                 if _parted(inside, stretch, early, late, least):
                     continue
-                law, besides = _narrowed(lowering, actor, stretch.law, early, late, least)
+                law, besides = _narrowed(narrowings, actor, stretch.law, early, late, least)
                 held = _between(events, actor, stretch, early, late, law, least)
                 free = _between(events, actor, stretch, early, late, stretch.law, least) if besides else TRUE
                 yield Named(held, origin, besides, free)
@@ -134,11 +135,11 @@ def _parted(inside: list[int], stretch: Stretch, early: int, late: int, least: N
 
 
 def _narrowed(
-    lowering: Lowering, actor: int, law: Law, early: int, late: int, least: NDArray[np.float64]
+    narrowings: Sequence[Narrowing], actor: int, law: Law, early: int, late: int, least: NDArray[np.float64]
 ) -> tuple[Law, tuple[str, ...]]:
     """Return the law between two moments, made narrower by what holds between them for certain, and who says so."""
     origins = []
-    for narrowing in lowering.narrowings:
+    for narrowing in narrowings:
         if narrowing.actor != actor or narrowing.proven is None:
             continue
         begun = all(least[instant, early] >= 0 for instant in narrowing.begins())

@@ -21,10 +21,16 @@ _STEPS = ("simplify", "solve-eqs", "simplify", "propagate-ineqs", "qfnra-nlsat")
 
 
 class Z3:
-    """z3, afresh for each question: what it keeps between two makes the second slow."""
+    """z3, afresh for each question: what it keeps between two makes the second slow.
+
+    With `most_work` a question is given up after so much, in z3's own count, however fast the machine is.
+    """
 
     name = "z3"
     capabilities = Capabilities(exact=True, cores=True, quadratic=True, keeps_time=True)
+
+    def __init__(self, most_work: int = 0) -> None:
+        self._most_work = most_work
 
     def ask(
         self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float, want_core: bool = False
@@ -39,6 +45,7 @@ class Z3:
         context = z3.Context()
         solver = z3.Solver(ctx=context) if want_core else z3.Then(*_STEPS, ctx=context).solver()
         solver.set("timeout", max(1, int(timeout_s * 1000)))
+        solver.set("rlimit", self._most_work)
         solver.from_string(smtlib(ranges, formulas, named=want_core))
         answer = solver.check()
         if answer == z3.unsat:

@@ -6,7 +6,8 @@ package loads nothing; the methods are loaded when one is run.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from scenewright.orchestrate import Request, Result
@@ -14,11 +15,20 @@ if TYPE_CHECKING:
 METHODS: dict[str, str] = {
     "scenewright": "plans, and re-solves in closed loop; may rehearse",
     "open-loop": "carries out the first plan whatever the ego does",
+    "smt": "the paper's own loop: an SMT solver at every tick, one rate a piece, tolerances that give way",
     "trigger-action": "distance and time conditions start a fixed manoeuvre, as OpenSCENARIO engines do it",
     "synchronise": "sets the hero's speed so that it arrives when the ego does, as SynchronizeAction does",
     "rejection": "samples the hero's first state until a run succeeds",
     "follower": "a driver model follows the waypoint that the plan gives 4 s ahead, re-issued once a second",
 }
+
+# Those that ask `orchestrate` for something else than it does by itself.
+_ASKS: dict[str, dict[str, Any]] = {"open-loop": {"mode": "open"}, "smt": {"mode": "closed", "planner": "smt"}}
+
+
+def request_of(method: str, request: Request) -> Request:
+    """Return what a method makes of a request before it carries it out."""
+    return replace(request, **_ASKS.get(method, {}))
 
 
 def run_method(method: str, request: Request) -> Result:

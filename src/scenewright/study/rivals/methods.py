@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from contextlib import closing
 from dataclasses import dataclass, replace
 from itertools import islice
 
@@ -30,10 +31,11 @@ from scenewright.simulate.beginning import first_plan
 from scenewright.simulate.ego_start import EgoFirstState
 from scenewright.simulate.heroes import HeroDriver
 from scenewright.simulate.loop import Rates, simulate
+from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
 from scenewright.solve.holding import not_held
 from scenewright.solve.plan import Plan
-from scenewright.study.rivals import METHODS
+from scenewright.study.rivals import METHODS, request_of
 from scenewright.study.rivals.follower import FollowingHeroes
 from scenewright.study.rivals.rejection import sampled_scripts
 from scenewright.study.rivals.script import Script, write_scripts
@@ -70,18 +72,16 @@ class Staging:
         world = self.world
         world.rates = Rates(world.rates.step_s, replan_s=None)
         with self.stages("simulate"):
-            world.ego.reset(self.start.s_m, self.start.speed_mps)
-            result.run = simulate(world.scene, world.ego, heroes, world.rates)
+            first = Start.of(world.scene, world.ego, (self.start.s_m, self.start.speed_mps), heroes.plan.profiles)
+            result.run = simulate(world.simulator, first, heroes, world.rates)
         judge_run(self.request, result, world, self.stages, hindsight=False)
 
 
 def run(method: str, request: Request) -> Result:
     """Carry out `request` by `method`; see `scenewright.study.rivals.run_method`."""
     name, _, option = method.partition(":")
-    if name == "scenewright":
-        return orchestrate(request)
-    if name == "open-loop":
-        return orchestrate(replace(request, mode="open"))
+    if method in ("scenewright", "open-loop", "smt"):
+        return orchestrate(request_of(method, request))
     if name not in _RIVALS:
         raise InputError("there is no such method", found=method, expected=", ".join(METHODS))
     return _staged(request, method, option, _RIVALS[name])
@@ -107,7 +107,8 @@ def _staged(
     if result.not_held:  # who starts from it would miss as much, whatever the method
         result.status = "gave up"
         return result
-    result = drive(Staging(request, world, stages, planner, start, plan, option), result)
+    with closing(world.simulator):
+        result = drive(Staging(request, world, stages, planner, start, plan, option), result)
     if result.run is not None:
         result.run.findings.append(f"The hero was driven by the rival method {method}, not by Scenewright.")
         if request.out is not None:

@@ -1,0 +1,128 @@
+"""Which cause a missed run has: one, and that from evidence.
+
+What enters: a world, what was driven in it, how it was judged, and the proof against the ego's drive if there is one.
+What leaves: a `Cause`. It changes no verdict.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+
+from scenewright.explain.evidence import (
+    Finding,
+    came_too_late,
+    ego_never_there,
+    foreseen_otherwise,
+    last_good,
+    limit_reached,
+    orders_with_ego,
+)
+from scenewright.explain.in_way import hero_in_way
+from scenewright.judge.tolerance import Tolerance
+from scenewright.judge.verdict import Cause, CauseKind, Condition, Verdict
+from scenewright.program.printer import print_expression
+from scenewright.program.structure import Role, actors_of
+from scenewright.program.types import EGO, Actor, Constraint, Program
+from scenewright.simulate.loop import Run
+from scenewright.simulate.world import World
+from scenewright.solve.feasibility import Feasibility
+
+
+def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, proof: Feasibility | None) -> Cause:
+    """Return why a run missed at `tolerance`: the first of these that the evidence shows.
+
+    1. *ego*: it never came to its side of the trigger, no hero could have done it against its drive (`proof`), or a
+       condition on it alone failed. Where it slowed down for a hero, that is in the *way*, and it is never the ego's
+       doing; nor is a crash before the trigger then.
+    2. *order*: all was well but who came first.
+    3. *authority*: from the last plan on that would have done, a hero was at a limit of its motion.
+    4. *prediction*: the ego did not drive as that plan foresaw.
+    5. *plan*: none of these; so it was planned.
+    """
+    missed = [condition for condition in verdict.conditions if not condition.holds_at(tolerance)]
+    asked = {constraint.id: constraint for constraint in world.scene.program.constraints}
+    failed = [asked[condition.id] for condition in missed if condition.id in asked]
+    in_way = hero_in_way(world, run)
+    ego = ego_never_there(world, run, verdict) or _denied(world.scene.program, missed, failed, proof)
+    if in_way is not None and (ego or any(condition.id == "no_collision" for condition in missed)):
+        return _cause("way", Finding(_capital(f"{in_way}; what it did then is no finding about it"), asdict(in_way)))
+    if ego is not None:
+        return _cause("ego", ego)
+    late = [came_too_late(world, run, verdict, constraint) for constraint in failed if orders_with_ego(constraint)]
+    if late and len(late) == len(missed) and late[0] is not None:
+        return _cause("order", late[0])
+    hero = _hero(world.scene.program, failed)
+    # What is asked of both after the trigger is missed by how the ego then drives; all else by what came to be at it.
+    later = len(failed) == len(missed) and all(world.structure.roles[each.id] is Role.OUTCOME for each in failed)
+    knots_s = run.last_plan.profiles[hero.id].knot_times_s
+    acted_s = knots_s.get(world.structure.trigger_knot(hero.id) or "", run.trace.duration_s)
+    until_s = min(max(knots_s.values()) if later else acted_s, run.trace.duration_s)
+    good = last_good(run, until_s)
+    otherwise = good and foreseen_otherwise(world, run, good, until_s, at_trigger=not later)
+    limit = limit_reached(world, run, hero, good.time_s if good else 0.0, until_s)
+    if limit is not None and otherwise:
+        why = in_way or f"the ego drove otherwise than foreseen from {otherwise.evidence['since_s']:.1f} s on"
+        return _cause("authority", Finding(f"{limit.text}, and {why}", {**otherwise.evidence, **limit.evidence}))
+    if limit is not None:
+        return _cause("authority", limit)
+    left = otherwise or _planned_so(run, hero, until_s)
+    if in_way is not None:
+        left = Finding(f"{left.text}; {in_way}", {**left.evidence, "in_way": asdict(in_way)})
+    return _cause("prediction" if otherwise else "plan", left)
+
+
+def _cause(kind: CauseKind, found: Finding) -> Cause:
+    return Cause(kind, f"{_capital(found.text)}.", found.evidence)
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
+def _denied(
+    program: Program, missed: Sequence[Condition], failed: Sequence[Constraint], proof: Feasibility | None
+) -> Finding | None:
+    """Return what the ego did that no hero could have mended, with what shows it."""
+    alone = {constraint.id: constraint for constraint in failed if actors_of(constraint.formula) == {EGO}}
+    if proof is not None:
+        clashes = [clash for clash in proof.clashes if clash.formula is not None]
+        told = ", ".join(dict.fromkeys(f'"{clash.words or clash.formula}"' for clash in clashes))
+        return Finding(
+            f"against the way the ego drove, no hero within the laws of motion could have met all of {told}",
+            {"proof": [str(clash) for clash in proof.clashes]},
+        )
+    for condition in missed:
+        # Where it starts, and when a trigger comes, is not in its hands alone.
+        if condition.id in alone and condition.kind not in ("initial", "trigger"):
+            words = program.words_of(alone[condition.id]) or print_expression(alone[condition.id].formula)
+            off = "" if condition.error is None else f", off by {abs(condition.error):.2f} {condition.unit}".rstrip()
+            return Finding(
+                f'the ego alone decides on "{words}", and did not do it{off}',
+                {"condition": condition.id, "proof": [str(condition.text)], "off": condition.error},
+            )
+    return None
+
+
+def _hero(program: Program, failed: Sequence[Constraint]) -> Actor:
+    """Return the hero that what failed speaks of, else the first."""
+    spoken_of = {actor for constraint in failed for actor in actors_of(constraint.formula)}
+    heroes = list(program.heroes)
+    return next((hero for hero in heroes if hero.id in spoken_of), heroes[0])
+
+
+def _planned_so(run: Run, hero: Actor, until_s: float) -> Finding:
+    """Return what is left: it was planned so, though nothing stood against it."""
+    planned = [tick for tick in run.replans if tick.foreseen is not None and tick.time_s < until_s]
+    last = planned[-1] if planned else run.replans[0]
+    acts_s, end_s = max(run.last_plan.profiles[hero.id].knot_times_s.values()), run.trace.duration_s
+    if acts_s > end_s:
+        return Finding(
+            f"the run ended at {end_s:.1f} s, before {hero.name} was to have done all of it at {acts_s:.1f} s",
+            {"hero": hero.name, "end_s": end_s, "planned_s": acts_s},
+        )
+    return Finding(
+        f"no plan was found that does all that was asked of {hero.name}, though it was at no limit of its motion: the "
+        f"last one, of {last.time_s:.1f} s, missed by {last.tolerance:.1f} tight tolerances",
+        {"hero": hero.name, "time_s": last.time_s, "missed": last.tolerance},
+    )

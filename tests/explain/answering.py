@@ -1,0 +1,63 @@
+"""Policies that answer a hero, or nobody, in plain ways, to be named as ``answering:Class``."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from scenewright.drive.protocol import EgoStart, Observation
+
+
+@dataclass
+class Heedless:
+    """Keeps a speed, whoever is there."""
+
+    keep_mps: float = 9.0
+
+    def reset(self, start: EgoStart) -> None:
+        self.began_m = start.s_m
+
+    def step(self, observation: Observation, dt_s: float) -> float:
+        return max(-3.0, min(1.5, 0.8 * (self.wanted(observation) - observation.ego.speed_mps)))
+
+    def wanted(self, observation: Observation) -> float:
+        return self.keep_mps
+
+    def nearest_m(self, observation: Observation) -> float:
+        ego = observation.ego
+        return min((math.hypot(o.x_m - ego.x_m, o.y_m - ego.y_m) for o in observation.others), default=math.inf)
+
+
+class Shy(Heedless):
+    """Stops while anybody is within 40 m."""
+
+    def wanted(self, observation: Observation) -> float:
+        return 0.0 if self.nearest_m(observation) < 40.0 else self.keep_mps
+
+
+class Early(Heedless):
+    """Creeps while anybody is within 80 m."""
+
+    def wanted(self, observation: Observation) -> float:
+        return 2.0 if self.nearest_m(observation) < 80.0 else self.keep_mps
+
+
+class Stops(Heedless):
+    """Stops for good after 30 m, for nobody."""
+
+    def wanted(self, observation: Observation) -> float:
+        return 0.0 if observation.ego.s_m - self.began_m > 30.0 else self.keep_mps
+
+
+class Creeps(Heedless):
+    """Creeps from the beginning, for nobody."""
+
+    def wanted(self, observation: Observation) -> float:
+        return 1.5
+
+
+class Swings(Heedless):
+    """Its speed goes up and down, for nobody."""
+
+    def wanted(self, observation: Observation) -> float:
+        return self.keep_mps + 5.0 * math.sin(2.0 * math.pi * observation.time_s / 3.0)

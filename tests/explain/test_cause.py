@@ -1,0 +1,91 @@
+"""Every failure has one cause, with the numbers it rests on; what is called the ego's doing comes with proof."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from scenewright.judge.files import cause_told, write_verdict
+from scenewright.judge.verdict import Cause
+from scenewright.orchestrate import Request, Result, orchestrate
+from stories import STORIES
+
+# Story, ego, further settings, and what it is.
+CASES = [
+    ("yields, distance", "answering:Stops", {}, "ego"),
+    ("stops and goes", "speeder", {}, "ego"),
+    ("goes first, time", "answering:Shy:keep_mps=5", {}, "way"),
+    ("stops and goes", "answering:Shy:keep_mps=5", {}, "authority"),
+    ("goes first, distance", "speeder", {}, "order"),
+    ("yields, distance", "staller", {"mode": "open"}, "prediction"),
+    ("yields, time", "answering:Swings", {"mode": "open"}, "prediction"),
+]
+
+
+@cache
+def missed(story: str, ego: str, mode: str = "closed") -> Result:
+    result = orchestrate(Request(STORIES[story], ego=ego, mode=mode, takes=1))  # type: ignore[arg-type]
+    assert result.status == "failure", "what is asked about is a run that missed"
+    return result
+
+
+def cause(result: Result) -> Cause:
+    assert result.verdict is not None
+    assert result.verdict.cause is not None
+    return result.verdict.cause
+
+
+@pytest.mark.parametrize(("story", "ego", "settings", "kind"), CASES)
+def test_cause_is_of_the_kind_that_the_evidence_shows(
+    story: str, ego: str, settings: dict[str, str], kind: str
+) -> None:
+    found = cause(missed(story, ego, **settings))
+    assert found.kind == kind
+    assert found.evidence
+    assert found.text[0].isupper()
+    assert found.text.endswith(".")
+    assert found.would_do == (), "nothing is tried unless it is asked for"
+    assert found.way_out() == ""
+
+
+@pytest.mark.parametrize(("story", "ego", "settings", "kind"), CASES)
+def test_only_a_proof_makes_it_the_egos_doing(story: str, ego: str, settings: dict[str, str], kind: str) -> None:
+    result = missed(story, ego, **settings)
+    assert ("proof" in cause(result).evidence) == (kind == "ego")
+    if result.hindsight is not None and kind == "ego":
+        assert cause(result).evidence["proof"] == [str(clash) for clash in result.hindsight.clashes]
+
+
+def test_success_has_no_cause() -> None:
+    result = orchestrate(Request(STORIES["yields, distance"], takes=1))
+    assert result.verdict is not None
+    assert (result.status, result.verdict.cause) == ("success", None)
+    assert result.verdict.as_dict()["cause"] is None
+
+
+def test_nothing_is_asked_where_nobody_wants_to_know() -> None:
+    result = orchestrate(Request(STORIES["yields, distance"], ego="answering:Stops", takes=1, explain="nothing"))
+    assert result.verdict is not None
+    assert (result.status, result.verdict.cause, result.hindsight) == ("failure", None, None)
+
+
+def test_cause_is_written_and_read_back(tmp_path: Path) -> None:
+    result = missed("goes first, distance", "speeder")
+    assert result.verdict is not None
+    write_verdict(result.verdict, tmp_path / "verdict.json")
+    assert cause_told(tmp_path) == cause(result)
+    told = json.loads((tmp_path / "verdict.json").read_text(encoding="utf-8"))["cause"]
+    assert (told["kind"], told["text"], told["would_do"]) == ("order", cause(result).text, [])
+    (tmp_path / "verdict.json").write_text("{}", encoding="utf-8")
+    assert cause_told(tmp_path) is None
+    assert cause_told(tmp_path / "elsewhere") is None
+
+
+def test_what_an_ego_alone_is_asked_for_is_its_own_to_miss() -> None:
+    text = STORIES["yields, distance"] + "afterwards: A0v(t2) == 11\nA0x(t2) == conflict_point + 20\n"
+    found = cause(orchestrate(Request(text, ego="answering:Heedless:keep_mps=10.5", takes=1)))
+    assert (found.kind, found.evidence["condition"]) == ("ego", "afterwards")
+    assert "the ego alone decides" in found.text.lower()

@@ -1,0 +1,68 @@
+"""Whether the ego slowed down for a hero: seen by how it drives alone, and then never called the ego's doing."""
+
+from __future__ import annotations
+
+import pytest
+
+from scenewright.explain.in_way import InWay, hero_in_way
+from scenewright.orchestrate import Request, Result, Stages, orchestrate, set_up
+from stories import STORIES
+
+
+def looked_at(story: str, ego: str) -> tuple[InWay | None, Result]:
+    request = Request(STORIES[story], ego=ego, takes=1)
+    result = orchestrate(request)
+    assert result.run is not None
+    world, _ = set_up(request, Stages(None))
+    return hero_in_way(world, result.run), result
+
+
+def test_who_stops_for_a_hero_is_not_to_blame() -> None:
+    found, result = looked_at("goes first, time", "answering:Shy:keep_mps=5")
+    assert found is not None
+    assert found.hero == "hero"
+    assert found.since_s <= found.time_s
+    assert found.ego_mps < found.alone_mps
+    assert found.apart_m <= 40.0
+    assert result.status == "failure"
+    assert result.verdict is not None
+    assert result.verdict.cause is not None
+    assert result.verdict.cause.kind == "way"
+    assert "The ego slowed down for hero before the trigger" in result.verdict.cause.text
+
+
+@pytest.mark.parametrize("story", list(STORIES))
+@pytest.mark.parametrize("ego", ["Shy", "Early"])
+def test_no_answer_to_a_hero_is_ever_the_egos_doing(story: str, ego: str) -> None:
+    found, result = looked_at(story, f"answering:{ego}")
+    if result.status == "failure":
+        assert result.verdict is not None
+        assert result.verdict.cause is not None
+        assert found is None or result.verdict.cause.kind != "ego"
+
+
+@pytest.mark.parametrize("ego", ["answering:Heedless", "answering:Stops", "answering:Creeps", "answering:Swings"])
+def test_who_heeds_nobody_slowed_down_for_nobody(ego: str) -> None:
+    for story in ("yields, distance", "stops and goes"):
+        assert looked_at(story, ego)[0] is None
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_whims_are_nobodys_doing(seed: int) -> None:
+    request = Request(STORIES["yields, distance"], ego="staller", seed=seed, takes=1)
+    result = orchestrate(request)
+    assert result.run is not None
+    world, _ = set_up(request, Stages(None))
+    found = hero_in_way(world, result.run)
+    ego = result.run.trace.actors["ego"]
+    stood_s = ego.time_s[ego.speed_mps < 0.1]
+    assert found is None or found.time_s not in stood_s or found.alone_mps > 1.0
+
+
+def test_an_ego_that_stops_for_nobody_is_told_with_its_proof() -> None:
+    found, result = looked_at("yields, distance", "answering:Stops")
+    assert found is None
+    assert result.verdict is not None
+    assert result.verdict.cause is not None
+    assert result.verdict.cause.kind == "ego"
+    assert result.verdict.cause.evidence["off"] > 0.5

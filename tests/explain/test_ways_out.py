@@ -1,0 +1,106 @@
+"""What is proposed has been tried, and does when it is done; the trying has an end."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+
+import pytest
+
+from scenewright.explain.ways_out import ways_out
+from scenewright.judge.tolerance import TIGHT
+from scenewright.orchestrate import Request, Result, Stages, orchestrate, set_up
+from scenewright.program.types import Program
+from scenewright.simulate.world import World
+from stories import STORIES
+
+WITH_NAME = STORIES["goes first, distance"].replace("conflict_point - 40", "conflict_point - ego_gap_m")
+
+
+def missed(text: str, **settings: object) -> Result:
+    result = orchestrate(Request(text, ego="speeder", takes=1, **settings))  # type: ignore[arg-type]
+    assert result.status == "failure"
+    assert result.verdict is not None
+    return result
+
+
+def tried(
+    happens: Callable[[Program, Mapping[str, float], Callable[[float], None]], bool],
+) -> tuple[int, int, list[str]]:
+    """Return how many were driven, how many are told to have been tried, and the values, where `happens` decides."""
+    result, said, calls = missed(STORIES["goes first, distance"], explain="cause"), [], []
+
+    def drive(program: Program, parameters: Mapping[str, float], progress: Callable[[float], None]) -> bool:
+        calls.append((program, dict(parameters)))
+        return happens(program, parameters, progress)
+
+    world: World = set_up(Request(STORIES["goes first, distance"]), Stages(None))[0]
+    assert result.verdict is not None
+    _, count = ways_out(world.scene, result.verdict, TIGHT, drive, said.append)
+    assert len(said) == len(set(said)) == len(calls), "each value is tried once, and told before"
+    return len(calls), count, said
+
+
+def test_written_number_that_is_proposed_would_do() -> None:
+    said: list[str] = []
+    request = Request(STORIES["goes first, distance"], ego="speeder", takes=1, explain="ways out")
+    result = orchestrate(request, said.append)
+    assert result.verdict is not None
+    cause = result.verdict.cause
+    assert cause is not None
+    assert cause.would_do
+    assert sum(each.startswith("trying ") for each in said) >= len(cause.would_do)
+    for way in cause.would_do:
+        number, formula = way.what.split(" in ")
+        mended = request.source.replace(formula, re.sub(rf"{number}$", f"{way.value:g}", formula))
+        assert mended != request.source
+        assert orchestrate(Request(mended, ego="speeder")).status == "success"
+        assert str(way) in cause.way_out()
+        assert float(number) == way.instead_of
+
+
+def test_parameter_that_is_proposed_would_do() -> None:
+    result = missed(WITH_NAME, parameters={"ego_gap_m": 40}, explain="ways out")
+    assert result.verdict is not None
+    assert result.verdict.cause is not None
+    named = [way for way in result.verdict.cause.would_do if way.parameter is not None]
+    assert named
+    for way in named:
+        assert (way.parameter, way.instead_of, way.unit) == ("ego_gap_m", 40.0, "m")
+        again = Request(WITH_NAME, {"ego_gap_m": way.value}, ego="speeder")
+        assert orchestrate(again).status == "success"
+
+
+def test_trying_ends_after_some_and_says_how_many() -> None:
+    driven, told, _ = tried(lambda *_: False)
+    assert 1 < driven == told <= 6
+
+
+def test_trying_ends_once_enough_do() -> None:
+    driven, told, _ = tried(lambda *_: True)
+    assert driven == told == 1
+
+
+def test_trying_ends_with_the_simulated_time() -> None:
+    def for_long(_: Program, __: Mapping[str, float], progress: Callable[[float], None]) -> bool:
+        for tenth in range(1, 401):
+            progress(0.1 * tenth)
+        return False
+
+    driven, told, _ = tried(for_long)
+    assert (driven, told) == (2, 1), "the second is not driven to its end"
+
+
+def test_who_interrupts_wants_no_more() -> None:
+    def interrupted(*_: object) -> bool:
+        raise KeyboardInterrupt
+
+    assert tried(interrupted)[:2] == (1, 0)
+
+
+@pytest.mark.parametrize("count", [0, 3])
+def test_none_that_would_do_is_said(count: int) -> None:
+    from scenewright.judge.verdict import Cause
+
+    told = Cause("order", "Late.", {}, (), count).way_out()
+    assert told == ("Other numbers tried: 3; none would do." if count else "")

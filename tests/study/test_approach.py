@@ -1,0 +1,103 @@
+"""How heroes drive up to their triggers, seen in drives of which the answer is plain."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from scenewright.orchestrate import Request, orchestrate
+from scenewright.program.text import parse_program
+from scenewright.roads import load_map
+from scenewright.roads.grounding import ground
+from scenewright.study.approach import Approach, approach_of, naturalness
+from scenewright.trace.model import ActorTrace, Trace
+from stories import STORIES
+
+SCENE = ground(parse_program(STORIES["yields, distance"]), load_map("t_intersection"))
+STEP_S, TRIGGER_S, END_S = 0.02, 6.0, 9.0
+
+
+def driven(*moves: tuple[float, float], speed_mps: float = 10.0) -> Trace:
+    """Return a hero that does one acceleration (m/s^2) after another, each until a time (s); the ego stands."""
+    times = np.arange(0.0, END_S + STEP_S / 2, STEP_S)
+    ends, rates = zip(*moves, (math.inf, 0.0), strict=True)
+    accels = np.array([rates[int(np.searchsorted(ends, time, side="right"))] for time in times])
+    speeds = np.maximum(0.0, speed_mps + np.concatenate(([0.0], np.cumsum(accels[:-1]) * STEP_S)))
+    places = 100.0 + np.concatenate(([0.0], np.cumsum((speeds[:-1] + speeds[1:]) / 2) * STEP_S))
+    zeros = np.zeros_like(times)
+    hero = ActorTrace(times, places, zeros, zeros, speeds, accels, places, zeros)
+    ego = ActorTrace(times, zeros, zeros, zeros, zeros, zeros, zeros, zeros)
+    return Trace({"ego": ego, "hero": hero})
+
+
+def seen(trace: Trace, trigger_s: float | None = TRIGGER_S) -> Approach:
+    facts: dict[str, Any] = {
+        "trigger_time_s": {"hero": trigger_s},
+        "knot_times_s": {"hero": {"t0": 0.0, "t1": trigger_s, "t2": 8.0}},
+    }
+    return approach_of(SCENE, trace, facts)
+
+
+@pytest.mark.parametrize(
+    ("moves", "reverses"),
+    [
+        (((3.0, 1.5), (5.0, -1.5)), True),
+        (((3.0, 1.5), (4.4, 0.0), (5.5, -1.5)), True),
+        (((2.0, 1.5), (4.0, 0.0), (5.5, -1.5)), False),
+        (((3.0, 0.9), (5.0, -1.5)), False),
+        (((6.5, 0.0), (7.0, 2.0), (8.0, -2.0)), False),
+    ],
+    ids=["at once", "within 1.4 s", "after 2 s", "hardly", "after the trigger"],
+)
+def test_reversals_are_harsh_both_ways_and_soon(moves: tuple[tuple[float, float], ...], reverses: bool) -> None:
+    assert seen(driven(*moves)).reverses is reverses
+
+
+@pytest.mark.parametrize(("stops_for_s", "stands"), [(0.8, True), (0.2, False)])
+def test_standing_is_half_a_second(stops_for_s: float, stands: bool) -> None:
+    moves = ((2.0, -5.0), (2.0 + stops_for_s, 0.0), (6.0, 2.0))
+    assert seen(driven(*moves)).stands is stands
+
+
+def test_sizes_are_those_of_the_motion() -> None:
+    ramp = tuple((round(0.1 * k, 1), -0.2 * k) for k in range(1, 11))  # 2 m/s^3
+    approach = seen(driven(*ramp, (6.0, -2.0)))
+    assert max(approach.accels_mpss) == pytest.approx(2.0, abs=0.01)
+    assert np.percentile(approach.jerks_mpsss, 95) == pytest.approx(2.0, abs=0.2)
+
+
+def test_pace_is_of_what_road_and_following_leave() -> None:
+    free = seen(driven((6.5, 0.0), (END_S, 6.0), speed_mps=6.0))
+    assert free.pace == pytest.approx(6.0 / 13.89, abs=0.01)
+    # It holds its speed for the 12 m to its next knot; it could have come faster, and braked.
+    even = seen(driven((END_S, 0.0), speed_mps=6.0))
+    assert even.pace == pytest.approx(6.0 / (36 + 2 * 3.0 * 12.0) ** 0.5, abs=0.01)
+    braking = seen(driven((TRIGGER_S, 0.0), (8.0, -3.0), speed_mps=6.0))
+    assert braking.pace == pytest.approx(1.0, abs=0.02)
+
+
+def test_nothing_is_told_of_a_hero_without_a_trigger() -> None:
+    assert seen(driven((END_S, 0.0)), None) == Approach()
+    assert naturalness([]).runs == 0
+    assert naturalness([Approach()]).pace_median is None
+
+
+def test_many_runs_are_shares_percentiles_and_a_median() -> None:
+    runs = [seen(driven((3.0, rate), (5.0, -rate))) for rate in (0.5, 0.8, 1.5, 2.0)]
+    told = naturalness(runs)
+    assert (told.runs, told.reversing, told.standing) == (4, 0.5, 0.0)
+    assert told.accel_p95_mpss == pytest.approx(2.0, abs=0.01)
+
+
+def test_a_real_run_approaches_calmly() -> None:
+    result = orchestrate(Request(STORIES["yields, distance"], ego="idm"))
+    assert result.verdict is not None
+    assert result.run is not None
+    approach = approach_of(result.scene, result.run.trace, result.verdict.facts)
+    assert not approach.stands
+    assert approach.pace is not None
+    assert len(approach.accels_mpss) > 10
+    assert max(approach.accels_mpss) < 8.0
