@@ -62,8 +62,7 @@ def test_the_compiler_writes_it_with_the_same_meaning(constraint: str) -> None:
 
 def test_a_knot_of_the_ego_of_which_nothing_is_asked_is_no_moment() -> None:
     story = decompile(parse_program(HEAD))
-    assert len(story.ego) == 1
-    assert story.actors[0].name == "ego"
+    assert (len(story.ego), story.actors[0].name) == (1, "ego")
 
 
 def test_a_deed_of_the_ego_has_no_story() -> None:

@@ -22,12 +22,9 @@ def test_a_text_becomes_a_program_that_fits_its_map() -> None:
     assert [program.words_of(each) for each in program.constraints][1] == "25 m"
 
 
-def test_a_map_that_is_named() -> None:
+def test_a_map_that_is_named_and_a_text_that_is_too_long() -> None:
     assert understand(f"Map: t_intersection\n{TEXT}").map_name == "t_intersection"
     with pytest.raises(MapError):
         understand(f"Map: nowhere\n{TEXT}")
-
-
-def test_a_text_that_is_too_long() -> None:
     with pytest.raises(TranslationError, match="too many characters"):
         understand("The ego stands. " * 1000)

@@ -62,13 +62,9 @@ def settled(story: Story, answers: Mapping[str, str], strict: bool = False) -> S
             raise InputError(f"this is no answer to '{each.text}'", found=answers[each.slot], expected=expected)
     waiting = [each for each in story.questions if strict or each.default is None]
     if waiting:
-        told = [f"{each.text} ({' / '.join(each.alternatives)})" for each in waiting]
-        raise TranslationError(
-            "the text leaves something open",
-            found="; ".join(told),
-            expected="an answer to each question",
-            fix="say it in the text, or give the answers in a file",
-        )
+        told = "; ".join(f"{each.text} ({' / '.join(each.alternatives)})" for each in waiting)
+        fix = "say it in the text, or give the answers in a file"
+        raise TranslationError("the text leaves something open", found=told, expected="an answer to each", fix=fix)
     return story
 
 

@@ -289,37 +289,40 @@ class _Sentence:
         if clause.phase == "finishes" or "after the start" in clause.times:
             self._refuse("nothing was told of this deed before")
         moment = self.pending if when is None else self._moment(when)
-        self.leads |= {"then"} if any(each.link == "after" for each in rest) else set()  # it drives on until then
+        begins, held, ends = self._shares(clause)
+        if (begins and clause.deed != st.Verb.STAND) or any(each.link == "after" for each in rest):
+            self.leads.add(
+                "then"
+            )  # "it brakes 15 m before the stop line", "after the ego ...": it drives on until then
         verb = st.Verb.BRAKE if clause.deed == "stop" else clause.deed
         doing = story.begin(clause.subject, verb, moment, self.leads, self.quote)
         story.subject = clause.subject
-        if moment is not None:
-            story.ego_comes(moment, self.quote)
-        doing.throughout += [clause.rate] if clause.rate else []
-        doing.duration = clause.times.get("for")
-        ends = self._ends(clause, doing)
+        story.add(doing.begins, begins)
+        story.ego_comes(doing.begins, self.quote)
+        doing.throughout += [*held, *([clause.rate] if clause.rate else [])]
+        rests = clause.deed == "stop" or "standstill" in clause.flags
+        doing.duration = None if rests else clause.times.get("for")
         self._end(doing, clause, ends, next((each for each in rest if each.link == "until"), None))
         for each in rest:
-            begins = each.link == "after" or not ends or doing.ends is None
+            early = each.link == "after" or not ends or doing.ends is None
             if each.link != "until":
-                self._orders(doing.begins if begins else doing.ends or st.START, [each], doing.actor)
+                self._orders(doing.begins if early else doing.ends or st.START, [each], doing.actor)
+        if rests and "for" in clause.times:  # "it stops at the stop line for 3 s"
+            story.begin(doing.actor, st.Verb.STAND, None, {"then"}, self.quote).duration = clause.times["for"]
 
-    def _ends(self, clause: Clause, doing: Doing) -> list[st.Condition]:
-        """Return what is so where a deed ends, by its own clause; what is so where it begins goes there."""
-        comes_to_rest = "standstill" in clause.flags or clause.deed == "stop"
-        ends: list[st.Condition] = [standstill(doing.actor)] if comes_to_rest else []
+    def _shares(self, clause: Clause) -> tuple[list[st.Measure], list[st.Measure], list[st.Measure]]:
+        """Return what a deed's own clause says of its beginning, of the deed throughout, and of its end."""
+        rests = clause.deed == "stop" or "standstill" in clause.flags
+        begins, held, ends = list[st.Measure](), list[st.Measure](), [standstill(clause.subject or EGO)][: int(rests)]
         for measure in clause.measures:
-            if measure.quantity is st.Quantity.SPEED and "to" not in clause.flags:
-                if clause.deed != st.Verb.DRIVE:
-                    self._refuse("it is not clear when it is so fast")
-                doing.throughout.append(measure)
-            elif comes_to_rest or st.is_event(measure) or measure.quantity is st.Quantity.SPEED:
-                ends.append(measure)
-            else:
-                self.narrative.add(doing.begins, [measure])
-        return ends
+            fast = measure.quantity is st.Quantity.SPEED
+            if fast and "to" not in clause.flags and clause.deed != st.Verb.DRIVE:
+                self._refuse("it is not clear when it is so fast")
+            stays = clause.deed == st.Verb.STAND or not (rests or fast or st.is_event(measure))
+            (held if fast and "to" not in clause.flags else begins if stays else ends).append(measure)
+        return begins, held, ends
 
-    def _end(self, doing: Doing, clause: Clause, ends: list[st.Condition], until: Segment | None) -> None:
+    def _end(self, doing: Doing, clause: Clause, ends: Sequence[st.Condition], until: Segment | None) -> None:
         story = self.narrative
         if until is not None:
             story.doer = doing.actor
