@@ -17,13 +17,15 @@ from scenewright.language.tell import tell
 from scenewright.program.printer import print_program
 from scenewright.program.text import parse_program
 from scenewright.program.types import Program
+from scenewright.study.benchmark import benchmark_row
 
 STORIES = 200
 
 
 def programs() -> list[Program]:
-    """Return the programs that other tests share: every form of constraint, and whole scenarios."""
+    """Return the programs that others share: the benchmark, every form of constraint, whole scenarios."""
     found = [example.program() for example in EXAMPLE_TABLE]
+    found += [parse_program(benchmark_row(number).program_text) for number in range(1, 81)]
     for form in FORMS:
         try:
             found.append(parse_program(form.binding_program(), form.name))
@@ -74,4 +76,4 @@ def test_what_a_program_says_is_told_and_read_back() -> None:
             continue
         assert compile_story(arranged(read("\n".join(tell(story))))) == compile_story(story)
         told += 1
-    assert told >= 70
+    assert told >= 150

@@ -24,14 +24,11 @@ def test_numbers_of_moments_are_only_names() -> None:
     assert st.arranged(story) == st.arranged(other)
     assert [deed.verb for deed in other.deeds_of(1)] == ["drive on", "brake"]
     assert other.knots_of(1) == (0, 2, 1)
-    assert other.owners(0) == (0, 1)
-    assert other.owners(2) == (1,)
+    assert (other.owners(0), other.owners(2)) == ((0, 1), (1,))
 
 
 def test_what_is_asked_of_whom() -> None:
     gap = st.Measure(2, st.Quantity.GAP, "==", st.Amount(None, "m", "gap_m"), other=1)
     there = st.Measure(2, st.Quantity.PLACE, "==", None, st.Place("conflict_point", 3, 4))
     assert st.people_in(st.Compound("or", (gap, there))) == {1, 2, 3, 4}
-    assert st.is_event(there)
-    assert not st.is_event(gap)
-    assert not st.is_event(replace(there, op=">="))
+    assert [st.is_event(each) for each in (there, gap, replace(there, op=">="))] == [True, False, False]
