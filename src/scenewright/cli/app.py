@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from scenewright import __version__
-from scenewright.cli import bench, checking, faults, listing, looking, reading, running
+from scenewright.cli import bench, checking, faults, listing, looking, reading, running, telling
 
 SENTENCE = (
     "The ego drives westbound. An oncoming hero turns left into the driveway. When the ego is 25 m before the "
@@ -73,6 +73,7 @@ app.command(
     epilog=_examples(_TRANSLATE, "scenewright translate first.scene --json", "scenewright translate --show-prompt")
     + _BY_A_MODEL
 )(reading.translate)
+app.command(epilog=_examples(_TRANSLATE, "scenewright tell first.scene"))(telling.tell)
 app.command(
     epilog=_examples(
         _TRANSLATE,

@@ -1,0 +1,284 @@
+"""From a story to a program: one piece of code, whoever filled the story.
+
+What enters: a `Story`. What leaves: a checked `Program`, or a `TranslationError` that names what the program language
+does not know. It needs no map; `ways` has put the routes in where a text left them to the map.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Literal
+
+from scenewright.errors import Span, TranslationError
+from scenewright.language import story as st
+from scenewright.program import expressions as ex
+from scenewright.program import types as pt
+from scenewright.program.arithmetic import combine, negate
+from scenewright.program.check import check_program
+from scenewright.program.types import EGO
+
+PIECES = {
+    st.Verb.DRIVE: pt.PieceKind.GO,
+    st.Verb.SPEED_UP: pt.PieceKind.ACC,
+    st.Verb.BRAKE: pt.PieceKind.DEC,
+    st.Verb.STAND: pt.PieceKind.STOP,
+}
+COMPASS = "NESW"
+TURNS = {"straight": 0, "right": 1, "left": 3}  # quarters of the compass
+DRIVEN = ("car", "truck", "van", "bus", "taxi")  # the kinds that the program language can drive, all of them as cars
+UNNAMED = ("description", "program")  # what programs are called that nobody gave a name
+_ORDERS: dict[st.Quantity, ex.Order] = {st.Quantity.PLACE: 0, st.Quantity.SPEED: 1, st.Quantity.RATE: 2}
+_DERIVED: dict[st.Quantity, ex.DerivedKind] = {
+    st.Quantity.GAP: "gap",
+    st.Quantity.HEADWAY: "headway",
+    st.Quantity.COLLISION: "ttc",
+    st.Quantity.ARRIVAL: "tta",
+}
+
+
+def compile_story(story: st.Story, description: str | None = None) -> pt.Program:
+    """Return the program that `story` is.
+
+    Parameters
+    ----------
+    description
+        The text that the quotes of the story point into, where there is one.
+
+    Raises
+    ------
+    TranslationError
+        For what the program language does not know, by name.
+    ProgramError
+        Where the story contradicts itself, such as a speed in metres.
+    """
+    _check_known(story)
+    compiler = _Compiler(story)
+    compiler.constrain()
+    program = pt.Program(
+        story.title or UNNAMED[0],
+        tuple(
+            pt.Actor(actor.id, actor.name, route_of(actor.way), compiler.sketches[actor.id]) for actor in story.actors
+        ),
+        tuple(
+            pt.Constraint(f"c{number}", formula, source if description else None)
+            for number, (formula, source) in enumerate(compiler.formulas, start=1)
+        ),
+        _parameters(story),
+        story.map_name,
+        description,
+        story.manner,
+    )
+    check_program(program)
+    return program
+
+
+def route_of(way: st.Way) -> pt.RouteSpec:
+    """Return the route that the facts of a way make: a whole one where they are whole, else what is wanted."""
+    if way.lanes:
+        return pt.LanesRoute(way.lanes)
+    if way.headings:
+        return pt.HeadingsRoute(way.headings)
+    if way.heading and way.turn and not (way.origin or way.destination or way.destination_heading):
+        turned = COMPASS[(COMPASS.index(way.heading) + TURNS[way.turn]) % 4]
+        return pt.HeadingsRoute((way.heading,) if way.turn == "straight" else (way.heading, turned))
+    return pt.IntentRoute(way.origin, way.turn, way.destination, way.heading, way.destination_heading)  # type: ignore[arg-type]
+
+
+def kind_of(name: str) -> str:
+    """Return what somebody is by the name alone; a program says no more."""
+    return name if name in DRIVEN else "car"
+
+
+def refused(what: str, fix: str, quote: st.Quote | None = None) -> TranslationError:
+    """Return the error that names what the program language does not know, and the nearest thing that it does."""
+    return TranslationError(f"{what} cannot be said in a program yet", found=quote.text if quote else None, fix=fix)
+
+
+def _check_known(story: st.Story) -> None:
+    for actor in story.actors:
+        if actor.kind not in DRIVEN:
+            raise refused(f"a {actor.kind}", f"there may be any number of: {', '.join(DRIVEN)}", actor.quote)
+        for relation in actor.relations:
+            raise refused(f"that somebody is {relation.kind}", "put the ways on a map, or say them", relation.quote)
+    for deed in story.deeds:
+        if deed.verb not in set(st.Verb):
+            raise refused(f"'{deed.verb}'", f"what somebody may do: {', '.join(st.Verb)}", deed.quote)
+        if deed.actor == EGO:
+            raise refused("a deed of the ego", "the policy under test drives it; say what the others do", deed.quote)
+    for hero in story.heroes:
+        own = [deed for deed in story.deeds if deed.actor == hero.id]
+        if len(story.deeds_of(hero.id)) != len(own):
+            fix = "let each deed begin where the one before it ends"
+            raise refused(f"two deeds of {hero.name} at one time", fix, own[-1].quote)
+
+
+def _parameters(story: st.Story) -> tuple[pt.Parameter, ...]:
+    known = {parameter.name: parameter for parameter in story.parameters}
+    for amount in amounts_of(story):
+        if amount.name is not None:
+            known.setdefault(amount.name, pt.Parameter(amount.name))
+    return tuple(known.values())
+
+
+def amounts_of(story: st.Story) -> list[st.Amount]:
+    """Return every amount that a story speaks of, in the order of the story."""
+    conditions: list[st.Condition] = []
+    found: list[st.Amount | None] = []
+    for moment in story.moments:
+        found.append(moment.time)
+        conditions += moment.conditions
+    conditions += [measure for deed in story.deeds for measure in deed.throughout]
+    conditions += [hold.condition for hold in story.holds]
+    found += [atom.amount for condition in conditions for atom in st.atoms(condition)]
+    found += [order.margin for order in story.orders]
+    found += [point.offset for hold in story.holds for point in (hold.start, hold.end)]
+    return [amount for amount in found if amount is not None]
+
+
+def _sketch(story: st.Story, actor: int) -> pt.Sketch:
+    knots = story.knots_of(actor)
+    pieces = [pt.PieceKind.GO] * (len(knots) - 1)
+    if actor != EGO:
+        pieces = [PIECES[st.Verb(deed.verb)] for deed in story.deeds_of(actor)]
+    # The ego, and whoever does nothing of its own, drives on after the last moment that it shares.
+    if not pieces or (actor == EGO and len(story.owners(knots[-1])) > 1):
+        pieces.append(pt.PieceKind.GO)
+    return pt.Sketch(tuple(f"t{number}" for number in range(len(pieces) + 1)), tuple(pieces))
+
+
+@dataclass(slots=True)
+class _Compiler:
+    """Gathers the formulas of a story, each with where it came from."""
+
+    story: st.Story
+    sketches: dict[int, pt.Sketch] = field(init=False)
+    formulas: list[tuple[ex.Formula, Span | None]] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.sketches = {actor.id: _sketch(self.story, actor.id) for actor in self.story.actors}
+
+    def constrain(self) -> None:
+        for number, moment in enumerate(self.story.moments):
+            self._moment(number, moment)
+            for deed in self.story.deeds:
+                if deed.begins == number:
+                    self._throughout(deed)
+        for order in self.story.orders:
+            self._add(self._order(order), order.quote)
+        for hold in self.story.holds:
+            start, end = self._point(hold.start), self._point(hold.end)
+            how: Literal["always", "never", "eventually"] = "eventually" if hold.how == "at some time" else hold.how
+            self._add(ex.Temporal(how, start, end, self._condition(hold.condition, None)), hold.quote)
+
+    def _add(self, formula: ex.Formula, quote: st.Quote | None) -> None:
+        self.formulas.append((formula, quote.span if quote else None))
+
+    def _knot(self, actor: int, moment: int) -> str:
+        return self.sketches[actor].knots[self.story.knots_of(actor).index(moment)]
+
+    def _moment(self, number: int, moment: st.Moment) -> None:
+        owners = self.story.owners(number)
+        if number != st.START:
+            instants = [ex.Elapsed(actor, self._knot(actor, number)) for actor in owners]
+            for other in instants[1:]:
+                self._add(ex.Compare("==", instants[0], other), moment.quote)
+            if instants and moment.time is not None:
+                self._add(ex.Compare("==", instants[-1], _term(moment.time)), moment.time.quote)
+        for condition in moment.conditions:
+            self._add(self._condition(condition, number), condition.quote)
+
+    def _throughout(self, deed: st.Deed) -> None:
+        sketch = self.sketches[deed.actor]
+        piece = ex.PieceRef(sketch.piece_names()[self.story.deeds_of(deed.actor).index(deed)])
+        if deed.verb == st.Verb.STAND:
+            self._add(ex.Compare("==", ex.State(deed.actor, 1, piece), ex.Number(Fraction(0))), deed.quote)
+        for measure in deed.throughout:
+            if measure.quantity in _ORDERS and measure.other is None and measure.actor == deed.actor:
+                self._add(self._measure(measure, piece), measure.quote)
+            else:  # a piece is asked for nothing but its own place, speed and acceleration
+                start, end = (self._point(st.Point(moment)) for moment in (deed.begins, deed.ends))
+                self._add(ex.Temporal("always", start, end, self._condition(measure, None)), measure.quote)
+
+    def _condition(self, condition: st.Condition, moment: int | None) -> ex.Formula:
+        if isinstance(condition, st.Compound):
+            joint: Literal["and", "or", "not", "implies"] = "implies" if condition.joint == "if" else condition.joint
+            return ex.Logic(joint, tuple(self._condition(part, moment) for part in condition.parts))
+        return self._measure(condition, self._at(condition.actor, moment), moment)
+
+    def _at(self, actor: int, moment: int | None) -> ex.At:
+        if moment is None:
+            return None
+        if actor in self.story.owners(moment):
+            return ex.Knot(self._knot(actor, moment))
+        instant = self._instant(moment)
+        return instant if isinstance(instant, ex.Elapsed | ex.Number) else None
+
+    def _instant(self, moment: int) -> ex.Term:
+        owners = self.story.owners(moment)
+        if owners:
+            return ex.Elapsed(owners[-1], self._knot(owners[-1], moment))
+        time = self.story.moments[moment].time
+        if time is None or time.si is None:
+            raise refused("a moment that is nobody's", "say what begins or ends then, or what the ego does")
+        return ex.Number(time.si)
+
+    def _measure(self, measure: st.Measure, at: ex.At, moment: int | None = None) -> ex.Compare:
+        amount = None if measure.amount is None else _term(measure.amount)
+        op = measure.op
+        left: ex.Term
+        right: ex.Term
+        if measure.quantity in _DERIVED:
+            target: int | ex.Landmark | None = measure.other
+            if measure.quantity is st.Quantity.ARRIVAL and measure.place is not None:
+                target = _landmark(measure.place, measure.actor)
+            if target is None or amount is None:
+                raise refused(f"a {measure.quantity} to nothing", "say of whom, to what, and how much", measure.quote)
+            return ex.Compare(op, ex.Derived(_DERIVED[measure.quantity], measure.actor, target, at), amount)
+        left = ex.State(measure.actor, _ORDERS[measure.quantity], at)
+        if measure.quantity is st.Quantity.PLACE:
+            if measure.place is None:
+                raise refused("a distance to nothing", "say to which place", measure.quote)
+            right = _landmark(measure.place, measure.actor)
+            if amount is not None:
+                op = op if measure.opposite else st.FLIPPED[op]
+                right = combine("+" if measure.opposite else "-", right, amount)
+        elif measure.quantity is st.Quantity.SPEED and measure.other is not None:
+            right = ex.State(measure.other, 1, self._at(measure.other, moment))
+            if amount is not None:
+                op = st.FLIPPED[op] if measure.opposite else op
+                right = combine("-" if measure.opposite else "+", right, amount)
+        else:
+            if amount is None:
+                raise refused(f"a {measure.quantity} without an amount", "say how much", measure.quote)
+            right = negate(amount) if measure.opposite else amount
+            op = st.FLIPPED[op] if measure.opposite else op
+        return ex.Compare(op, left, right)
+
+    def _order(self, order: st.Order) -> ex.Formula:
+        if order.first == st.START and order.margin is not None:
+            return ex.Compare(order.op, self._instant(order.second), _term(order.margin))
+        first, second = self._instant(order.first), self._instant(order.second)
+        if order.margin is None:
+            return ex.Compare(st.FLIPPED[order.op], first, second)
+        return ex.Compare(order.op, combine("-", second, first), _term(order.margin))
+
+    def _point(self, point: st.Point) -> ex.Term:
+        if point.offset is None:
+            return self._instant(point.moment)
+        if point.moment == st.START and not point.earlier:
+            return _term(point.offset)
+        return combine("-" if point.earlier else "+", self._instant(point.moment), _term(point.offset))
+
+
+def _landmark(place: st.Place, actor: int) -> ex.Landmark:
+    """Return the landmark; its owner is named where it is not who is measured, or where there are partners to tell."""
+    owner = place.of if place.of is not None else actor if place.partner is not None else None
+    return ex.Landmark(place.name, owner, place.partner)
+
+
+def _term(amount: st.Amount) -> ex.Term:
+    if amount.name is not None:
+        return ex.ParameterRef(amount.name)
+    assert amount.si is not None
+    return ex.Number(amount.si, None, amount.dimension)

@@ -1,0 +1,73 @@
+"""What a story leaves open: questions with alternatives and a default, their answers, and how they are kept.
+
+What enters: stories with questions, and answers by slot. What leaves: data for a front end or a file, or the refusal of
+what must be answered first. A text with its answers is reproducible: both readers take the answers and ask no more.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from scenewright.errors import InputError, TranslationError
+from scenewright.language.story import Question, Story
+
+
+def as_data(questions: Iterable[Question]) -> list[dict[str, Any]]:
+    """Return questions as plain data, for ``--json`` and for a file to fill in."""
+    return [
+        {
+            "slot": each.slot,
+            "question": each.text,
+            "words": each.quote.text if each.quote else None,
+            "alternatives": list(each.alternatives),
+            "default": None if each.default is None else each.alternatives[each.default],
+        }
+        for each in questions
+    ]
+
+
+def read_answers(path: Path) -> dict[str, str]:
+    """Return the answers that a file holds: a JSON object, an alternative for each slot.
+
+    Raises
+    ------
+    InputError
+        Where there is no such file, or it holds something else.
+    """
+    try:
+        answers = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise InputError("the answers cannot be read", found=str(error), expected='{"way of hero": "..."}') from None
+    if not isinstance(answers, dict) or not all(isinstance(each, str) for each in answers.values()):
+        raise InputError("the answers are no object of texts", found=str(path), expected='{"way of hero": "..."}')
+    return answers
+
+
+def settled(story: Story, answers: Mapping[str, str], strict: bool = False) -> Story:
+    """Return `story` where it may be compiled: what is left open has a default, which `strict` does not allow.
+
+    Raises
+    ------
+    TranslationError
+        Where a question must be answered first; the message holds them all.
+    InputError
+        Where an answer is not among the alternatives of its question.
+    """
+    for each in story.questions:
+        if each.slot in answers:  # else it would not be open
+            expected = "; ".join(each.alternatives)
+            raise InputError(f"this is no answer to '{each.text}'", found=answers[each.slot], expected=expected)
+    waiting = [each for each in story.questions if strict or each.default is None]
+    if waiting:
+        told = "; ".join(f"{each.text} ({' / '.join(each.alternatives)})" for each in waiting)
+        fix = "say it in the text, or give the answers in a file"
+        raise TranslationError("the text leaves something open", found=told, expected="an answer to each", fix=fix)
+    return story
+
+
+def defaults_of(story: Story) -> dict[str, str]:
+    """Return the answers that were taken by default, by slot: what a run keeps beside its text."""
+    return {each.slot: each.alternatives[each.default] for each in story.questions if each.default is not None}

@@ -1,0 +1,176 @@
+"""Cuts sentences at their links, and lists of conditions into clauses.
+
+What enters: the chunks of a sentence, or of a stretch of it. What leaves: segments, and items: clauses, or conditions
+that are joined by "either", "both", "if" and "it is not so that".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+from scenewright.errors import UnknownWordsError
+from scenewright.language import story as st
+from scenewright.language.read.chunks import Chunk
+from scenewright.language.read.clauses import PEOPLE, Clause, read_clause
+from scenewright.language.read.narrative import Narrative
+
+Item = Clause | st.Compound
+LINKS = ("when", "until", "no later than", "from")
+_PREDICATES = {
+    "be", "state", "event", "phase", "deed", "turn", "mood", "heading", "origin", "quantity", "amount", "lanes",
+}  # fmt: skip
+_BEGINS_A_CLAUSE = {
+    *PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed", "kept",
+}  # fmt: skip
+_JOINTS: dict[str, tuple[Literal["and", "or", "if"], str]] = {  # what a word makes of its parts, and what parts them
+    "either": ("or", "or"),
+    "both": ("and", "and"),
+    "if": ("if", "then"),
+}
+
+
+@dataclass(slots=True)
+class Segment:
+    """A stretch of a sentence behind one link; `margin` is an amount of time that stood before the link."""
+
+    link: str
+    chunks: list[Chunk] = field(default_factory=list)
+    margin: tuple[st.Operator, st.Amount] | None = None
+
+
+def segments_of(chunks: list[Chunk]) -> list[Segment]:
+    """Cut a sentence at its links; "before" and "after" are links where a clause follows, not a place."""
+    found = [Segment("main")]
+    for index, chunk in enumerate(chunks):
+        orders = chunk.kind == "side" and chunk.value in ("before", "after")
+        if orders and _is_clause(chunks[index + 1 :]):
+            found.append(Segment(chunk.value, margin=_margin(found[-1].chunks)))
+        elif chunk.kind == "link" and chunk.value in LINKS:
+            found.append(Segment(chunk.value))
+        else:
+            found[-1].chunks.append(chunk)
+    for segment in found:
+        while segment.chunks and segment.chunks[-1].kind == "comma" and segment.link != "when":
+            segment.chunks.pop()
+    return found
+
+
+def _is_clause(chunks: Sequence[Chunk]) -> bool:
+    """Whether somebody does or is something here, before the next link."""
+    if not chunks or chunks[0].kind not in PEOPLE:
+        return False
+    ends = (number for number, chunk in enumerate(chunks) if chunk.kind in ("link", "comma", "joint", "possessive"))
+    return any(chunk.kind in _PREDICATES for chunk in chunks[: next(ends, len(chunks))])
+
+
+def _margin(chunks: list[Chunk]) -> tuple[st.Operator, st.Amount] | None:
+    """Take an amount of time off the end of a segment: ``the ego turns at least 2 s | after ...``."""
+    amount = chunks[-1].amount if chunks else None
+    if amount is None or amount.dimension != "time":
+        return None
+    chunks.pop()
+    op: st.Operator = "=="
+    if chunks and chunks[-1].kind == "bound" and chunks[-1].value in st.FLIPPED:
+        op = st.FLIPPED[st.FLIPPED[chunks.pop().value]]
+    return op, amount
+
+
+def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
+    """Part a moment from what happens at it: at the first comma before a deed, else at the last."""
+    commas = [index for index, chunk in enumerate(chunks) if chunk.kind == "comma"]
+    if not commas:
+        raise UnknownWordsError("it is not clear where the moment ends", fix="put a comma before what happens")
+    acts = (start for start, end in zip(commas, [*commas[1:], len(chunks)], strict=True)
+            if any(chunk.kind in ("deed", "order") for chunk in chunks[start:end]))  # fmt: skip
+    cut = next(acts, commas[-1])
+    return chunks[:cut], chunks[cut + 1 :]
+
+
+def items_of(narrative: Narrative, chunks: Sequence[Chunk], subject: int | None = None) -> list[Item]:
+    """Return the clauses of a list, and its joined conditions; `subject` is that of a clause that names none."""
+    parser = _Items(narrative, list(chunks), subject)
+    found: list[Item] = []
+    starts: list[int] = []
+    while parser.at < len(parser.chunks):
+        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and"):
+            parser.at += 1
+        else:
+            starts.append(parser.at)
+            found.append(parser.one(()))
+    for index, item in enumerate(found[:-1]):  # "the ego is 35 m and the hero 20 m from the conflict point"
+        following = found[index + 1]
+        if isinstance(item, Clause) and item.waiting and isinstance(following, Clause):
+            parser.at, parser.before = starts[index], following
+            found[index] = parser.one(())
+    return found
+
+
+@dataclass(slots=True)
+class _Items:
+    narrative: Narrative
+    chunks: list[Chunk]
+    subject: int | None
+    at: int = 0
+    before: Clause | None = None
+
+    def is_joint(self, value: str) -> bool:
+        chunk = self.chunks[self.at] if self.at < len(self.chunks) else None
+        return chunk is not None and chunk.value == value and chunk.kind in ("joint", "link")
+
+    def one(self, inside: tuple[str, ...]) -> Item:
+        """Return the item that begins here; `inside` are the words that end it."""
+        if self.at >= len(self.chunks):
+            raise UnknownWordsError("a condition is missing", fix="say what is so")
+        chunk = self.chunks[self.at]
+        if chunk.kind != "joint" or chunk.value not in (*_JOINTS, "not so"):
+            return self._clause(inside)
+        self.at += 1
+        if chunk.value == "not so":
+            return st.Compound("not", (self._part(inside),), chunk.quote)
+        joint, link = _JOINTS[chunk.value]
+        parts = [self._part((*inside, link))]
+        while self.is_joint(link):
+            self.at += 1
+            parts.append(self._part((*inside, link)))
+        if len(parts) < 2 or (joint == "if" and len(parts) > 2):
+            raise UnknownWordsError(f"'{chunk.text}' needs '{link}'", found=chunk.text, fix="say what it joins")
+        return st.Compound(joint, tuple(parts), chunk.quote)
+
+    def _part(self, inside: tuple[str, ...]) -> st.Condition:
+        item = self.one(inside)
+        if isinstance(item, st.Compound):
+            return item
+        if not item.measures or item.says_more_than("measures"):
+            raise UnknownWordsError("this is no condition", found=item.quote.text, fix="say what is so")
+        measures = tuple(item.measures)
+        return measures[0] if len(measures) == 1 else st.Compound("and", measures, item.quote)
+
+    def _clause(self, inside: tuple[str, ...]) -> Clause:
+        start = self.at
+        while self.at < len(self.chunks):
+            chunk = self.chunks[self.at]
+            parts = chunk.kind == "comma" or (chunk.kind == "joint" and chunk.value in ("and", "or"))
+            closes = any(self.is_joint(link) for link in inside)
+            if self.at > start and (closes or (parts and self._begins(self.at + 1))):
+                break
+            self.at += 1
+        own = [chunk for chunk in self.chunks[start : self.at] if chunk.kind != "comma"]
+        if [chunk.value for chunk in own[:2]] == ["it", "is"] and own[-1].value == "the start":
+            own = own[2:]  # nobody: "it is 5 s after the start"
+        subject = self.subject if self.before is None else self.before.subject
+        self.before = read_clause(own, self.narrative, self.before, subject)
+        return self.before
+
+    def _begins(self, at: int) -> bool:
+        """Whether a clause begins here."""
+        while at < len(self.chunks) and (self.chunks[at].kind == "comma" or self.chunks[at].value == "and"):
+            at += 1
+        return at < len(self.chunks) and self.chunks[at].kind in _BEGINS_A_CLAUSE
+
+
+def is_told_twice(item: Item, following: Item | None) -> bool:
+    """Whether two clauses tell one deed: "it brakes at 3 m/s^2 and stops at the stop line"."""
+    both = isinstance(item, Clause) and isinstance(following, Clause) and item.subject == following.subject
+    return both and (item.deed, following.deed) == (st.Verb.BRAKE, "stop")  # type: ignore[union-attr]

@@ -1,0 +1,288 @@
+"""The story while it is being read: who is known, which moments, who does what, in the order in which it is told.
+
+What enters: what sentences say, one after the other. What leaves: a `Story`. It reads no words; what a text leaves out
+by custom (who brakes comes to a standstill, who stops and goes on has stood in between) is put in here, and told.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import NoReturn
+
+from scenewright.errors import UnknownWordsError
+from scenewright.language import story as st
+from scenewright.language.compile import DRIVEN, kind_of
+from scenewright.language.phrases import speaks_of_ego
+from scenewright.language.read.chunks import Chunk, nearest_words, word_as
+from scenewright.language.read.clauses import Clause
+from scenewright.program.manner import USUAL, Manner
+from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
+
+MOVING = (st.Verb.DRIVE, st.Verb.SPEED_UP)
+
+
+@dataclass(slots=True)
+class Doing:
+    """A deed that is being told; it is open while its end is not known."""
+
+    actor: int
+    verb: str
+    begins: int
+    ends: int | None = None
+    throughout: list[st.Measure] = field(default_factory=list)
+    quote: st.Quote | None = None
+    duration: tuple[st.Operator, st.Amount] | None = None
+
+
+@dataclass(slots=True)
+class Narrative:
+    """The story so far."""
+
+    text: str
+    answers: Mapping[str, str] = field(default_factory=dict)
+    actors: list[st.Actor] = field(default_factory=list)
+    conditions: list[list[st.Condition]] = field(default_factory=lambda: [[]])  # by moment
+    times: dict[int, st.Amount] = field(default_factory=dict)
+    quotes: dict[int, st.Quote] = field(default_factory=dict)
+    ego: list[int] = field(default_factory=list)
+    doings: list[Doing] = field(default_factory=list)
+    orders: list[st.Order] = field(default_factory=list)
+    holds: list[st.Hold] = field(default_factory=list)
+    pending: int | None = None  # a moment that the last sentence told, at which nobody does anything yet
+    kept: list[tuple[int, st.Quote]] = field(default_factory=list)  # who keeps the speed that it has at the start
+    parameters: list[Parameter] = field(default_factory=list)
+    manner: Manner = USUAL
+    map_name: str = DEFAULT_MAP
+    title: str | None = None
+    asides: list[st.Quote] = field(default_factory=list)
+    assumptions: list[str] = field(default_factory=list)
+    questions: list[st.Question] = field(default_factory=list)
+    mentioned: list[int] = field(default_factory=list)  # in this sentence
+    subject: int | None = None  # of the last main clause
+    place: st.Place | None = None  # that was spoken of last
+    doer: int | None = None  # whose deed it is, while what ends it is read
+
+    def story(self) -> st.Story:
+        """Return the story; deeds that are still open end at moments of their own."""
+        for actor, quote in self.kept:
+            self._keep(actor, quote)
+        for doing in self.doings:
+            if doing.ends is None:
+                doing.ends = self.moment()
+            if doing.duration is not None:
+                self.orders.append(st.Order(doing.begins, doing.ends, *doing.duration, doing.quote))
+        if not any(actor.id == EGO for actor in self.actors):
+            raise UnknownWordsError("the text does not say who is under test", fix="call it the ego")
+        return st.Story(
+            tuple(sorted(self.actors, key=lambda actor: actor.id)),
+            tuple(st.Moment(tuple(own), self.times.get(number), self.quotes.get(number))
+                  for number, own in enumerate(self.conditions)),
+            tuple(self.ego),
+            tuple(st.Deed(each.actor, each.verb, each.begins, each.ends or st.START, tuple(each.throughout), each.quote)
+                  for each in self.doings),
+            tuple(self.orders),
+            tuple(self.holds),
+            tuple(self.parameters),
+            self.manner,
+            self.map_name,
+            self.title,
+            tuple(self.asides),
+            tuple(self.assumptions),
+            tuple(self.questions),
+        )  # fmt: skip
+
+    def _keep(self, actor: int, quote: st.Quote) -> None:
+        """Let somebody keep its first speed until its first deed, throughout where it has none."""
+        first = next((doing for doing in self.doings if doing.actor == actor), None)
+        first = first or self.begin(actor, st.Verb.DRIVE, None, set(), quote)
+        speeds = [each for each in self.conditions[st.START] if isinstance(each, st.Measure) and each.actor == actor
+                  and (each.quantity, each.op, each.other) == (st.Quantity.SPEED, "==", None)]  # fmt: skip
+        if first.verb != st.Verb.DRIVE or first.begins != st.START or len(speeds) != 1:
+            self.refuse("it is not clear which speed is kept, or until when", quote)
+        first.throughout.append(speeds[0])
+
+    # -- people -------------------------------------------------------------------------------------------------------
+    def who(self, chunk: Chunk) -> int:
+        """Return the number of whoever is mentioned; somebody new is added."""
+        actor = self._it(chunk) if chunk.kind == "pronoun" else self._named(chunk)
+        self.mentioned.append(actor)
+        return actor
+
+    def whom(self, chunk: Chunk, subject: int | None) -> int:
+        """Return the one that "it" means who is not the subject."""
+        others = set(self.mentioned) - {subject} or {actor.id for actor in self.actors} - {subject}
+        if len(others) != 1:
+            self.refuse("it is not clear who is meant", chunk.quote)
+        return others.pop()
+
+    def where(self, chunk: Chunk) -> st.Place:
+        """Return the place that "it" means: the one that was spoken of last."""
+        if self.place is None:
+            self.refuse("it is not clear which place is meant", chunk.quote)
+        return self.place
+
+    def _it(self, chunk: Chunk) -> int:
+        if self.doer is not None:
+            return self.doer
+        found = list(dict.fromkeys(self.mentioned)) or ([] if self.subject is None else [self.subject])
+        if not found:
+            self.refuse("it is not clear who is meant", chunk.quote)
+        if len(found) == 1:
+            return found[0]
+        names = [next(each.name for each in self.actors if each.id == actor) for actor in found]
+        chosen = self.ask(f"who {chunk.start}", "Who is 'it'?", names, len(found) - 1, chunk.quote)
+        return found[names.index(chosen)]
+
+    def _named(self, chunk: Chunk) -> int:
+        name = chunk.value
+        kind = "car" if chunk.kind == "name" or name in ("ego", "hero") else name
+        if chunk.kind.startswith("name of "):
+            kind = chunk.kind.removeprefix("name of ")
+        for actor in self.actors:
+            if actor.name == name:
+                return actor.id
+        heroes = [actor for actor in self.actors if actor.id != EGO]
+        if chunk.kind == "actor" and name == "car" and [each.name for each in heroes] == ["hero"]:
+            return heroes[0].id
+        number = EGO if name == "ego" and chunk.kind == "actor" else max((each.id for each in heroes), default=0) + 1
+        known = kind_of(name) if kind in DRIVEN else kind
+        self.actors.append(st.Actor(number, name, st.Way(), known, quote=chunk.quote))
+        return number
+
+    def actor(self, number: int) -> st.Actor:
+        """Return somebody by number."""
+        return next(actor for actor in self.actors if actor.id == number)
+
+    # -- moments ------------------------------------------------------------------------------------------------------
+    def moment(self, conditions: Sequence[st.Condition] = (), quote: st.Quote | None = None) -> int:
+        """Add a moment and return its number."""
+        self.conditions.append(list(conditions))
+        if quote is not None:
+            self.quotes[len(self.conditions) - 1] = quote
+        return len(self.conditions) - 1
+
+    def add(self, moment: int, conditions: Sequence[st.Condition]) -> None:
+        """Let more be so at a moment."""
+        self.conditions[moment] += [each for each in conditions if each not in self.conditions[moment]]
+
+    def moment_with(self, conditions: Sequence[st.Condition]) -> int | None:
+        """Return the moment that is known by one of these conditions, as an event, or by all of them."""
+        for number, own in enumerate(self.conditions):
+            if number != st.START and own and list(own) == list(conditions):
+                return number
+        events = [each for each in conditions if st.is_event(each)]
+        for number, own in enumerate(self.conditions):
+            if number != st.START and any(each in own for each in events):
+                return number
+        return None
+
+    def is_owned(self, moment: int) -> bool:
+        """Whether somebody begins or ends a deed at a moment."""
+        return any(moment in (doing.begins, doing.ends) for doing in self.doings)
+
+    def ego_comes(self, moment: int, quote: st.Quote) -> None:
+        """Note that the ego comes through a moment that asks something of it, after those that were told before."""
+        owned = self.is_owned(moment)
+        timed = moment in self.times and not owned
+        if moment in self.ego or moment == st.START or timed or not speaks_of_ego(self.conditions[moment]):
+            return
+        if owned and self.ego and not self._follows(self.ego[-1], moment):
+            later, either = "it comes after the ego's moments that were told before", "it may come before or after them"
+            asked = f"How does this moment lie to the ego's others: {quote.text}"
+            if self.ask(f"ego {quote.start}", asked, [either, later], 0, quote) == either:
+                return
+        self.ego.append(moment)
+
+    def ego_order(self, moments: list[int]) -> None:
+        """Take the moments that the ego comes through, as a text lists them: nothing is open about them."""
+        self.ego = moments
+        self.questions = [each for each in self.questions if not each.slot.startswith("ego ")]
+
+    def _follows(self, earlier: int, later: int) -> bool:
+        for actor in self.actors:
+            knots = {each for doing in self.doings if doing.actor == actor.id for each in (doing.begins, doing.ends)}
+            if {earlier, later} <= knots:
+                return True
+        return False
+
+    # -- deeds --------------------------------------------------------------------------------------------------------
+    def last(self, actor: int) -> Doing | None:
+        """Return what somebody was told to do last."""
+        return next((doing for doing in reversed(self.doings) if doing.actor == actor), None)
+
+    def begin(self, actor: int, verb: str, moment: int | None, leads: set[str], quote: st.Quote) -> Doing:
+        """Let somebody begin a deed at a moment, or where the last one ended."""
+        if actor == EGO:
+            self.refuse("the ego is driven by the policy under test: say what the others do", quote)
+        before = self.last(actor)
+        if before is None:
+            moment = self.moment() if moment is None and "then" in leads else moment
+            if moment is not None and moment != st.START:
+                self.doings.append(Doing(actor, st.Verb.DRIVE, st.START, moment, quote=quote))
+            begins = st.START if moment is None else moment
+        elif before.ends is None:
+            begins = before.ends = self.moment() if moment is None else moment
+        else:
+            begins = self._go_on(before, verb, moment, leads)
+        self.doings.append(Doing(actor, verb, begins, quote=quote))
+        return self.doings[-1]
+
+    def _go_on(self, before: Doing, verb: str, moment: int | None, leads: set[str]) -> int:
+        """Return where a deed begins after one whose end is known; what lies between is standing or driving on."""
+        assert before.ends is not None
+        stands = standstill(before.actor) in self.conditions[before.ends]
+        if moment is None and not (
+            stands and verb in MOVING and "at once" not in leads and before.verb != st.Verb.STAND
+        ):
+            return before.ends
+        if moment == before.ends:
+            return moment
+        between = Doing(before.actor, st.Verb.STAND if stands else st.Verb.DRIVE, before.ends, quote=before.quote)
+        between.ends = self.moment() if moment is None else moment
+        self.doings.append(between)
+        self.assumptions.append(
+            f"{self.actor(before.actor).name} {'stands still' if stands else 'drives on'} in between"
+        )
+        return between.ends
+
+    def doing_of(self, clause: Clause) -> Doing | None:
+        """Return the deed that an event speaks of: ``the hero begins to brake for the second time``."""
+        verb = st.Verb.BRAKE if clause.deed == "stop" else clause.deed
+        same = [each for each in self.doings if each.actor == clause.subject and each.verb == verb]
+        return same[clause.ordinal] if clause.ordinal < len(same) else None
+
+    # -- asking -------------------------------------------------------------------------------------------------------
+    def ask(self, slot: str, text: str, alternatives: list[str], default: int | None, quote: st.Quote) -> str:
+        """Return the answer to a question; its default, or nothing, where it is noted as open."""
+        answer = self.answers.get(slot, "")
+        if answer in alternatives:
+            return answer
+        if all(each.slot != slot for each in self.questions):
+            self.questions.append(st.Question(slot, text, tuple(alternatives), default, quote))
+        return "" if default is None else alternatives[default]
+
+    def known_words(self, chunks: Sequence[Chunk]) -> tuple[list[Chunk], bool]:
+        """Ask what unknown words mean: return the chunks with those that are answered, and whether some are not."""
+        known, is_open = [], False
+        for chunk in chunks:
+            if chunk.kind != "unknown":
+                known.append(chunk)
+                continue
+            meant = {f"it means '{word}'": word for word in nearest_words(chunk.text)}
+            asked = f"What is '{chunk.text}'?"
+            answer = self.ask(f"word {chunk.start}", asked, [*meant, "set it aside"], None, chunk.quote)
+            is_open |= not answer
+            if answer in meant:
+                known.append(word_as(chunk, meant[answer]))
+        return known, is_open
+
+    def refuse(self, message: str, quote: st.Quote, fix: str | None = None) -> NoReturn:
+        """Raise the error that says what could not be read."""
+        raise UnknownWordsError(message, found=quote.text, fix=fix or "say it as `scenewright tell` would")
+
+
+def standstill(actor: int) -> st.Measure:
+    """Return that somebody stands."""
+    return st.Measure(actor, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s"))

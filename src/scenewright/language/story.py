@@ -1,0 +1,361 @@
+"""The story: one typed frame between language and program, filled by a model or by the offline reader.
+
+What enters: nothing. What leaves: frozen data that says who there is, which moments matter, what holds at them,
+who does what between them, and in which order. It knows no program, no map and no words; what the program language
+does not know (a kind of road user, a deed) may stand in it and is refused by name when it is compiled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from fractions import Fraction
+from typing import Literal
+
+from scenewright.errors import Span
+from scenewright.program.manner import USUAL, Manner
+from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
+from scenewright.units import UNITS, Dimension
+
+Operator = Literal["==", "<=", ">=", "<", ">"]
+How = Literal["always", "never", "at some time"]
+FLIPPED: dict[str, Operator] = {"==": "==", "<=": ">=", ">=": "<=", "<": ">", ">": "<"}
+START = 0  # the first moment of every story
+
+
+@dataclass(frozen=True, slots=True)
+class Quote:
+    """The stretch of text that something came from."""
+
+    start: int
+    end: int
+    text: str
+
+    @property
+    def span(self) -> Span:
+        """The same as a span of the text."""
+        return Span(self.start, self.end)
+
+
+@dataclass(frozen=True, slots=True)
+class Amount:
+    """A number with its unit as it was written, or a parameter by its name (whose unit is that of the name)."""
+
+    value: Fraction | None
+    unit: str
+    name: str | None = None
+    quote: Quote | None = field(default=None, compare=False, repr=False)
+
+    @property
+    def dimension(self) -> Dimension:
+        """What it is an amount of."""
+        return UNITS[self.unit].dimension
+
+    @property
+    def si(self) -> Fraction | None:
+        """The number in SI units; None for a parameter."""
+        return None if self.value is None else self.value * UNITS[self.unit].si_factor
+
+
+class Quantity(StrEnum):
+    """What a measure measures, in the words for it."""
+
+    PLACE = "place"  # before or past a place of its route, in metres
+    ARRIVAL = "time to arrival"  # at a place
+    SPEED = "speed"
+    RATE = "acceleration"
+    GAP = "gap"  # how far `other` is ahead
+    HEADWAY = "headway"
+    COLLISION = "time to collision"
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A landmark; `of` None means of whoever is measured, `partner` None the usual one of a conflict point."""
+
+    name: str
+    of: int | None = None
+    partner: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """One thing that is so: the atom of every condition.
+
+    Attributes
+    ----------
+    op, amount
+        The bound. A place without an amount: ``==`` at it, ``>=`` has reached it, ``>`` is past it, ``<`` is before it.
+    other
+        Whom a gap, a headway or a time to collision is measured to; whose speed a speed is compared with.
+    opposite
+        The amount is counted the other way: past a place instead of before it, slower than `other` instead of faster,
+        slowing instead of speeding up.
+    """
+
+    actor: int
+    quantity: Quantity
+    op: Operator
+    amount: Amount | None = None
+    place: Place | None = None
+    other: int | None = None
+    opposite: bool = False
+    quote: Quote | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Compound:
+    """Conditions joined: one of several (``or``), the contrary of one (``not``), or one that asks for another (``if``).
+
+    ``and`` stands inside the others only: side by side, conditions all hold.
+    """
+
+    joint: Literal["and", "or", "not", "if"]
+    parts: tuple[Condition, ...]
+    quote: Quote | None = field(default=None, compare=False, repr=False)
+
+
+Condition = Measure | Compound
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """Partial facts of how somebody drives; the map answers with the routes that fit.
+
+    `headings` (all of them, in order) and `lanes` stand alone: each is a whole way by itself.
+    """
+
+    origin: str | None = None
+    heading: str | None = None
+    turn: str | None = None
+    destination: str | None = None
+    destination_heading: str | None = None
+    headings: tuple[str, ...] = ()
+    lanes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Actor:
+    """Somebody on the road; number 0 is under test, all others are orchestrated."""
+
+    id: int
+    name: str
+    way: Way = Way()
+    kind: str = "car"
+    relations: tuple[Relation, ...] = ()
+    quote: Quote | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Relation:
+    """How somebody's way lies to another's: ahead, behind, oncoming, from the left, from the right."""
+
+    kind: str
+    of: int
+    quote: Quote | None = field(default=None, compare=False, repr=False)
+
+
+class Verb(StrEnum):
+    """The deeds that the program language knows."""
+
+    DRIVE = "drive on"
+    SPEED_UP = "speed up"
+    BRAKE = "brake"
+    STAND = "stand still"
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """An instant that matters: the start, when somebody begins or ends a deed, or when something comes to be so.
+
+    `time` counts from the start, where it is fixed.
+    """
+
+    conditions: tuple[Condition, ...] = ()
+    time: Amount | None = None
+    quote: Quote | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Deed:
+    """What an orchestrated actor does from one moment (by its number) to another, and what holds all the while.
+
+    `verb` is a word of `Verb`, or another that nothing compiles.
+    """
+
+    actor: int
+    verb: str
+    begins: int
+    ends: int
+    throughout: tuple[Measure, ...] = ()
+    quote: Quote | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """The time from the `first` moment to the `second` is ``op margin``; without a margin it is ``> 0`` or ``>= 0``."""
+
+    first: int
+    second: int
+    op: Operator = ">"
+    margin: Amount | None = None
+    quote: Quote | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """A moment, or some time after it, or before it (`earlier`)."""
+
+    moment: int
+    offset: Amount | None = None
+    earlier: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Hold:
+    """A condition that holds always, never or at some time between two points."""
+
+    how: How
+    start: Point
+    end: Point
+    condition: Condition
+    quote: Quote | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """Something that is empty or has two readings.
+
+    `slot` is its key in a file of answers. Where there is a default it was taken; without one nothing is compiled.
+    """
+
+    slot: str
+    text: str
+    alternatives: tuple[str, ...]
+    default: int | None = 0
+    quote: Quote | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Story:
+    """A whole scenario as it is told.
+
+    Attributes
+    ----------
+    moments
+        By number; 0 is the start.
+    ego
+        The numbers of the moments that the ego comes through one after the other, other than the start.
+    asides, assumptions, questions
+        What was set aside, taken for granted and left open in reading; no part of the meaning.
+    """
+
+    actors: tuple[Actor, ...]
+    moments: tuple[Moment, ...] = (Moment(),)
+    ego: tuple[int, ...] = ()
+    deeds: tuple[Deed, ...] = ()
+    orders: tuple[Order, ...] = ()
+    holds: tuple[Hold, ...] = ()
+    parameters: tuple[Parameter, ...] = ()
+    manner: Manner = USUAL
+    map_name: str = DEFAULT_MAP
+    title: str | None = None
+    asides: tuple[Quote, ...] = field(default=(), compare=False)
+    assumptions: tuple[str, ...] = field(default=(), compare=False)
+    questions: tuple[Question, ...] = field(default=(), compare=False)
+
+    @property
+    def heroes(self) -> tuple[Actor, ...]:
+        """Everybody who is orchestrated."""
+        return tuple(actor for actor in self.actors if actor.id != EGO)
+
+    def deeds_of(self, actor: int) -> tuple[Deed, ...]:
+        """Return what somebody does, in the order of doing."""
+        own = {deed.begins: deed for deed in self.deeds if deed.actor == actor}
+        chain: list[Deed] = []
+        at = START
+        while at in own and len(chain) < len(own):
+            chain.append(own[at])
+            at = own[at].ends
+        return tuple(chain)
+
+    def knots_of(self, actor: int) -> tuple[int, ...]:
+        """Return the moments that somebody comes through, in order, the start included."""
+        if actor == EGO:
+            return (START, *self.ego)
+        return (START, *(deed.ends for deed in self.deeds_of(actor)))
+
+    def owners(self, moment: int) -> tuple[int, ...]:
+        """Return who comes through a moment, in order of number."""
+        return tuple(actor.id for actor in self.actors if moment in self.knots_of(actor.id))
+
+
+def atoms(condition: Condition) -> Iterator[Measure]:
+    """Yield the measures that a condition is made of."""
+    if isinstance(condition, Measure):
+        yield condition
+    else:
+        for part in condition.parts:
+            yield from atoms(part)
+
+
+def is_event(condition: Condition) -> bool:
+    """Whether a condition is that somebody comes to a place: nobody drives backwards, so it happens once."""
+    where = isinstance(condition, Measure) and condition.quantity is Quantity.PLACE and condition.op == "=="
+    return where and isinstance(condition, Measure) and condition.amount is None
+
+
+def people_in(condition: Condition) -> set[int]:
+    """Return whom a condition speaks of."""
+    found: set[int | None] = set()
+    for each in atoms(condition):
+        found |= {each.actor, each.other} | ({each.place.of, each.place.partner} if each.place else set())
+    return {actor for actor in found if actor is not None}
+
+
+def arranged(story: Story) -> Story:
+    """Return an equal story in the one order that is compared.
+
+    Moments are numbered along the deeds of each hero, then along the ego's way, then as they stand; deeds stand by
+    actor, conditions and orders by their text.
+    """
+    seen = [START]
+    for actor in (*(hero.id for hero in story.heroes), EGO):
+        seen += [moment for moment in story.knots_of(actor) if moment not in seen]
+    seen += [number for number in range(len(story.moments)) if number not in seen]
+    new = {old: number for number, old in enumerate(seen)}
+
+    def point(each: Point) -> Point:
+        return replace(each, moment=new[each.moment])
+
+    # "It begins 5 s after the start" gives the moment its time.
+    fixed = {
+        order.second: order
+        for order in story.orders
+        if order.first == START and order.op == "==" and story.moments[order.second].time is None
+    }
+    moments = tuple(
+        replace(
+            story.moments[old],
+            conditions=tuple(sorted(story.moments[old].conditions, key=repr)),
+            time=fixed[old].margin if old in fixed else story.moments[old].time,
+        )
+        for old in seen
+    )
+    deeds = [
+        replace(deed, begins=new[deed.begins], ends=new[deed.ends], throughout=tuple(sorted(deed.throughout, key=repr)))
+        for deed in story.deeds
+    ]
+    orders = [replace(order, first=new[order.first], second=new[order.second])
+              for order in story.orders if order not in fixed.values()]  # fmt: skip
+    holds = [replace(hold, start=point(hold.start), end=point(hold.end)) for hold in story.holds]
+    return replace(
+        story,
+        moments=moments,
+        ego=tuple(new[old] for old in story.ego),
+        deeds=tuple(sorted(deeds, key=lambda deed: (deed.actor, deed.begins))),
+        orders=tuple(sorted(orders, key=repr)),
+        holds=tuple(sorted(holds, key=repr)),
+        parameters=tuple(sorted(story.parameters, key=lambda each: each.name)),
+    )

@@ -1,0 +1,338 @@
+"""Tells a story in plain English: people and their ways first, then the moment, then what happens, one line each.
+
+What enters: a `Story`. What leaves: sentences of the controlled English, which `read` reads back to the same story, or
+a `TranslationError` for the little that has no words yet. It decides nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from graphlib import CycleError, TopologicalSorter
+from itertools import pairwise
+
+from scenewright.language import story as st
+from scenewright.language.compile import amounts_of
+from scenewright.language.phrases import (
+    DOES,
+    ORDINALS,
+    Phrases,
+    amount,
+    bounded,
+    listed,
+    sentence,
+    speaks_of_ego,
+    untold,
+)
+from scenewright.program.manner import NUMBERS, unit_of
+from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
+from scenewright.units import SI_SYMBOL, format_fraction
+
+_RATES = {
+    st.Verb.BRAKE: True,
+    st.Verb.SPEED_UP: False,
+}  # deeds that are told with their rate, and whether it is a slowing
+
+
+def tell(story: st.Story) -> list[str]:
+    """Return `story` as sentences, one a line.
+
+    Raises
+    ------
+    TranslationError
+        Where it holds something that there are no words for.
+    """
+    return _Teller(st.arranged(story)).lines()
+
+
+@dataclass(slots=True)
+class _Teller:
+    story: st.Story
+    phrases: Phrases = field(init=False)
+    told: list[str] = field(default_factory=list)
+    known: set[int] = field(default_factory=lambda: {st.START})  # moments that have been told
+    ego: list[int] = field(default_factory=list)  # its moments as a reader finds them
+    open_order: bool = False  # a reader would have to ask how the ego's moments follow each other
+    durations: set[st.Order] = field(default_factory=set)
+    joined: set[tuple[int, st.Compound]] = field(default_factory=set)
+    begun: list[st.Deed] = field(default_factory=list)  # deeds that have been told
+    ended: list[st.Deed] = field(default_factory=list)  # those of which a reader knows when they end
+
+    def __post_init__(self) -> None:
+        self.phrases = Phrases(self.story)
+
+    def lines(self) -> list[str]:
+        story = self.story
+        self._head()
+        self.told += [sentence(f"{self.phrases.name(each.id)} {self.phrases.way(each.way)}") for each in story.actors]
+        if any(actor.relations for actor in story.actors):
+            raise untold("how one way lies to another: choose the ways first")
+        self.told += [_parameter(parameter) for parameter in story.parameters if _is_told(parameter, story)]
+        self._start()
+        for moment in self._in_time():
+            if not any(moment in (deed.begins, deed.ends) for deed in story.deeds):
+                self._pure(moment)
+            for deed in story.deeds:
+                if deed.begins == moment:
+                    self._deed(deed)
+        for order in story.orders:
+            if order not in self.durations:
+                self._order(order)
+        for hold in story.holds:
+            self._hold(hold)
+        if tuple(self.ego) != story.ego or self.open_order:
+            events = [self.event(moment) for moment in story.ego] or ["nothing"]
+            self.told.append(f"In the ego's order: {', then '.join(events)}.")
+        return self.told
+
+    def _head(self) -> None:
+        story = self.story
+        for label, text in (("Title", story.title), ("Map", None if story.map_name == DEFAULT_MAP else story.map_name)):
+            if text is not None:
+                if text != " ".join(text.split()) or not text:
+                    raise untold(f"a {label.lower()} of this form")
+                self.told.append(f"{label}: {text}")
+        names = [actor.name for actor in story.actors]
+        if "'" in "".join(names) or names[0] != "ego" or [actor.id for actor in story.actors] != [*range(len(names))]:
+            raise untold("actors of these names")
+        for name in NUMBERS:
+            value = getattr(story.manner, name)
+            if value != getattr(type(story.manner)(), name):
+                self.told.append(f"Manner: {name} is {format_fraction(value)} {SI_SYMBOL[unit_of(name).dimension]}.")
+
+    def _start(self) -> None:
+        conditions = self.story.moments[st.START].conditions
+        simple = [each for each in conditions if isinstance(each, st.Measure)]
+        for actor in self.story.actors:
+            own = [each for each in simple if each.actor == actor.id]
+            if own:
+                self.told.append(f"At the start, {listed(self.phrases.clauses(own, passing=False))}.")
+        self.told += [f"At the start, {self.phrases.clause(each)}." for each in conditions if each not in simple]
+
+    def _in_time(self) -> list[int]:
+        """Return the moments in an order that agrees with everybody's own, the smallest number first."""
+        story, sorter = self.story, TopologicalSorter[int]()
+        for number in range(len(story.moments)):
+            sorter.add(number)
+        for actor in story.actors:
+            for earlier, later in pairwise(story.knots_of(actor.id)):
+                sorter.add(later, earlier)
+        order: list[int] = []
+        ready: set[int] = set()
+        try:
+            sorter.prepare()
+        except CycleError:
+            raise untold("moments that come before each other") from None
+        while sorter.is_active():
+            ready |= set(sorter.get_ready())
+            order.append(min(ready))
+            ready.remove(order[-1])
+            sorter.done(order[-1])
+        return order
+
+    # -- moments ------------------------------------------------------------------------------------------------------
+    def _pure(self, moment: int) -> None:
+        """Tell a moment at which nobody begins or ends a deed."""
+        conditions, time = self.story.moments[moment].conditions, self.story.moments[moment].time
+        if moment == st.START or self._is_left_to_an_order(moment):
+            return
+        if any(isinstance(each, st.Compound) for each in conditions) or (time is None and moment not in self.story.ego):
+            raise untold("a moment that is nobody's")
+        when = "Later" if time is None else f"When it is {amount(time)} after the start"
+        self.told.append(f"{when}, {listed(self.phrases.clauses(conditions))}.")
+        self._introduce(moment)
+
+    def _is_left_to_an_order(self, moment: int) -> bool:
+        """Whether a moment is the ego's last and one event, and an order speaks of it."""
+        conditions = self.story.moments[moment].conditions
+        last = self.story.ego[-1:] == (moment,) and self.story.moments[moment].time is None and len(conditions) == 1
+        pairs = [{order.first, order.second} for order in self.story.orders]
+        its_own = last and st.is_event(conditions[0]) and conditions[0].actor == EGO  # type: ignore[union-attr]
+        return its_own and any(moment in pair and st.START not in pair for pair in pairs)
+
+    def _introduce(self, moment: int) -> None:
+        """Note that a moment has been told, and whether a reader finds the ego's next one in it."""
+        if moment in self.known:
+            return
+        conditions = self.story.moments[moment].conditions
+        for other in self.known - {st.START}:
+            same = set(conditions) & set(self.story.moments[other].conditions)
+            if any(st.is_event(each) for each in same) or (conditions and same == set(conditions)):
+                raise untold("two moments at which the same is so")
+        self.known.add(moment)
+        owned = any(moment in (deed.begins, deed.ends) for deed in self.story.deeds)
+        if not owned and self.story.moments[moment].time is None:
+            self.ego.append(moment)
+        elif owned:
+            self._ego_comes(moment, [each for each in conditions if isinstance(each, st.Measure)])
+
+    def _ego_comes(self, moment: int, conditions: Sequence[st.Condition]) -> None:
+        if moment in self.ego or not speaks_of_ego(conditions):
+            return
+        if self.ego and not self._comes_after(self.ego[-1], moment):
+            self.open_order = True
+        else:
+            self.ego.append(moment)
+
+    def _comes_after(self, earlier: int, later: int) -> bool:
+        """Whether what has been told of one actor says so."""
+        told = {(deed.actor, deed.begins) for deed in self.begun} | {(deed.actor, deed.ends) for deed in self.ended}
+        return any({(hero.id, earlier), (hero.id, later)} <= told for hero in self.story.heroes)
+
+    def _items(self, moment: int, it: int | None = None) -> list[str]:
+        """Return what is so at a moment, as clauses; only its name where it has been told."""
+        if moment in self.known:
+            return [self.event(moment)]
+        found = self.story.moments[moment]
+        simple = [each for each in found.conditions if isinstance(each, st.Measure)]
+        time = [] if found.time is None else [f"it is {amount(found.time)} after the start"]
+        return time + self.phrases.clauses(simple, it)
+
+    def _compounds(self, moment: int) -> None:
+        conditions = self.story.moments[moment].conditions
+        for each in conditions:
+            if isinstance(each, st.Compound) and (moment, each) not in self.joined:
+                self.joined.add((moment, each))
+                self.told.append(f"When {self.event(moment)}, {self.phrases.clause(each)}.")
+                self._ego_comes(moment, conditions)
+
+    # -- deeds --------------------------------------------------------------------------------------------------------
+    def _deed(self, deed: st.Deed) -> None:
+        chain = self.story.deeds_of(deed.actor)
+        index = chain.index(deed)
+        waits = deed.verb in (st.Verb.DRIVE, st.Verb.STAND) and index + 1 < len(
+            chain
+        )  # its end is told with what follows
+        fresh = deed.begins not in self.known
+        lead, begins = self._begin(deed, chain, index)
+        rate, held = _rate(deed)
+        duration = next((each for each in self.story.orders if (each.first, each.second) == (deed.begins, deed.ends)
+                         and each.margin is not None and each not in self.durations), None)  # fmt: skip
+        if (
+            index == 0
+            and waits
+            and deed.verb == st.Verb.DRIVE
+            and not held
+            and duration is None
+            and self._items(deed.ends)
+        ):
+            return  # "When ..., the hero begins to brake" says it
+        self.begun += [each for each in chain[: index + 1] if each not in self.begun]
+        self.ended += chain[:index] if waits else chain[: index + 1]
+        self._introduce(deed.begins)
+        does, begin, _ = DOES[deed.verb]
+        text = f"{lead}{self.phrases.name(deed.actor)} {f'begins to {begin}' if begins else does}"
+        text += (
+            ""
+            if rate is None or rate.amount is None
+            else f" {'at' if rate.op == '==' else 'with'} {bounded(rate.op, rate.amount)}"
+        )
+        if duration is not None and duration.margin is not None:
+            self.durations.add(duration)
+            text += f" for {bounded(duration.op, duration.margin)}"
+        until = [] if waits else self._items(deed.ends, deed.actor)
+        if not waits and not until and any(each.ends == deed.ends for each in self.begun if each.actor != deed.actor):
+            until = [self.event(deed.ends)]
+        if until:
+            text += f" until {listed(until)}"
+            self._introduce(deed.ends)
+        elif not waits:
+            text += "" if duration is not None or deed.verb in (st.Verb.DRIVE, st.Verb.STAND) else " for a while"
+            self._introduce(deed.ends)
+        self.told.append(sentence(text))
+        self.told += [f"Meanwhile, {self.phrases.clause(each)}." for each in held]
+        for moment in ([deed.begins] if fresh else []) + ([] if waits else [deed.ends]):
+            self._compounds(moment)
+
+    def _begin(self, deed: st.Deed, chain: tuple[st.Deed, ...], index: int) -> tuple[str, bool]:
+        """Return the words before the subject, and whether the deed is told as one that begins: ``When ..., ``."""
+        if index == 0:
+            return "", False
+        if chain[index - 1].verb in (st.Verb.DRIVE, st.Verb.STAND):
+            items = self._items(deed.begins)
+            return (f"When {listed(items)}, ", True) if items else ("Then ", False)
+        moving = deed.verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)
+        at_rest = any(_is_standstill(each, deed.actor) for each in self.story.moments[deed.begins].conditions)
+        return "Then at once " if moving and at_rest else "Then ", False
+
+    # -- events, orders, holds ----------------------------------------------------------------------------------------
+    def event(self, moment: int) -> str:
+        """Return the words that a moment is known by."""
+        story = self.story
+        found = story.moments[moment]
+        for condition in found.conditions:
+            shared = sum(condition in each.conditions for each in story.moments) > 1
+            if isinstance(condition, st.Measure) and st.is_event(condition) and not shared:
+                stands = any(_is_standstill(each, condition.actor) for each in found.conditions)
+                return self.phrases.clause(condition, passing=not stands)
+        for deed in self.begun:
+            if deed.begins == moment and moment != st.START:
+                return f"{self.phrases.name(deed.actor)} begins to {DOES[deed.verb][1]}{self._time(deed)}"
+        for deed in self.begun:
+            if deed.ends == moment and (deed in self.ended or moment not in self.known):
+                self.ended.append(deed)
+                return f"{self.phrases.name(deed.actor)} finishes {DOES[deed.verb][2]}{self._time(deed)}"
+        for condition in found.conditions:
+            if isinstance(condition, st.Measure) and not any(condition in each.conditions for each in story.moments
+                                                          if each is not found):  # fmt: skip
+                return self.phrases.clause(condition)
+        raise untold("a moment that nothing tells from others")
+
+    def _time(self, deed: st.Deed) -> str:
+        """Return which time somebody does a deed, where it is not the first."""
+        same = [each for each in self.story.deeds_of(deed.actor) if each.verb == deed.verb]
+        number = same.index(deed)
+        if number >= len(ORDINALS):
+            raise untold("so many deeds of one kind")
+        return "" if number == 0 else f" for the {ORDINALS[number]} time"
+
+    def _order(self, order: st.Order) -> None:
+        if st.START in (order.first, order.second):
+            if order.first != st.START or order.margin is None:
+                raise untold("what comes before the start")
+            self.told.append(sentence(f"{self.event(order.second)} {bounded(order.op, order.margin)} after the start"))
+        elif order.margin is not None:
+            margin = bounded(order.op, order.margin)
+            self.told.append(sentence(f"{self.event(order.second)} {margin} after {self.event(order.first)}"))
+        else:
+            link = "before" if order.op == ">" else "no later than"
+            self.told.append(sentence(f"{self.event(order.first)} {link} {self.event(order.second)}"))
+        for moment in (order.first, order.second):
+            self._introduce(moment)
+
+    def _hold(self, hold: st.Hold) -> None:
+        start, end = self._point(hold.start, False), self._point(hold.end, True)
+        self.told.append(f"From {start} until {end}, {hold.how}: {self.phrases.clause(hold.condition)}.")
+
+    def _point(self, point: st.Point, is_end: bool) -> str:
+        event = "the start" if point.moment == st.START else self.event(point.moment)
+        if point.offset is None:
+            return event if is_end or point.moment == st.START else f"when {event}"
+        return f"{amount(point.offset)} {'before' if point.earlier else 'after'} {event}"
+
+
+def _rate(deed: st.Deed) -> tuple[st.Measure | None, tuple[st.Measure, ...]]:
+    """Return the rate that a deed is told with, and what else holds all the while."""
+    slowing = _RATES.get(st.Verb(deed.verb))
+    own = (each for each in deed.throughout if each.quantity is st.Quantity.RATE and each.opposite is slowing)
+    rate = next(own, None)
+    return rate, tuple(each for each in deed.throughout if each is not rate)
+
+
+def _is_standstill(condition: st.Condition, actor: int) -> bool:
+    return condition == st.Measure(actor, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s"))
+
+
+def _is_told(parameter: Parameter, story: st.Story) -> bool:
+    declared = parameter.value is not None or parameter.low is not None or parameter.high is not None
+    return declared or parameter.name not in {each.name for each in amounts_of(story)}
+
+
+def _parameter(parameter: Parameter) -> str:
+    unit = parameter.unit.symbol
+    text = f"{parameter.name} is {'open' if parameter.value is None else f'{format_fraction(parameter.value)} {unit}'}"
+    if parameter.low is not None or parameter.high is not None:
+        low, high = (format_fraction(bound) for bound in parameter.bounds())
+        text += f", from {low} {unit} to {high} {unit}"
+    return f"Parameter {text}."

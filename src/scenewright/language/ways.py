@@ -1,0 +1,116 @@
+"""Puts the ways of a story on a map: whole routes where one fits the partial facts, questions where several do.
+
+What enters: a `Story` and a `RoadMap`. What leaves: the story with the ways that its map leaves, who is ahead of whom
+as a condition at the start, and a question with all ways that fit where there are more than one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from fractions import Fraction
+
+from scenewright.errors import TranslationError
+from scenewright.language import story as st
+from scenewright.language.compile import COMPASS, route_of
+from scenewright.language.phrases import Phrases
+from scenewright.program.types import HeadingsRoute, LanesRoute
+from scenewright.roads.model import RoadMap
+from scenewright.roads.routes import Route, all_routes, find_routes
+
+# How somebody's way begins against another's, in quarters of the compass to the right of it.
+BEARINGS = {"oncoming": 2, "from the left": 1, "from the right": 3, "ahead": 0, "behind": 0, "same way": 0}
+
+
+def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | None = None) -> st.Story:
+    """Return `story` with whole ways.
+
+    Raises
+    ------
+    TranslationError
+        Where no way on the map fits what is said of somebody.
+    """
+    fitting = {actor.id: _fitting(actor, road_map) for actor in story.actors}
+    for _ in story.actors:  # what one relation leaves may decide another
+        for actor in story.actors:
+            for relation in actor.relations:
+                _keep_related(fitting, actor.id, relation)
+    phrases, questions = Phrases(story), list(story.questions)
+    for actor in story.actors:
+        found = list(dict.fromkeys(_way(route, road_map) for route in fitting[actor.id]))
+        if not found:
+            there_are = "; ".join(dict.fromkeys(str(route) for route in all_routes(road_map)))
+            raise TranslationError(
+                f"no way on {road_map.name} fits what is said of {phrases.name(actor.id)}",
+                found=phrases.way(actor.way),
+                expected=f"one of: {there_are}",
+            )
+        if len(found) > 1:
+            question = _which(actor, found, phrases)
+            told = (answers or {}).get(question.slot, "")
+            if told not in question.alternatives:
+                questions.append(question)
+                told = question.alternatives[question.default or 0]
+            found = [found[question.alternatives.index(told)]]
+        relations = tuple(each for each in actor.relations if each.kind not in BEARINGS)
+        settled = replace(actor, way=found[0], relations=relations)
+        others = tuple(settled if each.id == actor.id else each for each in story.actors)
+        story = _in_line(replace(story, actors=others), actor)
+    return replace(story, questions=tuple(questions))
+
+
+def _fitting(actor: st.Actor, road_map: RoadMap) -> list[Route]:
+    way, route = actor.way, route_of(actor.way)
+    if isinstance(route, HeadingsRoute):
+        return list(find_routes(road_map, headings=route.headings))
+    if isinstance(route, LanesRoute):
+        return list(find_routes(road_map, lanes=route.lanes))
+    kinds = find_routes(road_map, origin_kind=route.origin, destination_kind=route.destination, turn=route.turn)
+    ends = find_routes(road_map, origin_heading=way.heading, destination_heading=way.destination_heading)
+    return [each for each in kinds if each in ends]
+
+
+def _keep_related(fitting: dict[int, list[Route]], actor: int, relation: st.Relation) -> None:
+    """Leave only the ways of both that lie as the relation says to some way of the other."""
+    quarters = BEARINGS.get(relation.kind)
+    if quarters is None:
+        return
+
+    def lies(own: Route, other: Route) -> bool:
+        return (COMPASS.index(own.headings[0]) - COMPASS.index(other.headings[0])) % 4 == quarters
+
+    mine, others = fitting[actor], fitting[relation.of]
+    fitting[actor] = [own for own in mine if any(lies(own, other) for other in others)]
+    fitting[relation.of] = [other for other in others if any(lies(own, other) for own in mine)]
+
+
+def _way(route: Route, road_map: RoadMap) -> st.Way:
+    """Return the shortest facts that this route alone meets."""
+    if len(find_routes(road_map, headings=route.headings)) > 1:
+        return st.Way(lanes=route.lanes)
+    heading, turn = route.headings[0], str(route.turn)
+    plain = st.Way(heading=heading, turn=turn)
+    same = isinstance(made := route_of(plain), HeadingsRoute) and made.headings == route.headings
+    return plain if same else st.Way(headings=route.headings)
+
+
+def _which(actor: st.Actor, found: list[st.Way], phrases: Phrases) -> st.Question:
+    straight = next((number for number, way in enumerate(found) if way.turn == "straight"), 0)
+    alternatives = tuple(phrases.way(way) for way in found)
+    asked = f"Which way does {phrases.name(actor.id)} go?"
+    return st.Question(f"way of {actor.name}", asked, alternatives, straight, actor.quote)
+
+
+def _in_line(story: st.Story, actor: st.Actor) -> st.Story:
+    """Let who is said to be ahead or behind be so at the start."""
+    start = story.moments[st.START]
+    added = []
+    for relation in actor.relations:
+        if relation.kind in ("ahead", "behind"):
+            rear, front = (relation.of, actor.id) if relation.kind == "ahead" else (actor.id, relation.of)
+            told = [each for each in start.conditions if isinstance(each, st.Measure) and each.other == front]
+            if all((each.actor, each.quantity) != (rear, st.Quantity.GAP) for each in told):
+                zero = st.Amount(Fraction(0), "m")
+                added.append(st.Measure(rear, st.Quantity.GAP, ">", zero, other=front, quote=relation.quote))
+    moments = (replace(start, conditions=(*start.conditions, *added)), *story.moments[1:])
+    return replace(story, moments=moments)

@@ -1,0 +1,168 @@
+"""The reader: ordinary variation means the same, and what carries meaning is used up, asked about or refused."""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+from pathlib import Path
+
+import pytest
+from changes import changes
+from random_stories import told_stories
+
+from scenewright.errors import ScenewrightError, TranslationError, UnknownWordsError
+from scenewright.language import story as st
+from scenewright.language.compile import compile_story
+from scenewright.language.read.sentences import read
+from scenewright.language.tell import tell
+from scenewright.language.understand import translate
+from scenewright.program.printer import print_expression
+from scenewright.program.types import HeadingsRoute
+
+WAYS = "The ego is headed south and turns left. The hero is headed west and goes straight on. "
+PLAIN = WAYS + (
+    "At the start, the ego drives at 5 m/s. When the ego is 12 m before the stop line and the hero is 20 m before the "
+    "conflict point, the hero begins to brake at 3 m/s^2 until it stands 5 m before the conflict point. Then the hero "
+    "stands still for 2 s. Then the hero speeds up until it passes the conflict point. The hero passes the conflict "
+    "point before the ego begins to turn."
+)
+VARIED = (
+    ("At the start, the ego drives at 5 m/s.", "Initially the ego is doing 5 m/s."),
+    ("At the start, the ego drives at 5 m/s.", "The ego drives at a speed of 5 m/s."),
+    ("the ego is 12 m before the stop line", "the AV is 12 metres short of the stop line"),
+    ("the ego is 12 m before the stop line", "the SUT is twelve meters from its stop line"),
+    ("the ego is 12 m before the stop line", "the ego's distance to the stop line is 12 m"),
+    ("the hero is 20 m before the conflict point,", "the POV is 20 m away from the conflict point,"),
+    ("the hero begins to brake at 3 m/s^2 until it stands 5 m before the conflict point",
+     "the hero decelerates at 3 m/s2 to a complete stop 5 m short of the conflict point"),
+    ("the hero begins to brake at 3 m/s^2 until it stands 5 m before the conflict point",
+     "the hero brakes at a rate of 3 m/s^2, coming to a standstill 5 m before the conflict point"),
+    ("the hero begins to brake at 3 m/s^2 until it stands 5 m before the conflict point",
+     "the hero brakes at 3 m/s^2 and stops just before the conflict point"),
+    ("Then the hero stands still for 2 s. Then the hero speeds up", "It waits for 2 s. It then accelerates"),
+    ("Then the hero speeds up until it passes the conflict point.",
+     "Then the hero accelerates to pass the conflict point."),
+    ("The hero passes the conflict point before the ego begins to turn.",
+     "The ego begins to turn after the hero passes the conflict point."),
+    ("until it passes the conflict point. The hero passes the conflict point before",
+     "to pass the conflict point before"),
+)  # fmt: skip
+REFUSED = (  # what is said after the ways, and a word of it that the message names
+    ("When the time to collision is 2.5 s, the hero begins to brake.", "collision"),
+    ("When the ego is 12 from the stop line, the hero begins to brake.", "12"),
+    ("When the ego is 12 kg before the stop line, the hero begins to brake.", "kg"),
+    ("When the ego is 12 m/s from the stop line, the hero begins to brake.", "stop line"),
+    ("The hero does not brake.", "does"),
+    ("The hero brakes not.", "not"),
+    ("The ego brakes.", "ego"),
+    ("The ego goes first.", "first"),
+    ("The hero brakes to a stop. The hero is 5 m before the conflict point.", "when"),
+    ("When the hero begins to stand still, the hero begins to brake.", "stand still"),
+    ("The hero brakes until it stands for a while.", "condition"),
+    ("When the ego is 20 m behind the hero and the hero brakes, the hero speeds up.", "told"),
+    ("The hero brakes at 8 m/s.", "fast"),
+)
+
+
+def read_or_error(text: str) -> tuple[st.Story | None, TranslationError | None]:
+    try:
+        return read(text), None
+    except TranslationError as error:
+        return None, error
+
+
+@pytest.mark.parametrize(("plain", "varied"), VARIED, ids=[varied[:40] for _, varied in VARIED])
+def test_ordinary_variation_means_the_same(plain: str, varied: str) -> None:
+    assert plain in PLAIN
+    story = read(PLAIN.replace(plain, varied))
+    assert not story.questions
+    assert st.arranged(story) == st.arranged(read(PLAIN))
+
+
+@pytest.mark.parametrize(("text", "named"), REFUSED, ids=[text[:40] for text, _ in REFUSED])
+def test_what_cannot_be_read_is_refused_or_asked_in_the_words_of_the_text(text: str, named: str) -> None:
+    story, error = read_or_error(WAYS + text)
+    if error is not None:
+        assert named in f"{error.message} {error.found}"
+        quoted = re.match(r"'([^']+)' could not", error.message)
+        assert quoted is None or quoted[1] in WAYS + text
+    else:
+        assert story is not None
+        assert any(question.default is None and named in question.text for question in story.questions)
+
+
+def test_a_message_has_its_place() -> None:
+    with pytest.raises(UnknownWordsError) as caught:
+        read(WAYS + "The hero brakes not.")
+    assert str(caught.value).startswith("description:1:91:")
+
+
+def test_what_is_no_part_of_the_scenario_is_set_aside_and_listed() -> None:
+    story = read(f"Hello world!\n{PLAIN}\nLorem ipsum dolor.")
+    assert [aside.text for aside in story.asides] == ["Hello world", "Lorem ipsum dolor"]
+    assert st.arranged(story) == st.arranged(read(PLAIN))
+
+
+def test_quotes_are_the_very_words() -> None:
+    for moment in read(PLAIN).moments:
+        for condition in moment.conditions:
+            assert condition.quote is not None
+            assert PLAIN[condition.quote.start : condition.quote.end] == condition.quote.text
+
+
+def test_brakes_alone_is_to_a_standstill_and_told_as_assumed() -> None:
+    story = read(WAYS + "The hero brakes.")
+    assert story.assumptions == ("hero brakes to a standstill",)
+    assert len(story.moments[1].conditions) == 1
+
+
+def test_who_stops_and_goes_on_has_stood_in_between() -> None:
+    story = read(WAYS + "The hero brakes to a stop. Then it speeds up until it drives at 5 m/s.")
+    assert [deed.verb for deed in story.deeds] == ["brake", "stand still", "speed up"]
+    at_once = read(WAYS + "The hero brakes to a stop. Then at once it speeds up until it drives at 5 m/s.")
+    assert [deed.verb for deed in at_once.deeds] == ["brake", "speed up"]
+
+
+def test_a_speed_that_is_kept_is_kept_until_the_first_deed() -> None:
+    for said in ("It drives at 60 km/h and keeps its speed.", "It drives at a constant 60 km/h.", "It keeps 60 km/h."):
+        story = read(f"{WAYS}{said} When the ego is at the stop line, the hero brakes to a stop.")
+        assert story.moments[0].conditions == story.deeds[0].throughout
+        assert story.deeds[0].verb == "drive on"
+    with pytest.raises(TranslationError, match="which speed is kept"):
+        read(WAYS + "It keeps its speed.")
+
+
+def test_a_text_without_an_ego_is_refused() -> None:
+    with pytest.raises(TranslationError, match="who is under test"):
+        read("The hero brakes to a stop.")
+
+
+def test_every_change_of_meaning_is_noticed() -> None:
+    """Of what the teller wrote: one word exchanged changes the story, is asked about, or is refused."""
+    for _, lines in told_stories(12):
+        text = "\n".join(lines)
+        base = st.arranged(read(text))
+        for what, changed in changes(text):
+            try:
+                story = read(changed)
+            except ScenewrightError:
+                continue
+            assert story.questions or st.arranged(story) != base, f"{what}\n{changed}"
+
+
+def test_the_descriptions_of_the_paper(shared_dir: Path) -> None:
+    """All 20, against what a person reads in them."""
+    sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "translate"))
+    from test_paper import ORACLE
+
+    texts = json.loads((shared_dir / "paper" / "descriptions-dev.json").read_text(encoding="utf-8"))
+    assert len(texts) == 20
+    for entry in texts:
+        expected, program = ORACLE[entry["id"]], translate(entry["text"])
+        formulas = {print_expression(constraint.formula) for constraint in program.constraints}
+        assert formulas == {*expected.initial, *expected.trigger, *expected.then, "A0(t1) == A1(t1)"}
+        routes = ["".join(a.route.headings) for a in program.actors if isinstance(a.route, HeadingsRoute)]
+        assert routes == [expected.ego, expected.hero]
+        assert " ".join(program.actor(1).sketch.pieces) == expected.pieces
+        assert compile_story(read("\n".join(tell(st.arranged(read(entry["text"])))))) is not None

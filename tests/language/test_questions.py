@@ -1,0 +1,70 @@
+"""Questions, not guesses: as data, answered from a file, strict, and the same again with the same answers."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from scenewright.errors import InputError, TranslationError
+from scenewright.language.questions import as_data, defaults_of, read_answers
+from scenewright.language.read.sentences import read
+from scenewright.language.understand import understand
+
+TEXT = "The ego is headed west. The hero is headed east and turns left. The hero brakes at 3 m/s^2."
+UNKNOWN = "The ego is headed west and goes straight on. The hero turns left. The hero zonks and brakes to a stop."
+
+
+def test_a_default_is_taken_and_told() -> None:
+    story = understand(TEXT)
+    (question,) = as_data(story.questions)
+    assert question["default"] in question["alternatives"]
+    assert question["words"] == "ego"
+    assert defaults_of(story) == {"way of ego": question["default"]}
+    assert understand(TEXT, answers=defaults_of(story)) == story
+    assert not understand(TEXT, answers=defaults_of(story)).questions
+
+
+def test_strict_refuses_what_is_open() -> None:
+    with pytest.raises(TranslationError, match="leaves something open") as caught:
+        understand(TEXT, strict=True)
+    assert "Which way does the ego go?" in (caught.value.found or "")
+
+
+def test_a_word_that_nobody_knows_must_be_answered() -> None:
+    with pytest.raises(TranslationError, match="leaves something open") as caught:
+        understand(UNKNOWN)
+    assert "What is 'zonks'?" in (caught.value.found or "")
+    story = read(UNKNOWN, {f"word {UNKNOWN.index('zonks')}": "set it aside"})
+    assert (len(story.questions), len(story.deeds)) == (0, 1)
+
+
+def test_a_typing_error_is_asked_about_with_the_word_it_may_be() -> None:
+    text = "The ego comes from the drivway and turns left. The hero brakes to a stop."
+    (question,) = read(text).questions
+    assert ("it means 'driveway'" in question.alternatives, question.default) == (True, None)
+    assert read(text, {question.slot: "it means 'driveway'"}).actors[0].way.origin == "driveway"
+
+
+def test_who_it_is_may_be_asked() -> None:
+    text = "The ego has an open way. When the truck is 20 m behind the van, it begins to brake until it stands."
+    (question,) = read(text).questions
+    assert question.alternatives == ("truck", "van")
+    truck, van = (read(text, {question.slot: who}) for who in question.alternatives)
+    assert [truck.deeds[-1].actor, van.deeds[-1].actor] == [1, 2]
+
+
+def test_an_answer_that_is_none_is_refused() -> None:
+    with pytest.raises(InputError, match="this is no answer"):
+        understand(TEXT, answers={"way of ego": "upwards"})
+
+
+def test_answers_from_a_file(tmp_path: Path) -> None:
+    path = tmp_path / "answers.json"
+    path.write_text(json.dumps({"way of ego": "is headed west and turns right"}), encoding="utf-8")
+    assert understand(TEXT, answers=read_answers(path)).actors[0].way.turn == "right"
+    for wrong in ("[1]", '{"a": 1}', "{"):
+        path.write_text(wrong, encoding="utf-8")
+        with pytest.raises(InputError):
+            read_answers(path)
