@@ -49,6 +49,14 @@ def test_the_distance_tells_who_is_ahead(distance: str, ahead: bool) -> None:
     assert clearance.ahead is ahead
 
 
+@pytest.mark.parametrize(("ego_m", "hero_m", "ahead"), [(100, 120, True), (120, 100, False), (100, 103, None)])
+def test_places_of_both_tell_it_too(ego_m: int, hero_m: int, ahead: bool | None) -> None:
+    """Unless the program wants them nearer than anybody keeps."""
+    clearance = clearance_of(scene_with(f"A0x(t1) == {ego_m}\nA1x(t1) == {hero_m}"))
+    assert (None if clearance is None else clearance.ahead) is ahead
+    assert clearance is None or not clearance.of_distance
+
+
 def test_who_only_crosses_need_not_keep_clear() -> None:
     assert clearance_of(YIELDS.scene()) is None
 

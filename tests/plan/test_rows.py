@@ -52,8 +52,7 @@ def moved(problem: Problem, z: Array, **by: float) -> Array:
 def test_a_row_has_its_weight_and_what_is_unpleasant_counts_beyond_zero_only() -> None:
     rows = Rows()
     rows.add(2.0, np.array([1.0, -1.0]), 3.0, most=5.0)
-    rows.beyond(-0.1, np.array([1.0, 0.0]), 3.0)
-    rows.beyond(0.5, np.array([1.0, 0.0]), 2.0)
+    rows.beyond(np.array([-0.1, 0.5]), np.array([[5.0, 5.0], [1.0, 0.0]]), 2.0)
     assert rows.values == [6.0, 1.0]
     assert [slope.tolist() for slope in rows.slopes] == [[3.0, -3.0], [2.0, 0.0]]
     assert rows.most == [5.0, float("inf")]

@@ -5,9 +5,10 @@ from __future__ import annotations
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from many_heroes import PROGRAMS
 
 from scenewright.motion.profile import Profile, chain
-from scenewright.plan.triggers import SHORTEST_LEAD_S, TriggerTimes
+from scenewright.plan.triggers import SHORTEST_LEAD_S, TriggerTimes, adapts_until
 from scenewright.program.structure import read_structure
 from scenewright.program.text import parse_program
 from scenewright.program.types import EGO, Actor
@@ -130,3 +131,12 @@ def test_a_knot_at_a_place_that_is_behind_the_ego_is_passed_with_the_one_before(
     beyond = Profile(chain(NOW_S, found.scene.landmark_m(EGO, "turn_start") + 2.0, 5.0, [(60.0, 0.0, 0)]))
     knots = found.ego_knots_s(NOW_S, beyond, {"t0": 0.0, "t1": 4.0}, {})
     assert knots["t2"] == NOW_S
+
+
+def test_who_hangs_on_a_hero_that_adapts_adapts_until_then() -> None:
+    """In a chain all adapt, each until its own knot; who hangs on nobody with a trigger does not."""
+    text = PROGRAMS["chain"](3).replace(
+        "Constraints:", "Actor 4 (alone):\n- E\n- [t0, go, t1, dec, t2]\n\nConstraints:"
+    )
+    program = parse_program(text + "A4(t1) == 5 s\n")
+    assert adapts_until(program, read_structure(program)) == {1: "t1", 2: "t1", 3: "t1"}

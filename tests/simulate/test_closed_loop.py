@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from many_heroes import PROGRAMS, drive
 
 from scenewright.judge.tolerance import TIGHT
 from scenewright.plan.planner import GOOD
@@ -172,3 +173,14 @@ def test_hero_that_stands_decides_anew_when_to_go() -> None:
         going = [r.status for r in run.replans if r.time_s > knots["t3"] + TICK_S]
         assert "frozen" not in standing
         assert set(going) == {"frozen"}
+
+
+def test_a_run_goes_on_while_anybody_may_still_do_what_is_asked() -> None:
+    """One that only drives is at the end of its route long before the other brakes."""
+    leaves = "Actor 2 (leaves):\n- E\n- [t0, go, t1]\n\nConstraints:"
+    driven = drive(PROGRAMS["crossing"](1).replace("Constraints:", leaves) + "A2x(t0) == route_end - 40\n", "idm")
+    ends_m = driven.scene.routes[2].landmarks["route_end"]
+    traces = driven.run.trace.actors
+    left_s = traces["leaves"].time_s[traces["leaves"].s_m > ends_m][0]
+    assert driven.verdict.facts["trigger_time_s"]["car1"] > left_s
+    assert driven.met == 2

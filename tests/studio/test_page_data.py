@@ -120,13 +120,10 @@ def test_what_came_of_it_is_in_the_words_of_the_judge(run_dir: Path, edit: Edit)
     assert collect(run_dir)["aftermath"] is None, "a verdict of an earlier version does not tell"
 
 
-def test_facts_are_flattened_with_units(run_dir: Path) -> None:
-    facts = {label: (value, unit) for label, value, unit in collect(run_dir)["facts"]}
-    assert facts["ego, hero: min distance"] == ("5.4322", "m")
-    assert facts["ego, hero: collision time"] == ("–", "")
-    assert facts["trigger time: hero"] == ("4", "s")
-    assert facts["ego never met condition"] == ("no", "")
-    assert "who ego" in facts["closest"][0]
+def test_facts_are_sentences_with_their_moments(run_dir: Path) -> None:
+    told = dict(collect(run_dir)["facts"])
+    assert told["The trigger of hero came at 4.00 s."] == 4.0
+    assert "Ego and hero came within 5.4 m of each other, body to body, and never touched." in told
 
 
 def test_replans_are_summed_up(run_dir: Path) -> None:

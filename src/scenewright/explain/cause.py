@@ -115,6 +115,12 @@ def _planned_so(run: Run, hero: Actor, until_s: float) -> Finding:
     """Return what is left: it was planned so, though nothing stood against it."""
     planned = [tick for tick in run.replans if tick.foreseen is not None and tick.time_s < until_s]
     last = planned[-1] if planned else run.replans[0]
+    acts_s, end_s = max(run.last_plan.profiles[hero.id].knot_times_s.values()), run.trace.duration_s
+    if acts_s > end_s:
+        return Finding(
+            f"the run ended at {end_s:.1f} s, before {hero.name} was to have done all of it at {acts_s:.1f} s",
+            {"hero": hero.name, "end_s": end_s, "planned_s": acts_s},
+        )
     return Finding(
         f"no plan was found that does all that was asked of {hero.name}, though it was at no limit of its motion: the "
         f"last one, of {last.time_s:.1f} s, missed by {last.tolerance:.1f} tight tolerances",

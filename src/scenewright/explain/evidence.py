@@ -97,7 +97,7 @@ def foreseen_otherwise(world: World, run: Run, tick: Replan, until_s: float, *, 
     seen_m, seen_mps, _ = foreseen.state(then_s)
     drove_m, drove_mps = ego.position(then_s), ego.speed(then_s)
     off_m, off_mps = drove_m - seen_m, drove_mps - seen_mps
-    if not _is_off((seen_m, seen_mps, 0.0), ego, then_s) and abs(off_s) <= TIGHT.time_s:
+    if not _is_off((seen_m, seen_mps, 0.0), ego, then_s) and (planned_s > then_s or abs(off_s) <= TIGHT.time_s):
         return None
     times = np.arange(tick.time_s, then_s + 1e-9, _LOOKED_AT_S)
     left = (t for t in times.tolist() if _is_off(foreseen.state(t), ego, t))

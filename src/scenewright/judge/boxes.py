@@ -15,6 +15,9 @@ from scenewright.judge.tolerance import FloatArray
 from scenewright.trace.model import ActorTrace
 
 _HORIZON_S = np.arange(0.0, 8.0 + 1e-9, 0.1)
+# Between two samples a pose is no further from the straight line than this acceleration of any point of a box bends
+# it: more than brakes, bends and turns of the car about itself come to together. And into how many parts it is cut.
+_BENT_MPSS, _PARTS = 25.0, 40
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -87,6 +90,32 @@ def closest_m(a: MovingBox, b: MovingBox) -> tuple[float, int]:
     distances = distances_m(a.at(candidates), b.at(candidates))
     best = int(np.argmin(distances))
     return float(distances[best]), int(candidates[best])
+
+
+def surely_apart_m(a: ActorTrace, b: ActorTrace, boxes: tuple[Box, Box]) -> float:
+    """Return a distance (m) that two boxes keep at every moment of two traces, between their samples too.
+
+    No point of a box moves further than its centre and its turn carry it: between two moments the distance is at least
+    half of what it is at both together, less half of the way that both may come towards each other in between.
+    """
+    bound, nearest = _between_m(a, b, boxes, a.time_s)
+    close = np.flatnonzero(bound <= nearest)
+    steps = np.diff(a.time_s)
+    inside = a.time_s[close, None] + steps[close, None] * np.linspace(0.0, 1.0, _PARTS + 1)
+    fine = [_between_m(a, b, boxes, times)[0].min() for times in inside]
+    bent_m = 2.0 * _BENT_MPSS * float(steps.max(initial=0.0)) ** 2 / 8.0
+    return min([nearest, *map(float, fine)]) - bent_m
+
+
+def _between_m(a: ActorTrace, b: ActorTrace, boxes: tuple[Box, Box], times: FloatArray) -> tuple[FloatArray, float]:
+    """Return what the distance is at least between each two of some instants, and the least at the instants."""
+    one, other = (moving_box(states, box, times) for states, box in zip((a, b), boxes, strict=True))
+    apart = distances_m(one, other)
+    ways = [
+        np.hypot(np.diff(m.x_m), np.diff(m.y_m)) + np.abs(np.diff(m.heading_rad)) * m.box.reach_m()
+        for m in (one, other)
+    ]
+    return 0.5 * (apart[1:] + apart[:-1] - ways[0] - ways[1]), float(apart.min())
 
 
 def _corner_to_edge(points: FloatArray, polygon: FloatArray) -> FloatArray:

@@ -11,8 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import sparse
 
 from scenewright.plan.preferences import preferences_of
+from scenewright.plan.triggers import adapts_until
 from scenewright.program.structure import Structure, actors_of, knots_of
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
@@ -49,6 +51,7 @@ class Asked:
 
     def __init__(self, scene: Scene, structure: Structure, limits: Mapping[int, Limits]) -> None:
         self.scene, self.structure, self.limits = scene, structure, limits
+        self.adapts_until = adapts_until(scene.program, structure)
         self.wanted = preferences_of(scene.program.manner)
         self.events = Events(scene, limits, EgoBounds())
         self.lowering = Lowering(self.events)
@@ -62,6 +65,8 @@ class Asked:
         self._formulas = Compiled(
             [each.formula for each in lowered] + [rule for rule, _ in self.events.rules], self.size
         )
+        self.events.learn_from(each.formula for each in lowered)
+        self.least_s = self.events.least_differences()  # how much later each instant is at least than another
         self.narrowings = tuple(self.lowering.narrowings)
         self.times = [number_of(time) for time in self.events.times]
         self._scale = np.array([*(TIGHT[unknown.kind] for unknown in self.events.unknowns), 0.0])
@@ -90,8 +95,8 @@ class Asked:
         return self.events.knot(actor, name)
 
     def trigger(self, hero: int) -> int | None:
-        """Return the instant of a hero's trigger; None where it has none."""
-        name = self.structure.trigger_knot(hero)
+        """Return the instant of a hero's trigger, or of what hangs on another's; None where it has none."""
+        name = self.adapts_until.get(hero)
         return None if name is None else self.knot(hero, name)
 
     def rows(self, point: Array, slopes: Array) -> Iterator[Row]:
@@ -111,7 +116,7 @@ class Asked:
             speed_mps = max(float(point[speed]), self.wanted.moves_mps)
             norms[k] = TIGHT["time"] * speed_mps * max(abs(float(gradients[k, place])), 1e-9)
         levels, equal = values / norms, self._formulas.equal
-        changes = np.einsum("ij,jk->ik", gradients, slopes, optimize=False) / norms[:, None]
+        changes = (sparse.csr_array(gradients) @ slopes) / norms[:, None]
         missed = np.where(equal, np.abs(levels), levels)
         # An alternative that does not hold is none where nothing that is still to be planned changes it.
         settled = (missed > 0.0) & ~np.any(changes != 0.0, axis=1)

@@ -12,25 +12,32 @@ from dataclasses import dataclass
 from scenewright.program.expressions import Derived, walk
 from scenewright.program.structure import Structure
 from scenewright.program.types import EGO, Actor
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
 
+# Between the centres of two on one lane, before a trigger.
+LEAST_GAP_M = VEHICLE_LENGTH_M + 1.5
 # A difference of places may depend on speeds too: what people drive in town tells the side.
 _TYPICAL_MPS = 10.0
 
 
 @dataclass(frozen=True, slots=True)
 class Clearance:
-    """Whether the hero is ahead, and what to add to its arc length to compare it with the ego's (m)."""
+    """Whether the hero is ahead, and what to add to its arc length to compare it with the ego's (m).
+
+    And whether the trigger speaks of the distance itself, or tells the place of each.
+    """
 
     ahead: bool
     offset_m: float
+    of_distance: bool = True
 
     @classmethod
     def of(
         cls, scene: Scene, structure: Structure, conditions: Sequence[LinearCondition], hero: Actor
     ) -> Clearance | None:
-        """Return it for a hero whose trigger speaks of the distance between the two on their lane, else None."""
+        """Return it for a hero whose trigger tells the distance between the two on their lane, else None."""
         conflict = scene.conflict(EGO, hero.id)
         if conflict is None or conflict.kind != "following":
             return None
@@ -45,6 +52,12 @@ class Clearance:
             gap_m = _gap_m(condition, hero.id, offset_m)
             if gap_m is not None:
                 return cls(gap_m > 0.0, offset_m)
+        alone = [c for c in conditions if c.moments <= instant and len(c.weights) == 1]
+        places_m = {actor: -c.constant / w[0] for c in alone for actor, w in c.weights.items() if w[0] and not w[1]}
+        if {EGO, hero.id} <= set(places_m):
+            gap_m = places_m[hero.id] + offset_m - places_m[EGO]
+            if abs(gap_m) >= LEAST_GAP_M:
+                return cls(gap_m > 0.0, offset_m, of_distance=False)
         return None
 
 

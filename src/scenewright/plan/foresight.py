@@ -55,6 +55,10 @@ class Foresight:
                 self._on_lane[hero.id] = clearance
 
     @property
+    def _distances(self) -> dict[int, Clearance]:
+        return {hero: lane for hero, lane in self._on_lane.items() if lane.of_distance}
+
+    @property
     def is_sure(self) -> bool:
         """Whether it drives as foreseen, as its policy promises."""
         return isinstance(self.predictor, ConstantSpeed)
@@ -67,7 +71,7 @@ class Foresight:
     @property
     def leaders(self) -> dict[int, Clearance]:
         """The heroes that drive ahead of it, where it is not known to hold its speed."""
-        return {} if self.is_sure else {hero: lane for hero, lane in self._on_lane.items() if lane.ahead}
+        return {} if self.is_sure else {hero: lane for hero, lane in self._distances.items() if lane.ahead}
 
     def foreseen(self, motions: Motions) -> Profile:
         """Return how it will go on while heroes move so."""
@@ -89,7 +93,7 @@ class Foresight:
             trigger_s = motions[hero].knot_times_s.get(self.structure.trigger_knot(hero) or "", time_s)
             if trigger_s > time_s:
                 found[hero] = self._answer(motions[hero], clearance, (time_s, trigger_s), prediction, first=first)
-        return Lanes(apart, found)
+        return Lanes(apart, found, frozenset(self._distances))
 
     def _answer(
         self, motion: Profile, clearance: Clearance, span_s: tuple[float, float], prediction: Profile, *, first: bool

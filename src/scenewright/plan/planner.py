@@ -9,10 +9,12 @@ from __future__ import annotations
 import time
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from itertools import product
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.asked import Asked
 from scenewright.plan.foresight import Foresight
+from scenewright.plan.pairs import Meeting, in_order, meetings_of
 from scenewright.plan.prediction import EgoSample, Predictor
 from scenewright.plan.problem import Missed, Problem
 from scenewright.plan.shooting import profile_of
@@ -31,8 +33,12 @@ _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
 # First plans are solved for from these speeds (shares of the natural one) and, where both decide, triggers (s): Newton
 # finds the nearest plan, not the best.
 _PACES, _JOINT_S = (0.8, 0.45, 0.25), (3.5, 6.0)
+# What a step has to gain for each further hero: the next tick goes on from there.
+_ENOUGH_EACH = 0.3
 # How often a first plan is solved for again with an ego that follows a hero and answers what that does.
 _AGAIN_LED = 16
+# How many meetings of heroes are turned at most, and what is clear enough (m^2, summed over times).
+_MOST_TURNS, _CLEAR_ENOUGH = 6, 0.02
 # A plan that misses no more than this (tight tolerances) does what was asked.
 GOOD = 0.2
 # A hero that was a little less than settled a moment ago was so from now on; how far back that is looked at (s).
@@ -74,12 +80,13 @@ class Attempt:
 
 @dataclass(frozen=True, slots=True)
 class _Found:
-    """A plan, how it was found, all its moments by instant, and what is no motion of it, by number."""
+    """A plan, how and for what problem it was found, all its moments by instant, and its other unknowns, by number."""
 
     plan: Plan
     solution: Solution
     moments_s: Mapping[int, float]
     others: Mapping[int, float]
+    problem: Problem
 
 
 @dataclass(slots=True)
@@ -113,6 +120,7 @@ class Planner:
     _moments_s: Mapping[int, float] = field(init=False, default_factory=dict)  # as in _Found, of the plan
     _others: Mapping[int, float] = field(init=False, default_factory=dict)
     _ego: Foresight = field(init=False)
+    _meetings: tuple[Meeting, ...] = field(init=False, default=())
     _joint_s: dict[int, float] = field(init=False, default_factory=dict)  # first planned, where both decide when
 
     def __post_init__(self) -> None:
@@ -129,14 +137,15 @@ class Planner:
         self.ego_knots_s = {self.scene.program.ego.sketch.knots[0]: 0.0}
         prediction = self.predictor.predict([ego])
         joint = any(self._trigger(hero) is not None and not self._ego_decides(hero) for hero in self._heroes)
-        tries = [
-            self._planned_first(prediction, joint_s, self._even_motions(prediction, joint_s, pace))
-            for joint_s in (_JOINT_S if joint else (0.0,))
-            for pace in _PACES
-        ]
+        tries: list[_Found] = []
+        for joint_s, pace in product(_JOINT_S if joint else (0.0,), _PACES):
+            tries.append(self._planned_first(prediction, joint_s, self._even_motions(prediction, joint_s, pace)))
+            if tries[-1].solution.cost < self._enough:
+                break
         best = min(tries, key=lambda found: found.solution.cost)
         self._keep(best)
         best = self._led(best) if self._ego.leaders else self._planned_first(prediction, 0.0, best.plan.profiles)
+        best = self._clear(best)
         self._keep(best)
         for hero in self._heroes:
             if (name := self._trigger(hero)) is not None:
@@ -157,10 +166,34 @@ class Planner:
 
         Of a longest step `trusted` is the share by which it may be off from them; 1 is no limit.
         """
-        problem = Problem(self._asked, self._first_situation(prediction, joint_s, guesses))
+        problem = Problem(self._asked, self._first_situation(prediction, joint_s, guesses), self._meetings)
         if trusted < 1.0:
             problem.keep_near(trusted)
-        return self._made(problem, solve(problem, problem.guess, _FIRST_STEPS), prediction)
+        return self._made(problem, solve(problem, problem.guess, _FIRST_STEPS, self._enough), prediction)
+
+    def _clear(self, best: _Found) -> _Found:
+        """Return a first plan in which heroes keep clear of each other, from one in which they need not.
+
+        Who goes first is taken from that; then the meeting is turned that is the dearest, where that makes it cheaper.
+        """
+        self._meetings = in_order(meetings_of(self.scene), self.scene, self.structure, best.plan.profiles)
+        if not self._meetings:
+            return best
+        self._keep(best)
+        guesses = best.plan.profiles
+        best = self._planned_first(guesses[EGO], 0.0, guesses)
+        for _ in range(_MOST_TURNS):
+            short, number = best.problem.dearest(best.solution.z)
+            if short < _CLEAR_ENOUGH:
+                break
+            kept = self._meetings
+            self._meetings = tuple(m.turned() if k == number else m for k, m in enumerate(kept))
+            trial = self._planned_first(guesses[EGO], 0.0, guesses)
+            if trial.solution.cost >= best.solution.cost:
+                self._meetings = kept
+                break
+            best = trial
+        return best
 
     def _led(self, best: _Found) -> _Found:
         """Return a first plan with an ego that answers it, from one without; where a step is too long it is halved."""
@@ -180,7 +213,7 @@ class Planner:
         """Return a first plan, and what it costs, with the ego that answers it: it was made with one that did not."""
         self._keep(found)
         foreseen = self._ego.foreseen(found.plan.profiles)
-        problem = Problem(self._asked, self._first_situation(foreseen, 0.0, found.plan.profiles))
+        problem = Problem(self._asked, self._first_situation(foreseen, 0.0, found.plan.profiles), self._meetings)
         return self._made(problem, solve(problem, problem.guess, 0), foreseen)
 
     def _even_motions(self, prediction: Profile, joint_s: float, pace: float) -> dict[int, Profile]:
@@ -227,7 +260,10 @@ class Planner:
             for name in actor.sketch.knots:
                 instant = self._asked.knot(actor.id, name)
                 if instant not in knots:
-                    expected.setdefault(instant, told.get(name, now + self._asked.wanted.lasts_s))
+                    soonest_s = [at_s + self._asked.least_s[known, instant] for known, at_s in knots.items()]
+                    chained = self._trigger(actor) is None and actor.id in self._asked.adapts_until
+                    usual_s = max([now + self._asked.wanted.lasts_s, *(soonest_s if chained else ())])
+                    expected.setdefault(instant, told.get(name, usual_s))
                 now = knots.get(instant, expected.get(instant, now))
         for instant, at_s in self._moments_s.items():
             if instant not in knots:
@@ -279,9 +315,9 @@ class Planner:
         else:
             prediction = self._ego.foreseen(self.plan.profiles)
             situation, moved_s = self._situation(time_s, prediction)
-            problem = Problem(self._asked, situation)
+            problem = Problem(self._asked, situation, self._meetings)
             steps = _TICK_STEPS + min(_MOST_STEPS_MORE, int(_STEPS_A_SECOND * moved_s))
-            solution = solve(problem, problem.guess, steps)
+            solution = solve(problem, problem.guess, steps, self._enough)
             self._keep(self._made(problem, solution, prediction))
             foreseen = self.plan.profiles[EGO]
             record = Replan(time_s, _status(solution), "daqp", 0.0, solution.missed.by, "", foreseen)
@@ -361,13 +397,10 @@ class Planner:
     def _made(self, problem: Problem, solution: Solution, prediction: Profile) -> _Found:
         """Return the plan that values stand for, with what was driven before it."""
         times = [moment.value(solution.z) for moment in problem.moments]
-        profiles: dict[int, Profile] = {}
+        profiles = {hero: drive.motion for hero, drive in problem.now.heroes.items()}
         for hero, shot in problem.shots(solution.z).items():
             sketch = self.scene.program.actor(hero).sketch
             drive = problem.now.heroes.get(hero)
-            if drive is not None and drive.piece >= len(sketch.pieces):
-                profiles[hero] = drive.motion
-                continue
             past = [] if drive is None else [
                 segment if segment.end_s <= drive.begin_s else segment.part(segment.start_s, drive.begin_s)
                 for segment in drive.motion.segments
@@ -380,12 +413,16 @@ class Planner:
         profiles[EGO] = Profile(prediction.segments, {name: times[self._asked.knot(EGO, name)] for name in names})
         parameters = {name: float(value) for name, value in self.scene.parameters.items()}
         plan = Plan(profiles, solution.missed.by, _status(solution), parameters)
-        return _Found(plan, solution, dict(enumerate(times)), problem.others(solution.z))
+        return _Found(plan, solution, dict(enumerate(times)), problem.others(solution.z), problem)
 
     # -- what is known ------------------------------------------------------------------------------------------------
     @property
     def _heroes(self) -> Iterable[Actor]:
         return self.scene.program.heroes
+
+    @property
+    def _enough(self) -> float:
+        return _ENOUGH_EACH * (len(self.scene.program.heroes) - 1)
 
     def _trigger(self, hero: Actor) -> str | None:
         return self.structure.trigger_knot(hero.id)
@@ -427,12 +464,12 @@ class Planner:
     def _open_piece(self, hero: Actor, time_s: float) -> int | None:
         """Return the piece from which on a hero is still solved for, or None once it only carries out.
 
-        Before its trigger that is the piece it is in. After it, pieces from the first standing one on that a reactive
-        constraint speaks of, up to the moment they have begun to move again.
+        Before its trigger (or what hangs on another's) that is the piece it is in. After it, pieces from the first
+        standing one on that a reactive constraint speaks of, up to the moment they have begun to move again.
         """
         times, sketch = self.plan.profiles[hero.id].knot_times_s, hero.sketch
         current = sum(1 for knot in sketch.knots[1:] if times.get(knot, float("inf")) <= time_s)
-        trigger = self._trigger(hero)
+        trigger = self._asked.adapts_until.get(hero.id)
         if trigger is None:
             return None
         if current < sketch.knot_index(trigger):

@@ -80,6 +80,11 @@ class Preferences:
     # On the ego's lane a distance that hardly changes cannot be told from what it is a moment later.
     plain_mps: float = 1.2
     plain_price: float = 2.0
+    # -- each other's way --------------------------------------------------------------------------------------------
+    # Between the boxes of two heroes, where their ways cross and in one lane; what a metre less costs.
+    clear_m: float = 0.6
+    clear_in_lane_m: float = 1.2
+    clear_price: float = 90.0
 
 
 def preferences_of(manner: Manner) -> Preferences:

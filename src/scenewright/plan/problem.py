@@ -6,15 +6,16 @@ are the times of moments that are not known, where a hero begins where that is f
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.motion.profile import Profile
 from scenewright.plan.asked import TIGHT, Asked, number_of
-from scenewright.plan.rows import SOONEST_S, HeroRows, Rows
+from scenewright.plan.pairs import AFTER_S, LOOK_S, Meeting, PairRows, Way, passes_s
+from scenewright.plan.rows import SOONEST_S, Columns, HeroRows, Rows
 from scenewright.plan.shooting import Leg, Moment, Shot, Start, shoot
 from scenewright.plan.situation import Situation
 from scenewright.program.types import EGO, Actor, PieceKind
@@ -25,6 +26,7 @@ _CELL_S, _MOST_CELLS, _AFTER_S = 0.6, 18, 3.0
 _LEAST_S = 0.05  # between two knots of one hero
 _LEAST_APPROACH_S = 0.4  # before the settled end of an approach, for it to have a leg of its own
 _LATEST_S, _FASTEST_MPS = 200.0, 60.0
+_BETWEEN_S = 2.0  # after one that goes first, where the other comes much later
 _STEP_S, _STEP_M, _STEP_MPS, _STEP_MPSS, _STEP_OTHER = 0.6, 40.0, 5.0, 3.0, 4.0
 
 
@@ -36,6 +38,16 @@ class Missed:
     late_s: float = -np.inf
 
 
+@dataclass(frozen=True, slots=True)
+class _Own:
+    """The unknowns that one hero's motion and rows depend on; its start, its legs and all moments by these."""
+
+    columns: Columns
+    start: Start
+    legs: list[Leg]
+    moments: list[Moment]
+
+
 class Problem:
     """The unknowns of one plan.
 
@@ -45,7 +57,7 @@ class Problem:
         Of each unknown: its first value, its bounds, and the longest step that a linear model of it is good for.
     """
 
-    def __init__(self, asked: Asked, now: Situation) -> None:
+    def __init__(self, asked: Asked, now: Situation, meetings: Sequence[Meeting] = ()) -> None:
         self.asked, self.now = asked, now
         self._guess: list[float] = []
         self._low: list[float] = []
@@ -55,9 +67,25 @@ class Problem:
         self._legs: dict[int, list[Leg]] = {}
         self._nodes: dict[int, dict[int, int]] = {}  # by hero: which leg begins at an instant
         self.moments = [self._moment(instant) for instant in range(len(asked.times))]
+        self._span: dict[int, range] = {}  # by hero: the unknowns that are its alone
         for hero in asked.scene.program.heroes:
-            self._lay_out(hero)
+            if not self._is_settled(hero):
+                first = len(self._guess)
+                self._lay_out(hero)
+                self._span[hero.id] = range(first, len(self._guess))
         self._others = self._rest()
+        self._shot: tuple[Array, dict[int, Shot]] | None = None
+        self._own = {hero: self._owned(hero) for hero in self._legs}
+        ends_s = [leg.last.value(self._guess) for legs in self._legs.values() for leg in legs]
+        end_s = max([now.time_s, *ends_s])  # from there on everybody holds its speed: gaps change evenly
+        looks = np.arange(np.ceil(now.time_s / LOOK_S), end_s / LOOK_S + 1.0) * LOOK_S
+        self._looks = np.append(looks, end_s + AFTER_S)
+        self._meetings = [each for meeting in meetings for each in self._open(meeting)]
+        self._driven = {
+            hero: Way(drive.motion).along(self._looks)
+            for hero, drive in now.heroes.items()
+            if self._meetings and hero not in self._legs
+        }
         self.guess, self.low, self.high, self.step = map(np.array, (self._guess, self._low, self._high, self._step))
 
     @property
@@ -83,6 +111,44 @@ class Problem:
         soonest = self.now.time_s + SOONEST_S if self.now.heroes else 0.0
         return Moment(0.0, self._new(guess, max(soonest, self.now.settled_s.get(instant, 0.0)), _LATEST_S, _STEP_S))
 
+    def _is_settled(self, hero: Actor) -> bool:
+        """Whether a hero only carries out what it drives."""
+        drive = self.now.heroes.get(hero.id)
+        return drive is not None and drive.piece >= len(hero.sketch.pieces)
+
+    def _owned(self, hero: int) -> _Own:
+        """Return what a hero's motion and rows depend on: all but what is other heroes' alone."""
+        asked, owners = self.asked, dict[int, set[int]]()
+        for actor, instant in asked.events.states:
+            owners.setdefault(instant, set()).add(actor)
+        for narrowing in asked.narrowings:
+            for instant in (*narrowing.begins(), *narrowing.ends()) if narrowing.actor == hero else ():
+                owners.setdefault(instant, set()).add(hero)
+        foreign = {unknown for other, span in self._span.items() if other != hero for unknown in span}
+        foreign |= {
+            moment.unknown
+            for instant, moment in enumerate(self.moments)
+            if moment.unknown is not None and not owners.get(instant, {EGO}) & {EGO, hero}
+        }
+        columns = [unknown for unknown in range(len(self._guess)) if unknown not in foreign]
+        number = {unknown: k for k, unknown in enumerate(columns)}
+
+        def own(unknown: int | None) -> int | None:
+            return None if unknown is None else number.get(unknown)
+
+        moments = {moment: replace(moment, unknown=own(moment.unknown)) for moment in self.moments}
+        legs = [
+            replace(
+                leg,
+                first=replace(leg.first, unknown=own(leg.first.unknown)),
+                last=replace(leg.last, unknown=own(leg.last.unknown)),
+                accels=tuple(number[accel] for accel in leg.accels),
+            )
+            for leg in self._legs[hero]
+        ]
+        start = replace(self._starts[hero], place=own(self._starts[hero].place), speed=own(self._starts[hero].speed))
+        return _Own(np.array(columns, dtype=np.intp), start, legs, [moments[moment] for moment in self.moments])
+
     def _rest(self) -> dict[int, int]:
         """Make an unknown of every one that is neither a time nor a state nor a rate; return which is which."""
         asked = self.asked
@@ -94,6 +160,29 @@ class Problem:
             for number, unknown in enumerate(asked.events.unknowns)
             if number not in known
         }
+
+    def _open(self, meeting: Meeting) -> Iterator[tuple[Meeting, int | None]]:
+        """Yield a meeting, and the unknown moment between the two, if anybody is still planned for it."""
+        if meeting.first not in self._legs and meeting.second not in self._legs:
+            return
+        left_s, enters_s = None, 0.0
+        if meeting.zones_m is not None:
+            left_s = passes_s(self._motion(meeting.first), meeting.zones_m[0][1])
+            enters_s = passes_s(self._motion(meeting.second), meeting.zones_m[1][0])
+            if left_s <= self.now.time_s:
+                meeting = replace(meeting, zones_m=None)
+        if meeting.zones_m is None and meeting.lane_m is None:
+            return
+        if meeting.zones_m is None or left_s is None or left_s > self._looks[-1]:
+            yield meeting, None
+            return
+        between_s = 0.5 * (left_s + min(enters_s, left_s + _BETWEEN_S))
+        yield meeting, self._new(between_s, self.now.time_s, _LATEST_S, _STEP_S)
+
+    def _motion(self, hero: int) -> Profile:
+        """Return what a hero drives or is first planned from."""
+        drive = self.now.heroes.get(hero)
+        return self.now.guesses[hero] if drive is None else drive.motion
 
     # -- legs ---------------------------------------------------------------------------------------------------------
     def _lay_out(self, hero: Actor) -> None:
@@ -206,8 +295,11 @@ class Problem:
         return z
 
     def shots(self, z: Array) -> dict[int, Shot]:
-        """Return everybody's motion."""
-        return {hero: shoot(legs, self._starts[hero], z) for hero, legs in self._legs.items()}
+        """Return the motions of all that are still planned; slopes are by their own unknowns."""
+        if self._shot is None or not np.array_equal(self._shot[0], z):  # they are often asked for twice
+            shots = {hero: shoot(own.legs, own.start, z[own.columns]) for hero, own in self._own.items()}
+            self._shot = z.copy(), shots
+        return self._shot[1]
 
     def rows(self, z: Array) -> tuple[Rows, Rows, Missed]:
         """Return residuals, rows that are to be at most zero, and what is missed."""
@@ -218,10 +310,25 @@ class Problem:
             moment = self.moments[instant]
             if moment.unknown is not None:
                 costs.add(moment.value(z) - planned_s, self._slope(moment), self.asked.wanted.punctual_weight)
-        for hero in self.asked.scene.program.heroes:
-            shot, nodes = shots[hero.id], self._nodes[hero.id]
-            HeroRows(self.asked, self.now, hero, shot, self.moments, nodes, costs, bounds).add_all()
+        for hero, shot in shots.items():
+            actor, own = self.asked.scene.program.actor(hero), self._own[hero]
+            costs.by = bounds.by = own.columns if len(own.columns) < self.size else None
+            HeroRows(self.asked, self.now, actor, shot, own.moments, self._nodes[hero], costs, bounds).add_all()
+        if self._meetings:
+            missed = replace(missed, by=max(missed.by, self._pairs(z, shots).add(bounds)))
         return costs, bounds, missed
+
+    def dearest(self, z: Array) -> tuple[float, int]:
+        """Return by how much the two that are worst too near each other are so (m^2), and which meeting it is."""
+        return self._pairs(z, self.shots(z)).dearest()
+
+    def _pairs(self, z: Array, shots: Mapping[int, Shot]) -> PairRows:
+        ways = {}
+        for hero in self.asked.scene.program.heroes:
+            drive, shot = self.now.heroes.get(hero.id), shots.get(hero.id)
+            motion = None if drive is None else drive.motion
+            ways[hero.id] = Way(motion) if shot is None else Way(motion, shot, self._own[hero.id].columns)
+        return PairRows(self._meetings, ways, self._looks, self._driven, self.asked.wanted, z)
 
     def _add_asked(self, z: Array, shots: Mapping[int, Shot], costs: Rows, bounds: Rows) -> Missed:
         wanted, tight_s = self.asked.wanted, TIGHT["time"]
@@ -279,14 +386,23 @@ class Problem:
         time_s, d_time = moment.value(z), self._slope(moment)
         if actor == EGO:
             return self._ego_state(instant, z, shots)
+        drive = self.now.heroes.get(actor)
+        if actor not in shots and drive is not None:
+            s_m, speed_mps, accel = drive.motion.state(time_s)
+            return s_m, speed_mps, speed_mps * d_time, accel * d_time
         leg = self._nodes[actor].get(instant)
         if leg is not None:
-            return shots[actor].at_node(shots[actor].first_node[leg])
-        drive = self.now.heroes.get(actor)
+            return self._of_all(actor, shots[actor].at_node(shots[actor].first_node[leg]))
         if drive is not None and time_s <= drive.begin_s:
             s_m, speed_mps, _ = drive.motion.state(time_s)
             return s_m, speed_mps, np.zeros(self.size), np.zeros(self.size)
-        return shots[actor].at(time_s, d_time)
+        return self._of_all(actor, shots[actor].at(time_s, d_time[self._own[actor].columns]))
+
+    def _of_all(self, hero: int, state: tuple[float, float, Array, Array]) -> tuple[float, float, Array, Array]:
+        """Return a hero's state with slopes by all unknowns."""
+        d_s, d_v = np.zeros(self.size), np.zeros(self.size)
+        d_s[self._own[hero].columns], d_v[self._own[hero].columns] = state[2:]
+        return *state[:2], d_s, d_v
 
     def _ego_state(self, instant: int, z: Array, shots: Mapping[int, Shot]) -> tuple[float, float, Array, Array]:
         """Return the ego's state as foreseen, and as it would answer heroes that do otherwise than then."""
@@ -316,7 +432,10 @@ class Problem:
         if actor == EGO:
             return self.now.ego(time_s)[2], np.zeros(self.size)
         drive = self.now.heroes.get(actor)
-        if drive is not None and time_s < drive.begin_s:
+        if drive is not None and (time_s < drive.begin_s or actor not in shots):
             return drive.motion.state(time_s)[2], np.zeros(self.size)
         last = self.asked.knot(actor, self.asked.scene.program.actor(actor).sketch.knots[-1])
-        return shots[actor].rate_at(time_s, before=instant == last)
+        rate, own_slope = shots[actor].rate_at(time_s, before=instant == last)
+        slope = np.zeros(self.size)
+        slope[self._own[actor].columns] = own_slope
+        return rate, slope

@@ -8,23 +8,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.plan.asked import Asked
+from scenewright.plan.clearance import LEAST_GAP_M
 from scenewright.plan.shooting import Leg, Moment, Shot
 from scenewright.plan.situation import Situation
 from scenewright.program.types import Actor, PieceKind
-from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.solve.proofs.narrowing import Narrowing
 
 Array = NDArray[np.float64]
+Columns = NDArray[np.intp]
 
 SOONEST_S = 0.02  # how soon after now a knot may come
 _ANY = float("inf")
-_APART_M = VEHICLE_LENGTH_M + 1.5  # between two on one lane, before a trigger
 _STILL_MPS = 0.1  # what is as bad as a tight tolerance for one that is to stand
 _FIRM = 20.0  # of a price: what no motion exceeds
 _TIGHT_SPEED, _TIGHT_RATE, _TIGHT_LENGTH, _TIGHT_TIME = 0.25, 0.25, 0.5, 0.1
@@ -35,22 +34,35 @@ _SENSE = {PieceKind.DEC: -1.0, PieceKind.ACC: 1.0}
 
 @dataclass(slots=True)
 class Rows:
-    """Values and slopes; `most` is from where on a row's cost grows evenly, not with the square."""
+    """Values and slopes; `most` is from where on a row's cost grows evenly, not with the square.
+
+    Slopes are by all unknowns, or by those only that `by` says when a row is added.
+    """
 
     values: list[float] = field(default_factory=list)
     slopes: list[Array] = field(default_factory=list)
     most: list[float] = field(default_factory=list)
+    columns: list[Columns | None] = field(default_factory=list)
+    by: Columns | None = None
 
     def add(self, value: float, slope: Array, weight: float = 1.0, most: float = _ANY) -> None:
         """Add one row."""
         self.values.append(weight * value)
         self.slopes.append(weight * slope)
         self.most.append(most)
+        self.columns.append(self.by)
 
-    def beyond(self, value: float, slope: Array, weight: float) -> None:
+    def add_all(self, values: Array, slopes: Array, weights: Array | float = 1.0, most: float = _ANY) -> None:
+        """Add a row for each value, with its slopes in a row."""
+        self.values.extend((weights * values).tolist())
+        self.slopes.extend(np.asarray(weights)[..., None] * slopes)
+        self.most.extend([most] * len(values))
+        self.columns.extend([self.by] * len(values))
+
+    def beyond(self, values: Array, slopes: Array, weight: float) -> None:
         """Add what is unpleasant only where it is greater than zero."""
-        if value > 0.0:
-            self.add(value, slope, weight)
+        over = values > 0.0
+        self.add_all(values[over], slopes[over], weight)
 
 
 @dataclass(slots=True)
@@ -102,14 +114,15 @@ class HeroRows:
             rate = float(shot.z[first.accels[0]]) - drive.motion.state(drive.begin_s)[2]
             self.costs.add(rate, self._unit((first.accels[0], 1.0)), wanted.change_weight)
         for number, leg in enumerate(shot.legs):
-            usual = self._usual_rate(leg)
-            for k, (one, other) in enumerate(pairwise(leg.accels)):
-                node = shot.first_node[number] + k
-                lasts = max(float(shot.time[node + 1] - shot.time[node]), 0.02)
-                a, b = float(shot.z[one]), float(shot.z[other])
-                self.costs.add(b - a, self._unit((one, -1.0), (other, 1.0)), 1.0 / (lasts**0.5 * wanted.jerk_mpsss))
-                mean = 0.5 * (a + b) - usual
-                self.costs.add(mean, self._unit((one, 0.5), (other, 0.5)), lasts**0.5 / wanted.accel_mpss)
+            if not leg.accels:
+                continue
+            cells, own = np.arange(leg.cells), np.array(leg.accels)
+            roots = np.maximum(np.diff(shot.time[shot.first_node[number] :][: leg.cells + 1]), 0.02) ** 0.5
+            change, mean = np.zeros((leg.cells, len(shot.z))), np.zeros((leg.cells, len(shot.z)))
+            change[cells, own[:-1]], change[cells, own[1:]] = -1.0, 1.0
+            mean[cells, own[:-1]], mean[cells, own[1:]] = 0.5, 0.5
+            self.costs.add_all(change @ shot.z, change, 1.0 / (roots * wanted.jerk_mpsss))
+            self.costs.add_all(mean @ shot.z - self._usual_rate(leg), mean, roots / wanted.accel_mpss)
 
     def _usual_rate(self, leg: Leg) -> float:
         """Return the rate of a piece that is no unpleasantness: what is usual, or what the program asks for."""
@@ -132,12 +145,11 @@ class HeroRows:
         wanted, caps = self.asked.wanted, self.asked.caps[self.hero.id]
         natural = self.asked.limits[self.hero.id].natural_approach_speed_mps
         (most, slope), (comfortable, other) = caps.at(self.shot.s)
-        for node in range(1, len(self.shot.time)):
-            _, v, d_s, d_v = self.shot.at_node(node)
-            self.bounds.add(-v, -d_v, _FIRM * wanted.price)
-            self.bounds.add(v - float(most[node]), d_v - slope[node] * d_s, _FIRM * wanted.price)
-            self.costs.beyond(v - float(comfortable[node]), d_v - other[node] * d_s, wanted.lateral_weight)
-            self.costs.beyond(v - natural, d_v, wanted.over_limit_weight)
+        v, d_s, d_v = self.shot.v[1:], self.shot.d_s[1:], self.shot.d_v[1:]
+        self.bounds.add_all(-v, -d_v, _FIRM * wanted.price)
+        self.bounds.add_all(v - most[1:], d_v - slope[1:, None] * d_s, _FIRM * wanted.price)
+        self.costs.beyond(v - comfortable[1:], d_v - other[1:, None] * d_s, wanted.lateral_weight)
+        self.costs.beyond(v - natural, d_v, wanted.over_limit_weight)
 
     # -- manner -------------------------------------------------------------------------------------------------------
     def _pieces(self) -> None:
@@ -222,18 +234,20 @@ class HeroRows:
             # Nobody begins within a junction, unless the program puts it there.
             self.bounds.add(shot.s[0] - begins_m, shot.d_s[0], wanted.out_of_way_price, wanted.out_of_way_most)
         run_up_m, d_run_up = v_there**2 / (2.0 * wanted.sets_off_mpss), v_there / wanted.sets_off_mpss * d_v_there
-        for node in range(1 if hero in self.now.heroes else 0, last + 1):
-            s_m, v, d_s, d_v = shot.at_node(node)
-            if zone_m is not None:
-                self.bounds.add(s_m - zone_m, d_s, wanted.out_of_way_price, wanted.out_of_way_most)
-            approach_mps = self.asked.limits[hero].approach_speed_max_mps
-            self.bounds.add(v - approach_mps, d_v, wanted.price / _TIGHT_SPEED)
-            if hero in self.now.waits and until_s - shot.time[node] > v_there / wanted.sets_off_mpss + wanted.waits_s:
-                beyond_m = s_m + v**2 / (2.0 * wanted.waits_mpss) + run_up_m - place_m
-                self.bounds.add(beyond_m, d_s + v / wanted.waits_mpss * d_v + d_run_up - d_place, wanted.waits_price)
-            if hero in self.now.lanes.apart:
-                self._apart(node)
+        first = 1 if hero in self.now.heroes else 0
+        s_m, v, d_s, d_v = (each[first : last + 1] for each in (shot.s, shot.v, shot.d_s, shot.d_v))
+        if zone_m is not None:
+            self.bounds.add_all(s_m - zone_m, d_s, wanted.out_of_way_price, wanted.out_of_way_most)
+        self.bounds.add_all(v - self.asked.limits[hero].approach_speed_max_mps, d_v, wanted.price / _TIGHT_SPEED)
+        if hero in self.now.waits:
+            waits = until_s - shot.time[first : last + 1] > v_there / wanted.sets_off_mpss + wanted.waits_s
+            beyond_m = s_m + v**2 / (2.0 * wanted.waits_mpss) + run_up_m - place_m
+            slopes = d_s + (v / wanted.waits_mpss)[:, None] * d_v + d_run_up - d_place
+            self.bounds.add_all(beyond_m[waits], slopes[waits], wanted.waits_price)
         if hero in self.now.lanes.apart:
+            for node in range(first, last + 1):
+                self._apart(node)
+        if hero in self.now.lanes.plainly:
             self._plainly(last)
 
     def _apart(self, node: int) -> None:
@@ -241,7 +255,7 @@ class HeroRows:
         side, offset_m = self.now.lanes.apart[self.hero.id]
         s_m, _, d_s, _ = self.shot.at_node(node)
         ego_m, ego_mps, _ = self.now.ego(float(self.shot.time[node]))
-        room_m = side * (s_m + offset_m - ego_m) - _APART_M
+        room_m = side * (s_m + offset_m - ego_m) - LEAST_GAP_M
         slope = -side * (d_s - ego_mps * self.shot.d_time[node])
         self.bounds.add(-room_m, slope, self.asked.wanted.price / _TIGHT_LENGTH)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -100,6 +101,28 @@ class Shot:
         d_place = self.d_s[node] + since * dv + 0.5 * since**2 * da + since**2 * d_jerk_s / 6.0 + speed * d_since
         return place, speed, d_place, d_speed
 
+    def along(self, times: Array) -> tuple[Array, Array, Array]:
+        """Return places and speeds at times that nothing moves, and the derivatives of the places, a row for each."""
+        last = len(self.time) - 1
+        node = np.clip(np.searchsorted(self.time, times, side="right") - 1, 0, last)
+        behind, beyond = np.minimum(node + 1, last), node == last
+        since = times - self.time[node]
+        lasts = np.where(beyond, 1.0, np.maximum(self.time[behind] - self.time[node], 1e-6))
+        a, b = np.where(beyond, 0.0, self.accel[node]), np.where(beyond, 0.0, self.accel_after[node])
+        jerk = (b - a) / lasts
+        speed = self.v[node] + (a + 0.5 * jerk * since) * since
+        place = self.s[node] + (self.v[node] + (0.5 * a + jerk * since / 6.0) * since) * since
+        by_jerk, d_lasts = since**3 / 6.0 / lasts, self.d_time[behind] - self.d_time[node]
+        d_place = self.d_s[node] + since[:, None] * self.d_v[node]
+        d_place += -speed[:, None] * self.d_time[node] - (by_jerk * jerk)[:, None] * d_lasts
+        for leg, (first, end) in zip(self.legs, pairwise(self.first_node), strict=True):
+            if leg.accels:
+                here, accels = np.flatnonzero((node >= first) & (node < end)), np.array(leg.accels)
+                number = node[here] - first
+                d_place[here, accels[number]] += 0.5 * since[here] ** 2 - by_jerk[here]
+                d_place[here, accels[number + 1]] += by_jerk[here]
+        return place, speed, d_place
+
     def rate_at(self, time_s: float, before: bool) -> tuple[float, Array]:
         """Return the acceleration at an instant, that which begins there or that `before` it, with its derivatives."""
         last = len(self.time) - 1
@@ -147,22 +170,26 @@ def shoot(legs: Sequence[Leg], start: Start, z: Array) -> Shot:
             d_lasts[leg.first.unknown] -= 1.0 / leg.cells
         if leg.last.unknown is not None:
             d_lasts[leg.last.unknown] += 1.0 / leg.cells
+        cells = np.arange(leg.cells)
+        here, behind = slice(node, node + leg.cells), slice(node + 1, node + leg.cells + 1)
         time[node], d_time[node] = begin, d_begin
-        for k in range(leg.cells):
-            a, b = (z[leg.accels[k]], z[leg.accels[k + 1]]) if leg.accels else (0.0, 0.0)
-            accel[node], after[node] = a, b
-            time[node + 1], d_time[node + 1] = begin + (k + 1) * lasts, d_begin + (k + 1) * d_lasts
-            mean, way = 0.5 * (a + b), (2.0 * a + b) / 6.0
-            v[node + 1] = v[node] + mean * lasts
-            s[node + 1] = s[node] + v[node] * lasts + way * lasts**2
-            d_v[node + 1] = d_v[node] + mean * d_lasts
-            d_s[node + 1] = d_s[node] + lasts * d_v[node] + (v[node] + 2.0 * way * lasts) * d_lasts
-            if leg.accels:
-                d_v[node + 1, leg.accels[k]] += 0.5 * lasts
-                d_v[node + 1, leg.accels[k + 1]] += 0.5 * lasts
-                d_s[node + 1, leg.accels[k]] += lasts**2 / 3.0
-                d_s[node + 1, leg.accels[k + 1]] += lasts**2 / 6.0
-            node += 1
+        time[behind], d_time[behind] = begin + (cells + 1) * lasts, d_begin + (cells + 1)[:, None] * d_lasts
+        one, other = np.array(leg.accels[:-1], dtype=np.intp), np.array(leg.accels[1:], dtype=np.intp)
+        if leg.accels:
+            accel[here], after[here] = z[one], z[other]
+        mean, way = 0.5 * (accel[here] + after[here]), (2.0 * accel[here] + after[here]) / 6.0
+        more = mean[:, None] * d_lasts
+        if leg.accels:
+            more[cells, one] += 0.5 * lasts
+            more[cells, other] += 0.5 * lasts
+        v[behind], d_v[behind] = v[node] + lasts * np.cumsum(mean), d_v[node] + np.cumsum(more, axis=0)
+        more = lasts * d_v[here] + (v[here] + 2.0 * way * lasts)[:, None] * d_lasts
+        if leg.accels:
+            more[cells, one] += lasts**2 / 3.0
+            more[cells, other] += lasts**2 / 6.0
+        s[behind] = s[node] + np.cumsum(v[here] * lasts + way * lasts**2)
+        d_s[behind] = d_s[node] + np.cumsum(more, axis=0)
+        node += leg.cells
     first_node.append(node)
     return Shot(legs, time, s, v, accel, after, d_time, d_s, d_v, first_node, z)
 

@@ -63,10 +63,13 @@ class Lanes:
         For each hero: 1 where it keeps ahead, -1 behind; what to add to its arc length there (m).
     answers
         For each hero that the ego follows, how.
+    plainly
+        Heroes whose trigger speaks of the distance: it is to change plainly there.
     """
 
     apart: Mapping[int, tuple[float, float]] = field(default_factory=dict)
     answers: Mapping[int, Answer] = field(default_factory=dict)
+    plainly: frozenset[int] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)

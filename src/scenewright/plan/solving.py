@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from scenewright.plan.problem import Missed, Problem
 from scenewright.plan.rows import Rows
+from scenewright.plan.sparse_steps import DAMPING, sparse_step
 
 Array = NDArray[np.float64]
 
-_DAMPING = 0.02  # of a longest step: what nothing else decides stays as it is
 _ENOUGH = 1e-4  # a step that gains a smaller share is the last
 _SHORTER, _LONGER, _LEAST_TRUST, _NO_STEP = 0.3, 2.5, 1e-3, 1e-6
 _FREE, _EXACT, _MOST_ITERATIONS = 1e30, 1e-9, 4000
@@ -32,13 +32,16 @@ class Solution:
     steps: int
 
 
-def solve(problem: Problem, z: Array, most_steps: int) -> Solution:
-    """Return the best that so many steps from `z` lead to; where one gains nothing the next is shorter."""
+def solve(problem: Problem, z: Array, most_steps: int, enough: float = 0.0) -> Solution:
+    """Return the best that so many steps from `z` lead to; where one gains nothing the next is shorter.
+
+    One that gains or loses less than `enough` is the last, and one that comes so near to the best of the linear rows.
+    """
     z = problem.ordered(z)
     costs, bounds, missed = problem.rows(z)
     cost, trusted = _cost(costs, bounds), 1.0
     for count in range(most_steps):
-        step = _step(problem, z, costs, bounds, trusted)
+        step, promised = _step(problem, z, costs, bounds, trusted)
         if step is None or trusted < _LEAST_TRUST:
             return Solution(z, cost, missed, count)
         trial = problem.ordered(z + step)
@@ -46,12 +49,16 @@ def solve(problem: Problem, z: Array, most_steps: int) -> Solution:
             return Solution(z, cost, missed, count)
         found = problem.rows(trial)
         better = _cost(*found[:2])
+        least = max(enough, _ENOUGH * (1.0 + cost))
+        if 0.0 <= better - cost < enough:  # as good as the best: a shorter step hardly gains more
+            return Solution(z, cost, missed, count + 1)
         if better >= cost:
             trusted *= _SHORTER
             continue
+        arrived = better - promised < enough and np.all(np.abs(step) < 0.999 * trusted * problem.step)
         gained, cost, trusted = cost - better, better, min(1.0, _LONGER * trusted)
         z, (costs, bounds, missed) = trial, found
-        if gained < _ENOUGH * (1.0 + cost):
+        if gained < least or arrived:
             return Solution(z, cost, missed, count + 1)
     return Solution(z, cost, missed, most_steps)
 
@@ -63,8 +70,13 @@ def _cost(costs: Rows, bounds: Rows) -> float:
     return 0.5 * float(np.sum(np.array(costs.values) ** 2)) + float(np.sum(within * (over - 0.5 * within)))
 
 
-def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float) -> Array | None:
-    """Return the best step for the linearised rows, within a share of the longest; None where there is none."""
+def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float) -> tuple[Array | None, float]:
+    """Return the best step for the linearised rows, within a share of the longest, and what it costs at least.
+
+    None where there is none.
+    """
+    if any(by is not None for by in costs.columns):
+        return sparse_step(problem, z, costs, bounds, trusted)
     import daqp
 
     longest, size = problem.step, problem.size
@@ -76,7 +88,7 @@ def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float)
     levels, rows = levels * softened, rows * softened[:, None]
     # Each row has a slack of its own, so that its price is the same here as in the cost. Unknowns are scaled so that
     # each curves the cost alike: the solver stops far from the best where some curve it a million times more.
-    count, curved = len(levels), _product(slopes.T, slopes) + _DAMPING**2 * np.eye(size)
+    count, curved = len(levels), _product(slopes.T, slopes) + DAMPING**2 * np.eye(size)
     scales = 1.0 / np.sqrt(np.diag(curved))
     hessian = np.eye(size + count)
     hessian[:size, :size] = curved * scales[:, None] * scales
@@ -91,7 +103,7 @@ def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float)
         primal_tol=_EXACT,
         iter_limit=_MOST_ITERATIONS,
     )
-    return None if flag < 1 else np.clip(scales * np.asarray(x)[:size], low, high) * longest
+    return None if flag < 1 else np.clip(scales * np.asarray(x)[:size], low, high) * longest, 0.0
 
 
 def _product(left: Array, right: Array) -> Array:

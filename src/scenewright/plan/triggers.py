@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from scenewright.motion.profile import Profile
-from scenewright.program.structure import Structure
-from scenewright.program.types import EGO, Actor
+from scenewright.program.structure import Structure, actors_of, knots_of
+from scenewright.program.types import EGO, Actor, Program
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import TIGHT_LENGTH_M, LinearCondition, tight_of
 
@@ -131,6 +131,25 @@ class TriggerTimes:
     def _is_behind(self, condition: LinearCondition, state: tuple[float, float, float]) -> bool:
         """Whether the ego, in `state`, is past a place that lay ahead of it when the run began."""
         return condition.value({EGO: self.ego_began}) * condition.value({EGO: state[:2]}) < 0.0
+
+
+def adapts_until(program: Program, structure: Structure) -> dict[int, str]:
+    """Return the knot up to which each hero adapts: its trigger, or the first that hangs on a hero that adapts.
+
+    So whoever brakes 1.5 s after another one began, which does so at a trigger, waits for that as well.
+    """
+    found = {hero: structure.trigger_knot(hero) or "" for hero in structure.triggers}
+    while True:
+        more: dict[int, str] = {}
+        for formula in (constraint.formula for constraint in program.constraints):
+            for hero in program.heroes if actors_of(formula) & set(found) else ():
+                tied = {name for actor, name in knots_of(formula) if actor == hero.id}
+                first = next((name for name in hero.sketch.knots[1:] if name in tied), None)
+                if hero.id not in found and first is not None:
+                    more[hero.id] = min(first, more.get(hero.id, first), key=hero.sketch.knot_index)
+        if not more:
+            return found
+        found |= more
 
 
 def _miss(side: LinearCondition, prediction: Profile, instant_s: float) -> float:

@@ -155,10 +155,11 @@ def _is_over(
         return True
     route = scene.routes[EGO]
     end_m = route.landmarks["route_end"]
-    if ego.s_m >= end_m - 3.0 or _any_at_end(scene, states):
+    if ego.s_m >= end_m - 3.0:
         return True
-    profiles = heroes.plan.profiles
-    last_knot_s = max([max(profiles[hero].knot_times_s.values()) for hero in states])
+    # Whoever is at the end of its route does nothing more that a program asks for; others may.
+    going = [heroes.plan.profiles[hero] for hero in states if not _is_at_end(scene, hero, states)]
+    last_knot_s = max((max(profile.knot_times_s.values()) for profile in going), default=-_WAIT_FOR_EGO_S)
     if time_s < last_knot_s + _AFTER_HEROES_S:
         return _stalled(heroes, time_s)
     if time_s < last_knot_s + _WAIT_FOR_EGO_S and _any_turning(scene, states):
@@ -167,8 +168,8 @@ def _is_over(
     return passed or time_s >= last_knot_s + _WAIT_FOR_EGO_S
 
 
-def _any_at_end(scene: Scene, states: Mapping[int, ActorState]) -> bool:
-    return any(there.s_m >= scene.routes[hero].landmarks["route_end"] - 3.0 for hero, there in states.items())
+def _is_at_end(scene: Scene, hero: int, states: Mapping[int, ActorState]) -> bool:
+    return states[hero].s_m >= scene.routes[hero].landmarks["route_end"] - 3.0
 
 
 def _any_turning(scene: Scene, states: Mapping[int, ActorState]) -> bool:

@@ -21,6 +21,7 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.studio.program_data import clauses, condition_times, places, triggers
 from scenewright.studio.replans_data import read_replans
 from scenewright.studio.scene_data import SceneGeometry, scene_geometry
+from scenewright.studio.told_facts import told_facts
 from scenewright.trace.files import TRACE_FILE, read_trace
 from scenewright.trace.model import ActorTrace, Trace
 
@@ -73,7 +74,7 @@ def collect(run_dir: Path) -> Json:
         "triggers": reached,
         "places": places(program) if program else None,
         "conditions": _conditions(verdict, program, knots, reached),
-        "facts": _facts({"pairs": facts.get("pairs") or {}} | {k: v for k, v in facts.items() if k != "knot_times_s"}),
+        "facts": told_facts(facts),
         "replans": replans,
     }
     cleaned: Json = _without_nan(data)
@@ -303,44 +304,9 @@ def _conditions(
     return rows
 
 
-_FACT_UNITS = (("_mpss", "m/s²"), ("_mps2", "m/s²"), ("_mps", "m/s"), ("_rad", "rad"), ("_m", "m"), ("_s", "s"))
-
-
-def _facts(facts: Mapping[str, Any], prefix: str = "", inherited: str = "") -> list[list[str]]:
-    """Flatten nested facts to rows of label, value and unit; the unit comes from the ending of a name."""
-    rows: list[list[str]] = []
-    for name, value in facts.items():
-        label, unit = str(name), inherited
-        for ending, symbol in _FACT_UNITS:
-            if label.endswith(ending):
-                label, unit = label.removesuffix(ending), symbol
-                break
-        label = f"{prefix}{label.replace('_', ' ')}"
-        if isinstance(value, Mapping):
-            rows += _facts(value, "" if name == "pairs" else f"{label}: ", unit)  # a pair's name says enough
-        elif isinstance(value, list) and any(isinstance(item, Mapping) for item in value):
-            rows += [[label, _shown(item), ""] for item in value]
-        else:
-            measured = isinstance(value, int | float) and not isinstance(value, bool)
-            rows.append([label, _shown(value), unit if measured else ""])
-    return rows
-
-
 def _shown(value: object) -> str:
-    """Return a value as a person reads it: at most four decimals, yes and no, a dash for what is not known."""
-    match value:
-        case None:
-            return "–"
-        case bool():
-            return "yes" if value else "no"
-        case float():
-            return f"{value:.4f}".rstrip("0").rstrip(".") if math.isfinite(value) else "–"
-        case list():
-            return ", ".join(_shown(item) for item in value) or "none"
-        case dict():
-            return ", ".join(f"{str(key).replace('_', ' ')} {_shown(item)}" for key, item in value.items())
-        case _:
-            return str(value)
+    """Return a value as a person reads it: at most four decimals."""
+    return f"{value:.4f}".rstrip("0").rstrip(".") if isinstance(value, float) else str(value)
 
 
 def _numbers(values: NDArray[np.float64], digits: int) -> list[float | None]:

@@ -21,6 +21,7 @@ from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.consequences import consequences
+from scenewright.solve.proofs.crowding import crowded
 from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, EgoDrive, Events, Unknown
 from scenewright.solve.proofs.guesses import carried_over, first_guess
 from scenewright.solve.proofs.lowering import Lowered, Lowering
@@ -144,6 +145,8 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     until = time.monotonic() + limit_s
     plain = _Case(question, plan=False)
     left_out = {each.constraint.id: each.refused for each in plain.lowered if each.refused}
+    if question.drive is None and (clashing := crowded(plain.events, plain.lowered)):
+        return Decision("infeasible", core=clashing, left_out=left_out)
     generator = np.random.default_rng(0)
     amiss: tuple[Broken, ...] = ()
     formulas: list[Named] = []

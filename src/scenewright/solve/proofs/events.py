@@ -313,9 +313,9 @@ class Events:
 
     def learn_from(self, formulas: Iterable[Formula]) -> None:
         """Note what comparisons of two times, and places that are known, say of the order of instants."""
-        linear = [part for part in _conjuncts(formulas) if part.left.degree == 1]
+        linear = [part for part in conjuncts(formulas) if part.left.degree == 1]
         for part in linear:
-            if (found := self._difference(part.left)) is not None:
+            if (found := self.difference(part.left)) is not None:
                 early, late, most_s = found
                 self._note(late, early, -most_s)
                 if part.relation == "==":
@@ -383,13 +383,13 @@ class Events:
         """Whether something contradicts what is certain of the order of instants."""
         if not isinstance(part, Atom) or part.relation == "==" or part.left.degree != 1:
             return False
-        found = self._difference(part.left)
+        found = self.difference(part.left)
         if found is None:
             return False
         early, late, most_s = found
         return bool(least[early, late] > float(most_s) - (1e-9 if part.relation == "<" else -1e-9))
 
-    def _difference(self, left: Polynomial) -> tuple[int, int, Fraction] | None:
+    def difference(self, left: Polynomial) -> tuple[int, int, Fraction] | None:
         """Return `early`, `late` and `most_s` where ``left <= 0`` says that ``late - early <= most_s``."""
         parts = [(self._instant_of[key], factor) for key, factor in left.terms.items() if key in self._instant_of]
         size = abs(parts[0][1]) if parts else ZERO
@@ -407,11 +407,11 @@ class Events:
         self._learned[first, second] = max(least_s, self._learned.get((first, second), least_s))
 
 
-def _conjuncts(formulas: Iterable[Formula]) -> Iterator[Atom]:
+def conjuncts(formulas: Iterable[Formula]) -> Iterator[Atom]:
     """Yield what is compared in every case."""
     for part in formulas:
         if isinstance(part, All):
-            yield from _conjuncts(part.parts)
+            yield from conjuncts(part.parts)
         elif isinstance(part, Atom):
             yield part
 

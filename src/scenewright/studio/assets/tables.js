@@ -1,4 +1,4 @@
-// What is said in words and numbers: the verdict, what came of it, the description, conditions, parameters, safety facts, notes.
+// What is said in words and numbers: the verdict, what came of it, the description, conditions, parameters, what else is known, notes.
 
 const VERDICTS = {
   tight: ['✓', 'Success', 'at tight tolerance'],
@@ -149,12 +149,15 @@ function buildParameters() {
 function buildFacts() {
   const holder = byId('facts');
   if (!run.facts.length) {
-    holder.append(make('p', { class: 'empty', text: 'No safety facts were recorded.' }));
+    holder.append(make('p', { class: 'empty', text: 'Nothing more is known of this run.' }));
     return;
   }
-  holder.append(make('dl', { class: 'facts' }, ...run.facts.map(([label, value, unit]) => make('div', { class: value.length > 28 ? 'long' : null },
-    make('dt', { text: label }),
-    make('dd', { text: value.replace(/^-/, '−') }, ' ', make('span', { class: 'unit', text: unit }))))));
+  holder.append(make('ul', { class: 'facts' }, ...run.facts.map(([text, time]) => {
+    const known = isNumber(time) && time >= FIRST && time <= LAST;
+    const jump = known ? make('button', { type: 'button', class: 'jump', text: `${fixed(time, 2)} s`, 'aria-label': `Jump to ${fixed(time, 2)} seconds` }) : null;
+    jump?.addEventListener('click', () => jumpTo(time));
+    return make('li', {}, make('span', { text }), jump);
+  })));
 }
 
 function buildMore() {

@@ -1,0 +1,96 @@
+"""One Gauss-Newton step where each row is by a few unknowns: many heroes, each with its own.
+
+What enters: rows with the unknowns that they are by. What leaves: the best step for them, as `solving` takes it. Dense
+problems grow with the cube of all rows; of this one only the unknowns count, and of the rows those beyond their bounds.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.sparse.linalg import splu
+
+from scenewright.plan.rows import Columns, Rows
+
+if TYPE_CHECKING:
+    from scenewright.plan.problem import Problem
+
+Array = NDArray[np.float64]
+Matrix = sparse.csr_array
+
+DAMPING = 0.02  # of a longest step: what nothing else decides stays as it is
+# A step beyond what an unknown may be costs as if a bound so dear were broken: none is by more than rounding.
+_WALL = 1e5
+_SYMMETRIC: dict[str, Any] = {"diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
+_STANDS, _MOST_NEWTON_STEPS = 1e-9, 100
+
+
+def sparse_step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float) -> tuple[Array, float]:
+    """Return the best step for the linearised rows, within a share of the longest, and what they cost after it."""
+    longest, size = problem.step, problem.size
+    levels, most = np.array(bounds.values), np.array(bounds.most)
+    softened = np.sqrt(np.minimum(1.0, most / np.maximum(levels, 1e-9)))
+    low, high = (np.clip((bound - z) / longest, -trusted, trusted) for bound in (problem.low, problem.high))
+    slopes, rows = _matrix(costs, longest), _matrix(bounds, longest, softened, walls=True)
+    levels = np.concatenate([softened * levels, -_WALL * high, _WALL * low])
+    hessian = slopes.T @ slopes + DAMPING**2 * sparse.eye_array(size, format="csr")
+    values = np.array(costs.values)
+    x = np.clip(least(hessian, slopes.T @ values, rows, levels), low, high)
+    after, over = values + slopes @ x, np.maximum(levels + rows @ x, 0.0)
+    return np.asarray(x * longest, dtype=np.float64), 0.5 * float(after @ after + over @ over)
+
+
+def least(hessian: Matrix, slope: Array, rows: Matrix, levels: Array) -> Array:
+    """Return where half a quadratic form, a slope and half the squares of what of rows is beyond zero are least.
+
+    That is convex, and quadratic in parts: Newton's steps, each as long as is best, end at its least (Sun 1997).
+    """
+    x, over = np.zeros(len(slope)), levels
+    for _ in range(_MOST_NEWTON_STEPS):
+        beyond = over > 0.0
+        counted, pull = rows[beyond], hessian @ x + slope
+        bent = splu(sparse.csc_array(hessian + counted.T @ counted), "MMD_AT_PLUS_A", **_SYMMETRIC)
+        way = -bent.solve(pull + counted.T @ over[beyond])
+        changes = rows @ way
+        if np.array_equal(beyond, over + changes > 0.0) or np.max(np.abs(way)) < _STANDS:
+            return x + way
+        share = _best_share(float(way @ pull), float(way @ (hessian @ way)), over, changes)
+        x, over = x + share * way, over + share * changes
+    return x
+
+
+def _best_share(falls: float, bends: float, over: Array, changes: Array) -> float:
+    """Return which share of a step is best: where its slope, that grows in pieces, is zero.
+
+    Without the rows it falls by `falls` and bends by `bends`; each row counts while it is beyond zero.
+    """
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        at = -over / changes
+    turns = np.flatnonzero((at > 0.0) & np.isfinite(at))
+    turns = turns[np.argsort(at[turns], kind="stable")]
+    counts = (over > 0.0) | ((over == 0.0) & (changes > 0.0))
+    sense = np.sign(changes[turns])
+    falls_then = falls + over[counts] @ changes[counts] + np.cumsum([0.0, *(sense * over[turns] * changes[turns])])
+    bends_then = bends + changes[counts] @ changes[counts] + np.cumsum([0.0, *(sense * changes[turns] ** 2)])
+    zeros = -falls_then / np.maximum(bends_then, 1e-300)
+    return float(zeros[np.argmax(zeros <= np.append(at[turns], np.inf))])
+
+
+def _matrix(rows: Rows, longest: Array, weights: Array | None = None, *, walls: bool = False) -> Matrix:
+    """Return the slopes of rows, weighted, by all unknowns, each in its longest step; below them both its walls."""
+    columns, slopes = list[Columns](), list[Array]()
+    for by, slope in zip(rows.columns, rows.slopes, strict=True):
+        columns.append(np.flatnonzero(slope) if by is None else by)
+        slopes.append(slope[columns[-1]] if by is None else slope)
+    column, counts = np.concatenate(columns), np.array([len(each) for each in columns])
+    values = np.concatenate(slopes) * longest[column]
+    if weights is not None:
+        values *= np.repeat(weights, counts)
+    if walls:
+        one = np.arange(len(longest))
+        column, counts = np.concatenate([column, one, one]), np.append(counts, np.ones(2 * len(one), dtype=np.intp))
+        values = np.concatenate([values, np.full(len(one), _WALL), np.full(len(one), -_WALL)])
+    return sparse.csr_array((values, column, np.cumsum([0, *counts])), (len(counts), len(longest)))

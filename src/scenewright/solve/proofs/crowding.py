@@ -1,0 +1,163 @@
+"""Too many through one place in too short a time: a proof by counting.
+
+What enters: events and lowered constraints. What leaves: the constraints that clash, or nothing. Whoever passes a place
+covers it for a while, at its greatest speed for as long as it is itself; two that cover it at once touch. So where some
+heroes must all pass it within a time that is shorter than they cover it one after another, that cannot be.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scenewright.program import expressions as program
+from scenewright.program.structure import actors_of, synchronised
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
+from scenewright.roads.conflicts import conflicts, shared_stretches
+from scenewright.roads.grounding import Scene
+from scenewright.solve.proofs.events import Events, conjuncts
+from scenewright.solve.proofs.lowering import Lowered
+
+Array = NDArray[np.float64]
+Point = Mapping[int, float]  # one place of the map, as the arc length on the way of each hero that passes it
+
+APART = "orchestrated actors keep clear of each other"
+# A car covers a place from so far before it on; a little less than half its length, for lanes bend.
+_HALF_M = 0.5 * VEHICLE_LENGTH_M - 0.05
+_ROUNDING = 1e-6
+
+
+def crowded(events: Events, lowered: Sequence[Lowered]) -> tuple[str, ...]:
+    """Return what clashes where too many must pass one place in too short a time; nothing where no such place is found.
+
+    Heroes that the program wants in each other are not counted.
+    """
+    facts = _Facts.of(events, lowered)
+    for point in _points(events.scene, facts):
+        crowd = facts.crowd(point)
+        if len(crowd) > 1:
+            there = {hero: point[hero] for hero in crowd}
+            kept = list(lowered)
+            for each in lowered:
+                fewer = [other for other in kept if other is not each]
+                if len(_Facts.of(events, fewer).crowd(there)) == len(crowd):
+                    kept = fewer
+            tied = [c.id for c in events.scene.program.constraints if _ties(c.formula, crowd)]
+            return (*dict.fromkeys([*(each.constraint.id for each in kept), *tied]), APART)
+    return ()
+
+
+def _ties(formula: program.Formula, crowd: Sequence[int]) -> bool:
+    """Whether a constraint says that a moment of one of the crowd is one of somebody else."""
+    return bool(set(actors_of(formula)) & set(crowd)) and any(synchronised(formula))
+
+
+@dataclass(slots=True)
+class _Facts:
+    """What constraints say of single places, and of how much later one moment is at least than another."""
+
+    events: Events
+    least: Array
+    most_m: dict[tuple[int, int], float] = field(default_factory=dict)
+    least_m: dict[tuple[int, int], float] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, events: Events, lowered: Sequence[Lowered]) -> _Facts:
+        """Gather the facts of some constraints."""
+        found = cls(events, events.least_differences())
+        owners = {key: owner for owner, state in events.states.items() for key in state.place.terms if key != ()}
+        for part in conjuncts(each.formula for each in lowered):
+            if (difference := events.difference(part.left)) is not None:
+                early, late, most_s = difference
+                found.least[late, early] = max(found.least[late, early], -float(most_s))
+                if part.relation == "==":
+                    found.least[early, late] = max(found.least[early, late], float(most_s))
+            terms = [key for key in part.left.terms if key != ()]
+            if len(terms) == 1 and terms[0] in owners:
+                factor, owner = float(part.left.terms[terms[0]]), owners[terms[0]]
+                place_m = -float(part.left.terms.get((), 0)) / factor
+                if part.relation == "==" or factor > 0.0:
+                    found.most_m[owner] = min(place_m, found.most_m.get(owner, np.inf))
+                if part.relation == "==" or factor < 0.0:
+                    found.least_m[owner] = max(place_m, found.least_m.get(owner, -np.inf))
+        for middle in range(len(found.least)):
+            np.maximum(found.least, found.least[:, middle, None] + found.least[None, middle, :], out=found.least)
+        return found
+
+    def crowd(self, point: Point) -> tuple[int, ...]:
+        """Return heroes that cannot all pass a point in the time that they have for it."""
+        jobs = [(hero, *window) for hero in self._apart(point) if (window := self._window(hero, point[hero]))]
+        if len(jobs) < 2:
+            return ()
+        early, late = np.array([job[1] for job in jobs]), np.array([job[2] for job in jobs])  # (heroes, moments)
+        lasts = np.array([job[3] for job in jobs])
+        for since in np.flatnonzero(np.min(late - early, axis=0) < lasts.sum()):  # times are counted from this moment
+            begins, ends = early[:, since], late[:, since]
+            inside = (begins[None, None] >= begins[:, None, None]) & (ends[None, None] <= ends[None, :, None])
+            over = inside @ lasts - (ends[None] - begins[:, None])
+            first, last = np.unravel_index(np.argmax(np.where(inside.sum(axis=2) > 1, over, -np.inf)), over.shape)
+            if over[first, last] > _ROUNDING and inside[first, last].sum() > 1:
+                return tuple(jobs[k][0] for k in np.flatnonzero(inside[first, last]))
+        return ()
+
+    def _window(self, hero: int, place_m: float) -> tuple[Array, Array, float] | None:
+        """Return from when and until when at the most, after each moment, and for how long at least it covers a place.
+
+        None where it is not certain to pass it.
+        """
+        fastest = float(self.events.law_of(hero).speed_high)
+        before = [
+            self.least[:, k] + (place_m - _HALF_M - at_m) / fastest
+            for (owner, k), at_m in self.most_m.items()
+            if owner == hero and at_m <= place_m - _HALF_M
+        ]
+        after = [
+            -self.least[k, :] - (at_m - place_m - _HALF_M) / fastest
+            for (owner, k), at_m in self.least_m.items()
+            if owner == hero and at_m >= place_m + _HALF_M
+        ]
+        if not before or not after:
+            return None
+        return np.max(before, axis=0), np.min(after, axis=0), 2.0 * _HALF_M / fastest
+
+    def _apart(self, point: Point) -> Iterator[int]:
+        """Yield who passes a point and is not told to be there at the same moment as another."""
+        near: dict[int, set[int]] = {}
+        for (hero, instant), at_m in self.most_m.items():
+            told = self.least_m.get((hero, instant)) == at_m
+            if told and hero in point and abs(at_m - point[hero]) < VEHICLE_LENGTH_M:
+                near.setdefault(instant, set()).add(hero)
+        yield from set(point) - {hero for heroes in near.values() if len(heroes) > 1 for hero in heroes}
+
+
+def _points(scene: Scene, facts: _Facts) -> Iterator[Point]:
+    """Yield where several heroes pass: where ways cross, and just beyond and before where somebody is told to be."""
+    heroes, seen = [hero.id for hero in scene.program.heroes], set[tuple[tuple[int, float], ...]]()
+    for hero in heroes:
+        told = [at_m for (owner, _), at_m in facts.most_m.items() if owner == hero]
+        told = [at_m + _HALF_M for at_m in told]
+        told += [at_m - _HALF_M for (owner, _), at_m in facts.least_m.items() if owner == hero]
+        others = {
+            other: (
+                shared_stretches(scene.routes[hero], scene.routes[other]),
+                [c for c in conflicts(scene.routes[hero], scene.routes[other]) if c.kind != "following"],
+            )
+            for other in heroes
+            if other != hero
+        }
+        for place_m in dict.fromkeys([*told, *(c.s_a_m for _, found in others.values() for c in found)]):
+            point = {hero: place_m}
+            for other, (stretches, found) in others.items():
+                for stretch in stretches:
+                    if stretch.begin[0] <= place_m <= stretch.end[0]:
+                        point[other] = stretch.beside((place_m, 0.0))[1]
+                for conflict in found:
+                    if abs(conflict.s_a_m - place_m) < _ROUNDING:
+                        point[other] = conflict.s_b_m
+            key = tuple(sorted((other, round(at_m, 3)) for other, at_m in point.items()))
+            if len(point) > 1 and key not in seen:
+                seen.add(key)
+                yield point

@@ -1,0 +1,102 @@
+"""What else a verdict knows of a run, in sentences.
+
+What enters: the facts of a `verdict.json`, of which any may be missing. What leaves: sentences, each with the moment
+that it speaks of (s).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+Told = tuple[str, float | None]
+
+
+def told_facts(facts: Mapping[str, Any]) -> list[Told]:
+    """Return the sentences: triggers, manoeuvres, pairs, then how the ego moved."""
+    return [
+        *_triggers(facts),
+        *_manoeuvres(facts.get("interaction") or {}),
+        *(told for pair, values in (facts.get("pairs") or {}).items() for told in _pair(pair, values)),
+        *(told for name, values in (facts.get("kinematics") or {}).items() for told in _motion(name, values)),
+    ]
+
+
+def _triggers(facts: Mapping[str, Any]) -> Iterator[Told]:
+    for hero, time_s in (facts.get("trigger_time_s") or {}).items():
+        moment = _number(time_s)
+        yield (
+            (f"The trigger of {hero} came at {moment:.2f} s.", moment)
+            if moment is not None
+            else (
+                f"The trigger of {hero} never came.",
+                None,
+            )
+        )
+    for side in facts.get("closest") or ():
+        error, moment = _number(side.get("error")), _number(side.get("time_s"))
+        if error is None or moment is None:
+            continue
+        off = f"came to within {abs(error):.2g} {side.get('unit') or ''}".rstrip()
+        held = "was there" if side.get("met") else off
+        yield f"{str(side.get('who')).capitalize()}, by itself, {held}: {side.get('side')}.", moment
+    if (apart := _number(facts.get("trigger_sides_apart_s"))) is not None:
+        yield f"The two sides of the trigger were there {apart:.2f} s apart.", None
+
+
+def _manoeuvres(interaction: Mapping[str, Any]) -> Iterator[Told]:
+    for hero, values in interaction.items():
+        onset, end = _number(values.get("onset_s")), _number(values.get("end_s"))
+        mean, deviation = (_number(values.get(f"{name}_mpss")) for name in ("mean_acceleration", "max_deviation"))
+        if onset is None or end is None:
+            yield f"{hero.capitalize()} was not seen to begin what it was to do.", None
+            continue
+        rate = "" if mean is None else f", on average at {mean:.2f} m/s²".replace("-", "−")
+        even = "" if deviation is None else f" (at most {deviation:.2f} m/s² from that)"
+        yield f"{hero.capitalize()} did what it was to do from {onset:.2f} to {end:.2f} s{rate}{even}.", onset
+
+
+def _pair(pair: str, values: Mapping[str, Any]) -> Iterator[Told]:
+    two = " and ".join(pair.split(", "))
+    crash, moment = _number(values.get("collision_time_s")), _number(values.get("min_distance_time_s"))
+    nearest = _number(values.get("min_distance_m"))
+    if crash is not None:
+        yield f"{two.capitalize()} collided at {crash:.2f} s.", crash
+    elif nearest is not None:
+        yield f"{two.capitalize()} came within {nearest:.1f} m of each other, body to body, and never touched.", moment
+    least, when = _number(values.get("min_ttc_s")), _number(values.get("min_ttc_time_s"))
+    yield (
+        (f"Their time to collision was {least:.1f} s at least.", when)
+        if least is not None
+        else (
+            "They were never on the way to a collision, as their motion stood.",
+            None,
+        )
+    )
+    after = _number(values.get("post_encroachment_time_s"))
+    if after is not None:
+        yield f"The second came to where their ways cross {after:.1f} s after the first had left.", None
+
+
+def _motion(name: str, values: Mapping[str, Any]) -> Iterator[Told]:
+    seen = {key: number for key, value in values.items() if (number := _number(value)) is not None}
+    if {"speed", "acceleration", "deceleration", "lateral"} <= seen.keys():
+        yield (
+            f"At most {name} drove at {seen['speed']:.1f} m/s, sped up by {seen['acceleration']:.1f} m/s², braked by "
+            f"{abs(seen['deceleration']):.1f} m/s², and felt {seen['lateral']:.1f} m/s² sideways.",
+            None,
+        )
+    if {"position_drift", "map_drift", "speed_jump"} <= seen.keys():
+        drift_mm = 1000.0 * max(seen["position_drift"], seen["map_drift"])
+        yield (
+            f"Its trace agrees with itself: places, speeds and the map to {drift_mm:.1f} mm, "
+            f"speeds and accelerations to {1000 * seen['speed_jump']:.1f} mm/s.",
+            None,
+        )
+
+
+def _number(value: object) -> float | None:
+    """Return a finite number, None for anything else."""
+    known = isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    return float(value) if known else None  # type: ignore[arg-type]

@@ -1,0 +1,119 @@
+"""Heroes keep clear of each other: surely so in whole runs, by rows whose slopes are right, unless contact is asked."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from many_heroes import PROGRAMS, drive
+from situations import planner_of, scene_of
+
+from scenewright.motion.profile import Profile, chain
+from scenewright.plan import planner as planning
+from scenewright.plan.pairs import Meeting, in_order, meetings_of, passes_s
+from scenewright.plan.problem import Problem
+from scenewright.program.structure import read_structure
+from scenewright.program.types import EGO
+from scenewright.simulate.loop import DEFAULT_STEP_S
+
+SURELY_M = 0.3
+# Two cars on crossing ways, each told where to be when the ego is somewhere, and nothing of each other: as they are
+# told, the second is in the junction while the first is.
+ACROSS = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (there):
+- E, N
+- [t0, go, t1, acc, t2]
+
+Actor 2 (back):
+- S, E
+- [t0, go, t1, acc, t2]
+
+Constraints:
+A0(t1) == A1(t1)
+A0(t1) == A2(t1)
+A0x(t1) == stop_line - 120
+A1x(t1) == stop_line - 12
+A2x(t1) == stop_line - 12
+"""
+IN_CONTACT = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (there):
+- E, N
+- [t0, go, t1, go, t2]
+
+Actor 2 (back):
+- S, E
+- [t0, go, t1, go, t2]
+
+Constraints:
+A0(t1) == A1(t1)
+A0(t1) == A2(t1)
+A0x(t1) == stop_line - 60
+A1x(t1) == stop_line + 16.4
+A2x(t1) == stop_line + 11.5
+"""
+
+
+@pytest.mark.parametrize(
+    ("program", "count", "ego"),
+    [
+        ("platoon", 4, "dawdler"),
+        ("crossing", 6, "idm"),
+        ("crossing", 4, "noisy"),
+        ("mixed", 4, "stop-and-go"),
+        ("chain", 3, "idm"),
+    ],
+)
+def test_in_whole_runs_boxes_are_surely_apart_and_what_is_asked_is_met(program: str, count: int, ego: str) -> None:
+    driven = drive(PROGRAMS[program](count), ego)
+    assert driven.apart_m(of_ego=False) >= SURELY_M
+    assert driven.apart_m(of_ego=True) >= SURELY_M
+    assert driven.met == count
+
+
+def test_who_is_told_nothing_of_the_other_keeps_clear_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert drive(ACROSS, "idm").apart_m(of_ego=False) >= SURELY_M
+    monkeypatch.setattr(planning, "meetings_of", lambda scene: ())
+    assert drive(ACROSS, "idm").apart_m(of_ego=False) < 0.0
+
+
+def test_who_is_to_be_in_contact_is_let() -> None:
+    scene = scene_of(IN_CONTACT)
+    driven = drive(IN_CONTACT, "constant")
+    motions = driven.run.last_plan.profiles
+    assert not in_order(meetings_of(scene), scene, read_structure(scene.program), motions)
+    assert driven.met == 2
+    assert driven.apart_m(of_ego=False) < 0.0
+
+
+@pytest.mark.parametrize("text", [ACROSS, PROGRAMS["chain"](3), PROGRAMS["mixed"](4)])
+def test_slopes_are_those_of_the_rows(text: str) -> None:
+    planner = planner_of(scene_of(text))
+    planner.begin((0.0, 100.0, 9.0, 0.0))
+    for k in range(1, 51):
+        planner.observe((round(k * DEFAULT_STEP_S, 9), *planner.plan.profiles[EGO].state(k * DEFAULT_STEP_S)))
+    situation, _ = planner._situation(1.0, planner._ego.foreseen(planner.plan.profiles))
+    problem = Problem(planner._asked, situation, planner._meetings)
+    direction = np.random.default_rng(3).normal(size=problem.size) * problem.step * 1e-5
+    levels, slopes = [], []
+    for z in (problem.guess - direction, problem.guess, problem.guess + direction):
+        rows = list(problem._pairs(z, problem.shots(z))._all())
+        levels.append(np.concatenate([row[1] for row in rows]))
+        slopes.append(np.concatenate([row[2] @ direction[row[3]] for row in rows]))
+    assert len(levels[1]) >= 2
+    assert (levels[2] - levels[0]) / 2.0 == pytest.approx(slopes[1], abs=1e-6)
+
+
+@pytest.mark.parametrize(("first", "late_s"), [(1, 0.0), (2, 5.0)])
+def test_an_order_is_as_late_as_both_would_be_there(first: int, late_s: float) -> None:
+    """The first is in the stretch from 1 s to 3 s, the second from 4 s to 6 s."""
+    motions = {hero: Profile(chain(0.0, from_m, 10.0, [(9.0, 0.0, 0)])) for hero, from_m in ((1, 0.0), (2, -30.0))}
+    meeting = Meeting(1, 2, ((10.0, 30.0), (10.0, 30.0)))
+    assert passes_s(motions[2], 10.0) == pytest.approx(4.0)
+    assert (meeting if first == 1 else meeting.turned()).late_s(motions) == pytest.approx(late_s)
