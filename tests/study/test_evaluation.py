@@ -53,7 +53,8 @@ FINE = {"ego_gap_m": 30.0, "hero_gap_m": 18.0}
 @cache
 def counted(description: Description, ego: str, hero_gap_m: float = 18.0) -> Outcome:
     """Return a case that was run, once for all tests that look at it."""
-    return run_case(Case(description, ego, 1, 4, {**FINE, "hero_gap_m": hero_gap_m} if description is YIELDS else {}, 1))
+    parameters = {} if description is GOES else {**FINE, "hero_gap_m": hero_gap_m}
+    return run_case(Case(description, ego, 1, 4, parameters, takes=1))
 
 
 def outcome(description: str, ego: str, cause: str) -> Outcome:
