@@ -98,6 +98,7 @@ def test_killed_experiment_loses_nothing_and_counts_nothing_twice(process: Start
     assert not Path("here/cases.jsonl").exists()
 
 
+@pytest.mark.usefixtures("in_one_process")
 def test_interrupted_experiment_says_how_to_go_on(process: Start, command: Command) -> None:
     running = process(*HERE, "1", "--json")
     wait_for_cases("here", 1, running)
@@ -117,7 +118,9 @@ def test_interrupted_experiment_says_how_to_go_on(process: Start, command: Comma
 
 def test_policy_that_ends_its_process_costs_its_own_cases_only(command: Command, policy: Callable[[str], str]) -> None:
     ego = policy("if observation.others: __import__('os')._exit(9)\nreturn 0.0")
-    result = command("bench", "--rows", "16", "--egos", f"{ego},constant", "--draws", "1", "--out", "here")
+    result = command(
+        "bench", "--rows", "16", "--egos", f"{ego},constant", "--draws", "1", "--out", "here", "--workers", 1
+    )
     assert result.exit_code == 0
     broken, sound = read_results("here").records
     assert (broken.cause, broken.message) == ("error", "its process died (exit status 9)")
