@@ -104,7 +104,7 @@ def test_command_runs_the_case_again(
 ) -> None:
     result = counted(description, ego, hero_gap_m)
     words = shlex.split(result.command)
-    again = CliRunner().invoke(app, [*words[1:], "--json", "--out", str(tmp_path / "run")])
+    again = CliRunner().invoke(app, [*words[1:], "--no-ways-out", "--json", "--out", str(tmp_path / "run")])
     assert again.exit_code == exit_code
     assert (result.cause == "success") == (exit_code == 0)
     assert (result.cause == "proven infeasible") == (exit_code == 3)
