@@ -125,9 +125,9 @@ STORIES = {
 
 
 @cache
-def driven(story: str, ego: str, seed: int = 0, mode: str = "closed") -> Result:
+def driven(story: str, ego: str, seed: int = 0, mode: str = "closed", takes: int = 3) -> Result:
     """Return a whole run, made once for all tests that look at it."""
-    return orchestrate(Request(STORIES[story], ego=ego, seed=seed, mode=mode))  # type: ignore[arg-type]
+    return orchestrate(Request(STORIES[story], ego=ego, seed=seed, mode=mode, takes=takes))  # type: ignore[arg-type]
 
 
 @dataclass

@@ -12,6 +12,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from scenewright.errors import ScenewrightError
@@ -127,6 +128,7 @@ def planned(form: Form, ego: str) -> str:
     return YES if condition.holds_at(TIGHT) else "loosely" if condition.holds_at(LOOSE) else "missed"
 
 
+@cache
 def _checked(text: str) -> Result:
     return orchestrate(Request(text), until="check")
 

@@ -14,6 +14,9 @@ import pytest
 from typer.testing import CliRunner
 
 from scenewright.cli.app import app
+from scenewright.study import evaluation, experiment, rejudge
+from scenewright.study import workers as workers_module
+from scenewright.study.report import measuring
 
 # `sentences` is a helper of these tests alone; import mode `importlib` does not put their folder on the path.
 sys.path.insert(0, str(Path(__file__).parent))
@@ -62,3 +65,14 @@ def policy(folder: Path) -> Callable[[str], str]:
         return f"{name}:Own"
 
     return write
+
+
+@pytest.fixture
+def in_one_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let cases run in this process whatever `--workers` says: where a case takes less than a process to start."""
+
+    def each_done(task: Any, items: Any, workers: int, *settings: Any) -> Any:
+        return workers_module.each_done(task, items, 0, *settings)
+
+    for module in (evaluation, experiment, measuring, rejudge):
+        monkeypatch.setattr(module, "each_done", each_done)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import shlex
+import shutil
 import signal
 import subprocess
 import time
@@ -16,6 +18,7 @@ from typing import Any
 import pytest
 import typer
 from test_help import examples_of
+from typer.testing import CliRunner
 
 from scenewright.cli.bench import app
 from scenewright.study.lines import LineLog
@@ -30,10 +33,19 @@ HERE = (*SMALL, "--out", "here", "--workers")
 KEYS = [f"{row}-{ego}-0-scenewright" for row in (16, 17) for ego in ("constant", "idm")]
 
 
+@pytest.fixture(scope="module")
+def experiment(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the results of a small experiment, carried out once for all tests that look at them."""
+    folder = tmp_path_factory.mktemp("experiment")
+    with contextlib.chdir(folder):
+        assert CliRunner().invoke(app, [*HERE[1:], "0"]).exit_code == 0
+    return folder / "here"
+
+
 @pytest.fixture
-def done(command: Command) -> list[CaseRecord]:
-    """Return the records of a small experiment in the folder `here`."""
-    assert command(*HERE, 0).exit_code == 0
+def done(folder: Path, experiment: Path) -> list[CaseRecord]:
+    """Return the records of a small experiment whose results are in the folder `here`."""
+    shutil.copytree(experiment, "here")
     return read_results("here").records
 
 
@@ -86,6 +98,7 @@ def test_killed_experiment_loses_nothing_and_counts_nothing_twice(process: Start
     assert not Path("here/cases.jsonl").exists()
 
 
+@pytest.mark.usefixtures("in_one_process")
 def test_interrupted_experiment_says_how_to_go_on(process: Start, command: Command) -> None:
     running = process(*HERE, "1", "--json")
     wait_for_cases("here", 1, running)
@@ -105,7 +118,9 @@ def test_interrupted_experiment_says_how_to_go_on(process: Start, command: Comma
 
 def test_policy_that_ends_its_process_costs_its_own_cases_only(command: Command, policy: Callable[[str], str]) -> None:
     ego = policy("if observation.others: __import__('os')._exit(9)\nreturn 0.0")
-    result = command("bench", "--rows", "16", "--egos", f"{ego},constant", "--draws", "1", "--out", "here")
+    result = command(
+        "bench", "--rows", "16", "--egos", f"{ego},constant", "--draws", "1", "--out", "here", "--workers", 1
+    )
     assert result.exit_code == 0
     broken, sound = read_results("here").records
     assert (broken.cause, broken.message) == ("error", "its process died (exit status 9)")
@@ -248,6 +263,7 @@ def test_without_options_it_shows_its_help(command: Command) -> None:
     assert command("bench").stdout == command("bench", "--help").stdout
 
 
+@pytest.mark.usefixtures("in_one_process")
 def test_examples_in_help_run_as_they_stand(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     done = set()

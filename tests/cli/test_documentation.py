@@ -52,6 +52,7 @@ def commands_of(page: Path) -> list[tuple[list[str], int]]:
     return found
 
 
+@pytest.mark.usefixtures("in_one_process")
 @pytest.mark.parametrize("page", [page for page in PAGES if commands_of(page)], ids=lambda page: page.stem)
 def test_commands_run_in_order(command: Command, folder: Path, page: Path) -> None:
     shutil.copytree(ROOT / "examples", folder / "examples")

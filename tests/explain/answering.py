@@ -39,7 +39,7 @@ class Early(Heedless):
     """Creeps while anybody is within 80 m."""
 
     def wanted(self, observation: Observation) -> float:
-        return 2.0 if self.nearest_m(observation) < 80.0 else self.keep_mps
+        return 4.0 if self.nearest_m(observation) < 80.0 else self.keep_mps
 
 
 class Stops(Heedless):
@@ -53,7 +53,7 @@ class Creeps(Heedless):
     """Creeps from the beginning, for nobody."""
 
     def wanted(self, observation: Observation) -> float:
-        return 1.5
+        return 3.0
 
 
 class Swings(Heedless):

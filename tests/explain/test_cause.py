@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from functools import cache
 from pathlib import Path
 
 import pytest
@@ -11,7 +10,7 @@ import pytest
 from scenewright.judge.files import cause_told, write_verdict
 from scenewright.judge.verdict import Cause
 from scenewright.orchestrate import Request, Result, orchestrate
-from stories import STORIES
+from stories import STORIES, driven
 
 # Story, ego, further settings, and what it is.
 CASES = [
@@ -25,9 +24,8 @@ CASES = [
 ]
 
 
-@cache
 def missed(story: str, ego: str, mode: str = "closed") -> Result:
-    result = orchestrate(Request(STORIES[story], ego=ego, mode=mode, takes=1))  # type: ignore[arg-type]
+    result = driven(story, ego, mode=mode, takes=1)
     assert result.status == "failure", "what is asked about is a run that missed"
     return result
 
@@ -60,14 +58,14 @@ def test_only_a_proof_makes_it_the_egos_doing(story: str, ego: str, settings: di
 
 
 def test_success_has_no_cause() -> None:
-    result = orchestrate(Request(STORIES["yields, distance"], takes=1))
+    result = driven("yields, distance", "idm", takes=1)
     assert result.verdict is not None
     assert (result.status, result.verdict.cause) == ("success", None)
     assert result.verdict.as_dict()["cause"] is None
 
 
 def test_nothing_is_asked_where_nobody_wants_to_know() -> None:
-    result = orchestrate(Request(STORIES["yields, distance"], ego="answering:Stops", takes=1, explain="nothing"))
+    result = orchestrate(Request(STORIES["goes first, distance"], ego="speeder", takes=1, explain="nothing"))
     assert result.verdict is not None
     assert (result.status, result.verdict.cause, result.hindsight) == ("failure", None, None)
 

@@ -5,15 +5,14 @@ from __future__ import annotations
 import pytest
 
 from scenewright.explain.in_way import InWay, hero_in_way
-from scenewright.orchestrate import Request, Result, Stages, orchestrate, set_up
-from stories import STORIES
+from scenewright.orchestrate import Request, Result, Stages, set_up
+from stories import STORIES, driven
 
 
 def looked_at(story: str, ego: str) -> tuple[InWay | None, Result]:
-    request = Request(STORIES[story], ego=ego, takes=1)
-    result = orchestrate(request)
+    result = driven(story, ego, takes=1)
     assert result.run is not None
-    world, _ = set_up(request, Stages(None))
+    world, _ = set_up(Request(STORIES[story], ego=ego, takes=1), Stages(None))
     return hero_in_way(world, result.run), result
 
 
@@ -49,10 +48,9 @@ def test_who_heeds_nobody_slowed_down_for_nobody(ego: str) -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_whims_are_nobodys_doing(seed: int) -> None:
-    request = Request(STORIES["yields, distance"], ego="staller", seed=seed, takes=1)
-    result = orchestrate(request)
+    result = driven("yields, distance", "staller", seed, takes=1)
     assert result.run is not None
-    world, _ = set_up(request, Stages(None))
+    world, _ = set_up(Request(STORIES["yields, distance"], ego="staller", seed=seed, takes=1), Stages(None))
     found = hero_in_way(world, result.run)
     ego = result.run.trace.actors["ego"]
     stood_s = ego.time_s[ego.speed_mps < 0.1]

@@ -52,19 +52,19 @@ def told_or_sound(text: str) -> None:
     assert print_program(again) == printed
 
 
-@settings(max_examples=150)
+@settings(max_examples=60)
 @given(spoilt())
 def test_spoilt_programs(text: str) -> None:
     told_or_sound(text)
 
 
-@settings(max_examples=100)
+@settings(max_examples=60)
 @given(st.lists(words, max_size=60).map(" ".join))
 def test_words_in_any_order(text: str) -> None:
     told_or_sound(text)
 
 
-@settings(max_examples=100)
+@settings(max_examples=60)
 @given(st.lists(words, max_size=12).map(" ".join))
 def test_constraints_of_words_in_any_order(line: str) -> None:
     actors = "Actor 0:\n- W\n- [t0, go, t1]\nActor 1 (hero):\n- W\n- [t0, go, t1, dec, t2]\n"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from itertools import combinations
 from pathlib import Path
 
@@ -21,13 +22,20 @@ from .conftest import FOREIGN, any_map
 ONE_PLACE_M = 1.0
 SOURCES = ["t_intersection", *sorted(path.relative_to(FOREIGN).as_posix() for path in FOREIGN.rglob("*.xodr"))]
 TRUCK = Body(10.0, 2.5)
+Pair = tuple[Route, Route, tuple[Conflict, ...]]
+
+
+@cache
+def pairs_on(source: str | Path) -> tuple[RoadMap, list[Pair]]:
+    """Return a map, and each pair of its routes with their conflicts as cars have them; made once for all tests."""
+    road_map = load_map(source)
+    return road_map, [(a, b, conflicts(a, b)) for a, b in combinations(all_routes(road_map), 2)]
 
 
 @pytest.fixture(params=SOURCES)
-def every_map(request: pytest.FixtureRequest) -> RoadMap:
-    source = request.param if "/" not in request.param else FOREIGN / request.param
+def every_map(request: pytest.FixtureRequest) -> tuple[RoadMap, list[Pair]]:
     try:
-        return load_map(source)
+        return pairs_on(request.param if "/" not in request.param else FOREIGN / request.param)
     except MapError as error:
         pytest.skip(f"{request.param} is refused: {error.message}")
 
@@ -57,25 +65,26 @@ def crossings_of(road_map: RoadMap, a: Route, b: Route) -> list[shapely.Point]:
     return [point for point in points if all(point.distance(part) > ONE_PLACE_M for part in (shared, *one))]
 
 
-def test_crossings_are_all_those_of_the_centre_lines(every_map: RoadMap) -> None:
-    for a, b in combinations(all_routes(every_map), 2):
-        found = [shapely.Point(each.x_m, each.y_m) for each in conflicts(a, b) if each.kind == "crossing"]
-        wanted = crossings_of(every_map, a, b)
+def test_crossings_are_all_those_of_the_centre_lines(every_map: tuple[RoadMap, list[Pair]]) -> None:
+    road_map, pairs = every_map
+    for a, b, met in pairs:
+        found = [shapely.Point(each.x_m, each.y_m) for each in met if each.kind == "crossing"]
+        wanted = crossings_of(road_map, a, b)
         for points, others in ((found, wanted), (wanted, found)):
             assert all(any(point.distance(other) < ONE_PLACE_M for other in others) for point in points), (a, b)
 
 
-def test_lanes_that_both_take_begin_in_a_merge_and_end_in_a_parting(every_map: RoadMap) -> None:
-    for a, b in combinations(all_routes(every_map), 2):
-        kinds = [each.kind for each in conflicts(a, b)]
+def test_lanes_that_both_take_begin_in_a_merge_and_end_in_a_parting(every_map: tuple[RoadMap, list[Pair]]) -> None:
+    for a, b, met in every_map[1]:
+        kinds = [each.kind for each in met]
         stretches = shared_stretches(a, b)
         assert bool(stretches) == bool(set(a.lanes) & set(b.lanes))
         assert kinds.count("merging") == sum(not stretch.together for stretch in stretches)
         assert kinds.count("following") == sum(stretch.together or stretch.goes_on for stretch in stretches)
 
 
-def test_from_the_other_route_they_are_the_same_in_the_same_order(every_map: RoadMap) -> None:
-    for a, b in combinations(all_routes(every_map), 2):
+def test_from_the_other_route_they_are_the_same_in_the_same_order(every_map: tuple[RoadMap, list[Pair]]) -> None:
+    for a, b, _ in every_map[1]:
         found = conflicts(a, b, CAR, TRUCK)
         assert conflicts(b, a, TRUCK, CAR) == tuple(conflict.swapped() for conflict in found)
         ways = [conflict.s_a_m + conflict.s_b_m for conflict in found]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 
 import hypothesis
 import pytest
@@ -27,7 +28,7 @@ from scenewright.program.printer import print_expression, print_program
 from scenewright.program.text import parse_program
 from scenewright.roads import load_map
 from scenewright.roads.grounding import Scene, ground
-from scenewright.solve.feasibility import EgoBounds, Suggestion
+from scenewright.solve.feasibility import EgoBounds, Feasibility, Suggestion
 from scenewright.units import decimal_fraction, format_fraction, pin
 
 T = load_map("t_intersection")
@@ -52,6 +53,13 @@ def applied(scene: Scene, suggestion: Suggestion) -> Scene:
     raise AssertionError(f"{suggestion.what} is in no constraint")
 
 
+@cache
+def denied(name: str) -> tuple[Scene, Feasibility]:
+    """Return the scene of an example that cannot happen, and why; found once for all tests."""
+    scene = next(case for case in INFEASIBLE if case.name == name).scene()
+    return scene, feasibility(scene)
+
+
 @pytest.mark.parametrize("case", FEASIBLE, ids=lambda case: case.name)
 def test_what_can_happen(case: Example) -> None:
     found = feasibility(case.scene())
@@ -61,8 +69,7 @@ def test_what_can_happen(case: Example) -> None:
 
 @pytest.mark.parametrize("case", INFEASIBLE, ids=lambda case: case.name)
 def test_what_cannot_happen_is_explained_by_what_clashes(case: Example) -> None:
-    scene = case.scene()
-    found = feasibility(scene)
+    scene, found = denied(case.name)
     assert found.answer == "infeasible"
     own = {constraint.id for constraint in scene.program.constraints}
     assert {clash.id for clash in found.clashes} & own == set(case.clashes)
@@ -80,10 +87,9 @@ def test_what_cannot_happen_is_explained_by_what_clashes(case: Example) -> None:
     ids=lambda case: case.name,
 )
 def test_every_suggestion_works_when_taken(case: Example) -> None:
-    scene = case.scene()
-    suggestions = feasibility(scene).suggestions
-    assert suggestions
-    for suggestion in suggestions:
+    scene, found = denied(case.name)
+    assert found.suggestions
+    for suggestion in found.suggestions:
         assert suggestion.nearest != suggestion.value
         assert feasibility(applied(scene, suggestion), explain=False).answer == "feasible"
 

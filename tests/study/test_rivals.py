@@ -55,7 +55,7 @@ gap(A0, A1, t1) == 20
 A1a(dec) == -3
 A1v(t2) == 0
 """
-IMPOSSIBLE = YIELDS.replace("A1x(t2) == conflict_point - 6", "A1x(t2) == conflict_point - 17.9\nA1v(t1) == 12")
+IMPOSSIBLE = YIELDS + "A1v(t1) < 0\n"
 
 
 @cache

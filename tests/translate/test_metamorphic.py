@@ -13,7 +13,7 @@ from itertools import permutations
 from pathlib import Path
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from scenewright.errors import TranslationError
@@ -86,6 +86,7 @@ def substituted(node: Term | Formula, values: dict[str, Fraction]) -> Term | For
             return node
 
 
+@settings(max_examples=40)
 @given(st.data())
 @pytest.mark.parametrize("text", [DISTANCES, TIMES], ids=["distances", "times"])
 def test_amounts_in_any_unit_give_the_program_with_parameters(text: str, data: st.DataObject) -> None:

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 
 from scenewright.program.expressions import Number, ParameterRef, walk
 from scenewright.program.text import parse_program
@@ -150,6 +150,7 @@ def test_every_amount_of_the_benchmark_is_read_back_and_no_other(row: object) ->
     assert set(re.findall(r"\b\w+_(?:m|s|mps|mpss)\b|\d+(?:\.\d+)?", text)) == amounts_of(program)
 
 
+@settings(max_examples=40)
 @given(programs())
 def test_any_program_is_read_back_whole(program: Program) -> None:
     text = " ".join(read_back(program))

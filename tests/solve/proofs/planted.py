@@ -38,6 +38,11 @@ class Motion:
     speed: Fraction
     moves: tuple[Move, ...]
 
+    def rounded(self) -> Motion:
+        """Return the motion in floats, which are a hundred times as fast."""
+        moves = tuple((float(lasts), float(rate)) for lasts, rate in self.moves)
+        return Motion(float(self.place), float(self.speed), moves)  # type: ignore[arg-type]
+
     def state(self, time_s: Fraction) -> tuple[Fraction, Fraction, Fraction]:
         place, speed, rate = self.place, self.speed, Fraction(0)
         for lasts, rate in self.moves:
@@ -72,9 +77,9 @@ class Planted:
         scene, found = self.scene(), {}
         end_s = max(*self.knots.values(), *map(Fraction, re.findall(r"\d+(?:\.\d+)?(?= s\b|\])", self.text)))
         for actor, limits in limits_of(scene).items():
-            path, sideways = scene.routes[actor].path, 0.0
+            path, sideways, motion = scene.routes[actor].path, 0.0, self.motions[actor].rounded()
             for k in range(int(50 * end_s) + 1):
-                place, speed, _ = map(float, self.motions[actor].state(Fraction(k, 50)))
+                place, speed, _ = motion.state(k / 50)
                 sideways = max(sideways, abs(path.curvature(place)) * speed**2)
             found[actor] = replace(limits, lateral_max_mpss=max(limits.lateral_max_mpss, 1.02 * sideways))
         return found

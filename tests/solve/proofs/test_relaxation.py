@@ -8,7 +8,7 @@ import re
 from fractions import Fraction
 
 import pytest
-from planted import Motion, Planted, limits_of, lowered, plant
+from planted import EGO, Motion, Planted, limits_of, lowered, plant
 
 from scenewright.solve.proofs.consequences import consequences
 from scenewright.solve.proofs.events import Events
@@ -75,7 +75,7 @@ def passing_s(motion: Motion, place_m: float, end_s: float) -> float:
 def check_planted(planted: Planted) -> list[Named]:
     """Check that all formulas are true of the motions, sure turns and what follows from formulas included."""
     scene = planted.scene()
-    events = Events(scene, limits_of(scene), planted.question().ego)
+    events = Events(scene, limits_of(scene), EGO)
     lowering = Lowering(events)
     constraints = lowering.lower(scene.program.constraints)
     relaxation(events, lowering.narrowings, constraints)  # learns what is sure
@@ -92,7 +92,7 @@ def check_planted(planted: Planted) -> list[Named]:
     return formulas
 
 
-@pytest.mark.parametrize("seed", range(140))
+@pytest.mark.parametrize("seed", range(70))  # ten of each sketch
 def test_planted_motions_satisfy_every_formula(seed: int) -> None:
     check_planted(plant(seed))
 
