@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 from fractions import Fraction
-from functools import cache
 
-import hypothesis
 import pytest
-from hypothesis import Phase, assume, given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from motions import Exact, Move, motion, tenths, wandering
 
@@ -18,46 +15,19 @@ from scenarios import (
     INFEASIBLE,
     NOT_YIELDING,
     TOO_FAST,
-    TOO_HARD,
     Example,
+    denied,
     example,
     feasibility,
     limits_of,
 )
-from scenewright.program.printer import print_expression, print_program
 from scenewright.program.text import parse_program
 from scenewright.roads import load_map
-from scenewright.roads.grounding import Scene, ground
-from scenewright.solve.feasibility import EgoBounds, Feasibility, Suggestion
-from scenewright.units import decimal_fraction, format_fraction, pin
+from scenewright.roads.grounding import ground
+from scenewright.solve.feasibility import EgoBounds
+from scenewright.units import format_fraction, pin
 
 T = load_map("t_intersection")
-
-
-def applied(scene: Scene, suggestion: Suggestion) -> Scene:
-    """Return `scene` with the one number changed that `suggestion` names."""
-    nearest = decimal_fraction(suggestion.nearest)
-    if suggestion.what in scene.parameters:
-        return replace(scene, parameters={**scene.parameters, suggestion.what: nearest})
-    number, where = suggestion.what.split(" in ", 1)
-    program = scene.program
-    for constraint in program.constraints:
-        formula = print_expression(constraint.formula)
-        if where in (formula, f'"{program.words_of(constraint)}"'):
-            old = rf"(?<![\w.]){re.escape(number)}(?![\w.])"
-            changed, count = re.subn(old, f"({format_fraction(nearest)})", formula)
-            assert count == 1
-            text = print_program(program).replace(f"{constraint.id}: {formula}", f"{constraint.id}: {changed}")
-            assert text != print_program(program)
-            return ground(parse_program(text), scene.road_map, {})
-    raise AssertionError(f"{suggestion.what} is in no constraint")
-
-
-@cache
-def denied(name: str) -> tuple[Scene, Feasibility]:
-    """Return the scene of an example that cannot happen, and why; found once for all tests."""
-    scene = next(case for case in INFEASIBLE if case.name == name).scene()
-    return scene, feasibility(scene)
 
 
 @pytest.mark.parametrize("case", FEASIBLE, ids=lambda case: case.name)
@@ -79,32 +49,6 @@ def test_what_cannot_happen_is_explained_by_what_clashes(case: Example) -> None:
     plain = found.as_dict()
     assert plain["answer"] == "infeasible"
     assert len(plain["clashes"]) == len(found.clashes)
-
-
-@pytest.mark.parametrize(
-    "case",
-    INFEASIBLE,
-    ids=lambda case: case.name,
-)
-def test_every_suggestion_works_when_taken(case: Example) -> None:
-    scene, found = denied(case.name)
-    assert found.suggestions
-    for suggestion in found.suggestions:
-        assert suggestion.nearest != suggestion.value
-        assert feasibility(applied(scene, suggestion), explain=False).answer == "feasible"
-
-
-@hypothesis.example(speed=Fraction(10), rate=Fraction(2), way=Fraction(10))
-@settings(max_examples=3, phases=[Phase.explicit, Phase.generate])
-@given(speed=tenths(5, 15), rate=tenths(0.5, 8), way=tenths(5, 60))
-def test_suggestions_for_braking_work_and_are_near(speed: Fraction, rate: Fraction, way: Fraction) -> None:
-    """Speed, rate and way of a braking car are tied by v^2 = 2 a s: each suggestion must restore that."""
-    text = TOO_HARD.text.replace("A1v(t1) == 10", f"A1v(t1) == {float(speed)}")
-    scene = ground(parse_program(text), T, {"rate_mpss": rate, "braking_m": way})
-    found = feasibility(scene)
-    assert (found.answer == "feasible") is (speed * speed == 2 * rate * way)
-    for suggestion in found.suggestions:
-        assert feasibility(applied(scene, suggestion), explain=False).answer == "feasible"
 
 
 def test_clashes_carry_the_words_of_the_description() -> None:

@@ -1,0 +1,91 @@
+"""Numbers that would do are tried before they are proposed: each works when it is taken, and is near."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from fractions import Fraction
+
+import hypothesis
+import pytest
+from hypothesis import Phase, given, settings
+from motions import tenths
+
+from scenarios import INFEASIBLE, TOO_HARD, Example, denied, feasibility
+from scenewright.orchestrate import Request, Stages, orchestrate, set_up
+from scenewright.program.printer import print_expression, print_program
+from scenewright.program.text import parse_program
+from scenewright.roads import load_map
+from scenewright.roads.grounding import Scene, ground
+from scenewright.solve.feasibility import Suggestion, check_feasibility
+from scenewright.units import decimal_fraction, format_fraction
+from stories import STORIES
+
+T = load_map("t_intersection")
+
+
+def applied(scene: Scene, suggestion: Suggestion) -> Scene:
+    """Return `scene` with the one number changed that `suggestion` names."""
+    nearest = decimal_fraction(suggestion.nearest)
+    if suggestion.what in scene.parameters:
+        return replace(scene, parameters={**scene.parameters, suggestion.what: nearest})
+    number, where = suggestion.what.split(" in ", 1)
+    program = scene.program
+    for constraint in program.constraints:
+        formula = print_expression(constraint.formula)
+        if where in (formula, f'"{program.words_of(constraint)}"'):
+            old = rf"(?<![\w.]){re.escape(number)}(?![\w.])"
+            changed, count = re.subn(old, f"({format_fraction(nearest)})", formula)
+            assert count == 1
+            text = print_program(program).replace(f"{constraint.id}: {formula}", f"{constraint.id}: {changed}")
+            assert text != print_program(program)
+            return ground(parse_program(text), scene.road_map, {})
+    raise AssertionError(f"{suggestion.what} is in no constraint")
+
+
+@pytest.mark.parametrize(
+    "case",
+    INFEASIBLE,
+    ids=lambda case: case.name,
+)
+def test_every_suggestion_works_when_taken(case: Example) -> None:
+    scene, found = denied(case.name)
+    assert found.suggestions
+    for suggestion in found.suggestions:
+        assert suggestion.nearest != suggestion.value
+        assert feasibility(applied(scene, suggestion), explain=False).answer == "feasible"
+
+
+@hypothesis.example(speed=Fraction(10), rate=Fraction(2), way=Fraction(10))
+@settings(max_examples=3, phases=[Phase.explicit, Phase.generate])
+@given(speed=tenths(5, 15), rate=tenths(0.5, 8), way=tenths(5, 60))
+def test_suggestions_for_braking_work_and_are_near(speed: Fraction, rate: Fraction, way: Fraction) -> None:
+    """Speed, rate and way of a braking car are tied by v^2 = 2 a s: each suggestion must restore that."""
+    text = TOO_HARD.text.replace("A1v(t1) == 10", f"A1v(t1) == {float(speed)}")
+    scene = ground(parse_program(text), T, {"rate_mpss": rate, "braking_m": way})
+    found = feasibility(scene)
+    assert (found.answer == "feasible") is (speed * speed == 2 * rate * way)
+    for suggestion in found.suggestions:
+        assert feasibility(applied(scene, suggestion), explain=False).answer == "feasible"
+
+
+def answer(text: str) -> str:
+    """Return whether it can happen, without asking why not."""
+    world, _ = set_up(Request(text, ego="idm"), Stages(None))
+    return check_feasibility(world.scene, world.structure, world.limits, world.ego_bounds, explain=False).answer
+
+
+def test_every_suggestion_makes_it_possible() -> None:
+    text = STORIES["yields, distance"].replace("conflict_point - 6", "conflict_point - 17.6\nA1v(t1) == 4")
+    result = orchestrate(Request(text, ego="idm"))
+    assert result.feasibility is not None
+    assert result.feasibility.suggestions
+    for suggestion in result.feasibility.suggestions:
+        number, formula = suggestion.what.split(" in ")
+        assert float(number) == suggestion.value
+        assert formula in text
+        mended = text.replace(formula, f"{formula.removesuffix(number)}{suggestion.nearest}")
+        assert answer(mended) == "feasible"
+        further = suggestion.nearest + 0.05 * (suggestion.value - suggestion.nearest)
+        short = text.replace(formula, f"{formula.removesuffix(number)}{further:.4f}")
+        assert answer(short) == "infeasible"
