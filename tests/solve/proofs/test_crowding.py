@@ -92,3 +92,12 @@ def test_check_refutes_it_at_once_and_says_why() -> None:
     assert time.process_time() - began_s < 0.5
     found = check_feasibility(scene, structure, limits)
     assert APART in [clash.id for clash in found.clashes]
+
+
+@pytest.mark.parametrize("near", ["A1x(t1) == 100\nA2x(t1) == 103", "A1x(t1) <= 100\ngap(A1, A2, t1) == 3"])
+def test_who_was_asked_into_contact_may_drive_on_in_it(near: str) -> None:
+    """The judge lets the contact of a pair pass all along where a trigger asks for it."""
+    rows = ["A0(t1) == A1(t1)", "A0(t1) == A2(t1)", "A0x(t1) == 60", near]
+    rows += [f"A{k}(t2) - A{k}(t1) == 4\nA{k}x(t2) >= 172.2" for k in (1, 2)]
+    heroes = [("W", "t0, go, t1, go, t2")] * 2
+    assert not clash_of(program_of("t0, go, t1, go, t2", heroes, rows))

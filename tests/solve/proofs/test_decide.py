@@ -154,3 +154,39 @@ def test_only_what_an_exact_solver_refutes_is_proven(exact: bool) -> None:
     decision = decide(replace(asked, refuter=denies))
     assert decision.answer == ("infeasible" if exact else "undecided")
     assert decision.doubted_by == ("" if exact else "denier")
+
+
+@pytest.mark.parametrize("last", ["A1v(130) >= 0", "always[0, 130] (A1v <= 15)"])
+def test_a_time_later_than_everything_else_says_nothing_of_before(last: str) -> None:
+    head = HEAD[: HEAD.index("A0x(t0)")].replace("dec", "go")
+    text = f"{head}A1x(t0) == 50\nA1(t1) == 5 s\nA1x(t1) == 60\nA1x(8) == 66\n{last}\n"
+    assert decide(question(text), explain=False).answer != "infeasible"
+
+
+ALONE = """A0x(1.8) == 110
+A0x(t0) == 100
+A0v(t1) >= 11
+A0(t1) <= 1 s
+"""
+TIED = """A0(t1) == A1(t1)
+A0(t1) <= 4 s
+A1(t1) >= 6 s
+"""
+TURNING = """A1x(t1) <= 305
+A1x(t2) >= 321
+A1v(4) >= 17
+A1x(4) == 312
+"""
+
+
+@pytest.mark.parametrize("constraints", [ALONE, TIED, TURNING], ids=["orders", "one moment", "turns"])
+def test_what_a_core_names_clashes_by_itself(constraints: str) -> None:
+    """Also where the order of moments, who is who's moment, or that a turn is driven through rests on another."""
+    head = HEAD[: HEAD.index("A0x(t0)")].replace("dec", "go")
+    asked = question(head + constraints, EgoBounds(18.0, 2.0, 6.0))
+    decision = decide(asked, 10.0)
+    assert decision.answer == "infeasible"
+    program = asked.scene.program
+    kept = tuple(each for each in program.constraints if each.id in decision.core)
+    fewer = replace(asked.scene, program=replace(program, constraints=kept))
+    assert decide(replace(asked, scene=fewer), 10.0, explain=False).answer == "infeasible"

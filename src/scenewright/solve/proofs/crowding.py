@@ -7,17 +7,20 @@ heroes must all pass it within a time that is shorter than they cover it one aft
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.program import expressions as program
-from scenewright.program.structure import actors_of, synchronised
-from scenewright.roads.bodies import VEHICLE_LENGTH_M
+from scenewright.program import expressions as ex
+from scenewright.program.structure import KnotKey, actors_of, knots_of, read_structure, synchronised
+from scenewright.program.types import EGO, Program
+from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, Body
 from scenewright.roads.conflicts import conflicts, shared_stretches
 from scenewright.roads.grounding import Scene
+from scenewright.roads.zones import overlap
 from scenewright.solve.proofs.events import Events, conjuncts
 from scenewright.solve.proofs.lowering import Lowered
 
@@ -28,6 +31,7 @@ APART = "orchestrated actors keep clear of each other"
 # A car covers a place from so far before it on; a little less than half its length, for lanes bend.
 _HALF_M = 0.5 * VEHICLE_LENGTH_M - 0.05
 _ROUNDING = 1e-6
+_ROOMY = Body(VEHICLE_LENGTH_M + 0.5, VEHICLE_WIDTH_M + 0.5)  # a judge lets places be a little off
 
 
 def crowded(events: Events, lowered: Sequence[Lowered]) -> tuple[str, ...]:
@@ -45,14 +49,19 @@ def crowded(events: Events, lowered: Sequence[Lowered]) -> tuple[str, ...]:
                 fewer = [other for other in kept if other is not each]
                 if len(_Facts.of(events, fewer).crowd(there)) == len(crowd):
                     kept = fewer
-            tied = [c.id for c in events.scene.program.constraints if _ties(c.formula, crowd)]
+            tied = _ties(events.scene.program, crowd)
             return (*dict.fromkeys([*(each.constraint.id for each in kept), *tied]), APART)
     return ()
 
 
-def _ties(formula: program.Formula, crowd: Sequence[int]) -> bool:
-    """Whether a constraint says that a moment of one of the crowd is one of somebody else."""
-    return bool(set(actors_of(formula)) & set(crowd)) and any(synchronised(formula))
+def _ties(program: Program, crowd: Sequence[int]) -> list[str]:
+    """Return the constraints that say that a moment of one of the crowd is one of somebody else, and of who else."""
+    ties = [each for each in program.constraints if any(synchronised(each.formula))]
+    known, found = set(crowd), dict[str, None]()
+    while more := [each for each in ties if each.id not in found and actors_of(each.formula) & known]:
+        found |= {each.id: None for each in more}
+        known |= {actor for each in more for actor in actors_of(each.formula)}
+    return [each.id for each in ties if each.id in found]
 
 
 @dataclass(slots=True)
@@ -124,13 +133,38 @@ class _Facts:
         return np.max(before, axis=0), np.min(after, axis=0), 2.0 * _HALF_M / fastest
 
     def _apart(self, point: Point) -> Iterator[int]:
-        """Yield who passes a point and is not told to be there at the same moment as another."""
-        near: dict[int, set[int]] = {}
-        for (hero, instant), at_m in self.most_m.items():
-            told = self.least_m.get((hero, instant)) == at_m
-            if told and hero in point and abs(at_m - point[hero]) < VEHICLE_LENGTH_M:
-                near.setdefault(instant, set()).add(hero)
-        yield from set(point) - {hero for heroes in near.values() if len(heroes) > 1 for hero in heroes}
+        """Yield who passes a point and may not touch any other: the judge lets contact pass that a trigger asks for."""
+        program = self.events.scene.program
+        touching = set[int]()
+        for instant in read_structure(program).triggers.values():
+            for a, b in combinations(sorted(_placed(program, instant) - {EGO}), 2):
+                if not self._told_apart(a, b, {self.events.knot(*key) for key in instant}):
+                    touching |= {a, b}
+        yield from set(point) - touching
+
+    def _told_apart(self, a: int, b: int, moments: Collection[int]) -> bool:
+        """Whether two are told to be at places at one of the moments at which they are clear of each other."""
+        paths = [self.events.scene.routes[hero].path for hero in (a, b)]
+        for k in moments:
+            places = [self.most_m.get((hero, k), np.inf) for hero in (a, b)]
+            if all(self.least_m.get((hero, k)) == at_m for hero, at_m in zip((a, b), places, strict=True)):
+                one, other = (path.poses(np.array([at_m])) for path, at_m in zip(paths, places, strict=True))
+                return not overlap(one, other, _ROOMY, _ROOMY).any()
+        return False
+
+
+def _placed(program: Program, instant: Collection[KnotKey]) -> set[int]:
+    """Return of whom the program says where they are at an instant, on the road or from each other."""
+    found = set[int]()
+    for constraint in program.constraints:
+        formula = constraint.formula
+        if isinstance(formula, ex.Compare) and formula.operator == "==" and set(knots_of(formula)) <= set(instant):
+            for node in ex.walk(formula):
+                if isinstance(node, ex.State) and node.order == 0:
+                    found.add(node.actor)
+                elif isinstance(node, ex.Derived) and node.kind == "gap" and isinstance(node.target, int):
+                    found |= {node.actor, node.target}
+    return found
 
 
 def _points(scene: Scene, facts: _Facts) -> Iterator[Point]:

@@ -8,7 +8,7 @@ found is realised and looked at by an evaluator of its own before it is called f
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Literal
@@ -37,6 +37,7 @@ Owed = Literal["throughout", "at first", "nothing"]
 _ROUNDS = 14  # how often one motion is mended before another is looked for
 _GUESSES = (4, 12, 1000)  # how many first guesses are tried before each time that a proof is looked for
 _PROOF_S = (0.15, 0.4, 0.1)
+_CORE_S = 2.0  # for looking for what clashes among all constraints
 _RANGES = {
     "time": f"everything happens within {float(LONGEST_S):g} s of the start",
     "speed": "how fast anybody may be",
@@ -177,7 +178,7 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
         if answer.kind == "refuted" and not question.refuter.capabilities.exact:
             return Decision("undecided", left_out=left_out, amiss=amiss, doubted_by=question.refuter.name)
         if answer.kind == "refuted":
-            clashing = _core(question.refuter, plain.events.unknowns, formulas) if explain else ()
+            clashing = _core(question, plain.events.unknowns, formulas) if explain else ()
             return Decision("infeasible", core=clashing, left_out=left_out)
         if left_out or question.drive:
             continue
@@ -188,16 +189,55 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     return Decision("undecided", left_out=left_out, amiss=amiss)
 
 
-def _core(refuter: Refuter, unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> tuple[str, ...]:
+def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> tuple[str, ...]:
     """Return what clashes, and which ranges of single numbers it takes for that."""
+    refuter = question.refuter
     origins = core(refuter, unknowns, formulas, 1.0)
     clashing = resting_on(formulas, origins)
+    if question.drive is None and (posed := _sufficient(question, origins)) is not None:
+        named, unknowns, clashing = posed
+        laws = [each for each in core(refuter, unknowns, clashing, 1.0) if each not in named]
+        origins, clashing = (*named, *laws), resting_on(clashing, (*named, *laws))
     ranges = []
     for kind, words in _RANGES.items():
         wider = [replace(each, high=_WIDER * each.high) if each.kind == kind else each for each in unknowns]
         if refuter.ask(wider, clashing, 0.2).kind == "met":
             ranges.append(words)
     return (*origins, *ranges)
+
+
+def _sufficient(question: Question, origins: Collection[str]) -> tuple[list[str], list[Unknown], list[Named]] | None:
+    """Return constraints that clash by themselves, with what is asked about them alone.
+
+    Formulas are made with what all constraints say of the order of moments, and of who is who's moment: whether those
+    that are named clash without the others is asked anew, and where they do not, they are looked for among all.
+    """
+    until, told = time.monotonic() + _CORE_S, [constraint.id for constraint in question.constraints()]
+    named = [name for name in told if name in origins]
+    posed = _posed(question, named)
+    if posed is None:
+        named = told
+        for each in sorted(told, key=lambda name: name in origins):  # those that were named are looked at last
+            fewer = [other for other in named if other != each]
+            if time.monotonic() < until and _posed(question, fewer) is not None:
+                named = fewer
+        posed = _posed(question, named)
+    return None if posed is None else (named, *posed)
+
+
+def _posed(question: Question, kept: Collection[str]) -> tuple[list[Unknown], list[Named]] | None:
+    """Return unknowns and formulas of some of the constraints alone, if these are refuted."""
+    program = question.scene.program
+    fewer = replace(program, constraints=tuple(c for c in program.constraints if c.id in kept))
+    case = _Case(replace(question, scene=replace(question.scene, program=fewer)), plan=False)
+    for turning in (False, True):
+        if turning and not case.more.sure_turns():
+            break
+        formulas = taken(question.refuter, case.relaxation())
+        formulas += consequences(case.events.unknowns, formulas)
+        if question.refuter.ask(case.events.unknowns, formulas, 0.5).kind == "refuted":
+            return case.events.unknowns, formulas
+    return None
 
 
 def _witness(

@@ -297,13 +297,13 @@ class Events:
 
     def _closed(self, ahead: Mapping[tuple[int, int], Fraction]) -> NDArray[np.float64]:
         count = len(self.times)
-        least = np.full((count, count), -float(LONGEST_S))
+        constants = [(number, known) for number, time in enumerate(self.times) if (known := time.constant) is not None]
+        least = np.full((count, count), -float(max(LONGEST_S, *(known for _, known in constants))))
         np.fill_diagonal(least, 0.0)
         least[self.start, :] = 0.0
         least[self.start, self.start] = 0.0
         for (first, second), value in ahead.items():
             least[first, second] = max(least[first, second], float(value))
-        constants = [(number, known) for number, time in enumerate(self.times) if (known := time.constant) is not None]
         for first, a in constants:
             for second, b in constants:
                 least[first, second] = float(b - a)
@@ -332,7 +332,9 @@ class Events:
         for (actor, first), (_, most) in where.items():
             for (other, second), (least, _) in where.items():
                 if actor == other and most < least:
-                    self._note(first, second, (least - most) / self.law_of(actor).speed_high)
+                    fastest = self.law_of(actor).speed_high
+                    # One that never moves comes nowhere: the laws refute that, whatever the order.
+                    self._note(first, second, (least - most) / fastest if fastest else ZERO)
 
     def surely_passes(self, actor: int, place_m: Fraction) -> bool:
         """Whether what was learned says that an actor begins before a place and comes past it."""
