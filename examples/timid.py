@@ -1,4 +1,4 @@
-"""A driving policy of one's own: two methods, nothing to inherit. `scenewright run ... --ego timid:Timid`."""
+"""A policy of one's own: two methods, nothing to inherit. `scenewright run ... --ego examples/timid.py:Timid`."""
 
 
 class Timid:

@@ -183,6 +183,10 @@ def row(name: str, count: int, ego: str) -> str:
 
 def main(wanted: list[str]) -> None:
     """Print the table."""
+    if any(each.count(":") != 2 for each in wanted):
+        raise SystemExit(
+            "usage: many_heroes.py [PROGRAM:HEROES:EGO ...]\nfor instance platoon:8:idm; all of them without any"
+        )
     print("| program | heroes | ego | first plan s | tick p50 / p99 ms | met | apart m | from the ego m | lasted s |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     for each in wanted or [f"{name}:{count}:{ego}" for name in PROGRAMS for count in COUNTS for ego in EGOS]:

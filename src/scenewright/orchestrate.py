@@ -198,7 +198,10 @@ def orchestrate(
         _drive(request, result, world, planned, stages, progress)
         result = _rehearse(request, result, world, stages, progress)
     if result.status == "failure" and request.explain != "nothing":
-        _explain(request, result, world, stages)
+        try:
+            _explain(request, result, world, stages)
+        except KeyboardInterrupt:
+            result.status = "interrupted"
     if request.out is not None:
         with stages("write"):
             write_result(request.out, request, result, world, stages.seconds)
@@ -262,16 +265,21 @@ def _rehearse(
         predictor = Rehearsed(drive, world.predictor)
         pace = _SLOW_PACE if take > 2 and not _missed_only_outcome(last) else 1.0
         slower_than_mps = math.inf if is_timed_by_ego(world) else _slower_than_mps(last, drive.state(0.0)[1])
-        for wanted in dict.fromkeys([(slower_than_mps, pace), (math.inf, 1.0)]):
-            planned = first_plan(world, predictor, *wanted)
-            if planned is not None:
-                break
-        else:
+        ways = dict.fromkeys([(slower_than_mps, pace), (math.inf, 1.0)])
+        try:
+            with stages("plan"):
+                found = (first_plan(world, predictor, *wanted) for wanted in ways)
+                planned = next((each for each in found if each is not None), None)
+        except KeyboardInterrupt:  # what was driven is kept
+            return replace(first, takes=last.takes, status="interrupted")
+        if planned is None:
             break  # nothing to drive, however the take begins
         last = replace(first, take=take, takes=last.takes, hindsight=None)
         _drive(request, last, world, planned, stages, progress)
         if last.status == "success":
             return last
+        if last.status == "interrupted":
+            return replace(first, takes=last.takes, status="interrupted")
     return replace(first, takes=last.takes)
 
 
@@ -361,8 +369,11 @@ def judge_run(request: Request, result: Result, world: World, stages: Stages, hi
     if run.status != "finished":
         result.status = "interrupted" if run.status == "interrupted" else "failed"
     elif hindsight and not holds and request.explain != "nothing":
-        with stages("hindsight"):
-            result.hindsight = ego_left_no_room(world.scene, world.structure, world.limits, run.trace)
+        try:
+            with stages("hindsight"):
+                result.hindsight = ego_left_no_room(world.scene, world.structure, world.limits, run.trace)
+        except KeyboardInterrupt:  # what was driven is kept
+            result.status = "interrupted"
     if run.status == "finished":
         result.takes = (*result.takes, Take(result.verdict, result.hindsight, run.trace))
 
@@ -452,4 +463,4 @@ class Stages:
         try:
             yield
         finally:
-            self.seconds[name] = time.perf_counter() - started
+            self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - started

@@ -95,7 +95,8 @@ def test_who_interrupts_wants_no_more() -> None:
     def interrupted(*_: object) -> bool:
         raise KeyboardInterrupt
 
-    assert tried(interrupted)[:2] == (1, 0)
+    with pytest.raises(KeyboardInterrupt):
+        tried(interrupted)
 
 
 @pytest.mark.parametrize("count", [0, 3])

@@ -77,7 +77,7 @@ def test_opens_from_a_file_without_a_complaint_or_a_request(opened: Opened) -> N
     assert opened.complaints == []
     assert len(opened.requests) == 1
     assert opened.requests[0].startswith("file://")
-    assert opened.page.title() == "Success, loose only: right turn, hero yields"
+    assert opened.page.title() == "Loose only: right turn, hero yields"
 
 
 def test_replay_advances_while_playing_and_stands_when_paused(opened: Opened) -> None:

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout, suppress
 from dataclasses import replace
 from pathlib import Path
+from types import FrameType
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -143,7 +144,7 @@ def _interruptible() -> Iterator[_Shield]:
     try:
         yield shield
     finally:
-        shield.down()
+        shield.down(raises=False)  # all is done: what was asked for meanwhile is no longer needed
 
 
 class _Shield:
@@ -151,18 +152,25 @@ class _Shield:
 
     def __init__(self) -> None:
         self._before: signal._HANDLER = None
+        self._asked = False
 
     def up(self) -> None:
         """Let nothing through; where this is not the main thread no signal arrives anyway."""
         if self._before is None:
             with suppress(ValueError):
-                self._before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+                self._before = signal.signal(signal.SIGINT, self._remember)
 
-    def down(self) -> None:
-        """Put back whatever handled the signal before."""
+    def down(self, *, raises: bool = True) -> None:
+        """Put back whatever handled the signal before; what came meanwhile comes now, if it is still wanted."""
         if self._before is not None:
             signal.signal(signal.SIGINT, self._before)
             self._before = None
+        asked, self._asked = self._asked, False
+        if asked and raises:
+            raise KeyboardInterrupt
+
+    def _remember(self, _number: int, _frame: FrameType | None) -> None:
+        self._asked = True
 
 
 # -- telling --------------------------------------------------------------------------------------------------------

@@ -87,7 +87,7 @@ def ways_out(
         report(f"trying what would do: {trial.way_out()}")
         try:
             happens = succeeds(program, {trial.lever.name: float(trial.value)} if trial.is_parameter else {}, goes_on)
-        except (_LongEnough, KeyboardInterrupt):
+        except _LongEnough:
             break
         tries += 1
         if happens:

@@ -120,7 +120,7 @@ def _pair(case: Case, a: int, b: int) -> dict[str, Any]:
         "min_distance_time_s": float(instants[when]),
         "min_ttc_s": float(ttc[soonest]) if np.isfinite(ttc[soonest]) else None,
         "min_ttc_time_s": float(every_tenth[soonest]) if np.isfinite(ttc[soonest]) else None,
-        "post_encroachment_time_s": _post_encroachment_s(case, a, b),
+        "post_encroachment_time_s": None if len(hits) else _post_encroachment_s(case, a, b),
     }
 
 

@@ -142,8 +142,11 @@ class HeroRows:
     # -- limits -------------------------------------------------------------------------------------------------------
     def _limits(self) -> None:
         """Add what no motion exceeds: nobody drives backwards, or faster than road and bends allow."""
-        wanted, caps = self.asked.wanted, self.asked.caps[self.hero.id]
-        natural = self.asked.limits[self.hero.id].natural_approach_speed_mps
+        wanted, caps, limits = self.asked.wanted, self.asked.caps[self.hero.id], self.asked.limits[self.hero.id]
+        number = self._trigger_leg()
+        acts = len(self.shot.s) if number is None else self.shot.first_node[number]
+        onto = np.arange(1, len(self.shot.s)) > acts  # on its way to whatever road comes next
+        natural = np.where(onto, limits.natural_speed_mps, limits.natural_approach_speed_mps)
         (most, slope), (comfortable, other) = caps.at(self.shot.s)
         v, d_s, d_v = self.shot.v[1:], self.shot.d_s[1:], self.shot.d_v[1:]
         self.bounds.add_all(-v, -d_v, _FIRM * wanted.price)

@@ -26,6 +26,7 @@ DEFAULT_STEP_S = 0.02
 DEFAULT_REPLAN_S = 0.1
 LONGEST_RUN_S = 90.0
 _AFTER_HEROES_S = 2.0
+_SEEN_S = 0.5  # beyond what a stand has to last, for it to be seen to
 _WAIT_FOR_EGO_S = 10.0
 _STALLED_S = 20.0
 _MOVES_MPS = 0.5
@@ -160,7 +161,8 @@ def _is_over(
     # Whoever is at the end of its route does nothing more that a program asks for; others may.
     going = [heroes.plan.profiles[hero] for hero in states if not _is_at_end(scene, hero, states)]
     last_knot_s = max((max(profile.knot_times_s.values()) for profile in going), default=-_WAIT_FOR_EGO_S)
-    if time_s < last_knot_s + _AFTER_HEROES_S:
+    stands_s = float(scene.program.manner.stands_s) + _SEEN_S
+    if time_s < last_knot_s + max(_AFTER_HEROES_S, stands_s):
         return _stalled(heroes, time_s)
     if time_s < last_knot_s + _WAIT_FOR_EGO_S and _any_turning(scene, states):
         return False

@@ -2,7 +2,7 @@
 
 const VERDICTS = {
   tight: ['✓', 'Success', 'at tight tolerance'],
-  loose: ['◐', 'Success, loose only', 'not at tight tolerance'],
+  loose: ['◐', 'Loose only', 'a success at the loose tolerance, a failure at the tight one'],
   failed: ['✗', 'Failed', ''],
   interrupted: ['‖', 'Interrupted', 'the run did not reach its end'],
   unjudged: ['?', 'Not judged', 'there is no verdict'],

@@ -1,0 +1,54 @@
+"""Ctrl-C: it waits while what was driven is written, is never lost, and keeps what was driven whenever it comes."""
+
+from __future__ import annotations
+
+import os
+import signal
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import scenewright.orchestrate as orchestration
+from scenewright.cli.running import _Shield
+from scenewright.orchestrate import EXIT_STATUS, Request, orchestrate
+from stories import STORIES
+
+
+def test_what_comes_behind_the_shield_comes_when_it_is_lowered() -> None:
+    shield, before = _Shield(), signal.getsignal(signal.SIGINT)
+    shield.up()
+    os.kill(os.getpid(), signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt):
+        shield.down()
+    assert signal.getsignal(signal.SIGINT) is before
+    shield.up()
+    shield.down()  # it comes once
+
+
+def test_at_the_very_end_it_is_no_longer_needed() -> None:
+    shield = _Shield()
+    shield.up()
+    os.kill(os.getpid(), signal.SIGINT)
+    shield.down(raises=False)
+    shield.up()
+    shield.down()
+
+
+@pytest.mark.parametrize("where", ["first_plan", "cause_of", "ego_left_no_room"])
+def test_after_the_first_take_it_keeps_what_was_driven(
+    where: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real, calls = getattr(orchestration, where), []
+
+    def interrupted(*given: Any) -> Any:
+        calls.append(given)
+        if where == "first_plan" and len(calls) == 1:
+            return real(*given)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(orchestration, where, interrupted)
+    result = orchestrate(Request(STORIES["stops and goes"], ego="speeder", out=tmp_path / "run"))
+    assert (result.status, EXIT_STATUS[result.status]) == ("interrupted", 130)
+    assert result.verdict is not None
+    assert (tmp_path / "run" / "trace.parquet").is_file()
