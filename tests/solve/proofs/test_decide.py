@@ -190,3 +190,39 @@ def test_what_a_core_names_clashes_by_itself(constraints: str) -> None:
     kept = tuple(each for each in program.constraints if each.id in decision.core)
     fewer = replace(asked.scene, program=replace(program, constraints=kept))
     assert decide(replace(asked, scene=fewer), 10.0, explain=False).answer == "infeasible"
+
+
+THROUGH_A_TURN = """Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2, go, t3]
+
+Actor 1 (hero):
+- E, N
+- [t0, go, t1, acc, t2]
+
+Actor 2 (hero2):
+- S, W
+- [t0, go, t1, acc, t2, dec, t3]
+
+Constraints:
+A0(t2) == A1(t1)
+A0x(t1) == conflict_point - 52.95206
+A0(t2) - A0(t1) == 1.34
+A1x(t1) == conflict_point - 15.6
+A1x(t2) == conflict_point + 22.51746
+A1v(t2) == 10.993
+A0(t2) == A2(t1)
+A2x(t1) == conflict_point - 41
+A2x(t2) == conflict_point - 31.1198
+A2v(t2) == 8.31
+A2x(t3) == conflict_point - 9.35654
+A2v(t3) == 3.312
+A0x(t3) == conflict_point - 48.2076
+A2x(t3) <= conflict_point - 6.35654
+A2a(dec) == -833/810
+A1v(acc) <= 11.193
+"""
+
+
+def test_values_that_a_solver_finds_with_turns_are_a_guess_like_any_other() -> None:
+    assert decide(question(THROUGH_A_TURN, EgoBounds()), 10.0, explain=False).answer != "infeasible"

@@ -145,6 +145,7 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     """
     until = time.monotonic() + limit_s
     plain = _Case(question, plan=False)
+    asked = len(plain.events.unknowns)
     left_out = {each.constraint.id: each.refused for each in plain.lowered if each.refused}
     if question.drive is None and (clashing := crowded(plain.events, plain.lowered)):
         return Decision("infeasible", core=clashing, left_out=left_out)
@@ -183,7 +184,8 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
         if left_out or question.drive:
             continue
         if answer.kind == "met" and answer.values:
-            found, amiss = _mended(_Case(question), np.array(answer.values), until, None)
+            guess = np.array(answer.values)[:asked]  # a search has moments of its own after these
+            found, amiss = _mended(_Case(question), guess, until, None)
             if found is not None:
                 return Decision("feasible", found)
     return Decision("undecided", left_out=left_out, amiss=amiss)
