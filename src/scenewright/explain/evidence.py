@@ -50,13 +50,14 @@ def ego_never_there(world: World, run: Run, verdict: Verdict) -> Finding | None:
             off = None if side["error"] is None else f"off by {side['error']:.2f} {side['unit']}".rstrip()
             return _never(words, off, side["time_s"], {"condition": constraint and constraint.id, "off": side["error"]})
     ego, knot = run.trace.actors[program.ego.name], world.structure.trigger_knot(EGO)
-    off_by = {}
+    off_by: dict[str, list[float]] = {}
     for side in linear_conditions(world.scene, world.structure):
         if side.moments == {(EGO, knot)} and set(side.weights) == {EGO}:
-            tight = [
-                tight_of(side, speed) if side.weights[EGO][0] else TIGHT.speed_mps for speed in ego.speed_mps.tolist()
+            off_by[side.constraint_id] = [
+                abs(side.value({EGO: (s_m, speed)}))
+                / (tight_of(side, speed) if side.weights[EGO][0] else TIGHT.speed_mps)
+                for s_m, speed in zip(ego.s_m.tolist(), ego.speed_mps.tolist(), strict=True)
             ]
-            off_by[side.constraint_id] = np.abs(side.value({EGO: (ego.s_m, ego.speed_mps)})) / tight  # type: ignore[dict-item]
     if not off_by:
         return None
     worst = np.max(list(off_by.values()), axis=0)

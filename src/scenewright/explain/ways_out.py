@@ -19,7 +19,6 @@ from scenewright.program.structure import Role, actors_of, read_structure
 from scenewright.program.types import EGO, Program
 from scenewright.roads.grounding import Scene
 from scenewright.solve.suggestions import Lever, levers
-from scenewright.units import SI_SYMBOL
 
 # No more runs than this, of no more simulated seconds than this in all: who waits for an answer waits for them, too.
 _TRIES, _ALL_S = 6, 60.0
@@ -146,7 +145,7 @@ def _measured(scene: Scene, verdict: Verdict, failed: Sequence[str]) -> Iterator
 
 def _readable(scene: Scene, lever: Lever, value: Fraction) -> _Trial:
     """Return a value as people would write it, in the unit of the parameter's name or in SI units."""
-    unit, factor = SI_SYMBOL.get(lever.dimension, ""), Fraction(1)  # type: ignore[call-overload]
+    unit, factor = lever.unit, Fraction(1)
     if lever.number is None:
         own = next(p for p in scene.program.parameters if p.name == lever.name).unit
         unit, factor = own.symbol, own.si_factor

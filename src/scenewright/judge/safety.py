@@ -19,8 +19,7 @@ from scenewright.judge.case import CannotJudge, Case
 from scenewright.judge.instants import first_crossing
 from scenewright.judge.knots import Measured
 from scenewright.judge.verdict import Condition, bounded
-from scenewright.program.expressions import Compare, Derived, State, walk
-from scenewright.program.structure import KnotKey, knots_of
+from scenewright.program.structure import placed_at
 from scenewright.program.types import EGO
 
 _SUB_STEPS = 5  # the samples, and four instants between each two
@@ -78,28 +77,13 @@ def _contact_is_asked_for(case: Case, measured: Measured, a: int, b: int) -> boo
     for instant in case.structure.triggers.values():
         known = measured.moments.knots
         until_s = max((float(np.max(known[key])) for key in instant if key in known), default=np.inf)
-        if {a, b} <= _placed(case, instant) and np.isfinite(until_s):
+        if {a, b} <= placed_at(case.program, instant) and np.isfinite(until_s):
             instants = case.timelines[a].instants(case.start_s, until_s, parts=_SUB_STEPS)
             boxes = (moving_box(case.timelines[actor].states, case.box(actor), instants) for actor in (a, b))
             touch = overlapping(*boxes)
             if touch[-1] and np.count_nonzero(np.diff(touch.astype(int))) <= 1:  # one contact, still on at the trigger
                 return True
     return False
-
-
-def _placed(case: Case, instant: frozenset[KnotKey]) -> set[int]:
-    """Return the actors of whom the program says where they are at an instant, on the road or from each other."""
-    found: set[int] = set()
-    for constraint in case.program.constraints:
-        formula = constraint.formula
-        if not (isinstance(formula, Compare) and formula.operator == "==" and set(knots_of(formula)) <= instant):
-            continue
-        for node in walk(formula):
-            if isinstance(node, State) and node.order == 0:
-                found.add(node.actor)
-            elif isinstance(node, Derived) and node.kind == "gap" and isinstance(node.target, int):
-                found |= {node.actor, node.target}
-    return found
 
 
 def _pair(case: Case, a: int, b: int) -> dict[str, Any]:

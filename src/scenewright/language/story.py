@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from fractions import Fraction
-from typing import Literal
+from typing import Literal, TypeGuard
 
 from scenewright.errors import Span
 from scenewright.program.manner import USUAL, Manner
@@ -300,10 +300,11 @@ def atoms(condition: Condition) -> Iterator[Measure]:
             yield from atoms(part)
 
 
-def is_event(condition: Condition) -> bool:
+def is_event(condition: Condition) -> TypeGuard[Measure]:
     """Whether a condition is that somebody comes to a place: nobody drives backwards, so it happens once."""
-    where = isinstance(condition, Measure) and condition.quantity is Quantity.PLACE and condition.op == "=="
-    return where and isinstance(condition, Measure) and condition.amount is None
+    if not isinstance(condition, Measure):
+        return False
+    return condition.quantity is Quantity.PLACE and condition.op == "==" and condition.amount is None
 
 
 def people_in(condition: Condition) -> set[int]:

@@ -148,7 +148,7 @@ class _Teller:
         conditions = self.story.moments[moment].conditions
         last = self.story.ego[-1:] == (moment,) and self.story.moments[moment].time is None and len(conditions) == 1
         pairs = [{order.first, order.second} for order in self.story.orders]
-        its_own = last and st.is_event(conditions[0]) and conditions[0].actor == EGO  # type: ignore[union-attr]
+        its_own = last and st.is_event(conditions[0]) and conditions[0].actor == EGO
         return its_own and any(moment in pair and st.START not in pair for pair in pairs)
 
     def _introduce(self, moment: int) -> None:

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
 
 from scenewright.plan.preferences import preferences_of
 from scenewright.plan.triggers import adapts_until
@@ -116,7 +115,7 @@ class Asked:
             speed_mps = max(float(point[speed]), self.wanted.moves_mps)
             norms[k] = TIGHT["time"] * speed_mps * max(abs(float(gradients[k, place])), 1e-9)
         levels, equal = values / norms, self._formulas.equal
-        changes = (sparse.csr_array(gradients) @ slopes) / norms[:, None]
+        changes = np.array([_along(gradient, slopes) for gradient in gradients]) / norms[:, None]
         missed = np.where(equal, np.abs(levels), levels)
         # An alternative that does not hold is none where nothing that is still to be planned changes it.
         settled = (missed > 0.0) & ~np.any(changes != 0.0, axis=1)
@@ -140,6 +139,13 @@ class Asked:
                     kinds.setdefault(self.events.unknowns[unknown].kind, unknown)
             if "place" in kinds and "speed" in kinds:
                 yield number, kinds["place"], kinds["speed"]
+
+
+def _along(gradient: Array, slopes: Array) -> Array:
+    """Return how a value changes with what unknowns depend on; each depends on few of many."""
+    used = np.flatnonzero(gradient)
+    found: Array = np.einsum("i,ij->j", gradient[used], slopes[used], optimize=False)
+    return found
 
 
 def number_of(value: Polynomial) -> int | None:

@@ -18,8 +18,7 @@ from scenewright.motion.profile import Profile
 from scenewright.plan.preferences import Preferences
 from scenewright.plan.rows import Columns, Rows
 from scenewright.plan.shooting import Shot
-from scenewright.program.expressions import Compare, Derived, State, walk
-from scenewright.program.structure import KnotKey, Structure, knots_of
+from scenewright.program.structure import Structure, placed_at
 from scenewright.roads.bodies import CAR, VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import conflicts, shared_stretches
 from scenewright.roads.grounding import Scene
@@ -126,7 +125,9 @@ def in_order(
 def _contacts(scene: Scene, structure: Structure, motions: Mapping[int, Profile]) -> Iterator[tuple[int, int]]:
     """Yield heroes that touch at a moment at which the program says of both where they are."""
     for instant in {*structure.instants, *structure.triggers.values()}:
-        placed = {actor: name for actor, name in instant if actor in _placed(scene, instant) and actor in motions}
+        placed = {
+            actor: name for actor, name in instant if actor in placed_at(scene.program, instant) and actor in motions
+        }
         for a, b in combinations(sorted(placed), 2):
             pose_a, pose_b = (
                 scene.routes[actor].path.poses(np.array([motions[actor].state(motions[actor].knot_times_s[name])[0]]))
@@ -134,19 +135,6 @@ def _contacts(scene: Scene, structure: Structure, motions: Mapping[int, Profile]
             )
             if overlap(pose_a, pose_b, CAR, CAR)[0]:
                 yield a, b
-
-
-def _placed(scene: Scene, instant: frozenset[KnotKey]) -> set[int]:
-    """Return the actors of whom the program says where they are at an instant, on the road or from each other."""
-    found: set[int] = set()
-    for formula in (constraint.formula for constraint in scene.program.constraints):
-        if isinstance(formula, Compare) and formula.operator == "==" and set(knots_of(formula)) <= instant:
-            for node in walk(formula):
-                if isinstance(node, State) and node.order == 0:
-                    found.add(node.actor)
-                elif isinstance(node, Derived) and node.kind == "gap" and isinstance(node.target, int):
-                    found |= {node.actor, node.target}
-    return found
 
 
 # -- rows -------------------------------------------------------------------------------------------------------------

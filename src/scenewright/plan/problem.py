@@ -26,6 +26,7 @@ _CELL_S, _MOST_CELLS, _AFTER_S = 0.6, 18, 3.0
 _LEAST_S = 0.05  # between two knots of one hero
 _LEAST_APPROACH_S = 0.4  # before the settled end of an approach, for it to have a leg of its own
 _LATEST_S, _FASTEST_MPS = 200.0, 60.0
+DAMPING = 0.02  # of a longest step, in every step: what nothing else decides stays as it is
 _BETWEEN_S = 2.0  # after one that goes first, where the other comes much later
 _STEP_S, _STEP_M, _STEP_MPS, _STEP_MPSS, _STEP_OTHER = 0.6, 40.0, 5.0, 3.0, 4.0
 

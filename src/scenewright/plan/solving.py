@@ -11,9 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.plan.problem import Missed, Problem
+from scenewright.plan.problem import DAMPING, Missed, Problem
 from scenewright.plan.rows import Rows
-from scenewright.plan.sparse_steps import DAMPING, sparse_step
 
 Array = NDArray[np.float64]
 
@@ -76,6 +75,8 @@ def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float)
     None where there is none.
     """
     if any(by is not None for by in costs.columns):
+        from scenewright.plan.sparse_steps import sparse_step  # slow to import, and one hero needs none
+
         return sparse_step(problem, z, costs, bounds, trusted)
     import daqp
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
+from scenewright.plan.problem import DAMPING
 from scenewright.plan.rows import Columns, Rows
 
 if TYPE_CHECKING:
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Matrix = sparse.csr_array
 
-DAMPING = 0.02  # of a longest step: what nothing else decides stays as it is
 # A step beyond what an unknown may be costs as if a bound so dear were broken: none is by more than rounding.
 _WALL = 1e5
 _SYMMETRIC: dict[str, Any] = {"diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}

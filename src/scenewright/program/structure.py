@@ -112,6 +112,19 @@ def actors_of(formula: Formula) -> set[int]:
     return actors
 
 
+def placed_at(program: Program, instant: frozenset[KnotKey]) -> set[int]:
+    """Return the actors of whom a program says where they are at an instant, on the road or from each other."""
+    found: set[int] = set()
+    for formula in (constraint.formula for constraint in program.constraints):
+        if isinstance(formula, Compare) and formula.operator == "==" and set(knots_of(formula)) <= instant:
+            for node in walk(formula):
+                if isinstance(node, State) and node.order == 0:
+                    found.add(node.actor)
+                elif isinstance(node, Derived) and node.kind == "gap" and isinstance(node.target, int):
+                    found |= {node.actor, node.target}
+    return found
+
+
 def synchronised(formula: Formula) -> Iterator[tuple[KnotKey, KnotKey]]:
     """Yield the pairs of knots that `formula` says are the same moment."""
     if isinstance(formula, Compare) and formula.operator == "==":

@@ -10,13 +10,13 @@ import time
 from collections.abc import Callable, Container, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Any
 
 from scenewright.program.expressions import (
     Arithmetic,
     Compare,
     Logic,
     Negate,
-    Node,
     Number,
     ParameterRef,
     Temporal,
@@ -70,11 +70,16 @@ class Lever:
     constraint: Constraint | None = None
     number: Number | None = None
 
+    @property
+    def unit(self) -> str:
+        """The symbol of its SI unit; empty where it has none."""
+        return next((symbol for dimension, symbol in SI_SYMBOL.items() if dimension == self.dimension), "")
+
     def put(self, program: Program, term: Term) -> Program:
         """Return the program with `term` in place of the written number; the same one for a parameter."""
         if self.constraint is None or self.number is None:
             return program
-        changed = replace(self.constraint, formula=_replaced(self.constraint.formula, self.number, term))  # type: ignore[arg-type]
+        changed = replace(self.constraint, formula=_replaced(self.constraint.formula, self.number, term))
         constraints = tuple(changed if c.id == changed.id else c for c in program.constraints)
         return replace(program, constraints=constraints)
 
@@ -94,8 +99,7 @@ def suggest(question: Question, core: set[str]) -> Iterator[Suggestion]:
         nearest = _nearest(question, lever)
         if nearest is not None:
             found += 1
-            unit = SI_SYMBOL.get(lever.dimension, "")  # type: ignore[call-overload]
-            yield Suggestion(lever.what, float(lever.value), float(nearest), unit)
+            yield Suggestion(lever.what, float(lever.value), float(nearest), lever.unit)
 
 
 def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
@@ -174,17 +178,18 @@ def _rounded(found: Fraction, origin: Fraction, digits: int) -> tuple[Fraction, 
     return Fraction(round(scaled), 10**digits), Fraction(away, 10**digits)
 
 
-def _replaced(node: Node, old: Number, new: Term) -> Node:
+def _replaced(node: Any, old: Number, new: Term) -> Any:
+    """Return a term or formula with one number in it, by identity, replaced by a term; else what it was."""
     if node is old:
         return new
     match node:
         case Arithmetic(left=left, right=right) | Compare(left=left, right=right):
-            return replace(node, left=_replaced(left, old, new), right=_replaced(right, old, new))  # type: ignore[arg-type]
+            return replace(node, left=_replaced(left, old, new), right=_replaced(right, old, new))
         case Negate(operand=operand):
-            return replace(node, operand=_replaced(operand, old, new))  # type: ignore[arg-type]
+            return replace(node, operand=_replaced(operand, old, new))
         case Logic(operands=operands):
-            return replace(node, operands=tuple(_replaced(o, old, new) for o in operands))  # type: ignore[misc]
+            return replace(node, operands=tuple(_replaced(o, old, new) for o in operands))
         case Temporal(body=body):
-            return replace(node, body=_replaced(body, old, new))  # type: ignore[arg-type]
+            return replace(node, body=_replaced(body, old, new))
         case _:
             return node

@@ -98,5 +98,6 @@ def _motion(name: str, values: Mapping[str, Any]) -> Iterator[Told]:
 
 def _number(value: object) -> float | None:
     """Return a finite number, None for anything else."""
-    known = isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
-    return float(value) if known else None  # type: ignore[arg-type]
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return None
+    return float(value) if math.isfinite(value) else None

@@ -172,5 +172,6 @@ class _Items:
 
 def is_told_twice(item: Item, following: Item | None) -> bool:
     """Whether two clauses tell one deed: "it brakes at 3 m/s^2 and stops at the stop line"."""
-    both = isinstance(item, Clause) and isinstance(following, Clause) and item.subject == following.subject
-    return both and (item.deed, following.deed) == (st.Verb.BRAKE, "stop")  # type: ignore[union-attr]
+    if not (isinstance(item, Clause) and isinstance(following, Clause)):
+        return False
+    return (item.subject, item.deed, following.deed) == (following.subject, st.Verb.BRAKE, "stop")

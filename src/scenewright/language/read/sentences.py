@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 from scenewright.errors import Place as Where
 from scenewright.errors import TranslationError
@@ -274,7 +275,8 @@ class _Sentence:
             whole = many.get(name, value)
             if getattr(way, name) not in (None, (), whole):
                 story.refuse(f"two things are said of the way of {actor.name}", clause.quote)
-            way = replace(way, **{name: whole})  # type: ignore[arg-type]
+            fact: dict[str, Any] = {name: whole}
+            way = replace(way, **fact)
         changed = replace(actor, way=way, relations=(*actor.relations, *clause.relations))
         story.actors = [changed if each is actor else each for each in story.actors]
 

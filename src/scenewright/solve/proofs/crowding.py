@@ -14,8 +14,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.program import expressions as ex
-from scenewright.program.structure import KnotKey, actors_of, knots_of, read_structure, synchronised
+from scenewright.program.structure import actors_of, placed_at, read_structure, synchronised
 from scenewright.program.types import EGO, Program
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, Body
 from scenewright.roads.conflicts import conflicts, shared_stretches
@@ -137,7 +136,7 @@ class _Facts:
         program = self.events.scene.program
         touching = set[int]()
         for instant in read_structure(program).triggers.values():
-            for a, b in combinations(sorted(_placed(program, instant) - {EGO}), 2):
+            for a, b in combinations(sorted(placed_at(program, instant) - {EGO}), 2):
                 if not self._told_apart(a, b, {self.events.knot(*key) for key in instant}):
                     touching |= {a, b}
         yield from set(point) - touching
@@ -151,20 +150,6 @@ class _Facts:
                 one, other = (path.poses(np.array([at_m])) for path, at_m in zip(paths, places, strict=True))
                 return not overlap(one, other, _ROOMY, _ROOMY).any()
         return False
-
-
-def _placed(program: Program, instant: Collection[KnotKey]) -> set[int]:
-    """Return of whom the program says where they are at an instant, on the road or from each other."""
-    found = set[int]()
-    for constraint in program.constraints:
-        formula = constraint.formula
-        if isinstance(formula, ex.Compare) and formula.operator == "==" and set(knots_of(formula)) <= set(instant):
-            for node in ex.walk(formula):
-                if isinstance(node, ex.State) and node.order == 0:
-                    found.add(node.actor)
-                elif isinstance(node, ex.Derived) and node.kind == "gap" and isinstance(node.target, int):
-                    found |= {node.actor, node.target}
-    return found
 
 
 def _points(scene: Scene, facts: _Facts) -> Iterator[Point]:
