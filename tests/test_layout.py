@@ -133,6 +133,19 @@ def test_importing_the_packages_loads_nothing_heavy() -> None:
     assert sorted(HEAVY & set(result.stdout.split())) == []
 
 
+def test_a_check_and_a_plan_for_one_hero_load_no_sparse_matrices_nor_another_planner() -> None:
+    code = (
+        "import sys\nfrom pathlib import Path\nfrom scenewright.orchestrate import Request, orchestrate\n"
+        f"text = Path({str(ROOT / 'examples' / 'demo.txt')!r}).read_text()\n"
+        "result = orchestrate(Request(text, ego='constant'), until='plan')\n"
+        "print(result.status, *sys.modules)"
+    )
+    result = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    status, *loaded = result.stdout.split()
+    assert status == "success"
+    assert {"scipy", "pyarrow", "matplotlib", "scenewright.plan.smt"} & set(loaded) == set()
+
+
 def test_module_level_names_are_bound_once() -> None:
     twice = {}
     for path in sorted((ROOT / "src").rglob("*.py")):

@@ -28,3 +28,13 @@ def test_a_map_that_is_named_and_a_text_that_is_too_long() -> None:
         understand(f"Map: nowhere\n{TEXT}")
     with pytest.raises(TranslationError, match="too many characters"):
         understand("The ego stands. " * 1000)
+
+
+@pytest.mark.parametrize("vague", ["about 30 m before", "roughly 30 m before", "within 30 m of"])
+def test_a_vague_amount_is_asked_about_and_not_taken_for_an_exact_one(vague: str) -> None:
+    text = (
+        "The ego is headed west and goes straight on. The hero is headed east and turns left. "
+        f"When the ego is {vague} the conflict point, the hero brakes to a stop."
+    )
+    with pytest.raises(TranslationError, match="leaves something open"):
+        understand(text)

@@ -22,8 +22,9 @@ from scenewright.solve.suggestions import Lever, levers
 
 # No more runs than this, of no more simulated seconds than this in all: who waits for an answer waits for them, too.
 _TRIES, _ALL_S = 6, 60.0
-_ENOUGH = 1
-_SAME = 1e-6
+_ENOUGH = 1  # who waits is helped by one
+_SAME = 1e-6  # a number that was written and one that is required of it
+# Tried of each number: half and twice it, and a step between; whoever wants the edge asks `check`.
 _MORE, _LESS = (Fraction(3, 2), Fraction(2)), (Fraction(2, 3), Fraction(1, 2))
 
 Drive = Callable[[Program, Mapping[str, float], Callable[[float], None]], bool]

@@ -31,7 +31,7 @@ Along = tuple[Array, Array, Array]
 LOOK_S = 0.4
 # For how long after the last plan of anybody: then everybody holds its speed, and runs are over.
 AFTER_S = 8.0
-_NEAR_M = 12.0  # who is further apart is not looked at
+_NEAR_M = 12.0  # who is further apart is not looked at; chosen
 _NEVER = np.inf
 
 

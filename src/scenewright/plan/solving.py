@@ -17,6 +17,7 @@ from scenewright.plan.rows import Rows
 Array = NDArray[np.float64]
 
 _ENOUGH = 1e-4  # a step that gains a smaller share is the last
+# After a step that gains nothing, and one that does, the next may be so much as long; chosen. Shorter ones are none.
 _SHORTER, _LONGER, _LEAST_TRUST, _NO_STEP = 0.3, 2.5, 1e-3, 1e-6
 _FREE, _EXACT, _MOST_ITERATIONS = 1e30, 1e-9, 4000
 

@@ -37,7 +37,7 @@ Owed = Literal["throughout", "at first", "nothing"]
 _ROUNDS = 14  # how often one motion is mended before another is looked for
 _GUESSES = (4, 12, 1000)  # how many first guesses are tried before each time that a proof is looked for
 _PROOF_S = (0.15, 0.4, 0.1)
-_CORE_S = 2.0  # for looking for what clashes among all constraints
+_CORE_S = 2.0  # for looking for what clashes among all constraints: as long as for the answer itself
 _RANGES = {
     "time": f"everything happens within {float(LONGEST_S):g} s of the start",
     "speed": "how fast anybody may be",

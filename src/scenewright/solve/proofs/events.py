@@ -35,7 +35,7 @@ from scenewright.solve.proofs.polynomials import (
 from scenewright.units import pin
 
 LONGEST_S = Fraction(120)
-_PASSES = 2  # over all comparisons, to see between which places somebody is
+_PASSES = 2  # over all comparisons, to see between which places somebody is: enough for one that rests on another
 
 
 @dataclass(frozen=True, slots=True)
