@@ -9,11 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.judge.case import Box, Case, Limits
+from scenewright.judge.tolerance import Tolerance
+from scenewright.judge.verdict import Verdict
 from scenewright.program.text import parse_program
 from scenewright.trace.model import ActorTrace, Trace
 
 Array = NDArray[np.float64]
 STEP_S = 0.02
+
+
+def failed(verdict: Verdict, tolerance: Tolerance) -> set[str]:
+    """Return the ids of the conditions that do not hold."""
+    return {condition.id for condition in verdict.conditions if not condition.holds_at(tolerance)}
 
 
 @dataclass(frozen=True)
@@ -152,16 +159,16 @@ BRAKES = Play(
 )
 
 # The ego is 18 m short of the line at 4.003 s; the hero is 40 m short of its point then, and stops 12 m short of it.
-_T = 4.003
+YIELDS_AT_S = 4.003
 YIELDS = Play(
     text=text(
         "[t0, go, t1, dec, t2]",
         "A0x(t0) == intersection - 60\nA0(t1) == A1(t1)\nA0x(t1) == stop_line - 18\nA1x(t1) == conflict_point - 40\n"
         "A1x(t2) == conflict_point - 12\nA1v(t2) == 0",
     ),
-    ego=Motion(42.0 - 8.0 * _T, 8.0, [(_T, 0.0), (10.0, 0.5)]),
-    hero=Motion(60.0 - 12.0 * _T, 12.0, [(_T, 0.0), (10.0, -(12.0**2) / (2 * 28.0))]),
-    trigger_s=_T,
+    ego=Motion(42.0 - 8.0 * YIELDS_AT_S, 8.0, [(YIELDS_AT_S, 0.0), (10.0, 0.5)]),
+    hero=Motion(60.0 - 12.0 * YIELDS_AT_S, 12.0, [(YIELDS_AT_S, 0.0), (10.0, -(12.0**2) / (2 * 28.0))]),
+    trigger_s=YIELDS_AT_S,
     hero_line=CROSSING,
     duration_s=15.0,
 )
@@ -173,9 +180,9 @@ NOT_YIELDING = Play(
         "A0(t1) == A1(t1)\nA0x(t1) == stop_line - 18\nA1x(t1) == conflict_point - 40\n"
         "A1x(t2) == conflict_point\nA0x(t2) == turn_start\nA1(t2) < A0(t2)",
     ),
-    ego=Motion(42.0 - 8.0 * _T, 8.0, [(_T, 0.0), (1.0, -1.5)]),
-    hero=Motion(60.0 - 12.0 * _T, 12.0, [(_T, 0.0), (2.6, 2.0)]),
-    trigger_s=_T,
+    ego=Motion(42.0 - 8.0 * YIELDS_AT_S, 8.0, [(YIELDS_AT_S, 0.0), (1.0, -1.5)]),
+    hero=Motion(60.0 - 12.0 * YIELDS_AT_S, 12.0, [(YIELDS_AT_S, 0.0), (2.6, 2.0)]),
+    trigger_s=YIELDS_AT_S,
     hero_line=CROSSING,
     duration_s=15.0,
 )
@@ -187,9 +194,11 @@ GOES_AFTER = Play(
         "A1x(t2) == conflict_point - 12\nA1v(t2) == 0\nA1v(stop) == 0\nA1x(t4) == conflict_point\n"
         "A0x(t2) == turn_start\nA1(t4) < A0(t2)",
     ),
-    ego=Motion(42.0 - 8.0 * _T, 8.0, [(_T, 0.0), (10.0, -1.7777778), (7.0, 0.0), (30.0, 1.0)]),
-    hero=Motion(60.0 - 12.0 * _T, 12.0, [(_T, 0.0), (56.0 / 12.0, -(12.0**2) / 56.0), (1.5, 0.0), (4.0, 2.0)]),
-    trigger_s=_T,
+    ego=Motion(42.0 - 8.0 * YIELDS_AT_S, 8.0, [(YIELDS_AT_S, 0.0), (10.0, -1.7777778), (7.0, 0.0), (30.0, 1.0)]),
+    hero=Motion(
+        60.0 - 12.0 * YIELDS_AT_S, 12.0, [(YIELDS_AT_S, 0.0), (56.0 / 12.0, -(12.0**2) / 56.0), (1.5, 0.0), (4.0, 2.0)]
+    ),
+    trigger_s=YIELDS_AT_S,
     hero_line=CROSSING,
     duration_s=30.0,
 )

@@ -1,17 +1,28 @@
-"""The distance that two boxes surely keep: never more than they keep, hardly less, whatever happens between samples."""
+"""Boxes: what overlaps, how far apart they are, when they would touch, and what distance they surely keep."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scenewright.judge.boxes import distances_m, moving_box, surely_apart_m
+from scenewright.judge.boxes import (
+    MovingBox,
+    closest_m,
+    distances_m,
+    moving_box,
+    overlapping,
+    surely_apart_m,
+    times_to_collision_s,
+)
+from scenewright.judge.case import Box
 from scenewright.roads.bodies import CAR
 from scenewright.trace.model import ActorTrace, FloatArray
 
-STEP_S, LASTS_S = 0.02, 4.0
+STEP_S, LASTS_S = 0.02, 2.0
 
 
 def turning(time_s: FloatArray, from_m: tuple[float, float], heading: float, speed: float, turns: float) -> ActorTrace:
@@ -25,6 +36,7 @@ def turning(time_s: FloatArray, from_m: tuple[float, float], heading: float, spe
     return ActorTrace(time_s, from_m[0] + x, from_m[1] + y, ways, even, 0.0 * even, speed * time_s, 0.0 * even)
 
 
+@settings(max_examples=25)
 @given(
     heading=st.floats(-3.1, 3.1),
     speeds=st.tuples(st.floats(0.0, 15.0), st.floats(0.0, 15.0)),
@@ -53,3 +65,25 @@ def test_who_meets_between_two_samples_was_not_apart() -> None:
     one = turning(time_s, (0.0, 0.0), 0.0, 15.0, 0.0)
     other = turning(time_s, (15.0, 0.0), np.pi, 15.0, 0.0)
     assert surely_apart_m(one, other, (CAR, CAR)) < 0.0
+
+
+def boxes_at(*poses: tuple[float, float, float]) -> MovingBox:
+    x, y, heading = np.array(poses, dtype=float).T
+    return MovingBox(Box(4.0, 2.0), x, y, heading, np.full(len(poses), 10.0))
+
+
+def test_boxes_overlap_and_distance() -> None:
+    a = boxes_at((0, 0, 0), (0, 0, 0), (0, 0, 0), (0, 0, 0))
+    b = boxes_at((4.5, 0, 0), (3.9, 0, 0), (3.1, 0, np.pi / 2), (0, 3.0, np.pi / 4))
+    assert overlapping(a, b).tolist() == [False, True, False, True]
+    distances = distances_m(a, b)
+    assert distances[:3] == pytest.approx([0.5, 0.0, 0.1])
+    assert closest_m(boxes_at((0, 0, 0)), boxes_at((10, 5, 0)))[0] == pytest.approx(np.hypot(6, 3))
+    rotated = distances_m(boxes_at((0, 0, 0)), boxes_at((0, 3.5, np.pi / 4)))
+    assert rotated == pytest.approx([3.5 - 1.0 - 3.0 * np.sqrt(0.5)])
+
+
+def test_time_to_collision_of_boxes() -> None:
+    standing = replace(boxes_at((24.0, 0, 0)), speed_mps=np.zeros(1))
+    assert times_to_collision_s(boxes_at((0, 0, 0)), standing) == pytest.approx([2.0], abs=0.11)
+    assert times_to_collision_s(boxes_at((0, 10, 0)), standing) == [np.inf]

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
-from plays import BRAKES, GOES_AFTER, NOT_YIELDING, YIELDS, Motion, Play, actor_trace, text
+from plays import BRAKES, GOES_AFTER, YIELDS, Play
 
-from scenewright.judge.case import Case
 from scenewright.judge.judgement import judge
 from scenewright.judge.tolerance import LOOSE, TIGHT
-from scenewright.judge.verdict import Condition, Verdict
-from scenewright.program.text import parse_program
-from scenewright.trace.model import Trace
+from scenewright.judge.verdict import Condition
 
 
 def judged(play: Play, formula: str) -> Condition:
@@ -127,113 +123,3 @@ def test_unsigned_rate_of_slowing_down_is_understood() -> None:
 def test_standing_for_a_while_is_measured_and_not_assumed() -> None:
     assert judged(GOES_AFTER, "A1(t3) == A1(t2) + 1.5").error == pytest.approx(0.0, abs=1e-3)
     assert not judged(GOES_AFTER, "A1(t3) == A1(t2) + 3").holds_at(LOOSE)
-
-
-def test_trigger_by_inequalities_is_the_first_instant_at_which_they_hold() -> None:
-    play = replace(
-        NOT_YIELDING, text=NOT_YIELDING.text.replace("A0x(t1) == stop_line - 18", "A0x(t1) >= stop_line - 18")
-    )
-    play = replace(play, text=play.text.replace("A1x(t1) == conflict", "A1x(t1) >= conflict"))
-    assert judge(play.case()).facts["trigger_time_s"]["hero"] == pytest.approx(play.trigger_s, abs=1e-3)
-
-
-def test_of_several_good_instants_the_one_acted_upon_is_the_trigger() -> None:
-    # The gap of 20 m comes twice: the hero draws away, then the ego catches up. The hero acts at the second time.
-    ego = Motion(0.0, 6.0, [(4.0, 0.0), (4.0, 1.5), (20.0, 0.0)])
-    hero = Motion(14.0003, 8.0, [(9.875, 0.0), (5.0, -4.0)])
-    play = replace(BRAKES, ego=ego, hero=hero, trigger_s=9.875)
-    times = np.arange(0, 12, 0.001)
-    gap = hero.states(times)[0] - ego.states(times)[0]
-    assert np.count_nonzero(np.diff(np.sign(gap - 20.0))) == 2
-    second = float(times[np.flatnonzero(np.diff(np.sign(gap - 20.0)))[1]])
-    acted = play.with_hero(pieces=[(second, 0.0), (5.0, -4.0)])
-    verdict = judge(acted.case())
-    assert verdict.facts["trigger_time_s"]["hero"] == pytest.approx(second, abs=2e-3)
-    assert verdict.condition("hero_onset").holds_at(TIGHT)
-
-
-def test_hesitate_and_go_of_the_paper() -> None:
-    program = text(
-        "[t0, dec, t1, stop, t2, acc, t3]",
-        "A0v(t0) == 8\nA1v(t0) == 12\nA1a(dec) == -3\nA1v(t1) == 0\nA1x(t1) == turn - 20\nA1v(stop) == 0\n"
-        "A1a(stop) == 0\nA0x(t1) == turn\nA0(t1) == A1(t1)\nA1(t2) > A0(t1)\nA1v(t3) == 12",
-    )
-    play = Play(
-        text=program,
-        ego=Motion(70.0 - 32.0, 8.0, []),
-        hero=Motion(80.0 - 24.0, 12.0, [(4.0, -3.0), (2.0, 0.0), (6.0, 2.0)]),
-        trigger_s=4.0,
-        hero_line=(500.0, 0.0, 0.0),
-    )
-    verdict = judge(play.case())
-    assert verdict.holds_at(TIGHT), [c for c in verdict.conditions if not c.holds_at(TIGHT)]
-    assert verdict.facts["knot_times_s"]["hero"] == pytest.approx(
-        {"t0": 0.0, "t1": 4.0, "t2": 6.0, "t3": 12.0}, abs=0.02
-    )
-    spoiled = judge(play.with_hero(pieces=[(4.0, -3.0), (2.0, 0.0), (4.0, 2.0)]).case())
-    assert {c.id for c in spoiled.conditions if not c.holds_at(LOOSE)} == {"c11"}
-
-
-def test_turn_as_the_interaction_itself() -> None:
-    program = text(
-        "[t0, go, t1, dec, t2]",
-        "A0v(t0) == 10\nA1v(t0) == 8\ngap(A0, A1, t1) == 20\nA1x(t1) == turn\nA1v(t2) == 0\nA0(t1) == A1(t1)",
-        heading="E",
-    )
-    play = replace(BRAKES, text=program).with_hero(s_m=40.0).with_ego(s_m=5.0)
-    verdict = judge(play.case())
-    assert verdict.holds_at(TIGHT), [c for c in verdict.conditions if not c.holds_at(TIGHT)]
-    late = judge(play.with_ego(s_m=13.0).case())
-    assert {c.id for c in late.conditions if not c.holds_at(LOOSE)} >= {"c3", "c4"}
-
-
-SCENE_OF_THREE = """
-Actor 0 (ego):
-- E
-- [t0, go, t1, go, t2, go, t3]
-
-Actor 1 (first):
-- S
-- [t0, go, t1, dec, t2]
-
-Actor 2 (second):
-- N
-- [t0, go, t1, acc, t2]
-
-Constraints:
-A0(t1) == A1(t1)
-A0x(t1) == stop_line - 18
-A1x(t1) == conflict_point - 40
-A1v(t2) == 0
-A0(t2) == A2(t1)
-A0x(t2) == stop_line
-A2x(t1) == conflict_point(A0) - 30
-A2x(t2) == A2.conflict_point(A0)
-A0x(t3) == A0.conflict_point(A2)
-A2(t2) < A0(t3)
-"""
-
-
-def three(second: Motion) -> Verdict:
-    time_s = np.arange(0.0, 14.0, 0.02)
-    motions = {"ego": Motion(42.0 - 24.0, 8.0, []), "first": Motion(60.0 - 36.0, 12.0, [(3.0, 0.0), (9.0, -4.0)])}
-    lines = {"ego": (0.0, 0.0, 0.0), "first": (500.0, 0.0, -np.pi / 2), "second": (900.0, 0.0, np.pi / 2)}
-    traces = {name: actor_trace(m, time_s, lines[name]) for name, m in {**motions, "second": second}.items()}
-    landmarks = {
-        "ego": {"stop_line": 60.0, "conflict_point(first)": 70.0, "conflict_point(second)": 90.0},
-        "first": {"conflict_point": 100.0},
-        "second": {"conflict_point": 120.0},
-    }
-    program = parse_program(SCENE_OF_THREE.replace("conflict_point(A0) - 30", "A2.conflict_point(A0) - 30"))
-    return judge(Case(program, {}, landmarks, {}, Trace(traces)))
-
-
-def test_two_heroes_have_a_trigger_each() -> None:
-    # The ego is 18 m short of its line at 3 s and on it at 5.25 s.
-    good = three(Motion(90.0 - 52.5, 10.0, [(5.25, 0.0), (2.0, 1.0)]))
-    assert good.holds_at(TIGHT), [c for c in good.conditions if not c.holds_at(TIGHT)]
-    assert good.facts["trigger_time_s"] == pytest.approx({"first": 3.0, "second": 5.25}, abs=1e-3)
-    late = three(Motion(90.0 - 52.5, 10.0, [(6.25, 0.0), (2.0, 1.0)]))
-    assert {c.id for c in late.conditions if not c.holds_at(LOOSE)} == {"second_onset"}
-    after = three(Motion(90.0 - 52.5, 4.0, [(5.25, 0.0), (2.0, 1.0)]))
-    assert "c10" in {c.id for c in after.conditions if not c.holds_at(LOOSE)}

@@ -2,13 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from plays import Motion, actor_trace
+from plays import (
+    BRAKES,
+    CROSSING,
+    NOT_YIELDING,
+    YIELDS,
+    YIELDS_AT_S,
+    Motion,
+    Play,
+    actor_trace,
+    failed,
+    text,
+)
 
 from scenewright.judge.case import Case
 from scenewright.judge.judgement import judge
-from scenewright.judge.tolerance import LOOSE
+from scenewright.judge.tolerance import LOOSE, TIGHT
 from scenewright.judge.verdict import Verdict
 from scenewright.program.text import parse_program
 from scenewright.trace.model import Trace
@@ -84,3 +97,61 @@ def test_a_vehicle_without_a_trigger_does_not_put_off_that_of_the_others() -> No
     hit_late = judged(Motion(104.5, 10.0, []), Motion(4.5 + 2.0 * 9.0, 8.0, []), program=program)
     assert hit_late.aftermath.collision is not None
     assert collisions(hit_late) == set()
+
+
+MEETS = Play(
+    text=text(
+        "[t0, go, t1, go, t2]", "A0(t1) == A1(t1)\nA0x(t1) == conflict_point\nA1x(t1) == conflict_point\nA1v(t1) == 12"
+    ),
+    ego=Motion(0.0, 10.0, []),
+    hero=Motion(16.0, 12.0, []),
+    trigger_s=7.0,
+    hero_line=CROSSING,
+    duration_s=9.0,
+)
+
+
+def test_contact_that_is_asked_for_is_no_failure() -> None:
+    verdict = judge(MEETS.case())
+    assert not failed(verdict, TIGHT)
+    hit = verdict.facts["pairs"]["ego, hero"]["collision_time_s"]
+    assert 6.0 < hit < 7.0, "it is a fact all the same"
+
+
+@pytest.mark.parametrize("unsaid", ["A1x(t1) == conflict_point\n", "A0x(t1) == conflict_point\n"])
+def test_contact_at_a_trigger_that_does_not_say_where_both_are_is_one(unsaid: str) -> None:
+    assert unsaid in MEETS.text
+    assert "no_collision" in failed(judge(replace(MEETS, text=MEETS.text.replace(unsaid, "")).case()), LOOSE)
+
+
+def test_contact_that_is_over_before_the_trigger_is_one() -> None:
+    """The hero crosses right before the ego's nose once, and is where it was asked to be only later."""
+    later = replace(MEETS, text=MEETS.text.replace("A1x(t1) == conflict_point", "A1x(t1) == conflict_point + 8"))
+    over = later.with_hero(s_m=24.0).with_ego(s_m=-0.0)
+    through = replace(over, hero_line=(62.0, 100.0, -np.pi / 2))
+    verdict = judge(through.case())
+    assert "no_collision" in failed(verdict, LOOSE)
+
+
+def test_collision_before_the_trigger_fails_and_later_is_a_fact() -> None:
+    over_there = replace(YIELDS, hero_line=(YIELDS.ego.s_m + 16.0, YIELDS.hero.s_m + 24.0, -np.pi / 2))
+    verdict = judge(over_there.case())
+    assert failed(verdict, LOOSE) == {"no_collision"}
+    assert verdict.facts["pairs"]["ego, hero"]["collision_time_s"] == pytest.approx(1.8, abs=0.3)
+    later = judge(BRAKES.with_ego(pieces=[]).case())
+    assert not failed(later, TIGHT)
+    assert later.facts["pairs"]["ego, hero"]["collision_time_s"] == pytest.approx(9.5 + 3.5 / 10.0, abs=0.01)
+
+
+def test_safety_facts_of_a_crossing() -> None:
+    pair = judge(NOT_YIELDING.with_ego(pieces=[]).case()).facts["pairs"]["ego, hero"]
+    # Zone half-length 3.2 m: the hero leaves it at 103.2 m, the ego enters it at 66.8 m.
+    enters_s = (66.8 - NOT_YIELDING.ego.s_m) / 8.0
+    leaves_s = YIELDS_AT_S + (-12.0 + np.sqrt(144.0 + 4 * 43.2)) / 2.0
+    assert pair["post_encroachment_time_s"] == pytest.approx(enters_s - leaves_s, abs=0.05)
+    assert 0 < pair["min_distance_m"] < 10
+    assert pair["collision_time_s"] is None
+    following = judge(BRAKES.case()).facts["pairs"]["ego, hero"]
+    # The ego stops 100 / 4.4 m after 75 m, the hero at 103 m; between the centres lie 4.5 m of cars.
+    assert following["min_distance_m"] == pytest.approx(103.0 - 75.0 - 100 / 4.4 - 4.5, abs=1e-3)
+    assert following["min_ttc_s"] is not None

@@ -1,4 +1,4 @@
-"""Each number of a program's manner, and no other, says what its word means: another number, another verdict."""
+"""What a sketch asks of its hero; each number of the manner, and no other, says what its word means."""
 
 from __future__ import annotations
 
