@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cache
 from pathlib import Path
 
 from scenewright.program.structure import Structure, read_structure
@@ -260,10 +259,3 @@ def feasibility(
 ) -> Feasibility:
     structure = structure or read_structure(scene.program)
     return check_feasibility(scene, structure, limits_of(scene), ego, explain)
-
-
-@cache
-def denied(name: str) -> tuple[Scene, Feasibility]:
-    """Return the scene of an example that cannot happen, and why; found once for all tests."""
-    scene = next(case for case in INFEASIBLE if case.name == name).scene()
-    return scene, feasibility(scene)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from functools import cache
 
 import pytest
 
 from scenewright.explain.ways_out import ways_out
 from scenewright.judge.tolerance import TIGHT
+from scenewright.judge.verdict import Cause, Verdict
 from scenewright.orchestrate import Request, Result, Stages, orchestrate, set_up
 from scenewright.program.types import Program
 from scenewright.simulate.world import World
@@ -24,19 +26,26 @@ def missed(text: str, **settings: object) -> Result:
     return result
 
 
+@cache
+def verdict_to_mend() -> Verdict:
+    """Return what is said of a run that missed, made once for all tests that only pretend to drive others."""
+    verdict = missed(STORIES["goes first, distance"], explain="cause").verdict
+    assert verdict is not None
+    return verdict
+
+
 def tried(
     happens: Callable[[Program, Mapping[str, float], Callable[[float], None]], bool],
 ) -> tuple[int, int, list[str]]:
     """Return how many were driven, how many are told to have been tried, and the values, where `happens` decides."""
-    result, said, calls = missed(STORIES["goes first, distance"], explain="cause"), [], []
+    said, calls = list[str](), []
 
     def drive(program: Program, parameters: Mapping[str, float], progress: Callable[[float], None]) -> bool:
         calls.append((program, dict(parameters)))
         return happens(program, parameters, progress)
 
     world: World = set_up(Request(STORIES["goes first, distance"]), Stages(None))[0]
-    assert result.verdict is not None
-    _, count = ways_out(world.scene, result.verdict, TIGHT, drive, said.append)
+    _, count = ways_out(world.scene, verdict_to_mend(), TIGHT, drive, said.append)
     assert len(said) == len(set(said)) == len(calls), "each value is tried once, and told before"
     return len(calls), count, said
 
@@ -101,7 +110,5 @@ def test_who_interrupts_wants_no_more() -> None:
 
 @pytest.mark.parametrize("count", [0, 3])
 def test_none_that_would_do_is_said(count: int) -> None:
-    from scenewright.judge.verdict import Cause
-
     told = Cause("order", "Late.", {}, (), count).way_out()
     assert told == ("Other numbers tried: 3; none would do." if count else "")

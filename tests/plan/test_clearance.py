@@ -68,7 +68,7 @@ def test_who_only_crosses_need_not_keep_clear() -> None:
     assert clearance_of(YIELDS.scene()) is None
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=6, deadline=None)
 @given(ego_mps=st.floats(7.0, 13.0), slows_mpss=st.floats(-0.5, 0.3))
 def test_nobody_starts_or_drives_inside_the_other(ego_mps: float, slows_mpss: float) -> None:
     scene = BRAKES.scene()

@@ -63,10 +63,9 @@ A2x(t1) == stop_line + 11.5
 @pytest.mark.parametrize(
     ("program", "count", "ego"),
     [
-        ("platoon", 4, "dawdler"),
-        ("crossing", 6, "idm"),
-        ("crossing", 4, "noisy"),
-        ("mixed", 4, "stop-and-go"),
+        ("platoon", 3, "dawdler"),
+        ("crossing", 6, "noisy"),
+        ("mixed", 3, "stop-and-go"),
         ("chain", 3, "idm"),
     ],
 )

@@ -27,7 +27,7 @@ def parsed_alone(text: str, like: Node) -> Node:
     return comparison.left
 
 
-@settings(max_examples=50)
+@settings(max_examples=30)
 @given(programs())
 def test_a_program_is_what_its_text_says(program: Program) -> None:
     text = print_program(program)

@@ -23,6 +23,7 @@ ONE_PLACE_M = 1.0
 SOURCES = ["t_intersection", *sorted(path.relative_to(FOREIGN).as_posix() for path in FOREIGN.rglob("*.xodr"))]
 TRUCK = Body(10.0, 2.5)
 Pair = tuple[Route, Route, tuple[Conflict, ...]]
+_PAIRS = 150  # of a town that has more not all are looked at from both sides
 
 
 @cache
@@ -32,7 +33,7 @@ def pairs_on(source: str | Path) -> tuple[RoadMap, list[Pair]]:
     return road_map, [(a, b, conflicts(a, b)) for a, b in combinations(all_routes(road_map), 2)]
 
 
-@pytest.fixture(params=SOURCES)
+@pytest.fixture(scope="module", params=SOURCES)  # all tests of one map come after each other
 def every_map(request: pytest.FixtureRequest) -> tuple[RoadMap, list[Pair]]:
     try:
         return pairs_on(request.param if "/" not in request.param else FOREIGN / request.param)
@@ -84,7 +85,8 @@ def test_lanes_that_both_take_begin_in_a_merge_and_end_in_a_parting(every_map: t
 
 
 def test_from_the_other_route_they_are_the_same_in_the_same_order(every_map: tuple[RoadMap, list[Pair]]) -> None:
-    for a, b, _ in every_map[1]:
+    pairs = every_map[1]
+    for a, b, _ in pairs[:: max(1, len(pairs) // _PAIRS)]:
         found = conflicts(a, b, CAR, TRUCK)
         assert conflicts(b, a, TRUCK, CAR) == tuple(conflict.swapped() for conflict in found)
         ways = [conflict.s_a_m + conflict.s_b_m for conflict in found]

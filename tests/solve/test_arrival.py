@@ -38,7 +38,7 @@ def profile_of(wander: tuple[Fraction, list[Move]]) -> Profile:
     return motion(*wander).profile({})
 
 
-@settings(max_examples=120)
+@settings(max_examples=60)
 @given(
     wander=wandering(15, 3, 5),
     weight=weights,
@@ -59,7 +59,7 @@ def test_first_time_of_one_motion(
     constant=Fraction(1, 10),
     after_s=0.0,
 )
-@settings(max_examples=120, phases=[Phase.explicit, Phase.generate])
+@settings(max_examples=60, phases=[Phase.explicit, Phase.generate])
 @given(
     first=wandering(15, 3, 5),
     second=wandering(15, 3, 5),

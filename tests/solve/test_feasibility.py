@@ -12,11 +12,9 @@ from motions import Exact, Move, motion, tenths, wandering
 
 from scenarios import (
     FEASIBLE,
-    INFEASIBLE,
     NOT_YIELDING,
     TOO_FAST,
     Example,
-    denied,
     example,
     feasibility,
     limits_of,
@@ -35,20 +33,6 @@ def test_what_can_happen(case: Example) -> None:
     found = feasibility(case.scene())
     assert found.answer == "feasible"
     assert found.clashes == found.suggestions == ()
-
-
-@pytest.mark.parametrize("case", INFEASIBLE, ids=lambda case: case.name)
-def test_what_cannot_happen_is_explained_by_what_clashes(case: Example) -> None:
-    scene, found = denied(case.name)
-    assert found.answer == "infeasible"
-    own = {constraint.id for constraint in scene.program.constraints}
-    assert {clash.id for clash in found.clashes} & own == set(case.clashes)
-    for clash in found.clashes:
-        assert (clash.formula is not None) is (clash.id in own)
-        assert str(clash) in found.explain()
-    plain = found.as_dict()
-    assert plain["answer"] == "infeasible"
-    assert len(plain["clashes"]) == len(found.clashes)
 
 
 def test_clashes_carry_the_words_of_the_description() -> None:

@@ -8,9 +8,10 @@ from fractions import Fraction
 
 import pytest
 
-from scenarios import INFEASIBLE, TOO_HARD, Example, denied, feasibility
+from scenarios import INFEASIBLE, TOO_HARD, Example, feasibility
 from scenewright.orchestrate import Request, Stages, orchestrate, set_up
 from scenewright.program.printer import print_expression, print_program
+from scenewright.program.resolve import resolve
 from scenewright.program.text import parse_program
 from scenewright.roads import load_map
 from scenewright.roads.grounding import Scene, ground
@@ -36,7 +37,7 @@ def applied(scene: Scene, suggestion: Suggestion) -> Scene:
             assert count == 1
             text = print_program(program).replace(f"{constraint.id}: {formula}", f"{constraint.id}: {changed}")
             assert text != print_program(program)
-            return ground(parse_program(text), scene.road_map, {})
+            return replace(scene, program=resolve(parse_program(text)))
     raise AssertionError(f"{suggestion.what} is in no constraint")
 
 
@@ -45,8 +46,18 @@ def applied(scene: Scene, suggestion: Suggestion) -> Scene:
     INFEASIBLE,
     ids=lambda case: case.name,
 )
-def test_every_suggestion_works_when_taken(case: Example) -> None:
-    scene, found = denied(case.name)
+def test_what_cannot_happen_is_explained_by_what_clashes_and_every_suggestion_works_when_taken(case: Example) -> None:
+    scene = case.scene()
+    found = feasibility(scene)
+    assert found.answer == "infeasible"
+    own = {constraint.id for constraint in scene.program.constraints}
+    assert {clash.id for clash in found.clashes} & own == set(case.clashes)
+    for clash in found.clashes:
+        assert (clash.formula is not None) is (clash.id in own)
+        assert str(clash) in found.explain()
+    plain = found.as_dict()
+    assert plain["answer"] == "infeasible"
+    assert len(plain["clashes"]) == len(found.clashes)
     assert found.suggestions
     for suggestion in found.suggestions:
         assert suggestion.nearest != suggestion.value

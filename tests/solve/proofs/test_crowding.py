@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-import time
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from many_heroes import PROGRAMS, program_of
 
+from scenarios import limits_of
 from scenewright.program.structure import read_structure
 from scenewright.program.text import parse_program
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
-from scenewright.roads.grounding import ground
+from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
-from scenewright.solve.feasibility import check_feasibility
-from scenewright.solve.limits import limits_on
 from scenewright.solve.proofs.crowding import APART, crowded
+from scenewright.solve.proofs.decide import Question, decide
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
+from scenewright.solve.proofs.refuters import Answer, Capabilities
 
 BEFORE_M, BEHIND_M, SINCE_S = 280.0, 290.0, 5.0
 FASTEST_MPS = 18.0  # a little less than anybody may be
@@ -33,11 +32,14 @@ def through(windows: list[tuple[float, float]]) -> str:
     return program_of("t0, go, t1", [("W", "t0, go, t1, go, t2")] * len(windows), rows)
 
 
-def clash_of(text: str) -> tuple[str, ...]:
+def scene_of(text: str) -> Scene:
     program = parse_program(text)
-    scene = ground(program, load_map(program.map_name), {})
-    limits = {actor: limits_on(route, scene.road_map) for actor, route in scene.routes.items()}
-    events = Events(scene, limits, EgoBounds())
+    return ground(program, load_map(program.map_name), {})
+
+
+def clash_of(text: str) -> tuple[str, ...]:
+    scene = scene_of(text)
+    events = Events(scene, limits_of(scene), EgoBounds())
     return crowded(events, Lowering(events).lower(scene.program.constraints))
 
 
@@ -81,17 +83,20 @@ def test_who_is_to_be_in_contact_is_not_counted() -> None:
     assert not clash_of(program_of("t0, go, t1", heroes, rows))
 
 
-def test_check_refutes_it_at_once_and_says_why() -> None:
-    program = parse_program(through([(SINCE_S, SINCE_S + 1.2)] * 8))
-    scene = ground(program, load_map(program.map_name), {})
-    limits = {actor: limits_on(route, scene.road_map) for actor, route in scene.routes.items()}
-    structure = read_structure(program)
-    check_feasibility(scene, structure, limits, explain=False)  # what is imported once is
-    began_s = time.process_time()
-    assert check_feasibility(scene, structure, limits, explain=False).answer == "infeasible"
-    assert time.process_time() - began_s < 0.5
-    found = check_feasibility(scene, structure, limits)
-    assert APART in [clash.id for clash in found.clashes]
+class Unasked:
+    """A solver that nobody is to ask."""
+
+    name, capabilities = "unasked", Capabilities(exact=True, cores=True, quadratic=True, keeps_time=True)
+
+    def ask(self, *_: object, **__: object) -> Answer:
+        raise AssertionError("counting was enough")
+
+
+def test_it_is_refuted_without_a_solver_and_named() -> None:
+    scene = scene_of(through([(SINCE_S, SINCE_S + 1.2)] * 8))
+    decision = decide(Question(scene, read_structure(scene.program), limits_of(scene), refuter=Unasked()))
+    assert decision.answer == "infeasible"
+    assert APART in decision.core
 
 
 @pytest.mark.parametrize("near", ["A1x(t1) == 100\nA2x(t1) == 103", "A1x(t1) <= 100\ngap(A1, A2, t1) == 3"])

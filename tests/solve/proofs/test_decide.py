@@ -225,4 +225,4 @@ A1v(acc) <= 11.193
 
 
 def test_values_that_a_solver_finds_with_turns_are_a_guess_like_any_other() -> None:
-    assert decide(question(THROUGH_A_TURN, EgoBounds()), 10.0, explain=False).answer != "infeasible"
+    assert decide(question(THROUGH_A_TURN, EgoBounds()), 2.0, explain=False).answer != "infeasible"
