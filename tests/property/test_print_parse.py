@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hypothesis import given, settings
 
-from scenewright.program.expressions import Compare, Formula, Logic, Node, Temporal, node_ids, walk
+from scenewright.program.expressions import Compare, Formula, Logic, Node, Temporal, walk
 from scenewright.program.printer import print_expression, print_program
 from scenewright.program.text import parse_program
 from scenewright.program.types import Program
@@ -45,11 +45,3 @@ def test_every_span_is_the_text_of_its_node(formula: Formula) -> None:
     for node in walk(constraint.formula):
         assert node.span is not None
         assert parsed_alone(node.span.excerpt(text), node) == node
-
-
-@settings(max_examples=60)
-@given(formulas(["some_length_m"]))
-def test_ids_of_nodes_are_unique_and_survive_printing(formula: Formula) -> None:
-    ids = [node_id for node_id, _ in node_ids("c1", formula)]
-    assert len(set(ids)) == len(ids)
-    assert [node_id for node_id, _ in node_ids("c1", parsed(print_expression(formula)))] == ids
