@@ -1,4 +1,4 @@
-"""Every conflict of every pair of routes, on all maps at hand, against lane centre lines and boxes in shapely."""
+"""Every conflict of every pair of routes, on all maps at hand, against lane centre lines in shapely."""
 
 from __future__ import annotations
 
@@ -6,16 +6,13 @@ from functools import cache
 from itertools import combinations
 from pathlib import Path
 
-import numpy as np
 import pytest
 import shapely
-from numpy.typing import NDArray
 
 from scenewright.errors import MapError
 from scenewright.roads import RoadMap, Route, all_routes, find_conflict, load_map
 from scenewright.roads.bodies import CAR, Body
 from scenewright.roads.conflicts import Conflict, conflicts, shared_stretches
-from scenewright.roads.polyline import FloatArray
 
 from .conftest import FOREIGN, any_map
 
@@ -91,44 +88,6 @@ def test_from_the_other_route_they_are_the_same_in_the_same_order(every_map: tup
         assert conflicts(b, a, TRUCK, CAR) == tuple(conflict.swapped() for conflict in found)
         ways = [conflict.s_a_m + conflict.s_b_m for conflict in found]
         assert ways == sorted(ways)
-
-
-def bodies_at(route: Route, s_m: FloatArray, body: Body) -> NDArray[np.object_]:
-    x, y, heading = route.path.poses(s_m).T
-    along, across = (0.5 * body.length_m * np.array([1, 1, -1, -1]), 0.5 * body.width_m * np.array([1, -1, -1, 1]))
-    cos, sin = np.cos(heading)[:, None], np.sin(heading)[:, None]
-    corners = np.stack([x[:, None] + along * cos - across * sin, y[:, None] + along * sin + across * cos], axis=2)
-    return shapely.polygons(corners)
-
-
-def touched(route: Route, s_m: FloatArray, body: Body, others: NDArray[np.object_]) -> NDArray[np.bool_]:
-    return shapely.intersects(bodies_at(route, s_m, body)[:, None], others[None, :]).any(axis=1)
-
-
-@pytest.mark.parametrize("bodies", [(CAR, CAR), (TRUCK, CAR)], ids=["cars", "truck and car"])
-def test_a_zone_is_where_boxes_touch_and_nowhere_else(road_map: RoadMap, bodies: tuple[Body, Body]) -> None:
-    for a, b in combinations(all_routes(road_map), 2):
-        for conflict in conflicts(a, b, *bodies):
-            check_zone(a, b, conflict, bodies)
-            check_zone(b, a, conflict.swapped(), bodies[::-1])
-
-
-def check_zone(a: Route, b: Route, conflict: Conflict, bodies: tuple[Body, Body]) -> None:
-    low, high = conflict.zone_a_m
-    others = bodies_at(b, np.arange(conflict.zone_b_m[0], conflict.zone_b_m[1], 0.05), bodies[1])
-    inside = np.linspace(low + 0.15, high - 0.15, 25)
-    assert touched(a, inside, bodies[0], others).all(), (a, b, conflict)
-    length_m = 0.5 * (bodies[0].length_m + bodies[1].length_m)
-    outside = []
-    if conflict.kind != "following" and low > 0.0:
-        outside.append(low - 0.05)
-    if conflict.kind != "merging" and high < a.path.length_m:
-        outside.append(high + 0.05)
-    assert not outside or not touched(a, np.array(outside), bodies[0], others).any(), (a, b, conflict)
-    if conflict.kind == "following":
-        assert low == pytest.approx(max(0.0, conflict.s_a_m - length_m), abs=0.11)
-    if conflict.kind == "merging":
-        assert high == pytest.approx(min(a.path.length_m, conflict.s_a_m + length_m), abs=0.11)
 
 
 def test_the_crossing_in_the_junction_counts_before_a_road_in_common(loop: tuple[Route, Route]) -> None:

@@ -18,6 +18,7 @@ Place = tuple[float, float]
 _SAMPLE_M = 1.0
 _BLOCK = 32  # chords whose common box is looked at before any of them
 _NO_GAP_M = 0.1
+_SAME_M = 1e-6
 _STRAY_M = 2.0  # Newton's method starts within a chord of the intersection; it has no business further away
 
 
@@ -31,7 +32,9 @@ def intersections(path_a: Path, path_b: Path) -> list[Place]:
         on_chords = _on_chords(points_a[part_a], points_b[part_b], s_a[part_a], s_b[part_b])
         found += [_polished(path_a, path_b, a, b) for a, b in on_chords]
     # Chords on one straight line have no point of their own in common: what rounding makes of them is anywhere.
-    return sorted(place for place in found if _gap_m(path_a, path_b, *place) < _NO_GAP_M)
+    met = sorted(place for place in found if _gap_m(path_a, path_b, *place) < _NO_GAP_M)
+    # One at the end of a chord is at the beginning of the next one, too.
+    return [place for number, place in enumerate(met) if not number or dist(place, met[number - 1]) > _SAME_M]
 
 
 def _gap_m(path_a: Path, path_b: Path, a: float, b: float) -> float:
