@@ -20,6 +20,8 @@ import scenewright
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "src" / "scenewright"
 MODULES = sorted(PACKAGE.rglob("*.py"))
+# Here each file has tests of its own: `judge/knots.py` those of `tests/judge/test_knots.py`.
+MIRRORED = ("judge", "motion", "program", "roads", "solve")
 LOCKS = ("requirements.lock", "requirements-dev.lock")
 MODULE_LINES = 500  # the guide is 400; past this a module holds more than one thing
 HEAVY = {"z3", "scipy", "shapely", "pyarrow", "matplotlib"}
@@ -124,6 +126,21 @@ def test_module_explains_itself_and_stays_readable(module: Path) -> None:
     text = module.read_text(encoding="utf-8")
     assert ast.get_docstring(ast.parse(text)), "a module says what enters, what leaves and what it does not do"
     assert text.count("\n") <= MODULE_LINES
+
+
+@pytest.mark.parametrize("package", MIRRORED)
+def test_every_file_has_tests_of_its_own_name(package: str) -> None:
+    files = [path.relative_to(PACKAGE) for path in sorted((PACKAGE / package).rglob("*.py"))]
+    wanted = [path.with_name(f"test_{path.name}") for path in files if path.name != "__init__.py"]
+    assert wanted
+    assert [str(path) for path in wanted if not _has_tests(ROOT / "tests" / path)] == []
+
+
+def _has_tests(path: Path) -> bool:
+    return path.is_file() and any(
+        isinstance(node, ast.FunctionDef) and node.name.startswith("test_")
+        for node in ast.parse(path.read_text(encoding="utf-8")).body
+    )
 
 
 def test_importing_the_packages_loads_nothing_heavy() -> None:
