@@ -27,6 +27,7 @@ def braking(*pieces: tuple[float, float]) -> Play:
 # The trigger is at 7.5 s. What the hero does around it, which condition changes, and the number that changes it from
 # failed to held or back.
 TOUCHES = GOES_AFTER.with_hero(pieces=[*GOES_AFTER.hero.pieces[:2], (0.5, 0.0), (4.0, 2.0)])
+CLOSE = replace(BRAKES, parameters={"gap_m": 8.0, "rate_mpss": 4.0}).with_hero(s_m=23.0)
 CASES: dict[str, tuple[Play, str, bool, str]] = {
     "stands half a second": (TOUCHES, "hero_standstill", True, "stands_s = 1"),
     "rolls on at 0.2 m/s": (
@@ -47,6 +48,10 @@ CASES: dict[str, tuple[Play, str, bool, str]] = {
     "rolls out at 0.15 m/s^2, then brakes at 0.25": (
         braking((6.5, 0.0), (1.0, -0.15), (30.0, -0.25)), "hero_onset", False, "faint_mpss = 0.2",
     ),
+    "brakes harder at first than later": (
+        braking((7.5, 0.0), (0.4, -6.0), (5.0, -3.5)), "c4", False, "ramp_s = 0.7",
+    ),
+    "comes within 3.5 m before": (CLOSE, "no_collision", True, "clear_m = 3.6"),
 }  # fmt: skip
 
 
@@ -69,6 +74,8 @@ def test_every_number_changes_some_verdict() -> None:
         (BRAKES, "hero_settled", ["settled_s = 0.75", "settled_mpss = 1.25"]),
         (TOUCHES, "hero_standstill", ["stands_s = 0.4", "stands_mps = 0.25"]),
         (GOES_AFTER, "hero_goes_again", ["stands_mps = 0.25"]),
+        (BRAKES, "c4", ["ramp_s = 0.45"]),
+        (CLOSE, "no_collision", ["clear_m = 1.25"]),
     ],
 )
 def test_a_condition_names_the_numbers_that_it_was_judged_by(

@@ -124,6 +124,27 @@ def test_contact_at_a_trigger_that_does_not_say_where_both_are_is_one(unsaid: st
     assert "no_collision" in failed(judge(replace(MEETS, text=MEETS.text.replace(unsaid, "")).case()), LOOSE)
 
 
+def test_who_asks_for_a_distance_does_not_ask_for_contact() -> None:
+    """The hero brakes 3 m ahead of the ego, centre to centre: its tail is in the ego's nose by then."""
+    near = replace(BRAKES, parameters={"gap_m": 3.0, "rate_mpss": 4.0}).with_hero(s_m=18.0)
+    assert failed(judge(near.case()), LOOSE) == {"no_collision"}
+    told = replace(near, text=near.text.replace("gap(A0, A1, t1) == gap_m", "A1x(t1) == A0x(t1) + gap_m"))
+    assert not failed(judge(told.case()), TIGHT)
+
+
+@pytest.mark.parametrize(("clear_m", "holds"), [(0, True), (3.4, True), (3.6, False)])
+def test_clear_of_is_as_far_as_the_manner_says(clear_m: float, holds: bool) -> None:
+    """8 m between centres at the trigger are 3.5 m between bodies, and it was more before."""
+    close = replace(BRAKES, parameters={"gap_m": 8.0, "rate_mpss": 4.0}).with_hero(s_m=23.0)
+    manner = f"manner:\n- clear_m = {clear_m}\ndescription:"
+    condition = judge(replace(close, text=close.text.replace("description:", manner, 1)).case()).condition(
+        "no_collision"
+    )
+    assert condition.holds_at(TIGHT) == condition.holds_at(LOOSE) == holds
+    if not holds:
+        assert condition.measured == pytest.approx(7.45, abs=0.01)  # closing at 2 m/s
+
+
 def test_contact_that_is_over_before_the_trigger_is_one() -> None:
     """The hero crosses right before the ego's nose once, and is where it was asked to be only later."""
     later = replace(MEETS, text=MEETS.text.replace("A1x(t1) == conflict_point", "A1x(t1) == conflict_point + 8"))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -121,8 +121,29 @@ def test_an_acceleration_at_a_knot_is_that_of_what_begins_and_at_the_last_one_of
     assert compared(BRAKES, "A1a(A0(t1)) == 0")[2] == pytest.approx(-4.0)
 
 
-def test_the_acceleration_of_a_piece_is_its_mean() -> None:
-    assert compared(BRAKES, "A1a(dec) == 0")[2] == pytest.approx(-4.0, abs=1e-6)
+@pytest.mark.parametrize(
+    ("pieces", "ramp_s", "rates"),
+    [
+        ([(7.5, 0.0), (5.0, -4.0)], 0.3, (-4.0, -4.0, -4.0)),
+        ([(7.5, 0.0), (0.4, -6.0), (5.0, -3.5)], 0.3, (-13.0 / 3.0, -3.5, -4.0)),  # a third of the first part at 6
+        ([(7.5, 0.0), (0.3, -6.0), (5.0, -62.0 / 17.0)], 0.3, (-62.0 / 17.0, -62.0 / 17.0, -4.0)),  # within its ramp
+        ([(7.5, 0.0), (0.4, -6.0), (5.0, -3.5)], 0.7, (-4.0, -4.0, -4.0)),  # shorter than three ramps: its mean
+    ],
+)
+def test_the_acceleration_of_a_piece_is_that_of_all_its_parts_and_its_mean(
+    pieces: Sequence[tuple[float, float]], ramp_s: float, rates: tuple[float, float, float]
+) -> None:
+    """Those of the first and of the last part, ramps aside, and the mean."""
+    manner = f"manner:\n- ramp_s = {ramp_s}\ndescription:"
+    play = replace(BRAKES, text=BRAKES.text.replace("description:", manner, 1)).with_hero(pieces=pieces)
+    formula = play.case().program.constraint("c4").formula
+    assert isinstance(formula, Compare)
+    left, _ = sides(play.case(), formula, MOMENTS)
+    every = np.atleast_1d(left)
+    assert (every[0], every[-2 if len(every) > 1 else 0], every[-1]) == pytest.approx(rates, abs=1e-6)
+
+
+def test_the_mean_acceleration_of_speeds() -> None:
     assert mean_acceleration(np.array([8.0, 3.0, 2.0]), 3.0) == -2.0
     assert mean_acceleration(np.array([8.0, 8.0]), 0.0) == 0.0
 

@@ -9,7 +9,7 @@ import pytest
 
 from scenarios import EXAMPLE_TABLE, Example, example
 from scenewright.errors import ProgramError
-from scenewright.program.check import check_constraint, check_program
+from scenewright.program.check import check_constraint, check_program, check_values
 from scenewright.program.expressions import Compare, Knot, Number, ParameterRef, State
 from scenewright.program.text import parse_program
 from scenewright.program.types import Constraint, Parameter
@@ -158,6 +158,44 @@ def test_examples_make_sense(case: Example) -> None:
 def test_what_makes_sense_passes(line: str) -> None:
     text = FRAME.format(line)
     check_program(parse_program(text), text)
+
+
+@pytest.mark.parametrize(
+    ("line", "refused"),
+    [
+        ("A1a(dec) == 0", True),
+        ("A1a(dec) == -0.09", True),
+        ("0.09 == A1a(dec)", True),
+        ("A1a(dec) == -0.1", False),
+        ("A1a(dec) >= -0.05", True),
+        ("A1a(dec) > 0.05", True),
+        ("-0.05 <= A1a(dec)", True),
+        ("A1a(dec) <= -0.05", False),  # or harder
+        ("A1a(dec) <= 0", False),
+        ("A1a(acc) == 0.05", True),
+        ("A1a(acc) <= 0.05", True),
+        ("A1a(acc) >= 0", False),
+        ("A1a(go) == 0", False),
+        ("A1v(t1) == 3 and A1a(dec) == 1 / 20", True),
+        ("A1v(t1) == 3 or A1a(dec) == 0", False),  # it need not be
+        ("A1a(dec) == -rate_mpss", False),  # which is not known yet
+    ],
+)
+def test_a_rate_that_the_manner_calls_none_is_no_rate_to_ask_for(line: str, refused: bool) -> None:
+    text = f"parameters:\n- rate_mpss\n{example('W', 't0, go, t1, dec, t2, acc, t3', line)}"
+    program = parse_program(text)
+    if refused:
+        with pytest.raises(ProgramError, match=r"m/s\^2 is no (braking|speeding up)"):
+            check_program(program, text)
+        finer = replace(program, manner=replace(program.manner, faint_mpss=Fraction(1, 100)))
+        if line != "A1a(dec) == 0":
+            check_program(finer, text)
+    else:
+        check_program(program, text)
+        if "rate_mpss" in line:
+            check_values(program, {"rate_mpss": Fraction(1)}, text)
+            with pytest.raises(ProgramError, match=r"a rate of 0.05 m/s\^2 is no braking|a rate of -0.05 m/s"):
+                check_values(program, {"rate_mpss": Fraction(1, 20)}, text)
 
 
 def test_a_number_goes_with_any_unit() -> None:

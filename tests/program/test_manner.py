@@ -67,7 +67,7 @@ def test_every_usual_number_is_in_its_range_and_has_a_unit() -> None:
 
 @pytest.mark.parametrize("name", NUMBERS)
 def test_a_number_beyond_its_range_is_refused_however_it_came_into_a_program(name: str) -> None:
-    for value in (NUMBERS[name].low / 2, NUMBERS[name].high * 2):
+    for value in (NUMBERS[name].low / 2 or Fraction(-1), NUMBERS[name].high * 2):
         program = replace(parse_program(REST), manner=replace(USUAL, **{name: value}))
         with pytest.raises(ProgramError, match=f"{name} of the manner is out of range"):
             check_program(program)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from scenarios import EXAMPLE_TABLE, YIELDS_THEN_GOES, Example, example
-from scenewright.program.structure import Role, read_structure
+from scenewright.program.structure import Role, placed_at, read_structure
 from scenewright.program.text import parse_program
 
 THREE = """
@@ -73,3 +73,19 @@ def test_what_does_not_say_that_two_knots_are_one_moment(line: str) -> None:
     assert structure.instants == ()
     assert structure.triggers == {}
     assert structure.trigger_knot(1) is None
+
+
+@pytest.mark.parametrize(
+    ("line", "placed"),
+    [
+        ("A0x(t1) == stop_line - 5\nA1x(t1) == stop_line", {0, 1}),
+        ("A1x(t1) == A0x(t1) + 3", {0, 1}),
+        ("A0x(t1) <= stop_line\nA1x(t1) == stop_line", {1}),  # somewhere before is no place
+        ("A1x(t2) == stop_line", set()),  # at another moment
+        ("gap(A0, A1, t1) == 3", set()),  # a distance is no place
+        ("A1v(t1) == 3", set()),
+    ],
+)
+def test_who_is_told_where_to_be_at_an_instant(line: str, placed: set[int]) -> None:
+    program = parse_program(example("W", "t0, go, t1, dec, t2", f"A0(t1) == A1(t1)\n{line}"))
+    assert placed_at(program, frozenset({(0, "t1"), (1, "t1")})) == placed

@@ -27,6 +27,7 @@ from scenewright.program.expressions import (
     PieceRef,
     State,
     Term,
+    piece_of,
     walk,
 )
 from scenewright.program.printer import print_expression
@@ -79,7 +80,7 @@ def signed_rate(case: Case, formula: Formula, moments: Moments) -> Formula:
     sketch = case.program.actor(state.actor).sketch
     try:
         slowing = sketch.pieces[sketch.piece_index(state.at.name)] is PieceKind.DEC
-        positive = float(sides(case, formula, moments)[1]) > 0
+        positive = bool(np.all(np.asarray(sides(case, formula, moments)[1]) > 0))
     except (KeyError, CannotJudge):
         return formula
     return Compare("==", state, Negate(formula.right), formula.span) if slowing and positive else formula
@@ -93,6 +94,9 @@ def _comparison(case: Case, moments: Moments, name: str, kind: Kind, text: str, 
     left, right = sides(case, compare, moments)
     unit = unit_symbol(dimension_of(compare))
     required, value = _stated(case, compare, left, right)
+    if inside is None and piece_of(compare) is not None and max(np.ndim(left), np.ndim(right)):
+        ramp_s = float(case.program.manner.ramp_s)
+        text += f" (on the whole, and all through it but for {ramp_s:g} s at either end)"
     if is_order(compare):
         margin = float(np.subtract(right, left)) * (1.0 if compare.operator == "<" else -1.0)
         note = f"{text} (margin; at least 0)"
@@ -110,11 +114,11 @@ def _comparison(case: Case, moments: Moments, name: str, kind: Kind, text: str, 
 def _stated(case: Case, compare: Compare, left: Values, right: Values) -> tuple[float, float]:
     """Return required and measured value as people would state them, at the worst instant where there are several."""
     required, value = np.broadcast_arrays(np.asarray(right, dtype=float), np.asarray(left, dtype=float))
+    over = np.abs(value - required) if compare.operator == "==" else value - required
+    worst = np.unravel_index(np.argmin(over) if compare.operator in (">", ">=") else np.argmax(over), over.shape)
     if not _is_measured(compare.left) and _is_measured(compare.right):
         required, value = value, required
-    if value.ndim:
-        worst = int(np.argmax(np.abs(value - required)))
-        required, value = required[worst], value[worst]
+    required, value = required[worst], value[worst]
     match compare:
         # "12 m short of the stop line" is a distance; the arc length it comes to tells nobody anything.
         case Compare(operator="==", left=State(order=0), right=Arithmetic("-", Landmark() as place, distance)):

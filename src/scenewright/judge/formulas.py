@@ -28,7 +28,7 @@ from scenewright.judge.tolerance import (
     dimension_of_dividend,
     normalised,
 )
-from scenewright.program.expressions import Compare, Elapsed, Formula, Logic, PieceRef, State, Temporal, walk
+from scenewright.program.expressions import Compare, Elapsed, Formula, Logic, PieceRef, State, Temporal, piece_of, walk
 
 _OPPOSITE = {"<=": ">", ">=": "<", "<": ">=", ">": "<="}
 
@@ -89,7 +89,7 @@ def is_order(compare: Compare) -> bool:
 
 
 def instants_of_piece(case: Case, compare: Compare, moments: Moments) -> FloatArray | None:
-    """Return the instants of the piece that a position or speed is asked of throughout; None for states at a moment."""
+    """Return the instants of the piece that a position or speed is asked of throughout; None for all other states."""
     for node in walk(compare):
         if isinstance(node, State) and isinstance(node.at, PieceRef) and node.order < 2:
             return case.timelines[node.actor].instants(*piece_span(case, moments, node.actor, node.at))
@@ -97,11 +97,11 @@ def instants_of_piece(case: Case, compare: Compare, moments: Moments) -> FloatAr
 
 
 def _compare(case: Case, compare: Compare, moments: Moments, negated: bool) -> Miss:
+    if piece_of(compare) is None:
+        return _leaf(case, compare, moments, negated)
     inside = instants_of_piece(case, compare, moments)
-    if inside is not None:
-        leaf = _leaf(case, compare, replace(moments, now=inside), negated)
-        return Sometime(leaf) if negated else Throughout(leaf)
-    return _leaf(case, compare, moments, negated)
+    leaf = _leaf(case, compare, moments if inside is None else replace(moments, now=inside), negated)
+    return Sometime(leaf) if negated else Throughout(leaf)
 
 
 def _leaf(case: Case, compare: Compare, moments: Moments, negated: bool) -> Leaf:

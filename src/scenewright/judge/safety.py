@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from scenewright.judge.boxes import closest_m, moving_box, overlapping, times_to_collision_s
+from scenewright.judge.boxes import closest_m, distances_m, moving_box, overlapping, times_to_collision_s
 from scenewright.judge.case import CannotJudge, Case
 from scenewright.judge.instants import first_crossing
 from scenewright.judge.knots import Measured
@@ -23,7 +23,7 @@ from scenewright.program.structure import placed_at
 from scenewright.program.types import EGO
 
 _SUB_STEPS = 5  # the samples, and four instants between each two
-_INSTANT_S = 0.001  # a collision in the last instant of a run is one, too
+_INSTANT_S = 0.001  # a collision at the trigger itself, or in the last instant of a run, is one, too
 
 
 def safety_facts(case: Case) -> dict[str, Any]:
@@ -32,29 +32,41 @@ def safety_facts(case: Case) -> dict[str, Any]:
 
 
 def clear_conditions(case: Case, measured: Measured, facts: dict[str, Any]) -> list[Condition]:
-    """Judge that the ego is clear of all before the trigger and orchestrated actors of each other throughout.
+    """Judge that the ego is clear of all up to the trigger and orchestrated actors of each other throughout.
 
-    But for those whom the program puts into each other at a trigger.
+    But for those whom the program puts into each other at a trigger. What "clear" means is in the program's manner.
     """
+    clear_m = float(case.program.manner.clear_m)
+    room = f" (and is more than {clear_m:g} m from anybody)" if clear_m else ""
 
     def first_s(of_ego: bool) -> float | None:
         times = (
-            facts[f"{case.name(a)}, {case.name(b)}"]["collision_time_s"]
+            _first_near_s(case, a, b, clear_m, facts[f"{case.name(a)}, {case.name(b)}"]["collision_time_s"])
             for a, b in _pairs(case)
             if (EGO in (a, b)) == of_ego and not _contact_is_asked_for(case, measured, a, b)
         )
         return min((time_s for time_s in times if time_s is not None), default=None)
 
-    text = "the ego collides with nobody before the trigger"
+    text = f"the ego collides with nobody before the trigger{room}"
     clear = [_clear("no_collision", text, first_s(True), _trigger_time_s(case, measured))]
     if len(case.program.heroes) > 1:
-        text = "orchestrated actors do not collide with each other"
-        clear.append(_clear("heroes_apart", text, first_s(False), case.end_s + _INSTANT_S))
+        text = f"no orchestrated actor collides with another{room}"
+        clear.append(_clear("heroes_apart", text, first_s(False), case.end_s))
     return clear
 
 
+def _first_near_s(case: Case, a: int, b: int, clear_m: float, collision_s: float | None) -> float | None:
+    """Return when (s) two were first no further apart than `clear_m`; None where they never were."""
+    if not clear_m:
+        return collision_s
+    instants = case.timelines[a].instants(case.start_s, case.end_s, parts=_SUB_STEPS)
+    boxes = [moving_box(case.timelines[actor].states, case.box(actor), instants) for actor in (a, b)]
+    near = np.flatnonzero(distances_m(*boxes) <= clear_m)
+    return float(instants[near[0]]) if len(near) else None
+
+
 def _clear(condition_id: str, text: str, first_s: float | None, until_s: float) -> Condition:
-    early = 0.0 if first_s is None else max(0.0, until_s - first_s)
+    early = 0.0 if first_s is None else max(0.0, until_s + _INSTANT_S - first_s)
     return bounded(
         condition_id, "safety", text,
         required=until_s, measured=first_s, error=early, dimension="time", exact=True,

@@ -18,6 +18,7 @@ from scenewright.program.structure import KnotKey
 
 Span = tuple[float, float]
 STANDING_MPS = 1e-3  # below this a time to arrive means nothing
+_PARTS = 64  # of a piece, of which each is to have its rate: of up to some 20 s without a gap between them
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,8 +107,7 @@ class _Reader:
     def _state(self, term: ex.State) -> Values:
         timeline = self.case.timelines[term.actor]
         if isinstance(term.at, ex.PieceRef) and term.order == 2:
-            start, end = self._span(term.actor, term.at)
-            return mean_acceleration(timeline.speed(np.array([start, end])), end - start)
+            return self._rates(term.actor, term.at)
         time_s = self._time(term.actor, term.at)
         if term.order == 0:
             return timeline.position(time_s) + (0.0 if term.frame is None else self._offset(term.frame, term.actor))
@@ -128,6 +128,19 @@ class _Reader:
 
     def _span(self, actor: int, piece: ex.PieceRef) -> Span:
         return piece_span(self.case, self.moments, actor, piece)
+
+    def _rates(self, actor: int, piece: ex.PieceRef) -> Values:
+        """Return what the rate of a piece was: its mean, and where it is long enough that of each short part of it.
+
+        What it does in its ramps, where it begins and where it ends, is looked at in its mean alone.
+        """
+        timeline, (start, end) = self.case.timelines[actor], self._span(actor, piece)
+        mean = mean_acceleration(timeline.speed(np.array([start, end])), end - start)
+        ramp_s = float(self.case.program.manner.ramp_s)
+        if end - start < 3.0 * ramp_s:
+            return mean
+        parts = np.linspace(start + ramp_s, end - 2.0 * ramp_s, _PARTS)
+        return np.append((timeline.speed(parts + ramp_s) - timeline.speed(parts)) / ramp_s, mean)
 
     def _derived(self, term: ex.Derived) -> Values:
         time_s = self._time(term.actor, term.at)

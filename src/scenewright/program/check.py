@@ -14,10 +14,10 @@ from scenewright.errors import Place, ProgramError, Span
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import landmark_owner
 from scenewright.program.limits import check_depth, check_size
-from scenewright.program.magnitudes import NoNumberError, Values, check_numbers
+from scenewright.program.magnitudes import NoNumberError, Values, check_numbers, magnitude
 from scenewright.program.printer import print_expression
 from scenewright.program.types import EGO, Actor, Constraint, PieceKind, Program
-from scenewright.units import is_size_of_a_scenario, size_of_a_scenario, unit_of_name
+from scenewright.units import format_fraction, is_size_of_a_scenario, size_of_a_scenario, unit_of_name
 
 # A dimension as exponents of metre and second; None is a bare number, which goes with anything.
 Powers = tuple[int, int] | None
@@ -26,6 +26,9 @@ _OF_ORDER = (_LENGTH, _SPEED, _ACCELERATION)
 _OF_DIMENSION = {"length": _LENGTH, "time": _TIME, "speed": _SPEED, "acceleration": _ACCELERATION}
 _OF_DERIVED = {"gap": _LENGTH, "tta": _TIME, "ttc": _TIME, "headway": _TIME}
 _EXAMPLE_S = ex.Number(Fraction("3.4"))
+_FLIPPED = {"==": "==", "<=": ">=", ">=": "<=", "<": ">", ">": "<"}
+# What a piece is, and how a bound on its rate reads that leaves but weaker ones.
+_WEAK = {PieceKind.DEC: ("braking", ">"), PieceKind.ACC: ("speeding up", "<")}
 _NAMES = {
     _LENGTH: "a length (m)",
     _TIME: "a time (s)",
@@ -156,10 +159,37 @@ class _Checker:
     def check_numbers(self, constraint: Constraint, values: Values) -> None:
         try:
             check_numbers(constraint.formula, values)
+            self._check_rates(constraint.formula, values)
         except NoNumberError as fault:
             raise self._error(
                 fault.message, fault.term.span or constraint.span, found=fault.found, expected=fault.expected
             ) from None
+
+    def _check_rates(self, formula: ex.Formula, values: Values) -> None:
+        """Refuse a braking, or a speeding up, that is asked to be so weak that the manner calls it none."""
+        if isinstance(formula, ex.Logic) and formula.operator == "and":
+            for operand in formula.operands:
+                self._check_rates(operand, values)
+        state = ex.piece_of(formula)
+        if state is None or state.order != 2 or not isinstance(formula, ex.Compare):
+            return
+        assert isinstance(state.at, ex.PieceRef)
+        sketch, faint = self._actor(state.actor, state.span).sketch, self.program.manner.faint_mpss
+        what, leaves_weak = _WEAK.get(sketch.pieces[sketch.piece_index(state.at.name)], ("", ""))
+        operator, other = formula.operator, formula.right
+        if formula.right == state:
+            operator, other = _FLIPPED[formula.operator], formula.left
+        elif formula.left != state:
+            return
+        rate = magnitude(other, values).constant
+        if rate is not None and abs(rate) < faint and what and operator in ("==", leaves_weak, f"{leaves_weak}="):
+            raise self._error(
+                f"a rate of {format_fraction(rate)} m/s^2 is no {what}",
+                formula.span,
+                found=print_expression(formula),
+                expected=f"{format_fraction(faint)} m/s^2 or more, which is faint_mpss of the manner",
+                fix="give the rate that is meant, or let it go on there: a piece 'go'",
+            )
 
     def _actor(self, actor_id: int, span: Span | None) -> Actor:
         if actor_id not in self.actors:

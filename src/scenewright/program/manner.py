@@ -1,4 +1,4 @@
-"""The manner of a program: the numbers that say what "begins visibly", "is settled" and "stands" mean.
+"""The manner of a program: the numbers that say what "begins visibly", "is settled", "stands", "clear of" mean.
 
 What enters: nothing, or numbers of a program's own. What leaves: a `Manner`, which the judge reads and planners keep
 to, with some room. It knows no motion: how a trace is measured is the judge's matter. The table in `docs/program.md`
@@ -41,6 +41,10 @@ class Manner:
     stands_mps: Fraction = Fraction(1, 10)
     # Three times the tight tolerance of a time: who touches zero in passing has not come to a standstill.
     stands_s: Fraction = Fraction(3, 10)
+    # Three times the tight tolerance of a time: no car changes its acceleration at once.
+    ramp_s: Fraction = Fraction(3, 10)
+    # Who does not touch is clear.
+    clear_m: Fraction = Fraction(0)
 
     def stricter(self, share: Fraction) -> Manner:
         """Return the manner with each number a `share` of it on the safe side: who keeps to that keeps to this."""
@@ -84,6 +88,8 @@ NUMBERS = {
     "settled_s": _at_least("for so long before it begins", "0.1", "5"),
     "stands_mps": _at_most("stands: is slower than this; moves off: is faster", "0.02", "0.5"),
     "stands_s": _at_least("and stays so for so long, or to the end of the run", "0.1", "60"),
+    "ramp_s": _at_most("has a rate throughout: but for so long where it begins and where it ends", "0.1", "2"),
+    "clear_m": _at_least("is clear of another: is more than this from it, from body to body", "0", "5"),
 }
 
 

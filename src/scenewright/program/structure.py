@@ -113,15 +113,16 @@ def actors_of(formula: Formula) -> set[int]:
 
 
 def placed_at(program: Program, instant: frozenset[KnotKey]) -> set[int]:
-    """Return the actors of whom a program says where they are at an instant, on the road or from each other."""
+    """Return the actors of whom a program says where they are on the road at an instant.
+
+    How far one is ahead of another says nothing of the kind: who asks for a distance does not ask for contact.
+    """
     found: set[int] = set()
     for formula in (constraint.formula for constraint in program.constraints):
         if isinstance(formula, Compare) and formula.operator == "==" and set(knots_of(formula)) <= instant:
             for node in walk(formula):
                 if isinstance(node, State) and node.order == 0:
                     found.add(node.actor)
-                elif isinstance(node, Derived) and node.kind == "gap" and isinstance(node.target, int):
-                    found |= {node.actor, node.target}
     return found
 
 

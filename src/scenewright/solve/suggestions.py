@@ -33,6 +33,7 @@ from scenewright.units import SI_SYMBOL, decimal_fraction, format_fraction
 _QUERY_S, _ALL_S = 0.2, 3.0
 _BISECTIONS = 10
 _SUGGESTIONS = 4
+_FROM_ZERO = ("length", "time")  # a speed or a rate of nothing is another thing than a small one
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,12 +115,14 @@ def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
                 seen.add(node.name)
                 parameter = next(p for p in program.parameters if p.name == node.name)
                 yield Lever(node.name, scene.parameters[node.name], parameter.unit.dimension, node.name)
-            elif isinstance(node, Number) and node.value != 0:
+            elif isinstance(node, Number):
+                dimension = compared_dimension(constraint.formula)
+                if node.value == 0 and dimension not in _FROM_ZERO:
+                    continue
                 words = program.words_of(constraint)
                 what = f"{format_fraction(node.value)} in " + (
                     f'"{words}"' if words else print_expression(constraint.formula)
                 )
-                dimension = compared_dimension(constraint.formula)
                 yield Lever(what, node.value, dimension, f"free_{constraint.id}", constraint, node)
 
 
@@ -131,8 +134,8 @@ def _nearest(question: Question, lever: Lever) -> Fraction | None:
         decision = decide(replace(freed, freed={lever.name: (low, high)}), _QUERY_S, explain=False)
         return decimal_fraction(f"{decision.witness.parameters[lever.name]:.6f}") if decision.witness else None
 
-    value, sign = lever.value, 1 if lever.value > 0 else -1
-    ends = (sign * 10 * abs(value) + 20 * sign, Fraction(0))
+    value, sign = lever.value, -1 if lever.value < 0 else 1
+    ends = (sign * 10 * abs(value) + 20 * sign, Fraction(0) if value else Fraction(-20))
     found = [nearest for end in ends if (nearest := _nearest_towards(value, end, possible)) is not None]
     if not found:
         return None

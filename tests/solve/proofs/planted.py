@@ -1,7 +1,7 @@
 """Scenarios planted by legal motions: programs that are true of motions of everybody, and those motions, exactly.
 
-Nobody is kept from touching others: no proof may rest on that before it was shown to matter. Whoever turns too fast has
-limits of its own that just admit it.
+Nobody is kept from touching others, and no distance is asked for: only then may a proof rest on that. Whoever turns
+too fast has limits of its own that just admit it.
 """
 
 from __future__ import annotations

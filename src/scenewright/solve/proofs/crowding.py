@@ -20,13 +20,13 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, Body
 from scenewright.roads.conflicts import conflicts, shared_stretches
 from scenewright.roads.grounding import Scene
 from scenewright.roads.zones import overlap
+from scenewright.solve.proofs.apart import APART
 from scenewright.solve.proofs.events import Events, conjuncts
 from scenewright.solve.proofs.lowering import Lowered
 
 Array = NDArray[np.float64]
 Point = Mapping[int, float]  # one place of the map, as the arc length on the way of each hero that passes it
 
-APART = "orchestrated actors keep clear of each other"
 # A car covers a place from so far before it on; a little less than half its length, for lanes bend.
 _HALF_M = 0.5 * VEHICLE_LENGTH_M - 0.05
 _ROUNDING = 1e-6

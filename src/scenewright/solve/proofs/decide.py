@@ -20,6 +20,7 @@ from scenewright.program.structure import Structure, actors_of
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
+from scenewright.solve.proofs.apart import apart
 from scenewright.solve.proofs.consequences import consequences
 from scenewright.solve.proofs.crowding import crowded
 from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, EgoDrive, Events, Unknown
@@ -106,6 +107,7 @@ class _Case:
         self._sizes = (0, 0)
         self.lowered: list[Lowered] = []
         self.lower()
+        self.events.rules += apart(self.events, self.structure, self.constraints)
         self.more = Refinement(self.events, self.lowering, question.limits)
         if plan:
             self.more.lasting_rates()

@@ -227,16 +227,17 @@ class Refinement:
     def _keep_apart(self, broken: Broken, witness: Witness) -> bool:
         """Let two that touch be apart at that moment: one before the stretch that both need, or past it."""
         events, scene, other = self.events, self.events.scene, broken.other
+        clear_m = scene.program.manner.clear_m
         conflict = find_conflict(scene.routes[other], scene.routes[broken.actor])
         made = self._between(broken.time_s, witness)
         mine, theirs = events.state(broken.actor, made), events.state(other, made)
         choices = []
         if conflict is not None and conflict.kind == "crossing":
             for place, (low, high) in ((theirs.place, conflict.zone_a_m), (mine.place, conflict.zone_b_m)):
-                choices += [compare("<=", place, pin(low)), compare(">=", place, pin(high))]
+                choices += [compare("<=", place, pin(low) - clear_m), compare(">=", place, pin(high) + clear_m)]
         elif (offset := self._offset(broken.actor, other)) is not None:
             gap = theirs.place + pin(offset) - mine.place
-            length = pin(VEHICLE_LENGTH_M) + _ROOM_M
+            length = pin(VEHICLE_LENGTH_M) + clear_m + _ROOM_M
             choices = [compare(">=", gap, length), compare("<=", gap, -length)]
         if choices:
             self.owed.append(some(choices))

@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 from scenewright.motion.laws import Law, realise
 from scenewright.motion.profile import Profile, Segment
 from scenewright.program.evaluate import violation
-from scenewright.program.structure import Structure
+from scenewright.program.structure import Structure, placed_at
 from scenewright.program.types import EGO
-from scenewright.roads.bodies import CAR
+from scenewright.roads.bodies import CAR, Body
 from scenewright.roads.grounding import Scene
 from scenewright.roads.zones import overlap
 from scenewright.solve.limits import Limits
@@ -142,17 +142,30 @@ def _touching(
         knot = structure.trigger_knot(hero.id)
         triggers.append(witness.end_s if knot is None else witness.profiles[hero.id].knot_times_s.get(knot, 0.0))
     until = max(triggers, default=witness.end_s)
-    often = np.arange(0.0, until, _BODY_STEP_S)
-    boxes = {}
+    often = np.append(np.arange(0.0, until, _BODY_STEP_S), until)
+    clear_m = float(scene.program.manner.clear_m)
+    boxes, body = {}, Body(CAR.length_m + clear_m, CAR.width_m + clear_m)
     for actor in scene.program.actors:
         places = np.interp(often, times, states[actor.id][:, 0])
-        boxes[actor.id] = scene.routes[actor.id].path.poses(places) if len(often) else np.zeros((0, 3))
+        boxes[actor.id] = scene.routes[actor.id].path.poses(places)
     actors = sorted(boxes)
     for number, a in enumerate(actors):
         for b in actors[number + 1 :]:
-            touch = overlap(boxes[a], boxes[b], CAR, CAR)
-            if touch.any():
+            touch = overlap(boxes[a], boxes[b], body, body)
+            if touch.any() and not _asked_for(scene, structure, witness, (a, b), often[touch]):
                 apart = np.hypot(*(boxes[a] - boxes[b]).T[:2])
                 deepest = int(np.argmin(np.where(touch, apart, np.inf)))
                 found.append(Broken("apart", b, float(often[deepest]), 1.0, a))
     return found
+
+
+def _asked_for(scene: Scene, structure: Structure, witness: Witness, pair: tuple[int, int], touching_s: Array) -> bool:
+    """Whether a trigger puts two into each other, and they touch but once before it, and at it still."""
+    for trigger in structure.triggers.values():
+        if set(pair) <= placed_at(scene.program, trigger):
+            owner, knot = min(trigger)
+            until = witness.profiles[owner].knot_times_s.get(knot, math.inf)
+            before = touching_s[touching_s <= until]
+            if len(before) and before[-1] > until - _BODY_STEP_S and np.all(np.diff(before) < 1.5 * _BODY_STEP_S):
+                return True
+    return False
