@@ -120,3 +120,17 @@ def test_what_breaks_a_law_is_not_admitted() -> None:
     assert not FREE.admits(5.0, [(1.0, -5.1)]), "backwards"
     assert not FREE.admits(17.0, [(1.0, 2.0)]), "beyond the top speed"
     assert not FREE.admits(18.1, [])
+
+
+@pytest.mark.parametrize(
+    ("law", "words"),
+    [
+        (Law(Fraction(-8), Fraction(4), Fraction(0), Fraction(325, 18)),
+         "brakes at 8 m/s^2 at most, speeds up at 4 m/s^2 at most, and is 18.1 m/s fast at most"),
+        (Law(Fraction(0), Fraction(3, 2), Fraction(0), Fraction(9)),
+         "never brakes, speeds up at 1.5 m/s^2 at most, and is 9 m/s fast at most"),
+        (Law(Fraction(0), Fraction(0), Fraction(0), Fraction(0)), "stands"),
+    ],
+)  # fmt: skip
+def test_a_law_in_words(law: Law, words: str) -> None:
+    assert law.words() == words

@@ -19,10 +19,14 @@ from scenarios import (
     feasibility,
     limits_of,
 )
+from scenewright.program.structure import read_structure
 from scenewright.program.text import parse_program
 from scenewright.roads import load_map
 from scenewright.roads.grounding import ground
 from scenewright.solve.feasibility import EgoBounds
+from scenewright.solve.proofs.decide import Decision, Question, decide
+from scenewright.solve.proofs.lowering import MEAN_RATE
+from scenewright.solve.proofs.witness import Broken
 from scenewright.units import format_fraction, pin
 
 T = load_map("t_intersection")
@@ -33,6 +37,66 @@ def test_what_can_happen(case: Example) -> None:
     found = feasibility(case.scene())
     assert found.answer == "feasible"
     assert found.clashes == found.suggestions == ()
+
+
+HERO = "Actor 0 (ego):\n- W\n- [t0, go, t1, go, t2]\n\nActor 1 (hero):\n- {}\n- [t0, go, t1, {}, t2]\n\nConstraints:\n"
+MET = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 25\n"
+ACC = "in an acc piece hero never brakes, speeds up at 4 m/s^2 at most, and is 18.1 m/s fast at most"
+DEC = "in a dec piece hero brakes at 8 m/s^2 at most, never speeds up, and is 18.1 m/s fast at most"
+EGO = "ego brakes at 12 m/s^2 at most, speeds up at 8 m/s^2 at most, and is 60 m/s fast at most, as any road vehicle"
+
+
+@pytest.mark.parametrize(
+    ("route", "piece", "constraints", "laws"),
+    [
+        pytest.param("E, N", "dec", f"{MET}A1v(t1) == 9\nA1x(t2) - A1x(t1) == 4\nA1v(t2) == 0\n", {DEC}, id="speed"),
+        pytest.param(
+            "E, N", "acc", f"{MET}A1x(t1) == conflict_point - 60\nA1x(t2) == conflict_point\nA1(t2) - A1(t1) == 1.5\n",
+            {ACC}, id="place and time",
+        ),
+        pytest.param(
+            "W", "dec", "A0(t1) == A1(t1)\ngap(A0, A1, t1) == 3\nA1v(t2) == 0\n",
+            {"the ego touches nobody before the trigger"}, id="gap",
+        ),
+        pytest.param(
+            "E, N", "acc",
+            f"{MET}A1x(t1) == conflict_point - 30\nA1v(t1) <= 5\nA1x(t2) == conflict_point\nA0x(t2) == conflict_point\n"
+            "A1(t2) < A0(t2)\nA0v(t1) == 25\n",
+            {ACC, EGO}, id="orders",
+        ),
+        pytest.param("E, N", "dec", f"{MET}A1v(t2) == 2\nalways[A1(t1), A1(t2)] (A1v >= 6)\n", {DEC}, id="interval"),
+        pytest.param(
+            "E, N", "dec", f"{MET}A1v(t1) == 9\nA1a(dec) == -2\nA1v(t2) == 0\nA1(t2) - A1(t1) == 3\n", {MEAN_RATE},
+            id="rate",
+        ),
+    ],
+)  # fmt: skip
+def test_a_proof_names_in_plain_words_what_it_takes_for_granted(
+    route: str, piece: str, constraints: str, laws: set[str]
+) -> None:
+    scene = ground(parse_program(HERO.format(route, piece) + constraints), T)
+    decision = decide(Question(scene, read_structure(scene.program), limits_of(scene)), 5.0)
+    assert decision.answer == "infeasible"
+    own = {constraint.id for constraint in scene.program.constraints}
+    assert laws <= set(decision.core) - own
+    assert set(decision.core) & own
+
+
+@pytest.mark.parametrize(
+    ("broken", "words"),
+    [
+        (Broken("turn", 1, 2.0, 1.0), "in the best motion hero takes its turn too fast"),
+        (Broken("apart", 1, 2.0, 1.0, 0), "in the best motion ego and hero touch"),
+        (Broken("law", 1, 2.0, 1.0), "in the best motion hero moves as nobody can"),
+        (Broken("c1", 1, 2.0, 1.0), "in the best motion this does not hold: c1: A0(t1) == A1(t1)"),
+    ],
+)
+def test_what_is_undecided_says_what_is_amiss(broken: Broken, words: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    undecided = Decision("undecided", amiss=(broken,))
+    monkeypatch.setattr("scenewright.solve.feasibility.decide", lambda *_, **__: undecided)
+    found = feasibility(ground(parse_program(HERO.format("E, N", "dec") + MET), T))
+    assert found.answer == "undecided"
+    assert found.reason.endswith(words)
 
 
 def test_clashes_carry_the_words_of_the_description() -> None:

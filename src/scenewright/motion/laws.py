@@ -48,6 +48,21 @@ class Law:
         """Whether no motion obeys this law."""
         return self.rate_low > self.rate_high or self.speed_low > self.speed_high
 
+    def words(self) -> str:
+        """Say in plain words what a motion of this law does and does not do.
+
+        Examples
+        --------
+        >>> Law(Fraction(-8), Fraction(0), Fraction(0), Fraction(18)).words()
+        'brakes at 8 m/s^2 at most, never speeds up, and is 18 m/s fast at most'
+        """
+        if self.speed_high <= 0:
+            return "stands"
+        low, high, top = (f"{abs(float(value)):.3g}" for value in (self.rate_low, self.rate_high, self.speed_high))
+        brakes = f"brakes at {low} m/s^2 at most" if self.rate_low < 0 else "never brakes"
+        speeds_up = f"speeds up at {high} m/s^2 at most" if self.rate_high > 0 else "never speeds up"
+        return f"{brakes}, {speeds_up}, and is {top} m/s fast at most"
+
     def admits(self, speed_mps: float, moves: Sequence[Move], slack: float = 1e-6) -> bool:
         """Whether a motion that begins at `speed_mps` and makes these moves obeys the law, up to `slack` (SI)."""
         low, high = float(self.speed_low) - slack, float(self.speed_high) + slack

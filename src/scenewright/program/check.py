@@ -176,7 +176,8 @@ class _Checker:
         assert isinstance(state.at, ex.PieceRef)
         sketch, faint = self._actor(state.actor, state.span).sketch, self.program.manner.faint_mpss
         what, leaves_weak = _WEAK.get(sketch.pieces[sketch.piece_index(state.at.name)], ("", ""))
-        operator, other = formula.operator, formula.right
+        operator: str = formula.operator
+        other = formula.right
         if formula.right == state:
             operator, other = _FLIPPED[formula.operator], formula.left
         elif formula.left != state:

@@ -20,7 +20,7 @@ from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.decide import Decision, Question, decide
 from scenewright.solve.proofs.events import EgoBounds, EgoDrive
 from scenewright.solve.proofs.refuters import Refuter, refuter_called
-from scenewright.solve.proofs.witness import Witness
+from scenewright.solve.proofs.witness import Broken, Witness
 from scenewright.solve.suggestions import Suggestion, suggest
 from scenewright.units import decimal_fraction
 
@@ -101,7 +101,7 @@ def check_feasibility(
     if decision.witness is not None:
         return _feasible(scene, decision.witness)
     if decision.answer == "undecided":
-        return Feasibility("undecided", reason=_reason(decision))
+        return Feasibility("undecided", reason=_reason(scene.program, decision))
     if not explain:
         return Feasibility("infeasible")
     clashes = tuple(_clash(scene.program, origin) for origin in decision.core)
@@ -115,16 +115,29 @@ def _feasible(scene: Scene, witness: Witness) -> Feasibility:
     return Feasibility("feasible", parameters=parameters, witness=witness)
 
 
-def _reason(decision: Decision) -> str:
+def _reason(program: Program, decision: Decision) -> str:
     if decision.doubted_by:
         return f"{decision.doubted_by} finds it impossible, to within its numerical tolerance; that is no proof"
     if decision.left_out:
         told = "; ".join(f"{name}: {why}" for name, why in decision.left_out.items())
         return f"no plan can be made for {told}"
     if decision.amiss:
-        worst = decision.amiss[0]
-        return f"neither a motion nor a proof was found in time; the best motion still breaks {worst.what}"
+        still = _amiss_in_words(program, decision.amiss[0])
+        return f"neither a motion nor a proof was found in time; in the best motion {still}"
     return "neither a motion nor a proof was found in time"
+
+
+def _amiss_in_words(program: Program, broken: Broken) -> str:
+    """Say what is amiss with a motion."""
+    name, other = (program.actor(actor).name for actor in (broken.actor, broken.other))
+    match broken.what:
+        case "turn":
+            return f"{name} takes its turn too fast"
+        case "apart":
+            return f"{other} and {name} touch"
+        case "law":
+            return f"{name} moves as nobody can"
+    return f"this does not hold: {_clash(program, broken.what)}"
 
 
 def _clash(program: Program, origin: str) -> Clash:

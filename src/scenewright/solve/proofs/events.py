@@ -58,7 +58,8 @@ class EgoBounds:
         """Say what a proof takes for granted of the ego."""
         if self.holds_speed:
             return f"{name} holds its speed, as its policy promises"
-        return f"how {name} may move, as " + ("any road vehicle" if self == EgoBounds() else "its policy promises")
+        source = "any road vehicle" if self == EgoBounds() else "its policy promises"
+        return f"{name} {self.law().words()}, as {source}"
 
 
 @dataclass(frozen=True, slots=True)

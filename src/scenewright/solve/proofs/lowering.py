@@ -38,6 +38,7 @@ from scenewright.solve.proofs.polynomials import (
 from scenewright.solve.tolerances import TIGHT, compared_dimension
 from scenewright.units import pin
 
+MEAN_RATE = "the rate of a piece is by how much the speed changes in it, over how long it lasts"
 RATE_LASTS_S = Fraction(1, 20)  # a rate at a moment is that of so much motion from there on
 
 
@@ -284,7 +285,7 @@ class Lowering:
             rate = self.events.new(f"r{actor}_{piece}", law.rate_low, law.rate_high, "rate")
             lasts = self.events.times[last] - self.events.times[first]
             change = self.events.state(actor, last).speed - self.events.state(actor, first).speed
-            self.events.rules.append((compare("==", rate * lasts, change), "a piece has a mean rate"))
+            self.events.rules.append((compare("==", rate * lasts, change), MEAN_RATE))
             self.means[key] = rate
         return self.means[key]
 

@@ -216,11 +216,9 @@ class Refinement:
         tighter = next((each for each in reversed(SHARES) if each > share), 1.0)
         kept = pin(_SAFETY * math.sqrt(sideways / (tighter * tightest)))
         proven = pin(math.sqrt(sideways / (share * tightest)) + 1e-4)
-        law, origin = (
-            replace(ANY, speed_high=proven),
-            f"how fast {self.events.scene.program.actor(actor).name} may turn",
-        )
-        held = law if through else None
+        held = replace(ANY, speed_high=proven) if through else None
+        name = self.events.scene.program.actor(actor).name
+        origin = f"in its turn {name} is no faster than {sideways:g} m/s^2 sideways allow"
         self.narrowings.append(Narrowing(actor, first, last, replace(ANY, speed_high=kept), held, origin=origin))
 
     # -- apart --------------------------------------------------------------------------------------------------------

@@ -93,7 +93,7 @@ def _motion(events: Events, narrowings: Sequence[Narrowing], actor: int, least: 
     name = events.scene.program.actor(actor).name
     instants = events.instants_of(actor)
     for stretch in events.stretches[actor]:
-        origin = f"how {name} may move in {'an' if stretch.kind == 'acc' else 'a'} {stretch.kind} piece"
+        origin = f"in {'an' if stretch.kind == 'acc' else 'a'} {stretch.kind} piece {name} {stretch.law.words()}"
         if actor == EGO:
             origin = events.ego.words(name)
         inside = [instant for instant in instants if _possibly_inside(stretch, instant, least)]
