@@ -1,32 +1,99 @@
 """The way of a text: read, put on a map, asked about, compiled.
 
-What enters: a text, a map, answers. What leaves: a story that may be compiled, and its program.
+What enters: a text or whatever else makes a story of one, a map, answers and somebody to ask. What leaves: an
+`Understanding`: story and program, what was answered and what is open. A text with its answers is reproducible.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
 
+from scenewright.errors import Place
 from scenewright.language.compile import compile_story
-from scenewright.language.questions import settled
+from scenewright.language.lines import Line, lines_of_story
+from scenewright.language.questions import as_data, defaults_of, settled
 from scenewright.language.read.sentences import read
-from scenewright.language.story import Story
+from scenewright.language.story import Question, Story
 from scenewright.language.ways import put_on_map
 from scenewright.program.limits import check_description
 from scenewright.program.types import DEFAULT_MAP, Program
 from scenewright.roads.load import load_map
 from scenewright.roads.model import RoadMap
 
+OFFLINE = "offline"
+Answers = Mapping[str, str]
+Ask = Callable[[Question], str | None]  # returns an alternative, or None where nobody answers
+
+
+@dataclass(frozen=True, slots=True)
+class Understanding:
+    """What was understood of a text.
+
+    Attributes
+    ----------
+    translator
+        Who read it: ``offline``, ``openai:NAME``, ``files:DIR``.
+    answers
+        The answers that were given, by slot.
+    notes
+        What else is to be known of the reading: what a model took, its doubts.
+    """
+
+    text: str
+    story: Story
+    program: Program
+    translator: str = OFFLINE
+    answers: Answers = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+    @property
+    def questions(self) -> tuple[Question, ...]:
+        """What is open still; the default of each was taken."""
+        return self.story.questions
+
+    @property
+    def all_answers(self) -> dict[str, str]:
+        """The answers that were given or taken by default: with them the text gives the same program again."""
+        return {**self.answers, **defaults_of(self.story)}
+
+    @property
+    def lines(self) -> tuple[Line, ...]:
+        """The story in plain English, with the words that each sentence came from."""
+        return lines_of_story(self.story, self.text)
+
+    @property
+    def taken_for_granted(self) -> tuple[str, ...]:
+        """What was assumed, what was decided by default, and what of the text was set aside, in sentences."""
+        return (
+            *self.story.assumptions,
+            *(each.with_default() for each in self.questions),
+            *(f'set aside, as it says nothing of the test: "{each.text}"' for each in self.story.asides),
+        )
+
+    def as_data(self) -> dict[str, Any]:
+        """Return all of it but the program as plain data."""
+        return {
+            "translator": self.translator,
+            "understood": [{"sentence": each.sentence, "words": each.words} for each in self.lines],
+            "questions": as_data(self.questions),
+            "answers": self.all_answers,
+            "assumptions": list(self.story.assumptions),
+            "set_aside": [each.text for each in self.story.asides],
+            "notes": list(self.notes),
+        }
+
 
 def understand(
     text: str,
     road_map: RoadMap | None = None,
-    answers: Mapping[str, str] | None = None,
+    answers: Answers | None = None,
     strict: bool = False,
     name: str = "description",
-) -> Story:
-    """Return the story of `text` on a map, the one that it names itself where it does.
+    ask: Ask | None = None,
+) -> Understanding:
+    """Return what `text` says, read without a model, on a map: the one that it names itself where it does.
 
     Raises
     ------
@@ -35,20 +102,62 @@ def understand(
 
     Examples
     --------
-    >>> story = understand("The ego drives west. The hero is oncoming. The hero brakes to a stop at its stop line.")
-    >>> [actor.way.heading for actor in story.actors]
-    ['W', 'E']
+    >>> text = "The ego drives west. The hero is oncoming. The hero brakes to a stop at its stop line."
+    >>> [line.sentence for line in understand(text).lines][0]
+    'The ego is headed west and goes straight on.'
     """
     check_description(text, name)
-    answers = answers or {}
-    story = read(text, answers, name)
+    return understand_story(lambda given: read(text, given, name), text, road_map, answers, strict, name, ask)
+
+
+def understand_story(
+    read_with: Callable[[Answers], Story],
+    text: str,
+    road_map: RoadMap | None = None,
+    answers: Answers | None = None,
+    strict: bool = False,
+    name: str = "description",
+    ask: Ask | None = None,
+) -> Understanding:
+    """Return what a story says on a map, whoever made it of `text`.
+
+    Parameters
+    ----------
+    read_with
+        Makes the story, with the answers that are known; called again after every answer, which may open or close
+        other questions.
+    answers
+        What is answered already, by slot.
+    strict
+        Refuse what is left open even where there is a default.
+    ask
+        Asked about one open question after another; where it returns None no more is asked.
+
+    Raises
+    ------
+    TranslationError
+        As `understand` does.
+    """
+    given = dict(answers or {})
+    while True:
+        story = _on_map(read_with(given), road_map, given)
+        waiting = [each for each in story.questions if each.slot not in given]
+        answer = ask(waiting[0]) if ask is not None and waiting else None
+        if answer is None:
+            break
+        given[waiting[0].slot] = answer
+    story = settled(story, given, strict, Place(name, text))
+    return Understanding(text, story, compile_story(story, text), answers=given)
+
+
+def translate(text: str, road_map: RoadMap | None = None, answers: Answers | None = None) -> Program:
+    """Return the program of `text`, read without a model; raises as `understand` does."""
+    return understand(text, road_map, answers).program
+
+
+def _on_map(story: Story, road_map: RoadMap | None, answers: Answers) -> Story:
     if road_map is None:
         road_map = load_map(story.map_name)
     elif story.map_name == DEFAULT_MAP:
         story = replace(story, map_name=road_map.name)
-    return settled(put_on_map(story, road_map, answers), answers, strict)
-
-
-def translate(text: str, road_map: RoadMap | None = None, answers: Mapping[str, str] | None = None) -> Program:
-    """Return the program of `text`; raises as `understand` and `compile_story` do."""
-    return compile_story(understand(text, road_map, answers), text)
+    return put_on_map(story, road_map, answers)
