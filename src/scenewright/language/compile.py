@@ -189,7 +189,7 @@ class _Compiler:
             if instants and moment.time is not None:
                 self._add(ex.Compare("==", instants[-1], _term(moment.time)), moment.time.quote)
         for condition in moment.conditions:
-            self._add(self._condition(condition, number), condition.quote)
+            self._add(self._condition(condition, number), condition.quote or moment.quote)
 
     def _throughout(self, deed: st.Deed) -> None:
         sketch = self.sketches[deed.actor]

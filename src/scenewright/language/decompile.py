@@ -49,13 +49,16 @@ class Decompiled:
     Attributes
     ----------
     taken
-        What each constraint became, by its id.
+        What each formula became, of those that stand side by side in a constraint.
+    moment_of
+        The moment that each knot is, of those that matter.
     untold
         Constraints that no story tells yet, which the story is without.
     """
 
     story: st.Story
-    taken: Mapping[str, tuple[Taken, ...]] = field(default_factory=dict)
+    taken: Mapping[ex.Formula, tuple[Taken, ...]] = field(default_factory=dict)
+    moment_of: Mapping[Key, int] = field(default_factory=dict)
     untold: tuple[pt.Constraint, ...] = ()
 
 
@@ -101,11 +104,11 @@ class _Decompiler:
     orders: list[st.Order] = field(default_factory=list)
     holds: list[st.Hold] = field(default_factory=list)
     quote: st.Quote | None = None  # of the constraint that is being taken
-    taken: dict[str, list[Taken]] = field(default_factory=dict)
-    own: list[Taken] = field(default_factory=list)  # what that constraint became
+    taken: dict[ex.Formula, tuple[Taken, ...]] = field(default_factory=dict)
+    own: list[Taken] = field(default_factory=list)  # what the formula that is being taken became
 
     def decompiled(self) -> Decompiled:
-        parts = {each.id: list(_parts(each.formula)) for each in self.program.constraints}
+        parts = {each.id: list(parts_of(each.formula)) for each in self.program.constraints}
         formulas = [formula for own in parts.values() for formula in own]
         self._name_moments(formulas)
         for formula in formulas:
@@ -114,18 +117,19 @@ class _Decompiler:
                     self._fix_time(formula)
         untold = []
         for constraint in self.program.constraints:
-            source, self.own = constraint.source, self.taken.setdefault(constraint.id, [])
+            source = constraint.source
             words = self.program.words_of(constraint)
             self.quote = None if source is None or words is None else st.Quote(source.start, source.end, words)
             try:
                 for formula in parts[constraint.id]:
+                    self.own = []
                     self._take(formula)
+                    self.taken[formula] = tuple(self.own)
             except (TranslationError, ProgramError):
                 if not self.leniently:
                     raise
                 untold.append(constraint)
-        taken = {name: tuple(own) for name, own in self.taken.items()}
-        return Decompiled(self._story(), taken, tuple(untold))
+        return Decompiled(self._story(), self.taken, self.moment_of, tuple(untold))
 
     def _story(self) -> st.Story:
         program = self.program
@@ -324,11 +328,11 @@ def _is_of_times(form: Linear) -> bool:
     return bool(form.of(ex.Elapsed)) and len(form.atoms) == len(form.of(ex.Elapsed, ex.ParameterRef))
 
 
-def _parts(formula: ex.Formula) -> Iterator[ex.Formula]:
+def parts_of(formula: ex.Formula) -> Iterator[ex.Formula]:
     """Yield what a constraint asks for side by side; a contrary of an interval is the interval of the contrary."""
     if isinstance(formula, ex.Logic) and formula.operator == "and":
         for operand in formula.operands:
-            yield from _parts(operand)
+            yield from parts_of(operand)
     elif isinstance(formula, ex.Logic) and formula.operator == "not" and isinstance(formula.operands[0], ex.Temporal):
         inner = formula.operands[0]
         if inner.operator == "always":

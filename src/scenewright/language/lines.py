@@ -7,16 +7,18 @@ English. What has no words yet stands there as code, so that nothing is left out
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 from scenewright.errors import TranslationError
 from scenewright.language import story as st
-from scenewright.language.decompile import Became, Decompiled, decompiled, way_of
+from scenewright.language.decompile import Became, Decompiled, decompiled, parts_of, way_of
 from scenewright.language.phrases import DOES, Phrases, listed, sentence
 from scenewright.language.stretches import words_of
 from scenewright.language.tell import Teller, tell_with_quotes
+from scenewright.program.expressions import Formula
 from scenewright.program.printer import print_expression
-from scenewright.program.types import Program
+from scenewright.program.types import Constraint, Program
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,18 +49,40 @@ def lines_of_program(program: Program) -> tuple[Line, ...]:
 
 def told_constraints(program: Program) -> dict[str, str]:
     """Return each constraint as a clause of plain English, by its id; as code where there are no words for it yet."""
+    told = told_formulas(program)
+    return {each.id: listed([told[part] for part in parts_of(each.formula)]) for each in program.constraints}
+
+
+def told_knots(program: Program) -> dict[tuple[int, str], str]:
+    """Return what happens at each knot of which anything is said, by actor and knot: ``the hero begins to brake``."""
+    told: dict[tuple[int, str], str] = {}
+    with suppress(TranslationError):
+        found = decompiled(program, leniently=True)
+        clauses = _Clauses(found.story)
+        for key, moment in found.moment_of.items():
+            with suppress(TranslationError):
+                told[key] = "start" if moment == st.START else clauses.event(moment)
+    return told
+
+
+def told_formulas(program: Program) -> dict[Formula, str]:
+    """Return the same for each formula of those that stand side by side in a constraint."""
     try:
         found = decompiled(program, leniently=True)
     except TranslationError:
         found = Decompiled(st.Story(()))
     clauses, told = _Clauses(found.story), {}
-    for constraint in program.constraints:
-        became = found.taken.get(constraint.id, ())
+    for formula in (part for constraint in program.constraints for part in parts_of(constraint.formula)):
         try:
-            told[constraint.id] = listed([clauses.clause(*each) for each in became])
-        except (TranslationError, LookupError):  # of nothing, where it could not be taken
-            told[constraint.id] = print_expression(constraint.formula)
+            told[formula] = listed([clauses.clause(*each) for each in found.taken[formula]])
+        except (TranslationError, LookupError):
+            told[formula] = print_expression(formula)
     return told
+
+
+def in_words(program: Program, constraint: Constraint) -> str:
+    """Return a constraint in the user's own words, or told in plain English where there are none."""
+    return program.words_of(constraint) or told_constraints(program)[constraint.id]
 
 
 class _Clauses:
@@ -67,6 +91,10 @@ class _Clauses:
     def __init__(self, story: st.Story) -> None:
         self._story = story
         self._teller = Teller(story, begun=list(story.deeds), ended=list(story.deeds))
+
+    def event(self, moment: int) -> str:
+        """Return what a moment is known by."""
+        return self._teller.event(moment)
 
     def clause(self, moment: int | None, told: Became) -> str:
         """Return what a constraint became as a clause."""
@@ -77,8 +105,7 @@ class _Clauses:
             case st.Hold():
                 return self._teller.hold(told)
             case None if moment is not None:
-                owners = listed([phrases.name(actor) for actor in self._story.owners(moment)])
-                return f"it is one moment for {owners} when {self._teller.event(moment)}"
+                return f"all of this is at one moment, when {self.event(moment)}"
             case st.Measure() if moment is None:
                 own = (DOES[each.verb][0] for each in self._story.deeds_of(told.actor) if told in each.throughout)
                 return f"{phrases.clause(told)} while it {next(own, DOES[st.Verb.STAND][0])}"
@@ -90,7 +117,7 @@ class _Clauses:
         if moment == st.START:
             return f"{self._teller.phrases.clause(condition)} at the start"
         clause = self._teller.phrases.clause(condition, passing=st.is_event(condition))
-        event = self._teller.event(moment)
+        event = self.event(moment)
         if isinstance(condition, st.Measure):
             name = self._teller.phrases.name(condition.actor)
             event = re.sub(f"^{re.escape(name)} ", "it ", event)

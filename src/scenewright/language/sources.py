@@ -58,20 +58,20 @@ def read_scenario(
 def _understanding(
     text: str, name: str, translator: str, map_name: str | None, settings: TranslatorSettings
 ) -> Understanding:
+    on = load_map(map_name) if map_name else None
     if translator != OFFLINE:
-        from scenewright.language.model.choose import configured, model_named
-        from scenewright.language.model.translator import story_by_model
+        from scenewright.language.model.choose import model_named
 
-        chosen = configured() if translator == AUTO else translator
-        if chosen is not None:
-            model, road_map = model_named(chosen, settings), load_map(map_name or DEFAULT_MAP)
-            told = story_by_model(text, road_map, name, model, settings)
+        if (model := model_named(translator, settings)) is not None:
+            from scenewright.language.model.translator import story_by_model
+
+            on = on or load_map(DEFAULT_MAP)
+            told = story_by_model(text, on, name, model, settings)
             read = understand_story(
-                lambda _: told.story, text, road_map, settings.answers, settings.strict, name, settings.ask
+                lambda _: told.story, text, on, settings.answers, settings.strict, name, settings.ask
             )
-            return replace(read, translator=chosen, notes=told.notes)
-    road_map = load_map(map_name) if map_name else None
-    return understand(text, road_map, settings.answers, settings.strict, name, settings.ask)
+            return replace(read, translator=model.name, notes=told.notes)
+    return understand(text, on, settings.answers, settings.strict, name, settings.ask)
 
 
 def is_program(text: str) -> bool:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
+from scenewright.language.lines import in_words
 from scenewright.program.expressions import (
     Arithmetic,
     Compare,
@@ -23,7 +24,6 @@ from scenewright.program.expressions import (
     Term,
     walk,
 )
-from scenewright.program.printer import print_expression
 from scenewright.program.types import Constraint, Program
 from scenewright.roads.grounding import Scene
 from scenewright.solve.proofs.decide import Question, decide
@@ -115,10 +115,7 @@ def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
                 parameter = next(p for p in program.parameters if p.name == node.name)
                 yield Lever(node.name, scene.parameters[node.name], parameter.unit.dimension, node.name)
             elif isinstance(node, Number) and node.value != 0:
-                words = program.words_of(constraint)
-                what = f"{format_fraction(node.value)} in " + (
-                    f'"{words}"' if words else print_expression(constraint.formula)
-                )
+                what = f'{format_fraction(node.value)} in "{in_words(program, constraint)}"'
                 dimension = compared_dimension(constraint.formula)
                 yield Lever(what, node.value, dimension, f"free_{constraint.id}", constraint, node)
 
