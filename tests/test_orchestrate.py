@@ -17,7 +17,7 @@ from scenewright.program.resolve import resolve
 from scenewright.program.text import parse_program
 from scenewright.roads import find_conflict
 from scenewright.trace.files import read_trace
-from scenewright.translate.sources import is_program, read_scenario
+from scenewright.language.sources import is_program, read_scenario
 
 SENTENCE = (
     "The ego drives westbound and is 90 m before the intersection. An oncoming hero turns left into the driveway. "
@@ -38,7 +38,7 @@ def test_sentence_file_program_and_text_of_a_program_are_one_scenario(tmp_path: 
     sources = [SENTENCE, str(tmp_path / "left turn.txt"), str(tmp_path / "turn.scene"), program_text()]
     found = [orchestrate(Request(source, FINE)) for source in sources]
     assert {result.status for result in found} == {"success"}
-    assert [result.translation is not None for result in found] == [True, True, False, False]
+    assert [result.understanding is not None for result in found] == [True, True, False, False]
     traces = [result.run.trace for result in found if result.run is not None]
     assert len({trace.actors["hero"].s_m.tobytes() for trace in traces}) == 1
 

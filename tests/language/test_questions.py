@@ -17,13 +17,14 @@ UNKNOWN = "The ego is headed west and goes straight on. The hero turns left. The
 
 
 def test_a_default_is_taken_and_told() -> None:
-    story = understand(TEXT)
-    (question,) = as_data(story.questions)
+    read_once = understand(TEXT)
+    (question,) = as_data(read_once.questions)
     assert question["default"] in question["alternatives"]
     assert question["words"] == "ego"
-    assert defaults_of(story) == {"way of ego": question["default"]}
-    assert understand(TEXT, answers=defaults_of(story)) == story
-    assert not understand(TEXT, answers=defaults_of(story)).questions
+    assert read_once.all_answers == defaults_of(read_once.story) == {"way of ego": question["default"]}
+    again = understand(TEXT, answers=read_once.all_answers)
+    assert again.program == read_once.program
+    assert not again.questions
 
 
 def test_strict_refuses_what_is_open() -> None:
@@ -63,7 +64,7 @@ def test_an_answer_that_is_none_is_refused() -> None:
 def test_answers_from_a_file(tmp_path: Path) -> None:
     path = tmp_path / "answers.json"
     path.write_text(json.dumps({"way of ego": "is headed west and turns right"}), encoding="utf-8")
-    assert understand(TEXT, answers=read_answers(path)).actors[0].way.turn == "right"
+    assert understand(TEXT, answers=read_answers(path)).story.actors[0].way.turn == "right"
     for wrong in ("[1]", '{"a": 1}', "{"):
         path.write_text(wrong, encoding="utf-8")
         with pytest.raises(InputError):

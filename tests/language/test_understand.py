@@ -19,11 +19,11 @@ def test_a_text_becomes_a_program_that_fits_its_map() -> None:
     program = translate(TEXT)
     assert ground(program, load_map(program.map_name)).routes[1].headings == ("E", "N")
     assert program.description == TEXT
-    assert [program.words_of(each) for each in program.constraints][1] == "25 m"
+    assert program.words_of(program.constraints[1]) == "the ego is 25 m before the conflict point"
 
 
 def test_a_map_that_is_named_and_a_text_that_is_too_long() -> None:
-    assert understand(f"Map: t_intersection\n{TEXT}").map_name == "t_intersection"
+    assert understand(f"Map: t_intersection\n{TEXT}").story.map_name == "t_intersection"
     with pytest.raises(MapError):
         understand(f"Map: nowhere\n{TEXT}")
     with pytest.raises(TranslationError, match="too many characters"):

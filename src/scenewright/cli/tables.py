@@ -106,9 +106,12 @@ def parameter_data(scene: Scene, given: Iterable[str]) -> dict[str, dict[str, fl
 
 # -- the plan -------------------------------------------------------------------------------------------------------
 def knots(scene: Scene, plan: Plan) -> Table:
-    """Return when and where each actor is at its knots, and how it goes on from there."""
+    """Return when and where each actor is at its moments, and how it goes on from there."""
+    from scenewright.language.lines import told_knots
+
     numbers = ("time s", "position m", "speed m/s", "then m/s^2")
-    made = table("actor", "knot", "time s", "position m", "place", "speed m/s", "then m/s^2", right=numbers)
+    made = table("actor", "when", "time s", "position m", "place", "speed m/s", "then m/s^2", right=numbers)
+    told = told_knots(scene.program)
     for actor_id, profile in sorted(plan.profiles.items()):
         actor = scene.program.actor(actor_id)
         for knot, time_s in profile.knot_times_s.items():
@@ -116,7 +119,13 @@ def knots(scene: Scene, plan: Plan) -> Table:
             accel_mpss = profile.state(time_s + 1e-6)[2]
             place = relative_to(s_m, scene.landmarks_m[actor_id])
             made.add_row(
-                actor.name, knot, f"{time_s:.2f}", f"{s_m:.2f}", place, f"{speed_mps:.2f}", f"{accel_mpss:.2f}"
+                actor.name,
+                told.get((actor_id, knot), "the end"),
+                f"{time_s:.2f}",
+                f"{s_m:.2f}",
+                place,
+                f"{speed_mps:.2f}",
+                f"{accel_mpss:.2f}",
             )
         made.add_section()
     return made

@@ -15,8 +15,7 @@ from scenewright.judge.case import Case
 from scenewright.judge.knots import SIGN_OF, Measured, demands_standstill
 from scenewright.judge.phases import move_off_after, rest_after
 from scenewright.judge.verdict import Condition, bounded, unjudged
-from scenewright.language.compile import PIECES
-from scenewright.language.phrases import DOES, ORDINALS
+from scenewright.language.phrases import does
 from scenewright.program.types import Actor, PieceKind
 
 _VERBS = {PieceKind.DEC: "brake", PieceKind.ACC: "speed up"}
@@ -91,10 +90,10 @@ def _beginning(case: Case, measured: Measured, hero: Actor, kind: PieceKind) -> 
 
 def _piece(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[Condition]:
     kind = hero.sketch.pieces[index]
-    name, does = hero.sketch.piece_names()[index], _does(hero, index)
+    name, doing = hero.sketch.piece_names()[index], does(kind, hero.sketch.pieces[:index].count(kind))
     span = measured.moments.spans.get((hero.id, index))
     if span is None:
-        yield unjudged(f"{hero.name}_{name}", "interaction", f"{hero.name} {does}", "it never came to it")
+        yield unjudged(f"{hero.name}_{name}", "interaction", f"{hero.name} {doing}", "it never came to it")
         return
     timeline = case.timelines[hero.id]
     if kind in SIGN_OF:
@@ -104,26 +103,19 @@ def _piece(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[
         against = float(np.max(np.abs(speeds - best)))
         verb = "speeds up" if kind is PieceKind.DEC else "slows down"
         yield bounded(
-            f"{hero.name}_{name}", "interaction", f"{hero.name} never {verb} while it {does}",
+            f"{hero.name}_{name}", "interaction", f"{hero.name} never {verb} while it {doing}",
             required=0.0, measured=against, error=against, dimension="speed",
         )  # fmt: skip
     if kind is PieceKind.STOP:
         top = float(np.max(np.abs(timeline.speed(timeline.instants(*span)))))
         yield bounded(
-            f"{hero.name}_{name}", "interaction", f"{hero.name} does not move while it {does}",
+            f"{hero.name}_{name}", "interaction", f"{hero.name} does not move while it {doing}",
             required=0.0, measured=top, error=top, dimension="speed",
         )  # fmt: skip
         if index + 1 < len(hero.sketch.pieces):
             yield _goes_again(case, hero, span[0])
     elif kind is PieceKind.DEC and _ends_standing(case, measured, hero, index):
         yield _stands(case, hero, span[0])
-
-
-def _does(hero: Actor, index: int) -> str:
-    """Return what somebody does in a piece, and which time where it is not the first."""
-    verb, _, _ = DOES[next(verb for verb, piece in PIECES.items() if piece is hero.sketch.pieces[index])]
-    before = hero.sketch.pieces[:index].count(hero.sketch.pieces[index])
-    return verb if before == 0 else f"{verb} for the {dict(enumerate(ORDINALS)).get(before, f'{before + 1}th')} time"
 
 
 def _ends_standing(case: Case, measured: Measured, hero: Actor, index: int) -> bool:

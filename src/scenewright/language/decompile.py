@@ -125,7 +125,7 @@ class _Decompiler:
                     self.own = []
                     self._take(formula)
                     self.taken[formula] = tuple(self.own)
-            except (TranslationError, ProgramError):
+            except (TranslationError, ProgramError, LookupError):  # of a piece that there is not
                 if not self.leniently:
                     raise
                 untold.append(constraint)

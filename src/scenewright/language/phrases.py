@@ -13,7 +13,8 @@ from typing import TypeGuard
 
 from scenewright.errors import TranslationError
 from scenewright.language import story as st
-from scenewright.program.types import EGO
+from scenewright.language.compile import PIECES
+from scenewright.program.types import EGO, PieceKind
 from scenewright.units import format_fraction
 
 BOUNDS: dict[st.Operator, str] = {"==": "", ">=": "at least ", "<=": "at most ", ">": "more than ", "<": "less than "}
@@ -52,6 +53,12 @@ _AS_FAST: dict[st.Operator, str] = {
     "<=": "at most as fast as",
     "<": "slower than",
 }
+
+
+def does(piece: PieceKind, before: int = 0) -> str:
+    """Return what somebody does in a piece of a sketch, after so many of its kind: ``brakes for the second time``."""
+    verb = DOES[next(verb for verb, kind in PIECES.items() if kind is piece)][0]
+    return f"{verb} for the {ORDINALS[before]} time" if 0 < before < len(ORDINALS) else verb
 
 
 def untold(what: str) -> TranslationError:

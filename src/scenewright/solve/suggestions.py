@@ -24,6 +24,7 @@ from scenewright.program.expressions import (
     Term,
     walk,
 )
+from scenewright.program.printer import print_expression
 from scenewright.program.types import Constraint, Program
 from scenewright.roads.grounding import Scene
 from scenewright.solve.proofs.decide import Question, decide
@@ -115,7 +116,9 @@ def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
                 parameter = next(p for p in program.parameters if p.name == node.name)
                 yield Lever(node.name, scene.parameters[node.name], parameter.unit.dimension, node.name)
             elif isinstance(node, Number) and node.value != 0:
-                what = f'{format_fraction(node.value)} in "{in_words(program, constraint)}"'
+                is_code = program.description is None  # whoever wrote the program looks for its line
+                said = print_expression(constraint.formula) if is_code else f'"{in_words(program, constraint)}"'
+                what = f"{format_fraction(node.value)} in {said}"
                 dimension = compared_dimension(constraint.formula)
                 yield Lever(what, node.value, dimension, f"free_{constraint.id}", constraint, node)
 

@@ -14,6 +14,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from scenewright.language.phrases import does
 from scenewright.motion.laws import Law, reach
 from scenewright.program.types import EGO
 from scenewright.solve.proofs.events import Events, Stretch
@@ -93,7 +94,7 @@ def _motion(events: Events, narrowings: Sequence[Narrowing], actor: int, least: 
     name = events.scene.program.actor(actor).name
     instants = events.instants_of(actor)
     for stretch in events.stretches[actor]:
-        origin = f"how {name} may move in {'an' if stretch.kind == 'acc' else 'a'} {stretch.kind} piece"
+        origin = f"how {name} may move while it {does(stretch.kind)}"
         if actor == EGO:
             origin = events.ego.words(name)
         inside = [instant for instant in instants if _possibly_inside(stretch, instant, least)]
