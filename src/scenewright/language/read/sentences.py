@@ -58,11 +58,8 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
 
 
 @dataclass(slots=True)
-class _Sentence:
-    narrative: Narrative
-    chunks: list[Chunk]
-    quote: st.Quote
-    pending: int | None  # a moment that was told just before, and nobody did anything at it
+class _Sentence(Moments):
+    pending: int | None = None  # a moment that was told just before, and nobody did anything at it
     leads: set[str] = field(default_factory=set)
     is_open: bool = False  # a word in it must be asked about first
 
@@ -86,7 +83,7 @@ class _Sentence:
         joined = any(chunk.value == "if" for chunk in self.chunks)  # its "then" is another
         kept: list[Chunk] = []
         for chunk in self.chunks:
-            free = not kept or (not joined and kept[-1].kind in ("be", *PEOPLE))
+            free = not kept or (not joined and kept[-1].kind in ("be", *PEOPLE) and chunk.value != "start")
             if chunk.kind == "link" and chunk.value in _LEADS and free:
                 self.leads.add(chunk.value)
             elif kept or chunk.kind != "comma":
@@ -95,7 +92,7 @@ class _Sentence:
 
     def _cut(self) -> None:
         """Cut the sentence into what happens, the moment at which it does, and the rest."""
-        story, segments = self.narrative, segments_of(self.chunks)
+        story, segments = self.narrative, segments_of(self.chunks, bool(self.leads))
         if not segments[0].chunks and len(segments) > 1 and segments[1].link == "when":
             first, main = parted(segments[1].chunks)
             when: list[Item] | None = items_of(story, first)
@@ -105,78 +102,6 @@ class _Sentence:
             later = [each for each in segments if each.link == "when"]
             when = items_of(story, later[0].chunks) if later else None
             self._main(items, when, [each for each in segments[1:] if each not in later[:1]])
-
-    def _refuse(self, message: str, fix: str | None = None) -> None:
-        self.narrative.refuse(message, self.quote, fix)
-
-    # -- moments ------------------------------------------------------------------------------------------------------
-    def _conditions(self, items: Sequence[Item], *taken: str) -> list[st.Condition]:
-        """Return what a list says is so; `taken` are attributes of its clauses that something else takes."""
-        for item in items:
-            if isinstance(item, Clause) and item.says_more_than("measures", *taken):
-                self.narrative.refuse("this is no condition", item.quote)
-        lists = [item.measures if isinstance(item, Clause) else [item] for item in items]
-        return [condition for each in lists for condition in each]
-
-    def _moment(self, items: Sequence[Item]) -> int:
-        """Return the moment that a list of clauses tells: one that is known, or a new one."""
-        story = self.narrative
-        events = [item for item in items if isinstance(item, Clause) and item.deed is not None]
-        conditions = self._conditions([item for item in items if item not in events], "times")
-        known = {self._event(item) for item in events}
-        if len(known) > 1:
-            self._refuse("two moments are told as one")
-        moment = next(iter(known), story.moment_with(conditions))
-        moment = story.moment(quote=self.quote) if moment is None else moment
-        story.add(moment, conditions)
-        for item in items:
-            if isinstance(item, Clause) and item not in events and item.times:
-                self._timed(moment, item)
-        return moment
-
-    def _timed(self, moment: int, clause: Clause) -> None:
-        """Take "5 s after the start"."""
-        if clause.times.keys() != {"after the start"}:
-            self._refuse("it is not clear what lasts so long")
-        op, time = clause.times["after the start"]
-        if op == "==" and moment not in self.narrative.times:
-            self.narrative.times[moment] = time
-        else:
-            self.narrative.orders.append(st.Order(st.START, moment, op, time, self.quote))
-
-    def _event(self, clause: Clause) -> int:
-        """Return the moment of an event: a deed begins or ends, or something comes to be so."""
-        story = self.narrative
-        if clause.deed is not None:
-            doing = story.doing_of(clause)
-            if doing is None or clause.says_more_than("deed", "phase", "ordinal", "times"):
-                story.refuse("nothing was told of this deed before", clause.quote)
-            if clause.phase != "finishes" and clause.deed != "stop":
-                return doing.begins
-            if doing.ends is None:
-                doing.ends = story.moment()
-            return doing.ends
-        if not clause.measures or clause.says_more_than("measures", "times"):
-            story.refuse("this is no event", clause.quote)
-        for number, own in enumerate(story.conditions):
-            if number != st.START and any(measure in own for measure in clause.measures):
-                story.add(number, clause.measures)
-                return number
-        if clause.subject == EGO:
-            story.ego.append(story.moment(clause.measures, clause.quote))
-            return story.ego[-1]
-        return self._end_of_a_deed(clause)
-
-    def _end_of_a_deed(self, clause: Clause) -> int:
-        """Return a new moment at which somebody's deed ends: the last one, or driving on after it."""
-        story = self.narrative
-        if clause.subject is None or not all(st.is_event(each) for each in clause.measures):
-            story.refuse("this is no event of anything that was told", clause.quote)
-        doing = story.last(clause.subject)
-        if doing is None or doing.ends is not None:
-            doing = story.begin(clause.subject, st.Verb.DRIVE, None, {"then"} if doing else set(), clause.quote)
-        doing.ends = story.moment(clause.measures, clause.quote)
-        return doing.ends
 
     # -- main clauses -------------------------------------------------------------------------------------------------
     def _main(self, items: list[Item], when: list[Item] | None, rest: list[Segment]) -> None:
@@ -194,19 +119,19 @@ class _Sentence:
         elif clause is not None and "first" in clause.flags and when is None and len(items) == 1 and not rest:
             self._goes_first(clause)
         elif when is not None:
-            moment = self._moment(when)
+            moment = self.moment(when)
             if moment not in self.narrative.times and not self.narrative.is_owned(moment):
                 self.narrative.pending = moment
-            self.narrative.add(moment, self._conditions(items))
+            self.narrative.add(moment, self.conditions(items))
             self.narrative.ego_comes(moment, self.quote)
             self._orders(moment, rest)
         elif tells_time:
             if clause is None or len(items) > 1:
-                self._refuse("only one event is before or after another")
+                self.refuse("only one event is before or after another")
                 return
-            moment = self._event(clause)
+            moment = self.event(clause)
             if clause.times:
-                self._timed(moment, clause)
+                self.timed(moment, clause)
             self._orders(moment, rest)
         else:
             self._facts(items, rest)
@@ -227,10 +152,10 @@ class _Sentence:
     def _goes_first(self, clause: Clause) -> None:
         """Take "it goes first": whoever it is passes the conflict point before the ego does."""
         if clause.subject in (None, EGO) or clause.says_more_than("flags"):
-            self._refuse("it is not clear who goes first")
+            self.refuse("it is not clear who goes first")
         place = st.Place("conflict_point")
         there = [st.Measure(actor, st.Quantity.PLACE, "==", None, place) for actor in (clause.subject or EGO, EGO)]
-        first, second = (self._event(Clause(self.quote, each.actor, measures=[each])) for each in there)
+        first, second = (self.event(Clause(self.quote, each.actor, measures=[each])) for each in there)
         self.narrative.orders.append(st.Order(first, second, ">", None, self.quote))
 
     def _facts(self, items: list[Item], rest: list[Segment]) -> None:
@@ -239,20 +164,19 @@ class _Sentence:
         plain: list[Item] = []
         for item in items:
             if isinstance(item, Clause):
-                if item.facts or item.relations or "way" in item.flags:
-                    self._way(item)
+                self.tell_way(item)
                 if "kept" in item.flags and item.subject is not None:
                     story.kept.append((item.subject, item.quote))
                 story.subject = item.subject
-                item = replace(item, flags=item.flags - {"way", "kept"}, facts={}, relations=[])
+                item = replace(item, flags=item.flags - {"kept"})
             plain.append(item)
-        conditions = self._conditions(plain)
+        conditions = self.conditions(plain)
         measures = [each for each in conditions if isinstance(each, st.Measure)]
         if rest:
-            self._refuse("it is not clear when this is so")
+            self.refuse("it is not clear when this is so")
         elif not conditions:
             if not any(isinstance(item, Clause) and item.subject is not None for item in items):
-                self._refuse("nothing is said here")
+                self.refuse("nothing is said here")
         elif "meanwhile" in self.leads and story.doings and len(measures) == len(conditions):
             story.doings[-1].throughout += measures
         elif "later" in self.leads:
@@ -260,25 +184,7 @@ class _Sentence:
         elif "start" in self.leads or not (story.doings or self.leads):
             story.add(st.START, conditions)
         else:
-            self._refuse("it is not clear when this is so", "begin it with 'At the start,' or 'Later,'")
-
-    def _way(self, clause: Clause) -> None:
-        story = self.narrative
-        if clause.subject is None or any(each.of == clause.subject for each in clause.relations):
-            story.refuse("it is not clear whose way this is", clause.quote)
-        actor = story.actor(clause.subject)
-        way = actor.way
-        for name, value in clause.facts.items():
-            if name == "then" or (name, value) == ("turn", "on"):
-                continue
-            many = {"headings": tuple(value), "lanes": tuple(value.split(", "))}
-            whole = many.get(name, value)
-            if getattr(way, name) not in (None, (), whole):
-                story.refuse(f"two things are said of the way of {actor.name}", clause.quote)
-            fact: dict[str, Any] = {name: whole}
-            way = replace(way, **fact)
-        changed = replace(actor, way=way, relations=(*actor.relations, *clause.relations))
-        story.actors = [changed if each is actor else each for each in story.actors]
+            self.refuse("it is not clear when this is so", "begin it with 'At the start,' or 'Later,'")
 
     # -- deeds --------------------------------------------------------------------------------------------------------
     def _deed(self, clause: Clause, when: list[Item] | None, rest: list[Segment]) -> None:
@@ -287,10 +193,10 @@ class _Sentence:
         if clause.subject is None or clause.deed is None or told or clause.flags & {"first", "way"}:
             story.refuse("it is not clear what is done here", self.quote)
         if "kept" in clause.flags and not clause.measures:
-            self._refuse("it is not clear which speed is kept")
+            self.refuse("it is not clear which speed is kept")
         if clause.phase == "finishes" or "after the start" in clause.times:
-            self._refuse("nothing was told of this deed before")
-        moment = self.pending if when is None else self._moment(when)
+            self.refuse("nothing was told of this deed before")
+        moment = self.pending if when is None else self.moment(when)
         begins, held, ends = self._shares(clause)
         if (begins and clause.deed != st.Verb.STAND) or any(each.link == "after" for each in rest):
             self.leads.add(
@@ -319,7 +225,7 @@ class _Sentence:
         for measure in clause.measures:
             fast = measure.quantity is st.Quantity.SPEED
             if fast and "to" not in clause.flags and clause.deed != st.Verb.DRIVE:
-                self._refuse("it is not clear when it is so fast")
+                self.refuse("it is not clear when it is so fast")
             stays = clause.deed == st.Verb.STAND or not (rests or fast or st.is_event(measure))
             (held if fast and "to" not in clause.flags else begins if stays else ends).append(measure)
         return begins, held, ends
@@ -328,7 +234,7 @@ class _Sentence:
         story = self.narrative
         if until is not None:
             story.doer = doing.actor
-            doing.ends = self._moment(items_of(story, until.chunks))
+            doing.ends = self.moment(items_of(story, until.chunks))
             story.doer = None
             story.add(doing.ends, ends)
         elif ends:
@@ -344,11 +250,11 @@ class _Sentence:
         """Take what comes before or after a moment, which is not a new event of the `actor` whose deed it is."""
         for segment in rest:
             if segment.link not in _ORDERS:
-                self._refuse("it is not clear before or after what")
+                self.refuse("it is not clear before or after what")
             count = len(self.narrative.doings)
-            other = self._event_of(segment.chunks)
+            other = self.event_of(segment.chunks)
             if actor is not None and any(each.actor == actor for each in self.narrative.doings[count:]):
-                self._refuse("nothing was told of this event before")
+                self.refuse("nothing was told of this event before")
             first, second = (other, moment) if segment.link == "after" else (moment, other)
             plain: tuple[st.Operator, None] = (">=" if segment.link == "no later than" else ">", None)
             op, margin = segment.margin or plain
@@ -359,16 +265,16 @@ class _Sentence:
         at = self.chunks.index(how)
         until = next((index for index, each in enumerate(self.chunks) if each.value == "until"), at)
         if until == at or self.chunks[0].value != "from":
-            self._refuse(
+            self.refuse(
                 f"'{how.text}' needs a time from which and until which", "From the start until ..., never: ..."
             )
-        start = self._point(self.chunks[1:until])
-        end = self._point([each for each in self.chunks[until + 1 : at] if each.kind != "comma"])
-        conditions = self._conditions(
+        start = self.point(self.chunks[1:until])
+        end = self.point([each for each in self.chunks[until + 1 : at] if each.kind != "comma"])
+        conditions = self.conditions(
             items_of(self.narrative, [each for each in self.chunks[at + 1 :] if each.text != ":"])
         )
         if len(conditions) != 1:
-            self._refuse("one condition holds all the while", "write a sentence for each")
+            self.refuse("one condition holds all the while", "write a sentence for each")
         self.narrative.holds.append(st.Hold(_HOW[how.value], start, end, conditions[0], self.quote))
 
     def _ego_order(self) -> None:
@@ -379,19 +285,4 @@ class _Sentence:
                 events.append([])
             elif chunk.kind not in ("comma", "nothing"):
                 events[-1].append(chunk)
-        self.narrative.ego_order([self._event_of(chunks) for chunks in events if chunks])
-
-    def _event_of(self, chunks: list[Chunk]) -> int:
-        items = items_of(self.narrative, chunks)
-        if len(items) != 1 or not isinstance(items[0], Clause) or items[0].times:
-            self.narrative.refuse("this is not one event", self.quote)
-        return self._event(items[0])
-
-    def _point(self, chunks: list[Chunk]) -> st.Point:
-        offset, earlier = None, False
-        if len(chunks) > 1 and chunks[0].kind == "amount" and chunks[1].value in ("before", "after"):
-            offset, earlier = chunks[0].amount, chunks[1].value == "before"
-            chunks = chunks[2:]
-        if [chunk.value for chunk in chunks] == ["the start"]:
-            return st.Point(st.START, offset, earlier)
-        return st.Point(self._event_of(chunks), offset, earlier)
+        self.narrative.ego_order([self.event_of(chunks) for chunks in events if chunks])
