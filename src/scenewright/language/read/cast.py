@@ -32,6 +32,7 @@ class Cast:
     mentioned: list[int] = field(default_factory=list)  # in this sentence
     subject: int | None = None  # of the last main clause
     place: st.Place | None = None  # that was spoken of last
+    driving: set[int] = field(default_factory=set)  # who goes straight on where nothing else is said
     doer: int | None = None  # whose deed it is, while what ends it is read
 
     def who(self, chunk: Chunk, acts: bool = False) -> int:
@@ -45,6 +46,7 @@ class Cast:
                 self.relate(actor, st.Relation(trait.value, EGO, trait.quote))
             elif trait.kind in ("heading", "turn", "relation"):
                 self.tell_way(actor, {trait.kind: trait.value}, trait.quote)
+                self.driving.add(actor)
         return actor
 
     def whom(self, chunk: Chunk, subject: int | None) -> int:
@@ -164,6 +166,18 @@ class Cast:
                 self.refuse(f"two things are said of the way of {actor.name}", quote)
             way = replace(way, **{name: whole})
         self._change(replace(actor, way=way))
+
+    def go_straight(self) -> None:
+        """Let who is said to drive and not to turn go straight on, unless it drives in one line with somebody who turns."""
+        for actor in self.actors:
+            line = [actor, *(self.actor(each.of) for each in actor.relations if each.kind != "oncoming")]
+            line += [other for other in self.actors if any(each.of == actor.id for each in other.relations)]
+            ways = [each.way for each in line]
+            told = any(way.origin == "driveway" or way.turn not in (None, "straight") for way in ways)
+            open_way = not (actor.way.turn or actor.way.destination or actor.way.headings or actor.way.lanes)
+            if actor.id in self.driving and open_way and not told:
+                self._change(replace(actor, way=replace(actor.way, turn="straight")))
+                self.assumptions.append(f"{actor.name} goes straight on")
 
     def relate(self, number: int, *relations: st.Relation) -> None:
         """Add how somebody's way lies to another's."""

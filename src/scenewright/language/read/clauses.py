@@ -142,8 +142,8 @@ class Taken:
                 acts = any(each.kind == "deed" for each in self.chunks)
                 clause.subject = self.people.who(self._named(chunk), acts)
                 clause.notes |= {"wanted"} if chunk.kind == "relative" else set()
-            case "be" | "harmless" | "possessive" | "quality":
-                pass
+            case "be" | "possessive" | "quality":
+                clause.notes |= {"has"} if value == "has" else set()
             case "mood":
                 clause.notes.add(value)
             case "bound" if self.peek()[0] in ("amount", "bound", "link", "near") or self.peek()[1] == "as fast as":
@@ -178,8 +178,8 @@ class Taken:
             case "relation":
                 clause.relations.append(st.Relation(value, EGO, chunk.quote))
             case "state" | "event":
-                self.states.add(value)
-                clause.notes |= {"event"} if chunk.kind == "event" else set()
+                self.states.add("pass" if value == "arrives" else value)
+                clause.notes |= {"event", value} if chunk.kind == "event" else {value}
             case "quantity" if self.quantity in (None, "rate", value):
                 self.quantity = value
             case "factor" if value == "as fast as" or self.peek() == ("side", "than"):

@@ -44,6 +44,9 @@ class Moments:
         """Return the moment that a list of clauses tells: one that is known, or a new one."""
         story = self.narrative
         events = [item for item in items if isinstance(item, Clause) and item.deed is not None]
+        for item in items:
+            if isinstance(item, Clause):  # what is reached is so when it is
+                item.flags -= {"falls"}
         conditions = self.conditions([item for item in items if item not in events], "times")
         known = {self.event(item) for item in events}
         if len(known) > 1:
@@ -108,7 +111,7 @@ class Moments:
             self.narrative.refuse("it is not clear whose way this is", clause.quote)
         self.narrative.tell_way(clause.subject, clause.facts, clause.quote)
         self.narrative.relate(clause.subject, *clause.relations)
-        if clause.facts and "headed" not in clause.flags:
+        if (clause.facts or "drives" in clause.notes) and "headed" not in clause.flags:
             self.narrative.driving.add(clause.subject)
         clause.facts, clause.relations, clause.flags = {}, [], clause.flags - {"way", "headed"}
 

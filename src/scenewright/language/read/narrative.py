@@ -47,7 +47,7 @@ class Narrative(Cast):
     holds: list[st.Hold] = field(default_factory=list)
     pending: int | None = None  # a moment that the last sentence told, at which nobody does anything yet
     kept: list[tuple[int, st.Quote]] = field(default_factory=list)  # who keeps the speed that it has at the start
-    driving: set[int] = field(default_factory=set)  # who goes straight on where nothing else is said
+    courtesies: list[tuple[int | None, str, st.Quote]] = field(default_factory=list)  # who yields, or does not
     parameters: list[Parameter] = field(default_factory=list)
     manner: Manner = USUAL
     map_name: str = DEFAULT_MAP
@@ -58,6 +58,11 @@ class Narrative(Cast):
         """Return the story; deeds that are still open end at moments of their own."""
         for actor, quote in self.kept:
             self._keep(actor, quote)
+        for who, courtesy, quote in self.courtesies:
+            verbs = {doing.verb for doing in self.doings if doing.actor == who}
+            if not verbs or bool(verbs & {st.Verb.BRAKE, st.Verb.STAND}) is not (courtesy == "yields"):
+                self.refuse("it is not said what is done to yield, or instead", quote, "say where it stops or passes")
+        self.go_straight()
         for doing in self.doings:
             if doing.ends is None:
                 doing.ends = self.moment()
@@ -86,12 +91,14 @@ class Narrative(Cast):
     def _keep(self, actor: int, quote: st.Quote) -> None:
         """Let somebody keep its first speed until its first deed, throughout where it has none."""
         first = next((doing for doing in self.doings if doing.actor == actor), None)
-        first = first or self.begin(actor, st.Verb.DRIVE, None, set(), quote)
+        if first is None or first.verb != st.Verb.DRIVE or first.begins != st.START:
+            if actor == EGO or first is not None:
+                self.refuse("it is not clear until when a speed is kept", quote)
+            first = self.begin(actor, st.Verb.DRIVE, None, set(), quote)
         speeds = [each for each in self.conditions[st.START] if isinstance(each, st.Measure) and each.actor == actor
                   and (each.quantity, each.op, each.other) == (st.Quantity.SPEED, "==", None)]  # fmt: skip
-        if first.verb != st.Verb.DRIVE or first.begins != st.START or len(speeds) != 1:
-            self.refuse("it is not clear which speed is kept, or until when", quote)
-        first.throughout.append(speeds[0])
+        steady = st.Measure(actor, st.Quantity.RATE, "==", st.Amount(Fraction(0), "m/s^2"), quote=quote)
+        first.throughout.append(speeds[0] if len(speeds) == 1 else steady)
 
     # -- moments ------------------------------------------------------------------------------------------------------
     def moment(self, conditions: Sequence[st.Condition] = (), quote: st.Quote | None = None) -> int:

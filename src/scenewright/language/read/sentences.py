@@ -7,8 +7,8 @@ error that quotes the words that nothing could be made of.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any
+from dataclasses import dataclass, field
+from fractions import Fraction
 
 from scenewright.errors import Place as Where
 from scenewright.errors import TranslationError
@@ -17,12 +17,13 @@ from scenewright.language.read.chunks import Chunk, sentences
 from scenewright.language.read.clauses import PEOPLE, Clause
 from scenewright.language.read.items import Item, Segment, is_told_twice, items_of, parted, segments_of
 from scenewright.language.read.labels import take_labels
+from scenewright.language.read.moments import Moments
 from scenewright.language.read.narrative import Doing, Narrative, standstill
 from scenewright.program.types import EGO
 
 _LEADS = ("then", "at once", "later", "meanwhile", "start")
 _ORDERS = ("before", "after", "no later than")
-_SAYS_NOTHING = ("unknown", "comma", "harmless", "be", "joint", "pronoun")
+_SAYS_NOTHING = {"unknown", "comma", "harmless", "be", "joint", "pronoun", "quality", "name", "pair", "mood", "other"}
 _HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
 
 
@@ -42,9 +43,11 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
     narrative = Narrative(text, answers or {})
     for chunks in sentences(take_labels(text, narrative)):
         quote = st.Quote(chunks[0].start, chunks[-1].end, text[chunks[0].start : chunks[-1].end])
-        if all(chunk.kind in _SAYS_NOTHING for chunk in chunks):
+        kinds = {chunk.kind for chunk in chunks}
+        if kinds <= _SAYS_NOTHING or ("comment" in kinds and "amount" not in kinds):
             narrative.asides.append(quote)
             continue
+        chunks = [chunk for chunk in chunks if chunk.kind != "harmless"]
         sentence = _Sentence(narrative, chunks, quote, narrative.pending)
         narrative.pending = None
         try:
@@ -105,26 +108,35 @@ class _Sentence(Moments):
 
     # -- main clauses -------------------------------------------------------------------------------------------------
     def _main(self, items: list[Item], when: list[Item] | None, rest: list[Segment]) -> None:
+        story = self.narrative
         items = [each for each in items if isinstance(each, st.Compound) or each.says_more_than()] or items[:1]
+        items = self._acts(items, when is not None or self.pending is not None or bool(self.leads & {"then", "at once"}))
+        if not items:
+            return
         clause = next((each for each in items[:1] if isinstance(each, Clause)), None)
         is_deed = clause is not None and clause.deed is not None
         tells_time = any(each.link in _ORDERS for each in rest)
         tells_time |= clause is not None and "after the start" in clause.times
         # "The hero begins to brake 2 s after ..." speaks of a deed that was told before.
-        known = is_deed and clause is not None and clause.phase and self.narrative.doing_of(clause) is not None
+        known = is_deed and clause is not None and clause.phase and story.doing_of(clause) is not None
         if is_deed and len(items) > 1:
             self._one_after_another(items, when, rest)
         elif is_deed and clause is not None and not (known and when is None and not self.leads and tells_time):
             self._deed(clause, when, rest)
-        elif clause is not None and "first" in clause.flags and when is None and len(items) == 1 and not rest:
-            self._goes_first(clause)
+        elif clause is not None and "first" in clause.flags and len(items) == 1 and not rest:
+            self._goes_first(clause, when)
         elif when is not None:
             moment = self.moment(when)
-            if moment not in self.narrative.times and not self.narrative.is_owned(moment):
-                self.narrative.pending = moment
-            self.narrative.add(moment, self.conditions(items))
-            self.narrative.ego_comes(moment, self.quote)
-            self._orders(moment, rest)
+            if moment not in story.times and not story.is_owned(moment):
+                story.pending = moment
+            first = items[:1] if clause is not None and "arrives" in clause.notes else items
+            story.add(moment, self.conditions(first))
+            story.ego_comes(moment, self.quote)
+            if len(first) < len(items):
+                self.pending, story.pending = moment, None
+                self._main(items[1:], None, rest)
+            else:
+                self._orders(moment, rest)
         elif tells_time:
             if clause is None or len(items) > 1:
                 self.refuse("only one event is before or after another")
@@ -133,8 +145,40 @@ class _Sentence(Moments):
             if clause.times:
                 self.timed(moment, clause)
             self._orders(moment, rest)
+        elif self._passes_meanwhile(items):
+            pass
         else:
             self._facts(items, rest)
+
+    def _acts(self, items: list[Item], happens: bool) -> list[Item]:
+        """Return what is done and what is so: a turn, a speed that is kept or an event is a deed where it `happens`.
+
+        What only says why (yields, does not give way) is kept to be checked; where a deed ends at an event, both are one.
+        """
+        found: list[Item] = []
+        for item in items:
+            if not isinstance(item, Clause):
+                found.append(item)
+                continue
+            for courtesy in item.flags & {"yields", "insists"}:
+                self.narrative.courtesies.append((item.subject, courtesy, item.quote))
+            item.flags -= {"yields", "insists"}
+            is_hero = happens and item.deed is None and item.subject not in (None, EGO)
+            turn = item.facts.get("turn", "straight")
+            if is_hero and turn != "straight" and "wanted" not in item.notes:
+                self.narrative.tell_way(item.subject or EGO, item.facts, item.quote)
+                item.facts, item.deed = {}, "turn"
+            elif is_hero and "kept" in item.flags and not item.measures:
+                item.deed = st.Verb.DRIVE
+            before = found[-1] if found else None
+            ends = isinstance(before, Clause) and before.subject == item.subject and before.deed not in (None, "stop")
+            if ends and isinstance(before, Clause) and item.is_event and not before.measures:
+                before.measures += item.measures
+            elif item.says_more_than():
+                if is_hero and item.is_event and "arrives" not in item.notes:
+                    item.deed = st.Verb.DRIVE
+                found.append(item)
+        return found
 
     def _one_after_another(self, items: list[Item], when: list[Item] | None, rest: list[Segment]) -> None:
         """Take "it brakes to a stop, waits for 3 s and drives on": what follows the sentence is of the last deed."""
@@ -147,41 +191,62 @@ class _Sentence(Moments):
                 continue
             self._main([item], when, rest if following is None else [])
             if isinstance(following, Clause) and isinstance(item, Clause) and following.subject == item.subject:
-                self.leads, when = {"then"}, None
+                self.leads, when, self.pending = {"then"}, None, None
 
-    def _goes_first(self, clause: Clause) -> None:
+    def _goes_first(self, clause: Clause, when: list[Item] | None) -> None:
         """Take "it goes first": whoever it is passes the conflict point before the ego does."""
         if clause.subject in (None, EGO) or clause.says_more_than("flags"):
             self.refuse("it is not clear who goes first")
-        place = st.Place("conflict_point")
-        there = [st.Measure(actor, st.Quantity.PLACE, "==", None, place) for actor in (clause.subject or EGO, EGO)]
+        actor, place = clause.subject or EGO, st.Place("conflict_point")
+        moment = self.pending if when is None else self.moment(when)
+        if moment is not None:
+            self.narrative.begin(actor, st.Verb.DRIVE, moment, self.leads, self.quote)
+            self.narrative.ego_comes(moment, self.quote)
+        there = [st.Measure(each, st.Quantity.PLACE, "==", None, place) for each in (actor, EGO)]
         first, second = (self.event(Clause(self.quote, each.actor, measures=[each])) for each in there)
         self.narrative.orders.append(st.Order(first, second, ">", None, self.quote))
+
+    def _passes_meanwhile(self, items: list[Item]) -> bool:
+        """Take "the ego passes the conflict point while the hero waits": it does not come before the other stands."""
+        if len(items) != 2 or not all(isinstance(item, Clause) for item in items):
+            return False
+        event, waits = items
+        if not (isinstance(event, Clause) and isinstance(waits, Clause) and event.is_event):
+            return False
+        if event.subject != EGO or (waits.deed, waits.says_more_than("deed")) != (st.Verb.STAND, False):
+            return False
+        doing = self.narrative.begin(waits.subject or EGO, st.Verb.STAND, None, {"then"}, self.quote)
+        self.narrative.orders.append(st.Order(doing.begins, self.event(event), ">=", None, self.quote))
+        return True
 
     def _facts(self, items: list[Item], rest: list[Segment]) -> None:
         """Take what is so at the start, all the while, later, or of somebody's way."""
         story = self.narrative
-        plain: list[Item] = []
+        says = False
         for item in items:
             if isinstance(item, Clause):
+                says |= item.subject is not None
                 self.tell_way(item)
                 if "kept" in item.flags and item.subject is not None:
                     story.kept.append((item.subject, item.quote))
                 story.subject = item.subject
-                item = replace(item, flags=item.flags - {"kept"})
-            plain.append(item)
-        conditions = self.conditions(plain)
+                item.flags -= {"kept"}
+                if "start" in item.flags:
+                    item.flags -= {"start"}
+                    story.add(st.START, self.conditions([item]))
+                    item.measures = []
+        conditions = self.conditions(items)
         measures = [each for each in conditions if isinstance(each, st.Measure)]
         if rest:
             self.refuse("it is not clear when this is so")
         elif not conditions:
-            if not any(isinstance(item, Clause) and item.subject is not None for item in items):
+            if not says:
                 self.refuse("nothing is said here")
         elif "meanwhile" in self.leads and story.doings and len(measures) == len(conditions):
             story.doings[-1].throughout += measures
         elif "later" in self.leads:
             story.ego.append(story.moment(conditions, self.quote))
-        elif "start" in self.leads or not (story.doings or self.leads):
+        elif "start" in self.leads or not (story.doings or self.leads - {"meanwhile"}):
             story.add(st.START, conditions)
         else:
             self.refuse("it is not clear when this is so", "begin it with 'At the start,' or 'Later,'")
@@ -189,21 +254,23 @@ class _Sentence(Moments):
     # -- deeds --------------------------------------------------------------------------------------------------------
     def _deed(self, clause: Clause, when: list[Item] | None, rest: list[Segment]) -> None:
         story = self.narrative
+        if clause.subject is not None and clause.subject != EGO:
+            self.tell_way(clause)
         told = clause.says_more_than("deed", "phase", "measures", "rate", "times", "flags")
-        if clause.subject is None or clause.deed is None or told or clause.flags & {"first", "way"}:
+        if clause.subject is None or clause.deed is None or told or clause.flags & {"first", "way", "start", "falls"}:
             story.refuse("it is not clear what is done here", self.quote)
-        if "kept" in clause.flags and not clause.measures:
-            self.refuse("it is not clear which speed is kept")
         if clause.phase == "finishes" or "after the start" in clause.times:
             self.refuse("nothing was told of this deed before")
-        moment = self.pending if when is None else self.moment(when)
+        waited = self._waited_for(clause.subject, when)
+        moment = self.pending if when is None else None if waited is not None else self.moment(when)
         begins, held, ends = self._shares(clause)
-        if (begins and clause.deed != st.Verb.STAND) or any(each.link == "after" for each in rest):
-            self.leads.add(
-                "then"
-            )  # "it brakes 15 m before the stop line", "after the ego ...": it drives on until then
-        verb = st.Verb.BRAKE if clause.deed == "stop" else clause.deed
+        drives_on = bool(begins) and clause.deed not in (st.Verb.STAND, "turn")  # "it brakes 15 m before the stop line"
+        if drives_on or waited is not None or any(each.link == "after" for each in rest):
+            self.leads.add("then")
+        verb = {"stop": st.Verb.BRAKE, "turn": st.Verb.DRIVE}.get(clause.deed, clause.deed)
         doing = story.begin(clause.subject, verb, moment, self.leads, self.quote)
+        if waited is not None:
+            story.orders.append(st.Order(waited, doing.begins, ">", None, self.quote))
         story.subject = clause.subject
         story.add(doing.begins, begins)
         story.ego_comes(doing.begins, self.quote)
@@ -218,10 +285,26 @@ class _Sentence(Moments):
         if rests and "for" in clause.times:  # "it stops at the stop line for 3 s"
             story.begin(doing.actor, st.Verb.STAND, None, {"then"}, self.quote).duration = clause.times["for"]
 
+    def _waited_for(self, actor: int, when: list[Item] | None) -> int | None:
+        """Return the event of the ego that somebody who stands waits for: "once the ego has passed, it drives on"."""
+        doing, first = self.narrative.last(actor), when[0] if when else None
+        if doing is None or not isinstance(first, Clause) or len(when or []) != 1 or "has" not in first.notes:
+            return None
+        rests = doing.verb == st.Verb.STAND or (
+            doing.ends is not None and standstill(actor) in self.narrative.conditions[doing.ends]
+        )
+        return self.event(first) if rests and first.is_event and first.subject == EGO else None
+
     def _shares(self, clause: Clause) -> tuple[list[st.Measure], list[st.Measure], list[st.Measure]]:
         """Return what a deed's own clause says of its beginning, of the deed throughout, and of its end."""
         rests = clause.deed == "stop" or "standstill" in clause.flags
         begins, held, ends = list[st.Measure](), list[st.Measure](), [standstill(clause.subject or EGO)][: int(rests)]
+        if clause.deed == "turn":
+            begins.append(_at(clause, "turn_start"))
+            ends.append(_at(clause, "turn_end"))
+        if "kept" in clause.flags and all(each.quantity is not st.Quantity.SPEED for each in clause.measures):
+            zero = st.Amount(Fraction(0), "m/s^2")
+            held.append(st.Measure(clause.subject or EGO, st.Quantity.RATE, "==", zero, quote=clause.quote))
         for measure in clause.measures:
             fast = measure.quantity is st.Quantity.SPEED
             if fast and "to" not in clause.flags and clause.deed != st.Verb.DRIVE:
@@ -234,8 +317,14 @@ class _Sentence(Moments):
         story = self.narrative
         if until is not None:
             story.doer = doing.actor
-            doing.ends = self.moment(items_of(story, until.chunks))
+            items = items_of(story, until.chunks)
             story.doer = None
+            waited = self._waited_for(doing.actor, items) if doing.verb == st.Verb.STAND else None
+            if waited is None:
+                doing.ends = self.moment(items)
+            else:  # "it waits until the ego has passed the conflict point"
+                doing.ends = story.moment()
+                story.orders.append(st.Order(waited, doing.ends, ">", None, self.quote))
             story.add(doing.ends, ends)
         elif ends:
             doing.ends = story.moment(ends, self.quote)
@@ -286,3 +375,7 @@ class _Sentence(Moments):
             elif chunk.kind not in ("comma", "nothing"):
                 events[-1].append(chunk)
         self.narrative.ego_order([self.event_of(chunks) for chunks in events if chunks])
+
+
+def _at(clause: Clause, place: str) -> st.Measure:
+    return st.Measure(clause.subject or EGO, st.Quantity.PLACE, "==", None, st.Place(place), quote=clause.quote)
