@@ -15,6 +15,7 @@ from scenewright.language import story as st
 from scenewright.language.read.cast import Cast
 from scenewright.language.read.chunks import Chunk
 from scenewright.language.read.clauses import IT, Clause, Taken, Target
+from scenewright.program.types import EGO
 
 _BARE: dict[str, st.Operator] = {  # a side and a place, without an amount
     "at": "==", "to": "==", "at or past": ">=", "past": ">", "at or before": "<=", "before": "<", "behind": "<",
@@ -88,8 +89,11 @@ def _find_subject(taken: Taken, subject: int | None) -> None:
     if clause.subject is None and ahead is not None and place is not None:  # "a driveway 100 m in front of the ego"
         clause.subject, ahead.used, place.side = ahead.other, True, "before"
     if clause.subject is None and taken.pair is None and taken.quantity in ("gap", "headway", "time to collision"):
+        to = [each for each in taken.targets if each.other is not None]
         if not taken.targets and len(taken.people.heroes) == 1:  # "when the gap is 20 m"
             taken.pair = taken.people.pair(taken.chunks[0])
+        elif len(to) == len(taken.targets) == 1 and to[0].other:  # "when the distance to the van is 20 m"
+            taken.pair, to[0].used = (EGO, to[0].other), True
     if taken.pair is not None:
         rear = taken.people.rear(*taken.pair)
         if rear is None:
@@ -111,7 +115,9 @@ def _of(measure: st.Measure, subject: int | None) -> st.Measure:
 def _stand_alone(taken: Taken, target: Target) -> None:
     """Make of a target without an amount what it says: how two ways lie, or where somebody is."""
     clause = taken.clause
-    if target.other is not None and target.side in ("ahead", "behind") and clause.deed is None:
+    if target.other is not None and "pass" in taken.states and target.side in ("before", "ahead", "after"):
+        clause.rival = ("after" if target.side == "after" else "before", target.other)
+    elif target.other is not None and target.side in ("ahead", "behind") and clause.deed is None:
         clause.relations.append(st.Relation(target.side, target.other, target.chunk.quote))
     elif target.place is not None and target.side in _BARE:
         taken.measure(

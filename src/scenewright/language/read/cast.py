@@ -41,13 +41,24 @@ class Cast:
             return self.mentioned[-1]
         actor = self._it(chunk, acts) if chunk.kind in ("pronoun", "relative") else self._named(chunk)
         self.mentioned.append(actor)
+        self._describe(actor, chunk)
+        return actor
+
+    def _describe(self, actor: int, chunk: Chunk) -> None:
         for trait in chunk.traits:
             if trait.kind == "relation" and actor != EGO:
                 self.relate(actor, st.Relation(trait.value, EGO, trait.quote))
             elif trait.kind in ("heading", "turn", "relation"):
                 self.tell_way(actor, {trait.kind: trait.value}, trait.quote)
                 self.driving.add(actor)
-        return actor
+
+    def same(self, number: int, chunk: Chunk) -> None:
+        """Take "the hero is an oncoming truck", "the hero, a truck, ...": one and the same."""
+        actor = self.actor(number)
+        self.known_by.setdefault(number, set()).update((chunk.value, chunk.text.lower()))
+        if actor.kind == "car" and number != EGO and chunk.value not in ("hero", "ego"):
+            self._change(replace(actor, kind=chunk.value))
+        self._describe(number, chunk)
 
     def whom(self, chunk: Chunk, subject: int | None) -> int:
         """Return the one that "it" means who is not the subject."""
@@ -121,7 +132,8 @@ class Cast:
         """Whether a mention may mean somebody that is known: of the same kind, or "the car" of one that has no other."""
         kind = "car" if chunk.value == "hero" else chunk.value
         general = chunk.value == "car" and (len(self.heroes) == 1 or any(e.kind == "other" for e in chunk.traits))
-        named = actor.name == chunk.value or (actor.kind == kind and chunk.value != "hero")
+        named = chunk.value in (actor.name, *self.known_by.get(actor.id, ()))
+        named |= actor.kind == kind and chunk.value != "hero"
         strange = words - self.known_by.get(actor.id, set())
         return (named or (general and not chunk.is_new)) and not (strange and self.known_by.get(actor.id))
 
@@ -170,13 +182,13 @@ class Cast:
     def go_straight(self) -> None:
         """Let who is said to drive and not to turn go straight on, unless it drives in one line with somebody who turns."""
         for actor in self.actors:
-            line = [actor, *(self.actor(each.of) for each in actor.relations if each.kind != "oncoming")]
-            line += [other for other in self.actors if any(each.of == actor.id for each in other.relations)]
-            ways = [each.way for each in line]
-            told = any(way.origin == "driveway" or way.turn not in (None, "straight") for way in ways)
-            open_way = not (actor.way.turn or actor.way.destination or actor.way.headings or actor.way.lanes)
-            if actor.id in self.driving and open_way and not told:
-                self._change(replace(actor, way=replace(actor.way, turn="straight")))
+            near = [self.actor(each.of) for each in actor.relations if each.kind != "oncoming"]
+            near += [other for other in self.actors
+                     if any(each.of == actor.id and each.kind != "oncoming" for each in other.relations)]  # fmt: skip
+            way, ways = actor.way, [each.way for each in near if not actor.way.heading]
+            told = any(each.origin == "driveway" or each.turn not in (None, "straight") for each in (way, *ways))
+            if actor.id in self.driving and not (told or way.turn or way.destination or way.headings or way.lanes):
+                self._change(replace(actor, way=replace(way, turn="straight")))
                 self.assumptions.append(f"{actor.name} goes straight on")
 
     def relate(self, number: int, *relations: st.Relation) -> None:

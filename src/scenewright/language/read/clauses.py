@@ -45,6 +45,8 @@ class Clause:
         ``kept`` (its speed), ``way`` (it is open), ``falls`` (an amount that is reached), ``yields``, ``insists``.
     notes
         How it says it, which is no meaning of its own: ``event`` (something is passed), ``wanted`` (a wish).
+    rival
+        Before or after whom an event comes: ``passes the conflict point before the ego``.
     waiting, target
         Amounts without a place, and the last place that an amount was counted to, for a neighbour.
     """
@@ -60,6 +62,7 @@ class Clause:
     facts: dict[str, str] = field(default_factory=dict)
     flags: set[str] = field(default_factory=set)
     relations: list[st.Relation] = field(default_factory=list)
+    rival: tuple[str, int] | None = None
     waiting: list[Chunk] = field(default_factory=list)
     notes: set[str] = field(default_factory=set)
     target: tuple[str, st.Place] | None = None
@@ -137,11 +140,15 @@ class Taken:
             case "pronoun" if value == "its":
                 pass
             case "relative" if clause.subject is not None:
-                clause.notes.add("wanted")
+                clause.notes.add("relative")
+            case "pair" if clause.subject is not None and chunk.text.lower() == "both":
+                pass
+            case "actor" if clause.subject is not None and chunk.is_new and self.peek(-1)[0] == "be":
+                self.people.same(clause.subject, chunk)
             case "actor" | "pronoun" | "name" | "relative" if clause.subject is None:
                 acts = any(each.kind == "deed" for each in self.chunks)
                 clause.subject = self.people.who(self._named(chunk), acts)
-                clause.notes |= {"wanted"} if chunk.kind == "relative" else set()
+                clause.notes |= {"relative"} if chunk.kind == "relative" else set()
             case "be" | "possessive" | "quality":
                 clause.notes |= {"has"} if value == "has" else set()
             case "mood":
@@ -175,8 +182,12 @@ class Taken:
                 clause.flags.add("standstill" if chunk.kind == "standstill" else value)
             case "link" if value == "start":
                 clause.flags.add("start")
+            case "relation" if value in ("ahead", "behind") and self.peek(-1)[0] == "amount":
+                self.later.append((self.at, value, chunk))
             case "relation":
                 clause.relations.append(st.Relation(value, EGO, chunk.quote))
+            case "event" if value == "pass" and self.peek()[0] in ("amount", "bound"):  # "gets to 2 s behind the bus"
+                pass
             case "state" | "event":
                 self.states.add("pass" if value == "arrives" else value)
                 clause.notes |= {"event", value} if chunk.kind == "event" else {value}
@@ -253,7 +264,14 @@ class Taken:
 
     def _side(self, chunk: Chunk) -> None:
         side, (kind, value) = chunk.value, self.peek()
-        if side == "by" and kind in PEOPLE:  # "the conflict point is passed by the hero"
+        if side in ("across", "to") and kind in PEOPLE and (side == "across" or "yields" in self.clause.flags):
+            self.at += 1  # "turns left across the ego's path", "yields to the ego"
+            self.people.who(self._named(self.chunks[self.at]))
+            self.at += 2 if (self.peek()[0], self.peek(2)[0]) == ("possessive", "thing") else 0
+        elif side == "through" and kind == "place":
+            self._target("at")
+            self.clause.notes.add("event")
+        elif side == "by" and kind in PEOPLE:  # "the conflict point is passed by the hero"
             self.at += 1
             self.clause.subject = self.people.who(self._named(self.chunks[self.at]))
         elif side == "between":
@@ -326,6 +344,9 @@ class Taken:
 
     def _place(self, chunk: Chunk) -> st.Place:
         place = st.Place(chunk.value)
+        if self.peek() == ("side", "of") and self.peek(2)[0] == "area":  # "the stop line of the driveway"
+            self.at += 2
+            self._fact("origin", self.chunks[self.at])
         for side in ("of", "with"):
             if self.peek()[1] != side or self.peek(2)[0] not in ("actor", "name"):
                 continue
@@ -361,6 +382,10 @@ class Taken:
             self._headed(chunk)
         elif chunk.kind == "area":
             self._area(chunk)
+        elif chunk.kind == "origin" and (self.peek()[0], self.peek(2)[0]) == ("heading", "area"):
+            self.at += 2
+            self._fact("heading", self.chunks[self.at - 1])
+            self._fact("origin", self.chunks[self.at])
         elif chunk.kind == "origin" and self.peek()[0] in ("area", "heading"):
             self.at += 1
             following = self.chunks[self.at]
@@ -371,6 +396,8 @@ class Taken:
         elif chunk.kind == "origin":
             raise self.left_over(chunk)
         else:
+            if chunk.text.lower().split()[0] in ("turning", "making", "taking"):
+                self.clause.notes.add("wanted")
             self._fact("then" if chunk.kind == "then_headed" else chunk.kind, chunk)
 
     def _headed(self, chunk: Chunk, back: bool = False) -> None:

@@ -26,6 +26,7 @@ _BEGINS_A_CLAUSE = {
     *PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed", "kept", "pair",
     "order", "yields", "insists",
 }  # fmt: skip
+_FRONTED = ("side", "turn", "state", "origin", "heading", "area")
 _JOINTS: dict[str, tuple[Literal["and", "or", "if"], str]] = {  # what a word makes of its parts, and what parts them
     "either": ("or", "or"),
     "both": ("and", "and"),
@@ -40,6 +41,7 @@ class Segment:
     link: str
     chunks: list[Chunk] = field(default_factory=list)
     margin: tuple[st.Operator, st.Amount] | None = None
+    rival: int | None = None  # who does the same then: "before the ego"
 
 
 def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
@@ -106,7 +108,7 @@ def items_of(narrative: Narrative, chunks: Sequence[Chunk], subject: int | None 
     found: list[Item] = []
     starts: list[int] = []
     while parser.at < len(parser.chunks):
-        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and"):
+        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and") or parser.is_joint("then"):
             parser.at += 1
         else:
             start, item = parser.at, parser.one(())
@@ -128,6 +130,7 @@ class _Items:
     subject: int | None
     at: int = 0
     before: Clause | None = None
+    turned: set[int | None] = field(default_factory=set)  # who turns, as was said
     both: list[Chunk] = field(default_factory=list)  # of whom a clause is said that is said of two
     others: list[Clause] = field(default_factory=list)  # what the last clause says of the others of them
 
@@ -180,7 +183,8 @@ class _Items:
             parts = chunk.kind == "comma" or (chunk.kind == "joint" and chunk.value in ("and", "or"))
             between = self.at > 1 and self.chunks[self.at - 2].value == "between"
             closes = any(self.is_joint(link) for link in inside) or self._turns_to_another(start)
-            if self.at > start and (closes or (parts and not between and self._begins(self.at + 1))):
+            fronted = self._is_fronted(start)
+            if self.at > start and (closes or (parts and not (between or fronted) and self._begins(self.at + 1))):
                 break
             self.at += 1
         own = [chunk for chunk in self.chunks[start : self.at] if chunk.kind != "comma"]
@@ -196,11 +200,17 @@ class _Items:
     def _read(self, own: list[Chunk]) -> Clause:
         before = self.before
         clause = read_clause(own, self.narrative, before, self.subject if before is None else before.subject)
-        turned = before is not None and before.subject == clause.subject and "turn" in before.facts
-        if before is not None and turned and before.facts["turn"] != "straight" and "turn" not in clause.facts:
-            if "heading" in clause.facts and "headed" not in clause.flags:  # "turns left out of it and goes east"
-                clause.facts["destination_heading"] = clause.facts.pop("heading")
+        if clause.facts.get("turn", "straight") != "straight":
+            self.turned.add(clause.subject)
+        elif clause.subject in self.turned and "heading" in clause.facts and "headed" not in clause.flags:
+            clause.facts["destination_heading"] = clause.facts.pop("heading")  # "turns left out of it and goes east"
         return clause
+
+    def _is_fronted(self, start: int) -> bool:
+        """Whether what stands before this comma is of whom is named after it: "Behind it, the ego drives"."""
+        opens = start == 0 and not any(chunk.kind in PEOPLE for chunk in self.chunks[:1])
+        named = self.at + 1 < len(self.chunks) and self.chunks[self.at + 1].kind in PEOPLE
+        return opens and named and self.chunks[self.at].kind == "comma" and self.chunks[0].kind in _FRONTED
 
     def _subjects(self) -> list[Chunk]:
         """Take the two whom a clause is about: "both", "the ego and the hero"."""
@@ -210,6 +220,9 @@ class _Items:
             return [replace(chunks[0], kind="name", value=self.narrative.actor(each).name, traits=())
                     for each in self.narrative.pair(chunks[0])]  # fmt: skip
         kinds = [chunk.kind for chunk in chunks]
+        if kinds == ["actor", "comma", "actor", "comma"] and chunks[2].is_new:  # "the hero, a truck, ..."
+            self.narrative.same(self.narrative.who(chunks[0]), chunks[2])
+            del self.chunks[self.at + 1 : self.at + 4]
         if len(chunks) == 4 and kinds[0] in PEOPLE and kinds[2] in PEOPLE and chunks[1].value == "and":
             self.at += 3
             return [chunks[0], chunks[2]]
@@ -225,7 +238,7 @@ class _Items:
 
     def _begins(self, at: int) -> bool:
         """Whether a clause begins here."""
-        while at < len(self.chunks) and (self.chunks[at].kind == "comma" or self.chunks[at].value == "and"):
+        while at < len(self.chunks) and (self.chunks[at].kind == "comma" or self.chunks[at].value in ("and", "then")):
             at += 1
         return at < len(self.chunks) and self.chunks[at].kind in _BEGINS_A_CLAUSE
 
@@ -233,5 +246,7 @@ class _Items:
 def is_told_twice(item: Item, following: Item | None) -> bool:
     """Whether two clauses tell one deed: "it brakes at 3 m/s^2 and stops at the stop line"."""
     if not (isinstance(item, Clause) and isinstance(following, Clause)):
+        return False
+    if item.says_more_than("deed", "phase", "rate", "measures", "times"):
         return False
     return (item.subject, item.deed, following.deed) == (following.subject, st.Verb.BRAKE, "stop")

@@ -7,13 +7,13 @@ what anybody does.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from scenewright.language import story as st
 from scenewright.language.read.chunks import Chunk
 from scenewright.language.read.clauses import Clause
 from scenewright.language.read.items import Item, items_of
-from scenewright.language.read.narrative import Narrative
+from scenewright.language.read.narrative import Narrative, standstill
 from scenewright.program.types import EGO
 
 
@@ -33,20 +33,22 @@ class Moments:
         for item in items:
             if not isinstance(item, Clause):
                 continue
-            if "wanted" in item.notes or not (item.facts.keys() & {"turn", "origin", "destination"}):
+            if item.notes & {"wanted", "relative"} or item.facts.get("turn", "straight") == "straight":
                 self.tell_way(item)
             if item.says_more_than("measures", *taken):
                 self.narrative.refuse("this is no condition", item.quote)
         lists = [item.measures if isinstance(item, Clause) else [item] for item in items]
         return [condition for each in lists for condition in each]
 
-    def moment(self, items: Sequence[Item]) -> int:
-        """Return the moment that a list of clauses tells: one that is known, or a new one."""
+    def moment(self, items: Sequence[Item], until: int | None = None) -> int:
+        """Return the moment that a list of clauses tells, known or new; `until` is whose deed ends then."""
         story = self.narrative
-        events = [item for item in items if isinstance(item, Clause) and item.deed is not None]
         for item in items:
             if isinstance(item, Clause):  # what is reached is so when it is
                 item.flags -= {"falls"}
+                if item.deed == "stop" and item.subject == until:  # "until it comes to a stop"
+                    item.deed, item.measures = None, [standstill(until), *item.measures]
+        events = [item for item in items if isinstance(item, Clause) and item.deed is not None]
         conditions = self.conditions([item for item in items if item not in events], "times")
         known = {self.event(item) for item in events}
         if len(known) > 1:
@@ -114,6 +116,14 @@ class Moments:
         if (clause.facts or "drives" in clause.notes) and "headed" not in clause.flags:
             self.narrative.driving.add(clause.subject)
         clause.facts, clause.relations, clause.flags = {}, [], clause.flags - {"way", "headed"}
+
+    def same_event(self, moment: int, actor: int) -> int:
+        """Return the moment at which somebody comes to where another one comes at `moment`."""
+        events = [each for each in self.narrative.conditions[moment] if st.is_event(each)]
+        if len(events) != 1:
+            self.refuse("it is not clear before or after what")
+        measure = replace(events[0], actor=actor)
+        return self.event(Clause(self.quote, actor, measures=[measure]))
 
     def event_of(self, chunks: list[Chunk]) -> int:
         items = items_of(self.narrative, chunks)

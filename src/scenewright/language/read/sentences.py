@@ -97,7 +97,9 @@ class _Sentence(Moments):
         """Cut the sentence into what happens, the moment at which it does, and the rest."""
         story, segments = self.narrative, segments_of(self.chunks, bool(self.leads))
         if not segments[0].chunks and len(segments) > 1 and segments[1].link == "when":
-            first, main = parted(segments[1].chunks)
+            first, main = segments[1].chunks, list[Chunk]()
+            if any(chunk.kind in ("comma", "deed") for chunk in first):
+                first, main = parted(first)
             when: list[Item] | None = items_of(story, first)
             self._main(items_of(story, main, story.subject), when, segments[2:])
         else:
@@ -164,12 +166,19 @@ class _Sentence(Moments):
                 self.narrative.courtesies.append((item.subject, courtesy, item.quote))
             item.flags -= {"yields", "insists"}
             is_hero = happens and item.deed is None and item.subject not in (None, EGO)
-            turn = item.facts.get("turn", "straight")
-            if is_hero and turn != "straight" and "wanted" not in item.notes:
+            turn = item.facts.get("turn", "")
+            acts = any(isinstance(each, Clause) and each.deed is not None for each in items)
+            meant = "wanted" in item.notes or ("relative" in item.notes and acts)
+            if is_hero and turn in ("left", "right") and not meant:
                 self.narrative.tell_way(item.subject or EGO, item.facts, item.quote)
                 item.facts, item.deed = {}, "turn"
             elif is_hero and "kept" in item.flags and not item.measures:
                 item.deed = st.Verb.DRIVE
+            elif is_hero and item.phase == "begins" and item.measures:  # "starts driving at 8 m/s"
+                item.deed, item.flags = st.Verb.DRIVE, item.flags | {"to"}
+                item.facts = {} if turn == "straight" else item.facts
+            if acts:
+                self.tell_way(item)
             before = found[-1] if found else None
             ends = isinstance(before, Clause) and before.subject == item.subject and before.deed not in (None, "stop")
             if ends and isinstance(before, Clause) and item.is_event and not before.measures:
@@ -256,7 +265,7 @@ class _Sentence(Moments):
         story = self.narrative
         if clause.subject is not None and clause.subject != EGO:
             self.tell_way(clause)
-        told = clause.says_more_than("deed", "phase", "measures", "rate", "times", "flags")
+        told = clause.says_more_than("deed", "phase", "measures", "rate", "times", "flags", "rival")
         if clause.subject is None or clause.deed is None or told or clause.flags & {"first", "way", "start", "falls"}:
             story.refuse("it is not clear what is done here", self.quote)
         if clause.phase == "finishes" or "after the start" in clause.times:
@@ -277,6 +286,8 @@ class _Sentence(Moments):
         doing.throughout += [*held, *([clause.rate] if clause.rate else [])]
         rests = clause.deed == "stop" or "standstill" in clause.flags
         doing.duration = None if rests else clause.times.get("for")
+        if clause.rival is not None and ends:
+            rest = [*rest, Segment(clause.rival[0], rival=clause.rival[1])]
         self._end(doing, clause, ends, next((each for each in rest if each.link == "until"), None))
         for each in rest:
             early = each.link == "after" or not ends or doing.ends is None
@@ -321,7 +332,7 @@ class _Sentence(Moments):
             story.doer = None
             waited = self._waited_for(doing.actor, items) if doing.verb == st.Verb.STAND else None
             if waited is None:
-                doing.ends = self.moment(items)
+                doing.ends = self.moment(items, doing.actor)
             else:  # "it waits until the ego has passed the conflict point"
                 doing.ends = story.moment()
                 story.orders.append(st.Order(waited, doing.ends, ">", None, self.quote))
@@ -341,7 +352,7 @@ class _Sentence(Moments):
             if segment.link not in _ORDERS:
                 self.refuse("it is not clear before or after what")
             count = len(self.narrative.doings)
-            other = self.event_of(segment.chunks)
+            other = self.event_of(segment.chunks) if segment.rival is None else self.same_event(moment, segment.rival)
             if actor is not None and any(each.actor == actor for each in self.narrative.doings[count:]):
                 self.refuse("nothing was told of this event before")
             first, second = (other, moment) if segment.link == "after" else (moment, other)
