@@ -97,7 +97,9 @@ def _find_subject(taken: Taken, subject: int | None) -> None:
     if taken.pair is not None:
         rear = taken.people.rear(*taken.pair)
         if rear is None:
-            taken.people.refuse("it is not said who of them drives behind the other", clause.quote)
+            names = [taken.people.actor(each).name for each in taken.pair]
+            told = taken.people.ask(f"behind {clause.quote.start}", "Who drives behind?", names, 0, clause.quote)
+            rear = taken.pair[names.index(told)]
         clause.subject = rear
     if clause.subject is None:
         clause.subject = subject
@@ -119,6 +121,10 @@ def _stand_alone(taken: Taken, target: Target) -> None:
         clause.rival = ("after" if target.side == "after" else "before", target.other)
     elif target.other is not None and target.side in ("ahead", "behind") and clause.deed is None:
         clause.relations.append(st.Relation(target.side, target.other, target.chunk.quote))
+    elif target.place is not None and target.side == "at" and "turn" in clause.facts and "pass" not in taken.states:
+        pass  # "turns left at the junction"
+    elif target.side == "at" and target.at < taken.subject_at and "pass" not in taken.states:
+        raise taken.left_over(target.chunk)  # "at the junction, the ego ...": it is what follows that is there
     elif target.place is not None and target.side in _BARE:
         taken.measure(
             target.chunk, st.Measure(IT, st.Quantity.PLACE, _BARE[target.side], None, target.place)

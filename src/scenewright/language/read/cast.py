@@ -102,7 +102,7 @@ class Cast:
 
     def _named(self, chunk: Chunk) -> int:
         if chunk.kind != "actor":
-            return self._called(chunk, chunk.value, chunk.kind.removeprefix("name of ") if " " in chunk.kind else "car")
+            return self._called(chunk, chunk.value, chunk.traits[0].value if chunk.traits else "car")
         if chunk.value == "ego":
             self.known_by.setdefault(EGO, set()).update(chunk.text.lower().split())
             return self._called(chunk, "ego", "car")

@@ -151,6 +151,8 @@ def _described(chunks: list[Chunk]) -> list[Chunk]:
             is_new = first > 0 and (found[first - 1].kind, found[first - 1].value) == ("det", "a")
             chunk = replace(chunk, traits=tuple(found[first:]), is_new=is_new)
             found[first:] = []
+        if chunk.kind == "name" and found and found[-1].kind == "actor":  # "the car 'blue'"
+            chunk = replace(chunk, traits=(found.pop(),))
         found.append(chunk)
     return [each for each in found if each.kind not in ("filler", "det")]
 

@@ -75,7 +75,7 @@ class Clause:
     @property
     def is_event(self) -> bool:
         """Whether it says that its subject comes to a place, and nothing else."""
-        told = self.says_more_than("measures") or not self.measures or "event" not in self.notes
+        told = self.says_more_than("measures", "rival") or not self.measures or "event" not in self.notes
         return not told and all(st.is_event(each) for each in self.measures)
 
 
@@ -103,6 +103,7 @@ class Taken:
     targets: list[Target] = field(default_factory=list)
     states: set[str] = field(default_factory=set)
     quantity: str | None = None
+    subject_at: int = 0
     pair: tuple[int, int] | None = None  # between whom a gap is
     later: list[tuple[int, str, Chunk]] = field(default_factory=list)  # whom "it" means after a side
 
@@ -146,8 +147,9 @@ class Taken:
             case "actor" if clause.subject is not None and chunk.is_new and self.peek(-1)[0] == "be":
                 self.people.same(clause.subject, chunk)
             case "actor" | "pronoun" | "name" | "relative" if clause.subject is None:
-                acts = any(each.kind == "deed" for each in self.chunks)
-                clause.subject = self.people.who(self._named(chunk), acts)
+                kinds = {each.kind for each in self.chunks}
+                acts = "deed" in kinds or ("turn" in kinds and "mood" not in kinds)
+                clause.subject, self.subject_at = self.people.who(chunk, acts), self.at
                 clause.notes |= {"relative"} if chunk.kind == "relative" else set()
             case "be" | "possessive" | "quality":
                 clause.notes |= {"has"} if value == "has" else set()
@@ -204,13 +206,6 @@ class Taken:
             case _:
                 raise self.left_over(chunk)
 
-    def _named(self, chunk: Chunk) -> Chunk:
-        """Return a mention together with the name in quotes after it."""
-        if chunk.kind == "actor" and self.peek()[0] == "name":
-            self.at += 1
-            return replace(self.chunks[self.at], kind=f"name of {chunk.value}")
-        return chunk
-
     def bound(self) -> st.Operator:
         """Return the bound in front of the amount at `at`; one that is only reached is told, a vague one is asked."""
         kind, value = self.peek(-1)
@@ -266,14 +261,14 @@ class Taken:
         side, (kind, value) = chunk.value, self.peek()
         if side in ("across", "to") and kind in PEOPLE and (side == "across" or "yields" in self.clause.flags):
             self.at += 1  # "turns left across the ego's path", "yields to the ego"
-            self.people.who(self._named(self.chunks[self.at]))
+            self.people.who(self.chunks[self.at])
             self.at += 2 if (self.peek()[0], self.peek(2)[0]) == ("possessive", "thing") else 0
         elif side == "through" and kind == "place":
             self._target("at")
             self.clause.notes.add("event")
         elif side == "by" and kind in PEOPLE:  # "the conflict point is passed by the hero"
             self.at += 1
-            self.clause.subject = self.people.who(self._named(self.chunks[self.at]))
+            self.clause.subject = self.people.who(self.chunks[self.at])
         elif side == "between":
             self._between(chunk)
         elif kind in ("place", *PEOPLE):
@@ -281,7 +276,7 @@ class Taken:
         elif kind == "pair" and side in ("with", "of", "to"):
             self.at += 1
             self.pair = self.people.pair(self.chunks[self.at])
-        elif kind == "heading" and side in ("from", "into", "to", "at") and self.peek(2)[0] == "area":
+        elif side in ("from", "into", "to", "at") and self._is_lane():
             self.at += 2
             self._fact("destination_heading" if side == "into" else "heading", self.chunks[self.at - 1])
             self._area(self.chunks[self.at], side)
@@ -331,7 +326,7 @@ class Taken:
         elif chunk.kind == "place":
             self.targets.append(Target(at, side, chunk, self._place(chunk)))
         else:
-            who = self.people.who(self._named(chunk))
+            who = self.people.who(chunk)
             if self.peek()[0] == "possessive" and self.peek(2)[0] == "place":
                 self.at += 2
                 place = replace(self._place(self.chunks[self.at]), of=who)
@@ -352,7 +347,7 @@ class Taken:
                 continue
             if side == "of" or chunk.value in _CONFLICTS:
                 self.at += 2
-                person = self.people.who(self._named(self.chunks[self.at]))
+                person = self.people.who(self.chunks[self.at])
                 place = replace(place, of=person) if side == "of" else replace(place, partner=person)
         self.people.place = place
         return place
@@ -369,7 +364,7 @@ class Taken:
         if self.peek()[0] not in ("actor", "name"):
             raise self.left_over(chunk)
         self.at += 1
-        other = self.people.who(self._named(self.chunks[self.at]))
+        other = self.people.who(self.chunks[self.at])
         slower = chunk.value == "slower" and amount is not None
         self.measure(chunk, st.Measure(IT, st.Quantity.SPEED, op, amount, other=other, opposite=slower))
 
@@ -382,7 +377,7 @@ class Taken:
             self._headed(chunk)
         elif chunk.kind == "area":
             self._area(chunk)
-        elif chunk.kind == "origin" and (self.peek()[0], self.peek(2)[0]) == ("heading", "area"):
+        elif chunk.kind == "origin" and self._is_lane():
             self.at += 2
             self._fact("heading", self.chunks[self.at - 1])
             self._fact("origin", self.chunks[self.at])
@@ -399,6 +394,11 @@ class Taken:
             if chunk.text.lower().split()[0] in ("turning", "making", "taking"):
                 self.clause.notes.add("wanted")
             self._fact("then" if chunk.kind == "then_headed" else chunk.kind, chunk)
+
+    def _is_lane(self) -> bool:
+        """Whether "the westbound lane" follows, which is no direction to come from."""
+        lane = (self.peek()[0], self.peek(2)[0]) == ("heading", "area")
+        return lane and self.chunks[self.at + 1].text.lower().endswith("bound")
 
     def _headed(self, chunk: Chunk, back: bool = False) -> None:
         """Take a heading, of the way before or after its turn; `back` is where somebody comes from."""

@@ -24,7 +24,7 @@ _PREDICATES = {
 }  # fmt: skip
 _BEGINS_A_CLAUSE = {
     *PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed", "kept", "pair",
-    "order", "yields", "insists",
+    "order", "yields", "insists", "open",
 }  # fmt: skip
 _FRONTED = ("side", "turn", "state", "origin", "heading", "area")
 _JOINTS: dict[str, tuple[Literal["and", "or", "if"], str]] = {  # what a word makes of its parts, and what parts them
@@ -238,7 +238,8 @@ class _Items:
 
     def _begins(self, at: int) -> bool:
         """Whether a clause begins here."""
-        while at < len(self.chunks) and (self.chunks[at].kind == "comma" or self.chunks[at].value in ("and", "then")):
+        skipped = ("comma", ("joint", "and"), ("link", "then"))
+        while at < len(self.chunks) and ({self.chunks[at].kind, (self.chunks[at].kind, self.chunks[at].value)} & {*skipped}):
             at += 1
         return at < len(self.chunks) and self.chunks[at].kind in _BEGINS_A_CLAUSE
 

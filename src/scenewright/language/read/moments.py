@@ -113,7 +113,8 @@ class Moments:
             self.narrative.refuse("it is not clear whose way this is", clause.quote)
         self.narrative.tell_way(clause.subject, clause.facts, clause.quote)
         self.narrative.relate(clause.subject, *clause.relations)
-        if (clause.facts or "drives" in clause.notes) and "headed" not in clause.flags:
+        is_led = "headed" in clause.flags or "then" in clause.facts
+        if clause.notes & {"drives", "goes"} or ("heading" in clause.facts and not is_led):
             self.narrative.driving.add(clause.subject)
         clause.facts, clause.relations, clause.flags = {}, [], clause.flags - {"way", "headed"}
 

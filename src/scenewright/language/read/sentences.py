@@ -113,12 +113,12 @@ class _Sentence(Moments):
         story = self.narrative
         items = [each for each in items if isinstance(each, st.Compound) or each.says_more_than()] or items[:1]
         items = self._acts(items, when is not None or self.pending is not None or bool(self.leads & {"then", "at once"}))
-        if not items:
+        if not items and when is None:
             return
         clause = next((each for each in items[:1] if isinstance(each, Clause)), None)
         is_deed = clause is not None and clause.deed is not None
         tells_time = any(each.link in _ORDERS for each in rest)
-        tells_time |= clause is not None and "after the start" in clause.times
+        tells_time |= clause is not None and ("after the start" in clause.times or clause.rival is not None)
         # "The hero begins to brake 2 s after ..." speaks of a deed that was told before.
         known = is_deed and clause is not None and clause.phase and story.doing_of(clause) is not None
         if is_deed and len(items) > 1:
@@ -143,6 +143,8 @@ class _Sentence(Moments):
             if clause is None or len(items) > 1:
                 self.refuse("only one event is before or after another")
                 return
+            if clause.rival is not None:
+                rest, clause.rival = [*rest, Segment(clause.rival[0], rival=clause.rival[1])], None
             moment = self.event(clause)
             if clause.times:
                 self.timed(moment, clause)
@@ -182,7 +184,8 @@ class _Sentence(Moments):
             before = found[-1] if found else None
             ends = isinstance(before, Clause) and before.subject == item.subject and before.deed not in (None, "stop")
             if ends and isinstance(before, Clause) and item.is_event and not before.measures:
-                before.measures += item.measures
+                before.measures, before.notes = item.measures, before.notes | item.notes
+                before.rival = item.rival
             elif item.says_more_than():
                 if is_hero and item.is_event and "arrives" not in item.notes:
                     item.deed = st.Verb.DRIVE
@@ -273,8 +276,11 @@ class _Sentence(Moments):
         waited = self._waited_for(clause.subject, when)
         moment = self.pending if when is None else None if waited is not None else self.moment(when)
         begins, held, ends = self._shares(clause)
+        if clause.deed == "turn" and not self._is_somewhere(clause.subject, moment):
+            begins.append(_at(clause, "turn_start"))
         drives_on = bool(begins) and clause.deed not in (st.Verb.STAND, "turn")  # "it brakes 15 m before the stop line"
-        if drives_on or waited is not None or any(each.link == "after" for each in rest):
+        follows = any(each.link == "after" for each in rest) and "event" not in clause.notes
+        if drives_on or waited is not None or follows:
             self.leads.add("then")
         verb = {"stop": st.Verb.BRAKE, "turn": st.Verb.DRIVE}.get(clause.deed, clause.deed)
         doing = story.begin(clause.subject, verb, moment, self.leads, self.quote)
@@ -290,7 +296,7 @@ class _Sentence(Moments):
             rest = [*rest, Segment(clause.rival[0], rival=clause.rival[1])]
         self._end(doing, clause, ends, next((each for each in rest if each.link == "until"), None))
         for each in rest:
-            early = each.link == "after" or not ends or doing.ends is None
+            early = (each.link == "after" and "event" not in clause.notes) or not ends or doing.ends is None
             if each.link != "until":
                 self._orders(doing.begins if early else doing.ends or st.START, [each], doing.actor)
         if rests and "for" in clause.times:  # "it stops at the stop line for 3 s"
@@ -306,12 +312,16 @@ class _Sentence(Moments):
         )
         return self.event(first) if rests and first.is_event and first.subject == EGO else None
 
+    def _is_somewhere(self, actor: int, moment: int | None) -> bool:
+        """Whether it is told where somebody is at a moment: then its turn, told for that moment, comes later."""
+        told = [] if moment is None else self.narrative.conditions[moment]
+        return any(isinstance(each, st.Measure) and each.actor == actor and each.place is not None for each in told)
+
     def _shares(self, clause: Clause) -> tuple[list[st.Measure], list[st.Measure], list[st.Measure]]:
         """Return what a deed's own clause says of its beginning, of the deed throughout, and of its end."""
         rests = clause.deed == "stop" or "standstill" in clause.flags
         begins, held, ends = list[st.Measure](), list[st.Measure](), [standstill(clause.subject or EGO)][: int(rests)]
         if clause.deed == "turn":
-            begins.append(_at(clause, "turn_start"))
             ends.append(_at(clause, "turn_end"))
         if "kept" in clause.flags and all(each.quantity is not st.Quantity.SPEED for each in clause.measures):
             zero = st.Amount(Fraction(0), "m/s^2")
