@@ -43,7 +43,7 @@ def test_sentences_and_offsets() -> None:
     assert len(found) == 3
     for chunk in (chunk for chunks in found for chunk in chunks):
         assert text[chunk.start : chunk.end] == chunk.text
-    assert found[0][2].value == "1.0.-1, 14.0.-1"
+    assert found[0][1].value == "1.0.-1, 14.0.-1"
 
 
 def test_a_phrase_is_one_thing() -> None:
