@@ -14,7 +14,6 @@ from scenewright.language.model.settings import TranslatorSettings
 from scenewright.language.understand import OFFLINE, Understanding, understand, understand_story
 from scenewright.program.check import check_program
 from scenewright.program.limits import TEXT_CHARACTERS, check_description
-from scenewright.program.text import parse_program
 from scenewright.program.types import DEFAULT_MAP, Program
 from scenewright.roads.load import load_map
 
@@ -47,6 +46,8 @@ def read_scenario(
     """
     text, name = text_of(source)
     if is_program(text):
+        from scenewright.program.text import parse_program  # its grammar takes longer to load than a text to read
+
         program = parse_program(text, name)
         check_program(program, text, name)
         return program, None
