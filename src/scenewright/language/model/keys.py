@@ -1,0 +1,80 @@
+"""Where keys come from, and how they are kept out of everything that is said.
+
+What enters: a provider's name. What leaves: its key, from the environment or a keyring, and `scrubbed` texts. Keys are
+in no option, no file of ours, no message.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from importlib import import_module
+
+from scenewright.errors import InputError
+
+# By provider: where its key is looked for, in this order.
+KEY_VARIABLES: dict[str, tuple[str, ...]] = {
+    "openai": ("OPENAI_API_KEY",),
+    "anthropic": ("ANTHROPIC_API_KEY",),
+    "google": ("GOOGLE_API_KEY", "GEMINI_API_KEY"),
+    # A key of its own: that of a provider never goes to another server because both speak one protocol.
+    "openai-compatible": ("SCENEWRIGHT_API_KEY",),
+}
+KEYRING_SERVICE = "scenewright"
+_SHORTEST = 4  # a shorter "key", such as the "x" of a local server, would blot out half of every message
+_SEEN: set[str] = set()  # keys that came from a keyring
+_LOOKS_LIKE_A_KEY = re.compile(r"\b(?:sk|pk|AIza|gsk|xai)[-_][\w-]{6,}|\bAIza[\w-]{20,}|(?i:\bbearer\s+[\w.~+/=-]{6,})")
+
+
+def key_for(provider: str) -> str | None:
+    """Return the key of `provider`: from the environment, else from a keyring; None where a local server needs none.
+
+    Raises
+    ------
+    InputError
+        Where there is no key and one is needed.
+    """
+    names = KEY_VARIABLES[provider]
+    for name in names:
+        if value := os.environ.get(name, "").strip():
+            return value
+    kept = _from_keyring(provider)
+    if kept is not None:
+        return kept
+    if provider == "openai-compatible":
+        return None
+    raise InputError(
+        f"there is no key for {provider}",
+        expected=f"{' or '.join(names)} in the environment, or {provider} under {KEYRING_SERVICE} in a keyring",
+        fix=f"export {names[0]}=..., or translate with --translator offline",
+    )
+
+
+def scrubbed(text: str) -> str:
+    """Return `text` without any key: neither those known here nor what looks like one. For what servers say."""
+    return _LOOKS_LIKE_A_KEY.sub("[key]", without_known_keys(text))
+
+
+def without_known_keys(text: str) -> str:
+    """Return `text` without the keys that are known here. For what models say."""
+    for names in KEY_VARIABLES.values():
+        for name in names:
+            value = os.environ.get(name, "").strip()
+            if len(value) >= _SHORTEST:
+                text = text.replace(value, "[key]")
+    for value in _SEEN:
+        text = text.replace(value, "[key]")
+    return text
+
+
+def _from_keyring(provider: str) -> str | None:
+    """Return the key from the system's keyring, where the package `keyring` is installed and has one."""
+    try:
+        value = import_module("keyring").get_password(KEYRING_SERVICE, provider)
+    except Exception:  # no such package, no keyring on this machine, a locked one: no key from there
+        return None
+    if not value:
+        return None
+    if len(str(value)) >= _SHORTEST:
+        _SEEN.add(str(value))
+    return str(value)
