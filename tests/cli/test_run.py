@@ -16,6 +16,8 @@ Command = Callable[..., Any]
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 FILES = {
     "manifest.json", "program.scene", "params.json", "plan.json", "trace.parquet", "replans.parquet", "verdict.json",
+    "answers.json",
+    "description.txt",
     "index.html",
 }  # fmt: skip
 

@@ -264,7 +264,9 @@ def verdict(trace: Trace, marks: dict[str, dict[str, float]], passes_s: float) -
             "m",
         ),
         {
-            **condition("outcome", "c8", "the hero stands before the ego passes the conflict point", passes_s, STOPPED_S, "s"),
+            **condition(
+                "outcome", "c8", "the hero stands before the ego passes the conflict point", passes_s, STOPPED_S, "s"
+            ),
             "error": 0.0,
             "tight": True,
             "loose": True,

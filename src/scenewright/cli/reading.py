@@ -80,14 +80,14 @@ def translate(
 
 def _show_prompt(source: str | None, map_name: str | None) -> None:
     """Print the messages that begin a translation by a model, word by word."""
-    from scenewright.language.model.prompt import PROMPT_VERSION, fingerprint, opening
+    from scenewright.language.model.prompt import fingerprint, opening
     from scenewright.language.sources import text_of
     from scenewright.program.types import DEFAULT_MAP
     from scenewright.roads.load import load_map
 
     road_map = load_map(map_name or DEFAULT_MAP)
     text = "(your description)" if source is None else text_of(source)[0]
-    sys.stdout.write(f"prompt version {PROMPT_VERSION} ({fingerprint(road_map)})\n")
+    sys.stdout.write(f"prompt version {fingerprint(road_map)}\n")
     for message in opening(road_map, text):
         sys.stdout.write(f"\n----- {message.role} -----\n{message.content}\n")
     sys.stdout.flush()

@@ -179,11 +179,18 @@ def impossibility(program: Program, map_name: str | None, ego: str = "idm") -> s
     return result.feasibility.explain()
 
 
-def ask(question: Question) -> str | None:
+def ask(question: Question) -> str:
     """Put a question on stderr, and return the alternative that the user chooses, by number.
 
-    An empty line takes the default; None is returned at the end of the input.
+    An empty line, or the end of the input, takes the default.
+
+    Raises
+    ------
+    OpenQuestionsError
+        At the end of the input where there is no default.
     """
+    from scenewright.language.questions import OpenQuestionsError
+
     words = f'  ("{question.quote.text}")' if question.quote else ""
     lines = [f"\n{question.text}{words}"]
     lines += [f"  {number}  {each}" for number, each in enumerate(question.alternatives, start=1)]
@@ -193,8 +200,10 @@ def ask(question: Question) -> str | None:
         sys.stderr.flush()
         line = sys.stdin.readline()
         answer = line.strip()
-        if not answer and (not line or question.default is not None):
-            return None if question.default is None else question.alternatives[question.default]
+        if not answer and question.default is not None:
+            return question.alternatives[question.default]
+        if not line:
+            raise OpenQuestionsError([question])
         if answer in question.alternatives:
             return answer
         if answer.isdecimal() and 1 <= int(answer) <= len(question.alternatives):

@@ -80,6 +80,12 @@ def told_formulas(program: Program) -> dict[Formula, str]:
     return told
 
 
+def named(program: Program, constraint: Constraint) -> str:
+    """Return a constraint as told, after its own name where somebody gave it one."""
+    own = "" if re.fullmatch(r"c\d+", constraint.id) else f"{constraint.id}: "
+    return own + told_constraints(program)[constraint.id]
+
+
 def in_words(program: Program, constraint: Constraint) -> str:
     """Return a constraint in the user's own words, or told in plain English where there are none."""
     return program.words_of(constraint) or told_constraints(program)[constraint.id]

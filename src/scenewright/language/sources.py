@@ -68,9 +68,8 @@ def _understanding(
 
             on = on or load_map(DEFAULT_MAP)
             told = story_by_model(text, on, name, model, settings)
-            read = understand_story(
-                lambda _: told.story, text, on, settings.answers, settings.strict, name, settings.ask
-            )
+            given = {**settings.answers, **told.answers}
+            read = understand_story(lambda _: told.story, text, on, given, settings.strict, name, settings.ask)
             return replace(read, translator=model.name, notes=told.notes)
     return understand(text, on, settings.answers, settings.strict, name, settings.ask)
 

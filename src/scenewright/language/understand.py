@@ -24,7 +24,7 @@ from scenewright.roads.model import RoadMap
 
 OFFLINE = "offline"
 Answers = Mapping[str, str]
-Ask = Callable[[Question], str | None]  # returns an alternative, or None where nobody answers
+Ask = Callable[[Question], str]  # returns one of the alternatives
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +131,7 @@ def understand_story(
     strict
         Refuse what is left open even where there is a default.
     ask
-        Asked about one open question after another; where it returns None no more is asked.
+        Asked about one open question after another; None where nobody can be asked.
 
     Raises
     ------
@@ -142,10 +142,9 @@ def understand_story(
     while True:
         story = _on_map(read_with(given), road_map, given)
         waiting = [each for each in story.questions if each.slot not in given]
-        answer = ask(waiting[0]) if ask is not None and waiting else None
-        if answer is None:
+        if ask is None or not waiting:
             break
-        given[waiting[0].slot] = answer
+        given[waiting[0].slot] = ask(waiting[0])
     story = settled(story, given, strict, Place(name, text))
     return Understanding(text, story, compile_story(story, text), answers=given)
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal
 
-from scenewright.language.lines import told_constraints
+from scenewright.language.lines import named
 from scenewright.program.printer import print_expression
 from scenewright.program.structure import Structure
 from scenewright.program.types import Program
@@ -134,5 +134,5 @@ def _clash(program: Program, origin: str) -> Clash:
         constraint = program.constraint(origin)
     except KeyError:
         return Clash(origin, None, None)
-    told = told_constraints(program)[origin]
+    told = named(program, constraint)
     return Clash(origin, print_expression(constraint.formula), program.words_of(constraint), told)

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
-from scenewright.language.lines import told_constraints
+from scenewright.language.lines import named
 from scenewright.motion.profile import Profile
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import term_value, violation
@@ -69,7 +69,7 @@ def not_held(
             if not by <= max(_ROUNDED, *map(allowed, dimensions)):
                 dimension = dimensions.pop() if len(dimensions) == 1 else None
                 unit = SI_SYMBOL[dimension] if dimension else ""
-                told = told_constraints(scene.program)[constraint.id]
+                told = named(scene.program, constraint)
                 yield NotHeld(constraint, told, scene.program.words_of(constraint), by, unit)
                 break
 
