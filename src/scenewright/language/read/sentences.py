@@ -24,6 +24,7 @@ from scenewright.program.types import EGO
 _LEADS = ("then", "at once", "later", "meanwhile", "start")
 _ORDERS = ("before", "after", "no later than")
 _SAYS_NOTHING = {"unknown", "comma", "harmless", "be", "joint", "pronoun", "quality", "name", "pair", "mood", "other"}
+_COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "yields", "insists", "order", "side", "link"}
 _HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
 
 
@@ -44,7 +45,7 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
     for chunks in sentences(take_labels(text, narrative)):
         quote = st.Quote(chunks[0].start, chunks[-1].end, text[chunks[0].start : chunks[-1].end])
         kinds = {chunk.kind for chunk in chunks}
-        if kinds <= _SAYS_NOTHING or ("comment" in kinds and "amount" not in kinds):
+        if kinds <= _SAYS_NOTHING or _comments(narrative, chunks):
             narrative.asides.append(quote)
             continue
         chunks = [chunk for chunk in chunks if chunk.kind != "harmless"]
@@ -58,6 +59,17 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
             error.place = error.place or Where(name, text, quote.span)
             raise
     return narrative.story()
+
+
+def _comments(narrative: Narrative, chunks: list[Chunk]) -> bool:
+    """Whether a sentence says what is tested; who yields in it, or goes first, is checked against what is told."""
+    people = [chunk.value for chunk in chunks if chunk.kind in ("actor", "name")]
+    kinds = {chunk.kind for chunk in chunks}
+    if "comment" not in kinds or people[:1] not in ([], ["ego"]) or not kinds <= _COMMENT:
+        return False
+    narrative.courtesies += [(None, each.value, each.quote) for each in chunks
+                             if each.kind in ("yields", "insists", "order")]  # fmt: skip
+    return True
 
 
 @dataclass(slots=True)
@@ -112,7 +124,9 @@ class _Sentence(Moments):
     def _main(self, items: list[Item], when: list[Item] | None, rest: list[Segment]) -> None:
         story = self.narrative
         items = [each for each in items if isinstance(each, st.Compound) or each.says_more_than()] or items[:1]
-        items = self._acts(items, when is not None or self.pending is not None or bool(self.leads & {"then", "at once"}))
+        timed = any(isinstance(each, Clause) and each.times for each in when or ())
+        is_told = when is not None or self.pending is not None or bool(self.leads & {"then", "at once"})
+        items = self._acts(items, is_told and not timed)
         if not items and when is None:
             return
         clause = next((each for each in items[:1] if isinstance(each, Clause)), None)
