@@ -40,7 +40,9 @@ def changes(text: str) -> Iterator[tuple[str, str]]:
         for old, new in ((one, other), (other, one)):
             for match in re.finditer(rf"(?<![\w'-]){re.escape(old)}(?![\w'-])", text):
                 yield at(match, new)
-    for match in re.finditer(r"(?<![\w./-])(\d+)(?![\w./])(?= ?(m|s|m/s|m/s\^2|ft|g|min|km/h|mph|metres|feet|yards)\b)", text):
+    for match in re.finditer(
+        r"(?<![\w./-])(\d+)(?![\w./])(?= ?(m|s|m/s|m/s\^2|ft|g|min|km/h|mph|metres|feet|yards)\b)", text
+    ):
         yield at(match, str(int(match[1]) + 1))
     for match in re.finditer(r"\b[a-z]+(?:_[a-z]+)+(?=_(?:m|s|mps|mpss)\b)", text):
         if text.count(match[0]) > 1 or "'" not in text:

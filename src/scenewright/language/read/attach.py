@@ -76,9 +76,6 @@ def _attach(taken: Taken, neighbour: Clause | None, subject: int | None) -> None
         raise taken.left_over(last)
     if "goes" in taken.states and clause.deed is None and not (clause.facts or clause.measures or clause.flags):
         clause.deed = st.Verb.DRIVE
-    if clause.phase == "begins" and clause.deed is None and clause.measures:  # "starts 40 m before the stop line"
-        clause.phase = None
-        clause.flags.add("start")
     if clause.subject is None and clause.measures:
         raise taken.left_over(taken.chunks[0])
     clause.measures = [_of(each, clause.subject) for each in clause.measures]
@@ -132,9 +129,7 @@ def _stand_alone(taken: Taken, target: Target) -> None:
     elif target.side == "at" and target.at < taken.subject_at and "pass" not in taken.states:
         raise taken.left_over(target.chunk)  # "at the junction, the ego ...": it is what follows that is there
     elif target.place is not None and target.side in _BARE:
-        taken.measure(
-            target.chunk, st.Measure(IT, st.Quantity.PLACE, _BARE[target.side], None, target.place)
-        )
+        taken.measure(target.chunk, st.Measure(IT, st.Quantity.PLACE, _BARE[target.side], None, target.place))
     else:
         raise taken.left_over(target.chunk)
 

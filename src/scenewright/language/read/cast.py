@@ -167,10 +167,10 @@ class Cast:
         return next(actor for actor in self.actors if actor.id == number)
 
     # -- ways ---------------------------------------------------------------------------------------------------------
-    def tell_way(self, number: int, facts: Mapping[str, str], quote: st.Quote) -> None:
-        """Add facts of somebody's way."""
+    def tell_way(self, number: int, facts: Mapping[str, str], quote: st.Quote, turns_then: bool = False) -> None:
+        """Add facts of somebody's way; who went straight until then may turn at a moment."""
         actor = self.actor(number)
-        way = actor.way
+        way = replace(actor.way, turn=None) if turns_then and actor.way.turn == "straight" else actor.way
         for name, value in facts.items():
             if name == "then" or (name, value) == ("turn", "on"):
                 continue

@@ -202,7 +202,9 @@ class Taken:
                 self._factor(chunk)
             case "link" if value == "then" and self.peek(-1)[0] == self.peek()[0] == "heading":
                 pass
-            case "joins":  # a road, not somebody
+            case "joint" if value == "and" and self.peek()[0] == "side":  # "across its path and into the driveway"
+                pass
+            case "joins" if all(each.value == "ego" for each in self.chunks[self.at :] if each.kind == "actor"):
                 self.at = len(self.chunks)
             case "turn" | "heading" | "origin" | "then_headed" | "area" | "lanes":
                 self._way(chunk)
@@ -296,7 +298,9 @@ class Taken:
             self.clause.flags.add("to")
         elif not (
             (side == "to" and kind in ("event", "turn", "deed", "state", "phase", "mood", "kept"))  # "to pass it"
-            or (side in ("at", "of", "for", "to", "with") and kind in ("amount", "bound", "quantity", "kept", "no unit"))
+            or (
+                side in ("at", "of", "for", "to", "with") and kind in ("amount", "bound", "quantity", "kept", "no unit")
+            )
             or (side == "by" and kind == "turn")
             or (side == "with" and kind == "turn")
         ):
@@ -424,4 +428,3 @@ class Taken:
     def measure(self, chunk: Chunk, measure: st.Measure) -> None:
         """Add a measure with the words that it came from."""
         self.clause.measures.append(replace(measure, quote=chunk.quote))
-

@@ -44,6 +44,7 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
     narrative = Narrative(text, answers or {})
     for chunks in sentences(take_labels(text, narrative)):
         quote = st.Quote(chunks[0].start, chunks[-1].end, text[chunks[0].start : chunks[-1].end])
+        narrative.assumptions += [f"'{chunk.text}' is read with '{word}'" for chunk in chunks for word in chunk.slips]
         kinds = {chunk.kind for chunk in chunks}
         if kinds <= _SAYS_NOTHING or _comments(narrative, chunks):
             narrative.asides.append(quote)
@@ -186,13 +187,17 @@ class _Sentence(Moments):
             acts = any(isinstance(each, Clause) and each.deed is not None for each in items)
             meant = "wanted" in item.notes or ("relative" in item.notes and acts)
             if is_hero and turn in ("left", "right") and not meant:
-                self.narrative.tell_way(item.subject or EGO, item.facts, item.quote)
+                self.narrative.tell_way(item.subject or EGO, item.facts, item.quote, turns_then=True)
                 item.facts, item.deed = {}, "turn"
             elif is_hero and "kept" in item.flags and not item.measures:
                 item.deed = st.Verb.DRIVE
-            elif is_hero and item.phase == "begins" and item.measures:  # "starts driving at 8 m/s"
-                item.deed, item.flags = st.Verb.DRIVE, item.flags | {"to"}
-                item.facts = {} if turn == "straight" else item.facts
+            elif item.phase == "begins" and item.deed is None and item.measures:
+                item.phase = None
+                if is_hero and item.measures[0].quantity is st.Quantity.SPEED:  # "starts driving at 8 m/s"
+                    item.deed, item.flags = st.Verb.DRIVE, item.flags | {"to"}
+                    item.facts = {} if turn == "straight" else item.facts
+                else:  # "starts 40 m before the stop line"
+                    item.flags.add("start")
             if acts:
                 self.tell_way(item)
             before = found[-1] if found else None
@@ -389,9 +394,7 @@ class _Sentence(Moments):
         at = self.chunks.index(how)
         until = next((index for index, each in enumerate(self.chunks) if each.value == "until"), at)
         if until == at or self.chunks[0].value != "from":
-            self.refuse(
-                f"'{how.text}' needs a time from which and until which", "From the start until ..., never: ..."
-            )
+            self.refuse(f"'{how.text}' needs a time from which and until which", "From the start until ..., never: ...")
         start = self.point(self.chunks[1:until])
         end = self.point([each for each in self.chunks[until + 1 : at] if each.kind != "comma"])
         conditions = self.conditions(
