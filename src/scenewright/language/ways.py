@@ -19,6 +19,8 @@ from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route, all_routes, find_routes
 
 # How somebody's way begins against another's, in quarters of the compass to the right of it.
+_OF_A_TURN = (st.Place("turn_start"), st.Place("turn_end"))
+_INSTEAD = "it passes the conflict point"
 BEARINGS = {"oncoming": 2, "from the left": 1, "from the right": 3, "ahead": 0, "behind": 0, "same way": 0}
 
 
@@ -56,7 +58,44 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
         settled = replace(actor, way=found[0], relations=relations)
         others = tuple(settled if each.id == actor.id else each for each in story.actors)
         story = _in_line(replace(story, actors=others), actor)
-    return replace(story, questions=tuple(questions))
+    return _fits_ways(replace(story, questions=tuple(questions)), answers or {})
+
+
+def _fits_ways(story: st.Story, answers: Mapping[str, str]) -> st.Story:
+    """Ask what an event of a turn means of somebody who does not turn, and refuse a collision of ways that cross.
+
+    Raises
+    ------
+    TranslationError
+        Where a time to collision is asked for of ways that have no lane in common.
+    """
+    ways = {actor.id: actor.way for actor in story.actors}
+    phrases, questions, moments = Phrases(story), list(story.questions), []
+    for moment in story.moments:
+        conditions = list(moment.conditions)
+        for number, each in enumerate(conditions):
+            if not isinstance(each, st.Measure):
+                continue
+            if each.quantity is st.Quantity.COLLISION and _cross(ways[each.actor], ways[each.other or 0]):
+                found = each.quote.text if each.quote else phrases.clause(each)
+                fix = "say the time to arrival of each: 'the ego is 3 s from the conflict point'"
+                raise TranslationError("a time to collision needs a lane that both drive in", found=found, fix=fix)
+            if each.place in _OF_A_TURN and ways[each.actor].turn == "straight":
+                name = phrases.name(each.actor)
+                asked = f"{name} does not turn. What is meant by: {phrases.clause(each, passing=True)}?"
+                slot = f"turn of {name.removeprefix('the ')}"
+                if answers.get(slot) == _INSTEAD:
+                    conditions[number] = replace(each, place=st.Place("conflict_point"))
+                elif all(question.slot != slot for question in questions):
+                    questions.append(st.Question(slot, asked[0].upper() + asked[1:], (_INSTEAD,), None, each.quote))
+        moments.append(replace(moment, conditions=tuple(conditions)))
+    return replace(story, moments=tuple(moments), questions=tuple(questions))
+
+
+def _cross(one: st.Way, other: st.Way) -> bool:
+    """Whether two whole ways begin and end in different directions."""
+    ends = [way.headings if isinstance(way := route_of(each), HeadingsRoute) else () for each in (one, other)]
+    return all(ends) and ends[0][0] != ends[1][0] and ends[0][-1] != ends[1][-1]
 
 
 def _fitting(actor: st.Actor, road_map: RoadMap) -> list[Route]:

@@ -60,8 +60,12 @@ def _attach(taken: Taken, neighbour: Clause | None, subject: int | None) -> None
         taken.targets.append(Target(at, side, chunk, other=taken.people.whom(chunk, clause.subject)))
     if "stands" in taken.states:
         taken.measure(last, st.Measure(IT, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s")))
+    if taken.yields_to is not None and taken.yields_to == clause.subject:
+        raise taken.left_over(last)
     for name in ("turn_start", "turn_end"):
         if name in taken.states:
+            if taken.turn and clause.subject is not None:
+                taken.people.tell_way(clause.subject, {"turn": taken.turn}, clause.quote)
             taken.measure(last, st.Measure(IT, st.Quantity.PLACE, "==", None, st.Place(name)))
     for at, op, chunk in taken.amounts:
         _give(taken, at, op, chunk, neighbour)
@@ -72,9 +76,6 @@ def _attach(taken: Taken, neighbour: Clause | None, subject: int | None) -> None
         raise taken.left_over(last)
     if "goes" in taken.states and clause.deed is None and not (clause.facts or clause.measures or clause.flags):
         clause.deed = st.Verb.DRIVE
-    if clause.phase == "begins" and clause.deed is None and clause.measures:  # "starts 40 m before the stop line"
-        clause.phase = None
-        clause.flags.add("start")
     if clause.subject is None and clause.measures:
         raise taken.left_over(taken.chunks[0])
     clause.measures = [_of(each, clause.subject) for each in clause.measures]
@@ -95,6 +96,8 @@ def _find_subject(taken: Taken, subject: int | None) -> None:
         elif len(to) == len(taken.targets) == 1 and to[0].other:  # "when the distance to the van is 20 m"
             taken.pair, to[0].used = (EGO, to[0].other), True
     if taken.pair is not None:
+        if taken.pair[0] == taken.pair[1]:
+            raise taken.left_over(taken.chunks[-1])
         rear = taken.people.rear(*taken.pair)
         if rear is None:
             names = [taken.people.actor(each).name for each in taken.pair]
@@ -126,9 +129,7 @@ def _stand_alone(taken: Taken, target: Target) -> None:
     elif target.side == "at" and target.at < taken.subject_at and "pass" not in taken.states:
         raise taken.left_over(target.chunk)  # "at the junction, the ego ...": it is what follows that is there
     elif target.place is not None and target.side in _BARE:
-        taken.measure(
-            target.chunk, st.Measure(IT, st.Quantity.PLACE, _BARE[target.side], None, target.place)
-        )
+        taken.measure(target.chunk, st.Measure(IT, st.Quantity.PLACE, _BARE[target.side], None, target.place))
     else:
         raise taken.left_over(target.chunk)
 

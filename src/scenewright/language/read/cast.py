@@ -46,15 +46,17 @@ class Cast:
 
     def _describe(self, actor: int, chunk: Chunk) -> None:
         for trait in chunk.traits:
-            if trait.kind == "relation" and actor != EGO:
+            if trait.kind == "relation":
                 self.relate(actor, st.Relation(trait.value, EGO, trait.quote))
-            elif trait.kind in ("heading", "turn", "relation"):
+            elif trait.kind in ("heading", "turn"):
                 self.tell_way(actor, {trait.kind: trait.value}, trait.quote)
                 self.driving.add(actor)
 
     def same(self, number: int, chunk: Chunk) -> None:
         """Take "the hero is an oncoming truck", "the hero, a truck, ...": one and the same."""
         actor = self.actor(number)
+        if (number == EGO) is not (chunk.value == "ego") and (chunk.value in ("ego", "hero")):
+            self.refuse(f"{actor.name} is somebody else", chunk.quote)
         self.known_by.setdefault(number, set()).update((chunk.value, chunk.text.lower()))
         if actor.kind == "car" and number != EGO and chunk.value not in ("hero", "ego"):
             self._change(replace(actor, kind=chunk.value))
@@ -165,10 +167,10 @@ class Cast:
         return next(actor for actor in self.actors if actor.id == number)
 
     # -- ways ---------------------------------------------------------------------------------------------------------
-    def tell_way(self, number: int, facts: Mapping[str, str], quote: st.Quote) -> None:
-        """Add facts of somebody's way."""
+    def tell_way(self, number: int, facts: Mapping[str, str], quote: st.Quote, turns_then: bool = False) -> None:
+        """Add facts of somebody's way; who went straight until then may turn at a moment."""
         actor = self.actor(number)
-        way = actor.way
+        way = replace(actor.way, turn=None) if turns_then and actor.way.turn == "straight" else actor.way
         for name, value in facts.items():
             if name == "then" or (name, value) == ("turn", "on"):
                 continue
@@ -194,6 +196,8 @@ class Cast:
     def relate(self, number: int, *relations: st.Relation) -> None:
         """Add how somebody's way lies to another's."""
         actor = self.actor(number)
+        if number == EGO and len(self.heroes) == 1:  # "the ego is ahead": of the only other one
+            relations = tuple(replace(each, of=self.heroes[0].id) for each in relations)
         if any(each.of == number for each in relations):
             self.refuse("it is not clear whose way this is", relations[0].quote or st.Quote(0, 0, ""))
         self._change(replace(actor, relations=tuple(dict.fromkeys((*actor.relations, *relations)))))

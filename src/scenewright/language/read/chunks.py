@@ -10,12 +10,12 @@ import re
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from difflib import get_close_matches
 from fractions import Fraction
 from functools import lru_cache
 from importlib.resources import files
 
 from scenewright.language.phrases import ORDINALS
+from scenewright.language.read.spelling import corrected, nearest
 from scenewright.language.story import Amount, Quote
 from scenewright.units import UNITS, unit_of_name
 
@@ -52,6 +52,7 @@ class Chunk:
     amount: Amount | None = None
     traits: tuple[Chunk, ...] = ()  # of somebody: which one, how its way lies
     is_new: bool = False  # "a car", "another car"
+    slips: tuple[str, ...] = ()  # the words that were meant where the text has a slip of the pen
 
     @property
     def quote(self) -> Quote:
@@ -67,6 +68,8 @@ class Vocabulary:
     units: dict[str, str]
     numbers: dict[str, Fraction]
     labels: dict[str, str]
+    words: frozenset[str]  # all that stand in phrases
+    lookalikes: frozenset[str]
     unit_pattern: re.Pattern[str]
 
 
@@ -78,6 +81,7 @@ def vocabulary() -> Vocabulary:
     numbers = {word: Fraction(number) for number, word in enumerate(_NUMBERS.split())}
     numbers |= {word: Fraction(10 * tens) for tens, word in enumerate(_TENS.split(), start=2)}
     labels = {word: kind for kind, said in table.pop("label").items() for word in said.split(" | ")}
+    lookalikes = frozenset(table.pop("lookalike")["words"].split())
     table["ordinal"] = {str(number): f"for the {word} time" for number, word in enumerate(ORDINALS)}
     phrases: dict[str, list[tuple[tuple[str, ...], str, str]]] = {}
     for kind, values in table.items():
@@ -90,7 +94,8 @@ def vocabulary() -> Vocabulary:
         known.sort(key=lambda each: -len(each[0]))
     longest = "|".join(map(re.escape, sorted(units, key=len, reverse=True)))
     pattern = re.compile(rf"[\s-]?({longest})(?![\w/^²])", re.IGNORECASE)
-    return Vocabulary(phrases, units, numbers, labels, pattern)
+    words = frozenset(word for known in phrases.values() for said, _, _ in known for word in said)
+    return Vocabulary(phrases, units, numbers, labels, words, lookalikes, pattern)
 
 
 def _forms(phrase: str) -> list[str]:
@@ -159,14 +164,19 @@ def _described(chunks: list[Chunk]) -> list[Chunk]:
 
 def _chunks(text: str) -> Iterator[Chunk]:
     tokens = list(_TOKEN.finditer(text))
+    known = vocabulary()
     words = [token.group().lower() for token in tokens]
+    slips = {at: right for at, word in enumerate(words)
+             if tokens[at]["word"] and (right := corrected(word, known.words, known.lookalikes))}  # fmt: skip
+    words = [slips.get(at, word) for at, word in enumerate(words)]
     end = 0
     for index, token in enumerate(tokens):
         if token.start() >= end:
             chunk = _lanes(text, token.start()) or _amount(text, token) or _phrase(text, tokens, words, index)
             chunk = chunk or _plain(token)
             end = chunk.end
-            yield chunk
+            slipped = [each for at, each in slips.items() if chunk.start <= tokens[at].start() < end]
+            yield replace(chunk, slips=tuple(slipped)) if slipped else chunk
 
 
 def _lanes(text: str, at: int) -> Chunk | None:
@@ -235,7 +245,7 @@ def _plain(token: re.Match[str]) -> Chunk:
 def nearest_words(word: str) -> list[str]:
     """Return the words of the domain that are spelled most like `word`."""
     single = {words[0] for known in vocabulary().phrases.values() for words, _, _ in known if len(words) == 1}
-    return get_close_matches(word.lower(), sorted(single), n=2, cutoff=0.7)
+    return nearest(word, frozenset(single))
 
 
 def word_as(chunk: Chunk, word: str) -> Chunk:

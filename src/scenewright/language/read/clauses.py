@@ -104,6 +104,8 @@ class Taken:
     states: set[str] = field(default_factory=set)
     quantity: str | None = None
     subject_at: int = 0
+    turn: str = ""  # "completes its left turn"
+    yields_to: int | None = None
     pair: tuple[int, int] | None = None  # between whom a gap is
     later: list[tuple[int, str, Chunk]] = field(default_factory=list)  # whom "it" means after a side
 
@@ -168,9 +170,9 @@ class Taken:
             case "place" if "pass" in self.states or self.peek()[0] in ("be", "event"):
                 self.at -= 1
                 self._target("at")
-            case "area" if "pass" in self.states and not self.targets:
+            case "area" if "pass" in self.states and not self.targets and value == "driveway":
                 self.targets.append(Target(self.at, "at", chunk, _CONFLICT))
-            case "area" if clause.subject is None and self.peek()[0] == "amount" and self.peek(2)[1] == "ahead":
+            case "area" if clause.subject is None and value == "driveway" and self.peek(2)[1] == "ahead":
                 self.targets.append(Target(self.at, "at", chunk, _CONFLICT))
             case "place" if self.peek(-1)[0] == "state":  # "approaches the intersection"
                 pass
@@ -191,7 +193,8 @@ class Taken:
             case "event" if value == "pass" and self.peek()[0] in ("amount", "bound"):  # "gets to 2 s behind the bus"
                 pass
             case "state" | "event":
-                self.states.add("pass" if value == "arrives" else value)
+                what, _, self.turn = value.partition(" ")
+                self.states.add("pass" if what == "arrives" else what)
                 clause.notes |= {"event", value} if chunk.kind == "event" else {value}
             case "quantity" if self.quantity in (None, "rate", value):
                 self.quantity = value
@@ -199,7 +202,9 @@ class Taken:
                 self._factor(chunk)
             case "link" if value == "then" and self.peek(-1)[0] == self.peek()[0] == "heading":
                 pass
-            case "joins":  # a road, not somebody
+            case "joint" if value == "and" and self.peek()[0] == "side":  # "across its path and into the driveway"
+                pass
+            case "joins" if all(each.value == "ego" for each in self.chunks[self.at :] if each.kind == "actor"):
                 self.at = len(self.chunks)
             case "turn" | "heading" | "origin" | "then_headed" | "area" | "lanes":
                 self._way(chunk)
@@ -261,7 +266,7 @@ class Taken:
         side, (kind, value) = chunk.value, self.peek()
         if side in ("across", "to") and kind in PEOPLE and (side == "across" or "yields" in self.clause.flags):
             self.at += 1  # "turns left across the ego's path", "yields to the ego"
-            self.people.who(self.chunks[self.at])
+            self.yields_to = self.people.who(self.chunks[self.at])
             self.at += 2 if (self.peek()[0], self.peek(2)[0]) == ("possessive", "thing") else 0
         elif side == "through" and kind == "place":
             self._target("at")
@@ -283,7 +288,7 @@ class Taken:
         elif kind == "heading" and side in ("to", "from"):
             self.at += 1
             self._headed(self.chunks[self.at], back=side == "from")
-        elif kind == "area" and side in _SIDES and self.peek(-1)[0] == "amount":
+        elif (kind, value) == ("area", "driveway") and side in _SIDES and self.peek(-1)[0] == "amount":
             self.at += 1
             self.targets.append(Target(self.at - 1, side, self.chunks[self.at], _CONFLICT))
         elif kind == "area" and side in ("at", "into", "from"):
@@ -293,7 +298,9 @@ class Taken:
             self.clause.flags.add("to")
         elif not (
             (side == "to" and kind in ("event", "turn", "deed", "state", "phase", "mood", "kept"))  # "to pass it"
-            or (side in ("at", "of", "for", "to", "with") and kind in ("amount", "bound", "quantity", "kept", "no unit"))
+            or (
+                side in ("at", "of", "for", "to", "with") and kind in ("amount", "bound", "quantity", "kept", "no unit")
+            )
             or (side == "by" and kind == "turn")
             or (side == "with" and kind == "turn")
         ):
@@ -331,7 +338,9 @@ class Taken:
                 self.at += 2
                 place = replace(self._place(self.chunks[self.at]), of=who)
                 self.targets.append(Target(at, side, chunk, place))
-            elif self.peek()[0] == "possessive" and self.peek(2)[0] in ("area", "relation"):  # "into the ego's lane"
+            elif self.peek()[0] == "possessive" and (
+                self.peek(2)[0] == "area" or (self.peek(2)[1], self.peek(3)[0]) == ("oncoming", "area")
+            ):  # "into the ego's lane"
                 self.at += 2 if self.peek(2)[0] == "area" else 3
                 self._area(self.chunks[self.at], side)
             else:
@@ -419,4 +428,3 @@ class Taken:
     def measure(self, chunk: Chunk, measure: st.Measure) -> None:
         """Add a measure with the words that it came from."""
         self.clause.measures.append(replace(measure, quote=chunk.quote))
-

@@ -239,7 +239,9 @@ class _Items:
     def _begins(self, at: int) -> bool:
         """Whether a clause begins here."""
         skipped = ("comma", ("joint", "and"), ("link", "then"))
-        while at < len(self.chunks) and ({self.chunks[at].kind, (self.chunks[at].kind, self.chunks[at].value)} & {*skipped}):
+        while at < len(self.chunks) and (
+            {self.chunks[at].kind, (self.chunks[at].kind, self.chunks[at].value)} & {*skipped}
+        ):
             at += 1
         return at < len(self.chunks) and self.chunks[at].kind in _BEGINS_A_CLAUSE
 

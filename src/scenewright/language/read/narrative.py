@@ -59,8 +59,12 @@ class Narrative(Cast):
         for actor, quote in self.kept:
             self._keep(actor, quote)
         for who, courtesy, quote in self.courtesies:
-            verbs = {doing.verb for doing in self.doings if doing.actor == who}
-            if not verbs or bool(verbs & {st.Verb.BRAKE, st.Verb.STAND}) is not (courtesy == "yields"):
+            verbs = {doing.verb for doing in self.doings if who in (None, doing.actor)}
+            if (
+                not verbs
+                or (courtesy == "first" and not self.orders)
+                or (courtesy != "first" and bool(verbs & {st.Verb.BRAKE, st.Verb.STAND}) is not (courtesy == "yields"))
+            ):
                 self.refuse("it is not said what is done to yield, or instead", quote, "say where it stops or passes")
         self.go_straight()
         for doing in self.doings:

@@ -24,6 +24,7 @@ from scenewright.program.types import EGO
 _LEADS = ("then", "at once", "later", "meanwhile", "start")
 _ORDERS = ("before", "after", "no later than")
 _SAYS_NOTHING = {"unknown", "comma", "harmless", "be", "joint", "pronoun", "quality", "name", "pair", "mood", "other"}
+_COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "yields", "insists", "order", "side", "link"}
 _HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
 
 
@@ -43,8 +44,9 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
     narrative = Narrative(text, answers or {})
     for chunks in sentences(take_labels(text, narrative)):
         quote = st.Quote(chunks[0].start, chunks[-1].end, text[chunks[0].start : chunks[-1].end])
+        narrative.assumptions += [f"'{chunk.text}' is read with '{word}'" for chunk in chunks for word in chunk.slips]
         kinds = {chunk.kind for chunk in chunks}
-        if kinds <= _SAYS_NOTHING or ("comment" in kinds and "amount" not in kinds):
+        if kinds <= _SAYS_NOTHING or _comments(narrative, chunks):
             narrative.asides.append(quote)
             continue
         chunks = [chunk for chunk in chunks if chunk.kind != "harmless"]
@@ -58,6 +60,17 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
             error.place = error.place or Where(name, text, quote.span)
             raise
     return narrative.story()
+
+
+def _comments(narrative: Narrative, chunks: list[Chunk]) -> bool:
+    """Whether a sentence says what is tested; who yields in it, or goes first, is checked against what is told."""
+    people = [chunk.value for chunk in chunks if chunk.kind in ("actor", "name")]
+    kinds = {chunk.kind for chunk in chunks}
+    if "comment" not in kinds or people[:1] not in ([], ["ego"]) or not kinds <= _COMMENT:
+        return False
+    narrative.courtesies += [(None, each.value, each.quote) for each in chunks
+                             if each.kind in ("yields", "insists", "order")]  # fmt: skip
+    return True
 
 
 @dataclass(slots=True)
@@ -112,7 +125,9 @@ class _Sentence(Moments):
     def _main(self, items: list[Item], when: list[Item] | None, rest: list[Segment]) -> None:
         story = self.narrative
         items = [each for each in items if isinstance(each, st.Compound) or each.says_more_than()] or items[:1]
-        items = self._acts(items, when is not None or self.pending is not None or bool(self.leads & {"then", "at once"}))
+        timed = any(isinstance(each, Clause) and each.times for each in when or ())
+        is_told = when is not None or self.pending is not None or bool(self.leads & {"then", "at once"})
+        items = self._acts(items, is_told and not timed)
         if not items and when is None:
             return
         clause = next((each for each in items[:1] if isinstance(each, Clause)), None)
@@ -172,13 +187,17 @@ class _Sentence(Moments):
             acts = any(isinstance(each, Clause) and each.deed is not None for each in items)
             meant = "wanted" in item.notes or ("relative" in item.notes and acts)
             if is_hero and turn in ("left", "right") and not meant:
-                self.narrative.tell_way(item.subject or EGO, item.facts, item.quote)
+                self.narrative.tell_way(item.subject or EGO, item.facts, item.quote, turns_then=True)
                 item.facts, item.deed = {}, "turn"
             elif is_hero and "kept" in item.flags and not item.measures:
                 item.deed = st.Verb.DRIVE
-            elif is_hero and item.phase == "begins" and item.measures:  # "starts driving at 8 m/s"
-                item.deed, item.flags = st.Verb.DRIVE, item.flags | {"to"}
-                item.facts = {} if turn == "straight" else item.facts
+            elif item.phase == "begins" and item.deed is None and item.measures:
+                item.phase = None
+                if is_hero and item.measures[0].quantity is st.Quantity.SPEED:  # "starts driving at 8 m/s"
+                    item.deed, item.flags = st.Verb.DRIVE, item.flags | {"to"}
+                    item.facts = {} if turn == "straight" else item.facts
+                else:  # "starts 40 m before the stop line"
+                    item.flags.add("start")
             if acts:
                 self.tell_way(item)
             before = found[-1] if found else None
@@ -375,9 +394,7 @@ class _Sentence(Moments):
         at = self.chunks.index(how)
         until = next((index for index, each in enumerate(self.chunks) if each.value == "until"), at)
         if until == at or self.chunks[0].value != "from":
-            self.refuse(
-                f"'{how.text}' needs a time from which and until which", "From the start until ..., never: ..."
-            )
+            self.refuse(f"'{how.text}' needs a time from which and until which", "From the start until ..., never: ...")
         start = self.point(self.chunks[1:until])
         end = self.point([each for each in self.chunks[until + 1 : at] if each.kind != "comma"])
         conditions = self.conditions(
