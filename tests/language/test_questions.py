@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from scenewright.errors import InputError, TranslationError
-from scenewright.language.questions import as_data, defaults_of, read_answers
+from scenewright.language.questions import OpenQuestionsError, as_data, defaults_of, read_answers
 from scenewright.language.read.sentences import read
 from scenewright.language.understand import understand
 
@@ -37,15 +37,19 @@ def test_a_word_that_nobody_knows_must_be_answered() -> None:
     with pytest.raises(TranslationError, match="leaves something open") as caught:
         understand(UNKNOWN)
     assert "What is 'zonks'?" in (caught.value.found or "")
-    story = read(UNKNOWN, {f"word {UNKNOWN.index('zonks')}": "set it aside"})
+    story = read(UNKNOWN, {"word zonks": "set it aside"})
     assert (len(story.questions), len(story.deeds)) == (0, 1)
 
 
-def test_a_typing_error_is_asked_about_with_the_word_it_may_be() -> None:
-    text = "The ego comes from the drivway and turns left. The hero brakes to a stop."
-    (question,) = read(text).questions
-    assert ("it means 'driveway'" in question.alternatives, question.default) == (True, None)
-    assert read(text, {question.slot: "it means 'driveway'"}).actors[0].way.origin == "driveway"
+def test_what_must_be_answered_comes_with_the_file_of_answers_to_fill_in() -> None:
+    with pytest.raises(OpenQuestionsError) as caught:
+        understand(UNKNOWN)
+    assert "What is 'zonks'?" in (caught.value.found or "")
+    example = json.loads((caught.value.fix or "").partition("--answers FILE: ")[2])
+    assert example.keys() == {"word zonks"}
+    (question,) = caught.value.as_dict()["questions"]  # type: ignore[misc]
+    assert question["slot"] == "word zonks"
+    assert str(caught.value.place) == f"description:1:{UNKNOWN.index('zonks') + 1}"
 
 
 def test_who_it_is_may_be_asked() -> None:

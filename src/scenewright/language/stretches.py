@@ -12,7 +12,7 @@ from scenewright.errors import Span
 from scenewright.language.story import Quote
 
 _BOUNDARY = re.compile(  # of a clause
-    r"[.;!?,](?=\s|$)|\n\s*\n|\n\s*[-*]\s|\b(?:and|but|when|while|until|then|once|as soon as)\b", re.IGNORECASE
+    r"[.;!?,](?=\s|$)|\n\s*\n|\n\s*[-*]\s|\b(?:and|but|when|while|until|then|as soon as|(?<!at )once)\b", re.IGNORECASE
 )
 
 
