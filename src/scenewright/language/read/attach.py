@@ -87,7 +87,7 @@ def _find_subject(taken: Taken, subject: int | None) -> None:
     clause = taken.clause
     ahead = next((each for each in taken.targets if each.side == "ahead" and each.other is not None), None)
     place = next((each for each in taken.targets if each.place is not None and each.side == "at"), None)
-    if clause.subject is None and ahead is not None and place is not None:  # "a driveway 100 m in front of the ego"
+    if clause.subject is None and taken.amounts and ahead is not None and place is not None:  # "a driveway 100 m in front of the ego"
         clause.subject, ahead.used, place.side = ahead.other, True, "before"
     if clause.subject is None and taken.pair is None and taken.quantity in ("gap", "headway", "time to collision"):
         to = [each for each in taken.targets if each.other is not None]

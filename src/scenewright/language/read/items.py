@@ -65,7 +65,7 @@ def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
         else:
             found[-1].chunks.append(chunk)
     for segment in found:
-        while segment.chunks and segment.chunks[-1].kind == "comma" and segment.link != "when":
+        while segment.chunks and segment.chunks[-1].text in (",", "and") and segment.link != "when":
             segment.chunks.pop()
     return found
 
