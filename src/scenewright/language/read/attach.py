@@ -87,7 +87,9 @@ def _find_subject(taken: Taken, subject: int | None) -> None:
     clause = taken.clause
     ahead = next((each for each in taken.targets if each.side == "ahead" and each.other is not None), None)
     place = next((each for each in taken.targets if each.place is not None and each.side == "at"), None)
-    if clause.subject is None and ahead is not None and place is not None:  # "a driveway 100 m in front of the ego"
+    if (
+        clause.subject is None and taken.amounts and ahead is not None and place is not None
+    ):  # "a driveway 100 m in front of the ego"
         clause.subject, ahead.used, place.side = ahead.other, True, "before"
     if clause.subject is None and taken.pair is None and taken.quantity in ("gap", "headway", "time to collision"):
         to = [each for each in taken.targets if each.other is not None]
@@ -143,6 +145,8 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk, neighbour: Claus
         return
     if amount.dimension == "acceleration":
         slowing = taken.quantity == "deceleration" or clause.deed in (st.Verb.BRAKE, "stop")
+        if taken.quantity == ("acceleration" if slowing else "deceleration"):
+            raise taken.left_over(chunk)  # nobody brakes with an acceleration
         taken.measure(chunk, st.Measure(IT, st.Quantity.RATE, op, amount, opposite=slowing))
         if clause.deed is not None:
             clause.rate = clause.measures.pop()

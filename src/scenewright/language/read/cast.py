@@ -189,7 +189,8 @@ class Cast:
                      if any(each.of == actor.id and each.kind != "oncoming" for each in other.relations)]  # fmt: skip
             way, ways = actor.way, [each.way for each in near if not actor.way.heading]
             told = any(each.origin == "driveway" or each.turn not in (None, "straight") for each in (way, *ways))
-            if actor.id in self.driving and not (told or way.turn or way.destination or way.headings or way.lanes):
+            driving = {actor.id, *(each.id for each in near)} & self.driving
+            if driving and not (told or way.turn or way.destination or way.headings or way.lanes):
                 self._change(replace(actor, way=replace(way, turn="straight")))
                 self.assumptions.append(f"{actor.name} goes straight on")
 

@@ -98,19 +98,24 @@ def vocabulary() -> Vocabulary:
     return Vocabulary(phrases, units, numbers, labels, words, lookalikes, pattern)
 
 
+_IRREGULAR = {
+    "drive": "drove driven", "go": "went gone", "come": "came", "stand": "stood", "begin": "began begun", "leave": "left",
+    "get": "got", "keep": "kept", "hold": "held", "make": "made", "take": "took taken", "fall": "fell fallen",
+    "mean": "meant", "shrink": "shrank shrunk", "ride": "rode", "run": "ran",
+}  # fmt: skip
+_DOUBLED = ("stop", "begin", "get", "plan", "slam", "drop", "run")
+
+
 def _forms(phrase: str) -> list[str]:
     """Return a phrase, and where it is a verb (marked with *) its other forms."""
     if not phrase.startswith("*"):
         return [phrase]
     verb, _, rest = phrase[1:].partition(" ")
-    irregular = {"drive": "drove", "go": "went", "come": "came", "stand": "stood", "begin": "began", "leave": "left", "get": "got",
-                 "keep": "kept", "hold": "held", "make": "made", "take": "took", "fall": "fell", "mean": "meant",
-                 "slam": "slammed", "plan": "planned", "stop": "stopped", "shrink": "shrank", "lead": "led"}  # fmt: skip
-    doubled = verb + verb[-1] if verb in ("stop", "begin", "get", "plan", "slam", "drop") else verb
+    doubled = verb + verb[-1] if verb in _DOUBLED else verb
     stem = verb.removesuffix("e")
     third = f"{verb}es" if verb.endswith(("s", "sh", "ch", "x", "o")) else f"{verb}s"
-    past = irregular.get(verb, f"{stem}ed" if verb.endswith("e") else f"{doubled}ed")
-    forms = [verb, third, f"{stem if verb.endswith('e') else doubled}ing", past]
+    past = _IRREGULAR.get(verb, f"{stem}ed" if verb.endswith("e") else f"{doubled}ed").split()
+    forms = [verb, third, f"{stem if verb.endswith('e') else doubled}ing", *past]
     return [f"{form} {rest}".strip() for form in forms]
 
 

@@ -178,6 +178,8 @@ class Taken:
                 pass
             case "deed" if clause.deed is None:
                 clause.deed = value
+            case "deed" if (clause.deed, value) == (st.Verb.BRAKE, "stop"):  # "brakes so that it stops"
+                clause.flags.add("standstill")
             case "phase" if clause.phase is None:
                 clause.phase = value
             case "ordinal":
@@ -271,7 +273,9 @@ class Taken:
         elif side == "through" and kind == "place":
             self._target("at")
             self.clause.notes.add("event")
-        elif side == "by" and kind in PEOPLE:  # "the conflict point is passed by the hero"
+        elif (
+            side == "by" and kind in PEOPLE and self.clause.subject is None
+        ):  # "the conflict point is passed by the hero"
             self.at += 1
             self.clause.subject = self.people.who(self.chunks[self.at])
         elif side == "between":

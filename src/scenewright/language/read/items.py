@@ -65,7 +65,7 @@ def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
         else:
             found[-1].chunks.append(chunk)
     for segment in found:
-        while segment.chunks and segment.chunks[-1].kind == "comma" and segment.link != "when":
+        while segment.chunks and segment.chunks[-1].text in (",", "and") and segment.link != "when":
             segment.chunks.pop()
     return found
 
@@ -195,6 +195,8 @@ class _Items:
         for each in self.both[:-1]:
             self.others.append(self._read([each, *own]))
         self.before = self._read([*self.both[-1:], *own])
+        if any(each.subject == self.before.subject for each in self.others):
+            raise UnknownWordsError("one and the same is named twice", found=self.before.quote.text)
         return self.before
 
     def _read(self, own: list[Chunk]) -> Clause:

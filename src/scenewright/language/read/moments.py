@@ -83,6 +83,8 @@ class Moments:
             if doing.ends is None:
                 doing.ends = story.moment()
             return doing.ends
+        if clause.measures and "event" in clause.notes:  # "begins its turn into the driveway"
+            self.tell_way(clause)
         if not clause.measures or clause.says_more_than("measures", "times"):
             story.refuse("this is no event", clause.quote)
         for number, own in enumerate(story.conditions):

@@ -21,7 +21,7 @@ from scenewright.language.read.moments import Moments
 from scenewright.language.read.narrative import Doing, Narrative, standstill
 from scenewright.program.types import EGO
 
-_LEADS = ("then", "at once", "later", "meanwhile", "start")
+_LEADS = ("then", "then left", "then right", "at once", "later", "meanwhile", "start")
 _ORDERS = ("before", "after", "no later than")
 _SAYS_NOTHING = {"unknown", "comma", "harmless", "be", "joint", "pronoun", "quality", "name", "pair", "mood", "other"}
 _COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "yields", "insists", "order", "side", "link"}
@@ -77,6 +77,7 @@ def _comments(narrative: Narrative, chunks: list[Chunk]) -> bool:
 class _Sentence(Moments):
     pending: int | None = None  # a moment that was told just before, and nobody did anything at it
     leads: set[str] = field(default_factory=set)
+    turned: str = ""
     is_open: bool = False  # a word in it must be asked about first
 
     def read(self) -> None:
@@ -101,7 +102,8 @@ class _Sentence(Moments):
         for chunk in self.chunks:
             free = not kept or (not joined and kept[-1].kind in ("be", *PEOPLE) and chunk.value != "start")
             if chunk.kind == "link" and chunk.value in _LEADS and free:
-                self.leads.add(chunk.value)
+                lead, _, self.turned = chunk.value.partition("then ")
+                self.leads.add(lead or "then")
             elif kept or chunk.kind != "comma":
                 kept.append(chunk)
         self.chunks = kept
@@ -292,6 +294,8 @@ class _Sentence(Moments):
             story.refuse("it is not clear what is done here", self.quote)
         if clause.phase == "finishes" or "after the start" in clause.times:
             self.refuse("nothing was told of this deed before")
+        if self.turned:  # "after turning left, it ..."
+            story.tell_way(clause.subject, {"turn": self.turned}, self.quote)
         waited = self._waited_for(clause.subject, when)
         moment = self.pending if when is None else None if waited is not None else self.moment(when)
         begins, held, ends = self._shares(clause)
