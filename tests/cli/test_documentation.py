@@ -14,11 +14,11 @@ import pytest
 
 from scenewright.cli.app import app
 from scenewright.errors import TranslationError
+from scenewright.language.understand import understand
 from scenewright.plan.preferences import preferences_of
 from scenewright.program.manner import USUAL
 from scenewright.program.printer import print_program
 from scenewright.program.text import parse_program
-from scenewright.translate.offline import translate_offline
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -71,7 +71,7 @@ def test_descriptions_are_understood_and_happen(command: Command, text: str) -> 
 @pytest.mark.parametrize("text", marked("refused"))
 def test_refused_descriptions_are_refused_as_shown(text: str) -> None:
     with pytest.raises(TranslationError) as caught:
-        translate_offline(text)
+        understand(text)
     page = (ROOT / "docs" / "descriptions.md").read_text(encoding="utf-8")
     first = str(caught.value).splitlines()[0]
     assert f"error: {first}" in page
