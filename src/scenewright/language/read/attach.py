@@ -30,6 +30,7 @@ _TO_ACTOR = {
     ("headway", "to", True): st.Quantity.HEADWAY, ("time to collision", "with", True): st.Quantity.COLLISION,
     ("time to collision", "to", True): st.Quantity.COLLISION,
 }  # fmt: skip
+_CONTRARY = ((st.Verb.BRAKE, "acceleration"), ("stop", "acceleration"), (st.Verb.SPEED_UP, "deceleration"))
 _OF_A_PAIR = {
     ("gap", False): st.Quantity.GAP, (None, False): st.Quantity.GAP, ("headway", True): st.Quantity.HEADWAY,
     ("time to collision", True): st.Quantity.COLLISION,
@@ -145,7 +146,7 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk, neighbour: Claus
         return
     if amount.dimension == "acceleration":
         slowing = taken.quantity == "deceleration" or clause.deed in (st.Verb.BRAKE, "stop")
-        if taken.quantity == ("acceleration" if slowing else "deceleration"):
+        if (clause.deed, taken.quantity) in _CONTRARY:
             raise taken.left_over(chunk)  # nobody brakes with an acceleration
         taken.measure(chunk, st.Measure(IT, st.Quantity.RATE, op, amount, opposite=slowing))
         if clause.deed is not None:

@@ -160,10 +160,12 @@ def _described(chunks: list[Chunk]) -> list[Chunk]:
                 first -= 1
             is_new = first > 0 and (found[first - 1].kind, found[first - 1].value) == ("det", "a")
             chunk = replace(chunk, traits=tuple(found[first:]), is_new=is_new)
-            found[first:] = []
+            del found[first - is_new :]
         if chunk.kind == "name" and found and found[-1].kind == "actor":  # "the car 'blue'"
             chunk = replace(chunk, traits=(found.pop(),))
         found.append(chunk)
+    others = [each for each in found if each.kind == "det" and len(each.text) > 3]  # "another stop line" is not the one
+    found = [replace(each, kind="unknown") if each in others and each.value == "a" else each for each in found]
     return [each for each in found if each.kind not in ("filler", "det")]
 
 

@@ -266,6 +266,9 @@ class Taken:
 
     def _side(self, chunk: Chunk) -> None:
         side, (kind, value) = chunk.value, self.peek()
+        before = self.chunks[self.at - 1].amount if self.at else None
+        if before is not None and before.dimension == "speed" and side in _SIDES and kind in ("place", *PEOPLE):
+            raise self.left_over(chunk)  # "12 m/s before the stop line"
         if side in ("across", "to") and kind in PEOPLE and (side == "across" or "yields" in self.clause.flags):
             self.at += 1  # "turns left across the ego's path", "yields to the ego"
             self.yields_to = self.people.who(self.chunks[self.at])

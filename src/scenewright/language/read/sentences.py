@@ -23,7 +23,7 @@ from scenewright.program.types import EGO
 
 _LEADS = ("then", "then left", "then right", "at once", "later", "meanwhile", "start")
 _ORDERS = ("before", "after", "no later than")
-_SAYS_NOTHING = {"unknown", "comma", "harmless", "be", "joint", "pronoun", "quality", "name", "pair", "mood", "other"}
+_SAYS_NOTHING = {"unknown", "comma", "harmless", "be", "joint", "quality", "name", "mood", "other"}
 _COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "yields", "insists", "order", "side", "link"}
 _HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
 
@@ -145,6 +145,8 @@ class _Sentence(Moments):
         elif clause is not None and "first" in clause.flags and len(items) == 1 and not rest:
             self._goes_first(clause, when)
         elif when is not None:
+            if clause is not None and clause.subject == EGO and clause.is_event and not timed:
+                self.refuse("the ego is driven by the policy under test", "say what the others do then")
             moment = self.moment(when)
             if moment not in story.times and not story.is_owned(moment):
                 story.pending = moment
@@ -351,6 +353,8 @@ class _Sentence(Moments):
             held.append(st.Measure(clause.subject or EGO, st.Quantity.RATE, "==", zero, quote=clause.quote))
         for measure in clause.measures:
             fast = measure.quantity is st.Quantity.SPEED
+            if rests and measure.quantity is st.Quantity.ARRIVAL:
+                self.refuse("who stands has no time to arrival", "say where it stands, in metres")
             if fast and "to" not in clause.flags and clause.deed != st.Verb.DRIVE:
                 self.refuse("it is not clear when it is so fast")
             stays = clause.deed == st.Verb.STAND or not (rests or fast or st.is_event(measure))
