@@ -77,6 +77,28 @@ def test_refused_descriptions_are_refused_as_shown(text: str) -> None:
     assert f"error: {first}" in page
 
 
+def outputs() -> list[Any]:
+    """Return each command of which a page shows the output below a comment, and that output."""
+    pattern = re.compile(r"^% output: (.*)\n```text\n(.*?)^```", flags=re.MULTILINE | re.DOTALL)
+    return [
+        pytest.param(shlex.split(words), shown, id=f"{page.stem}: {words}")
+        for page in PAGES
+        for words, shown in pattern.findall(page.read_text(encoding="utf-8"))
+    ]
+
+
+@pytest.mark.parametrize(("words", "shown"), outputs())
+def test_output_is_what_the_page_shows(command: Command, folder: Path, words: list[str], shown: str) -> None:
+    shutil.copytree(ROOT / "examples", folder / "examples")
+    assert command(*words).stdout.split() == shown.split()
+
+
+def test_proof_is_what_the_page_shows(command: Command, folder: Path) -> None:
+    shutil.copytree(ROOT / "examples", folder / "examples")
+    told = command("check", "examples/impossible.txt").stdout
+    assert told[told.index("This cannot") :].strip() in (ROOT / "docs" / "infeasibility.md").read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize("text", marked("program"))
 def test_programs_run(command: Command, text: str) -> None:
     assert print_program(parse_program(text))

@@ -41,7 +41,7 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
     for actor in story.actors:
         found = list(dict.fromkeys(_way(route, road_map) for route in fitting[actor.id]))
         if not found:
-            there_are = "; ".join(dict.fromkeys(str(route) for route in all_routes(road_map)))
+            there_are = "; ".join(dict.fromkeys(phrases.way(_way(route, road_map)) for route in all_routes(road_map)))
             raise TranslationError(
                 f"no way on {road_map.name} fits what is said of {phrases.name(actor.id)}",
                 found=phrases.way(actor.way),
