@@ -77,7 +77,7 @@ def _attach(taken: Taken, neighbour: Clause | None, subject: int | None) -> None
         raise taken.left_over(last)
     if "goes" in taken.states and clause.deed is None and not (clause.facts or clause.measures or clause.flags):
         clause.deed = st.Verb.DRIVE
-    if clause.subject is None and clause.measures:
+    if clause.subject is None and (clause.measures or clause.rate):
         raise taken.left_over(taken.chunks[0])
     clause.measures = [_of(each, clause.subject) for each in clause.measures]
     clause.rate = clause.rate and _of(clause.rate, clause.subject)

@@ -56,6 +56,8 @@ class Narrative(Cast):
 
     def story(self) -> st.Story:
         """Return the story; deeds that are still open end at moments of their own."""
+        if not any(actor.id == EGO for actor in self.actors):
+            raise UnknownWordsError("the text does not say who is under test", fix="call it the ego")
         for actor, quote in self.kept:
             self._keep(actor, quote)
         for who, courtesy, quote in self.courtesies:
@@ -72,8 +74,6 @@ class Narrative(Cast):
                 doing.ends = self.moment()
             if doing.duration is not None:
                 self.orders.append(st.Order(doing.begins, doing.ends, *doing.duration, doing.quote))
-        if not any(actor.id == EGO for actor in self.actors):
-            raise UnknownWordsError("the text does not say who is under test", fix="call it the ego")
         return st.Story(
             tuple(sorted(self.actors, key=lambda actor: actor.id)),
             tuple(st.Moment(tuple(own), self.times.get(number), self.quotes.get(number))

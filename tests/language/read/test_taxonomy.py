@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from readings import reading_of, written
 
 from scenewright.program.printer import print_expression
-from scenewright.translate.offline import translate_offline
+from scenewright.program.types import Program
 
 # Route as headings: where it starts, the wish in words.
 ROUTES = {
@@ -19,7 +20,18 @@ ROUTES = {
 CROSSING = [("SW", "W"), ("SE", "W"), ("SE", "E"), ("SE", "EN"), ("W", "EN"), ("W", "SW"), ("W", "SE"), ("WN", "EN"),
             ("E", "SE"), ("EN", "W"), ("EN", "WN"), ("EN", "SE")]  # fmt: skip
 FOLLOWING = [("SW", "SW"), ("SE", "SE"), ("W", "WN"), ("E", "EN"), ("W", "W"), ("E", "E"), ("EN", "EN"), ("WN", "W")]
-INTERACTIONS = ["yields", "does not yield", "yields then goes"]
+ACTS = {"yields": "go dec", "does not yield": "go acc", "yields then goes": "go dec stop acc"}
+
+
+def taken(text: str) -> Program:
+    reading = reading_of(text)
+    assert reading.kind == "taken"
+    assert reading.program is not None
+    return reading.program
+
+
+def formulas(program: Program) -> frozenset[str]:
+    return written(print_expression(constraint.formula) for constraint in program.constraints)
 
 
 def opening(ego: str, hero: str, amount: str) -> str:
@@ -37,7 +49,7 @@ def near(actor: int, landmark: str, name: str, knot: str, *, timed: bool) -> str
 
 
 @pytest.mark.parametrize("timed", [False, True], ids=["distance", "time"])
-@pytest.mark.parametrize("interaction", INTERACTIONS)
+@pytest.mark.parametrize("interaction", ACTS)
 @pytest.mark.parametrize(("ego", "hero"), CROSSING)
 def test_vehicles_that_meet(ego: str, hero: str, interaction: str, timed: bool) -> None:
     amount = "{}_s from" if timed else "{}_m behind"
@@ -71,9 +83,10 @@ def test_vehicles_that_meet(ego: str, hero: str, interaction: str, timed: bool) 
         text += go
         expected += [f"A1x({last}) == conflict_point", f"A0x(t2) == {'turn_start' if ego_turns else 'conflict_point'}"]
         expected.append(f"A1({last}) < A0(t2)")
-    program = translate_offline(text).program
-    assert ["".join(actor.route.headings) for actor in program.actors] == [ego, hero]
-    assert [print_expression(constraint.formula) for constraint in program.constraints] == expected
+    program = taken(text)
+    assert ["".join(actor.route.headings) for actor in program.actors] == [ego, hero]  # type: ignore[union-attr]
+    assert " ".join(program.actors[1].sketch.pieces) == ACTS[interaction]
+    assert formulas(program) == written(expected)
 
 
 @pytest.mark.parametrize(("ego", "hero"), FOLLOWING)
@@ -82,7 +95,11 @@ def test_vehicles_behind_each_other(ego: str, hero: str) -> None:
         "When the ego is gap_m behind the hero vehicle, the hero vehicle begins to decelerate to a complete stop "
         "at a rate of rate_mpss."
     )
-    program = translate_offline(text).program
-    assert ["".join(actor.route.headings) for actor in program.actors] == [ego, hero]
-    formulas = [print_expression(constraint.formula) for constraint in program.constraints]
-    assert formulas[1:] == ["A0(t1) == A1(t1)", "gap(A0, A1, t1) == gap_m", "A1a(dec) == -rate_mpss", "A1v(t2) == 0"]
+    program = taken(text)
+    assert ["".join(actor.route.headings) for actor in program.actors] == [ego, hero]  # type: ignore[union-attr]
+    assert formulas(program) == {
+        near(0, "stop_line" if ROUTES[ego][0] == "driveway" else "intersection", "start", "t0", timed=True),
+        "gap(A0, A1, t1) == gap_m",
+        "A1a(dec) == -rate_mpss",
+        "A1v(t2) == 0",
+    }
