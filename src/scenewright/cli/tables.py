@@ -64,13 +64,8 @@ def tell_understood(console: Console, program: Program, understanding: Understan
     for line in lines:
         made.add_row(Text(line.sentence), *([Text(line.words, style="dim")] if with_words else []))
     console.print(made)
-    if understanding is not None:
-        rows = [("open", each.with_default()) for each in understanding.questions]
-        rows += [("assumed", each) for each in understanding.story.assumptions]
-        rows += [("set aside", f'"{each.text}"') for each in understanding.story.asides]
-        rows += [("note", each) for each in understanding.notes]
-        if rows:
-            console.print(facts(rows))
+    if understanding is not None and understanding.remarks:
+        console.print(facts(understanding.remarks))
 
 
 def understanding_data(program: Program, understanding: Understanding | None) -> dict[str, Any]:

@@ -101,7 +101,8 @@ def _check_known(story: st.Story) -> None:
         if actor.kind not in DRIVEN:
             raise refused(f"a {actor.kind}", f"there may be any number of: {', '.join(DRIVEN)}", actor.quote)
         for relation in actor.relations:
-            raise refused(f"that somebody is {relation.kind}", "put the ways on a map, or say them", relation.quote)
+            fix = "say which way each drives; who is ahead, behind, oncoming or comes from a side can be said"
+            raise refused(f"that somebody is {relation.kind}", fix, relation.quote)
     for deed in story.deeds:
         if deed.verb not in set(st.Verb):
             raise refused(f"'{deed.verb}'", f"what somebody may do: {', '.join(st.Verb)}", deed.quote)

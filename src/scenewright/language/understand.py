@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from scenewright.errors import Place
+from scenewright.errors import Place, Span, TranslationError
 from scenewright.language.compile import compile_story
 from scenewright.language.lines import Line, lines_of_story
 from scenewright.language.questions import as_data, defaults_of, settled
@@ -64,12 +64,13 @@ class Understanding:
         return lines_of_story(self.story, self.text)
 
     @property
-    def taken_for_granted(self) -> tuple[str, ...]:
-        """What was assumed, what was decided by default, and what of the text was set aside, in sentences."""
+    def remarks(self) -> tuple[tuple[str, str], ...]:
+        """What is open, assumed, set aside as saying nothing of the test, and noted: each with which of these it is."""
         return (
-            *self.story.assumptions,
-            *(each.with_default() for each in self.questions),
-            *(f'set aside, as it says nothing of the test: "{each.text}"' for each in self.story.asides),
+            *(("open", each.with_default()) for each in self.questions),
+            *(("assumed", each) for each in self.story.assumptions),
+            *(("set aside", f'"{each.text}"') for each in self.story.asides),
+            *(("note", each) for each in self.notes),
         )
 
     def as_data(self) -> dict[str, Any]:
@@ -146,7 +147,12 @@ def understand_story(
             break
         given[waiting[0].slot] = ask(waiting[0])
     story = settled(story, given, strict, Place(name, text))
-    return Understanding(text, story, compile_story(story, text), answers=given)
+    try:
+        return Understanding(text, story, compile_story(story, text), answers=given)
+    except TranslationError as error:  # of something that no program says yet, in the words that say it
+        if error.place is None and error.found and (at := text.find(error.found)) >= 0:
+            error.place = Place(name, text, Span(at, at + len(error.found)))
+        raise
 
 
 def translate(text: str, road_map: RoadMap | None = None, answers: Answers | None = None) -> Program:

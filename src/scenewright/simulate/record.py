@@ -143,7 +143,7 @@ def _write_replans(run: Run, path: Path) -> None:
 def _manifest(scene: Scene, run: Run, limits: Mapping[int, Limits], circumstances: Circumstances) -> dict[str, Any]:
     program, understanding = scene.program, circumstances.understanding
     lines = understanding.lines if understanding else lines_of_program(program)
-    notes = (*understanding.taken_for_granted, *understanding.notes) if understanding else ()
+    notes = [": ".join(each) for each in understanding.remarks] if understanding else []
     return {
         "schema_version": SCHEMA_VERSION,
         "scenewright_version": __version__,
