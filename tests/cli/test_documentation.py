@@ -79,7 +79,7 @@ def test_refused_descriptions_are_refused_as_shown(text: str) -> None:
 
 def outputs() -> list[Any]:
     """Return each command of which a page shows the output below a comment, and that output."""
-    pattern = re.compile(r"^% output: (.*)\n```text\n(.*?)^```", flags=re.MULTILINE | re.DOTALL)
+    pattern = re.compile(r"^% output: ([^\n]*)\n```text\n(.*?)^```", flags=re.MULTILINE | re.DOTALL)
     return [
         pytest.param(shlex.split(words), shown, id=f"{page.stem}: {words}")
         for page in PAGES
