@@ -5,11 +5,9 @@ What enters: the options of a command. What leaves: a program or a plan, for peo
 
 from __future__ import annotations
 
-import functools
 import json
 import os
 import sys
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -19,7 +17,7 @@ from scenewright.cli.console import print_json, stderr, stdout
 from scenewright.cli.faults import told
 from scenewright.cli.options import SOURCE, AsJson, MapName, Translator
 from scenewright.cli.running import carry_out, data_without_a_run, tell_map_notes, tell_no_plan
-from scenewright.cli.translators import Asked, impossibility, with_asked, with_translator
+from scenewright.cli.translators import Asked, with_asked, with_translator
 from scenewright.errors import InputError, OutputError, Place
 from scenewright.language.model.settings import TranslatorSettings
 
@@ -59,8 +57,7 @@ def translate(
         from scenewright.language.sources import read_scenario
         from scenewright.program.printer import print_program
 
-        proof = functools.partial(impossibility, map_name=map_name)
-        program, understanding = read_scenario(source, translator, map_name, replace(settings, verify=proof))
+        program, understanding = read_scenario(source, translator, map_name, settings)
         text = print_program(program)
         if out is not None:
             _write(out, text)

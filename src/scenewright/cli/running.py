@@ -21,12 +21,14 @@ from scenewright.cli.directories import claim
 from scenewright.cli.faults import error_data, tell, told
 from scenewright.cli.options import AsJson, FailOn, FailOnOption, ModeOption, PlannerOption, Simulator, ToleranceOption
 from scenewright.cli.translators import Asked, with_asked
+from scenewright.cli.translators import ask as on_terminal
 from scenewright.errors import PolicyError
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from scenewright.judge.verdict import Verdict
+    from scenewright.language.story import Question
     from scenewright.orchestrate import Request, Result, Stop
 
 _SAYS = {
@@ -108,12 +110,15 @@ def carry_out(request: Request, until: Stop = "end", quiet: bool = False) -> Res
     from scenewright.cli.terminal import SignsOfLife
     from scenewright.orchestrate import orchestrate
 
-    asks = request.translation.ask is not None  # a question on the terminal wants it for itself
     with (
-        SignsOfLife(stderr(), not quiet and not asks) as signs,
+        SignsOfLife(stderr(), not quiet) as signs,
         _interruptible() as shield,
         redirect_stdout(sys.stderr),
     ):
+
+        def ask(question: Question) -> str:
+            with signs.silent():
+                return on_terminal(question)
 
         def report(stage: str) -> None:
             if stage in _UNBROKEN:
@@ -125,6 +130,8 @@ def carry_out(request: Request, until: Stop = "end", quiet: bool = False) -> Res
         def progress(time_s: float) -> None:
             signs.say(f"driving: {time_s:.1f} s of the run")
 
+        if request.translation.ask is not None:
+            request = replace(request, translation=replace(request.translation, ask=ask))
         try:
             return orchestrate(request, report, progress, until)
         except SystemExit as error:  # else a policy that calls sys.exit() would decide on our exit status

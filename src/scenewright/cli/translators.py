@@ -1,7 +1,7 @@
 """The options of every command that may translate a description, and the asking of open questions on the terminal.
 
 What enters: words from a command line. What leaves: what is `Asked`, and `TranslatorSettings` with the means to ask the
-user and the solver, neither of which the translator imports itself.
+user, which the translator does not import itself.
 """
 
 from __future__ import annotations
@@ -27,7 +27,6 @@ from scenewright.language.model.settings import (
 if TYPE_CHECKING:
     from scenewright.language.story import Question
     from scenewright.orchestrate import Request
-    from scenewright.program.types import Program
 
 _PANEL = "Translation"
 T = TypeVar("T")
@@ -166,17 +165,6 @@ def _asked(
 
 
 with_asked = _given("asked", _asked)
-
-
-def impossibility(program: Program, map_name: str | None, ego: str = "idm") -> str | None:
-    """Return the proof that `program` cannot happen; None where nothing speaks against it."""
-    from scenewright.orchestrate import Request, orchestrate
-    from scenewright.program.printer import print_program
-
-    result = orchestrate(Request(print_program(program), map_name=map_name, ego=ego), until="check")
-    if result.status != "infeasible" or result.feasibility is None:
-        return None
-    return result.feasibility.explain()
 
 
 def ask(question: Question) -> str:

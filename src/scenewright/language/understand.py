@@ -12,7 +12,7 @@ from typing import Any
 
 from scenewright.errors import Place, Span, TranslationError
 from scenewright.language.compile import compile_story
-from scenewright.language.lines import Line, lines_of_story
+from scenewright.language.lines import Line, lines_of_program, lines_of_story
 from scenewright.language.questions import as_data, defaults_of, settled
 from scenewright.language.read.sentences import read
 from scenewright.language.story import Question, Story
@@ -60,8 +60,11 @@ class Understanding:
 
     @property
     def lines(self) -> tuple[Line, ...]:
-        """The story in plain English, with the words that each sentence came from."""
-        return lines_of_story(self.story, self.text)
+        """The story in plain English beside the words it came from; its program where the story has no words."""
+        try:
+            return lines_of_story(self.story, self.text)
+        except TranslationError:
+            return lines_of_program(self.program)
 
     @property
     def remarks(self) -> tuple[tuple[str, str], ...]:
