@@ -18,13 +18,14 @@ PAIRS = (
     ("brakes", "speeds up"), ("brake", "speed up"), ("the ego", "the hero"), ("ahead", "behind"), ("front", "rear"),
     ("acceleration", "deceleration"), ("headway", "time to collision"), ("driveway", "road"), ("short of", "past"),
     (" and ", " or "), ("either", "both"), (" until ", " when "), ("decelerate", "accelerate"), ("oncoming", "lead"),
-    ("second time", "third time"), ("stops", "accelerates"), ("before", "after"), ("begins to turn", "completes its turn"),
+    ("second time", "third time"), ("stops", "accelerates"), ("before", "after"),
+    ("begins to turn", "completes its turn"),
 )  # fmt: skip
 UNITS = (("m", "ft"), ("s", "min"), ("m/s", "km/h"), ("m/s^2", "g"), ("metres", "feet"), ("km/h", "mph"))
 EGO = r"(?:ego(?: vehicle| car)?|AV|SUT|VUT|(?:test|subject|automated) vehicle|vehicle under test|automated vehicle)"
 HERO = (
-    r"(?:hero(?: vehicle)?|NPC|POV|challenger|(?:other|target|lead|oncoming) (?:car|vehicle)|truck|van|bus|lorry|taxi|pickup|"
-    r"sedan)"
+    r"(?:hero(?: vehicle)?|NPC|POV|challenger|(?:other|target|lead|oncoming) (?:car|vehicle)|truck|van|bus|lorry|taxi|"
+    r"pickup|sedan)"
 )
 DEEDS = r"\b(brakes|stands|drives|begins|passes|speeds|decelerates|accelerates|stops|turns|completes|is (?=at|\d))\b"
 UNSAYABLE = ("twice", "on the phone", "after stopping briefly", "with its hazard lights on", "if it rains")

@@ -52,6 +52,13 @@ def test_what_must_be_answered_comes_with_the_file_of_answers_to_fill_in() -> No
     assert str(caught.value.place) == f"description:1:{UNKNOWN.index('zonks') + 1}"
 
 
+def test_a_typing_error_is_asked_about_with_the_word_it_may_be() -> None:
+    text = "The ego comes from the raod and turns left. The hero brakes to a stop."
+    (question,) = read(text).questions
+    assert ("it means 'road'" in question.alternatives, question.default) == (True, None)
+    assert read(text, {question.slot: "it means 'road'"}).actors[0].way.origin == "road"
+
+
 def test_who_it_is_may_be_asked() -> None:
     text = "The ego has an open way. When the truck is 20 m behind the van, it begins to brake until it stands."
     (question,) = read(text).questions

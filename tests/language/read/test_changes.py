@@ -1,13 +1,11 @@
-"""Every change of meaning is noticed: it changes the program, becomes a question or is refused. None keeps the old one."""
+"""Every change of meaning changes the program, becomes a question or is refused: none keeps the old one."""
 
 from __future__ import annotations
 
 from changes import changes
 from readings import all_texts, reading_of
 
-EVERY = (
-    4  # change of a text is tried here, beginning with another one for each text; `tools/compare_readers.py` tries all
-)
+EVERY = 4  # of so many changes one is tried here, beginning with another for each text; `tools/try_reader.py` tries all
 # A hero that drives west ahead of the ego says where the ego drives, and the other way round: nothing is changed.
 SAME = ("Create a scenario where the ego goes west on the road and the lead car brakes",)
 

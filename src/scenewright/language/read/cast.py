@@ -92,8 +92,10 @@ class Cast:
     def _it(self, chunk: Chunk, acts: bool) -> int:
         if self.doer is not None:
             return self.doer
-        found = list(dict.fromkeys(self.mentioned)) or ([] if self.subject is None else [self.subject])
-        found = [each for each in found if each != EGO or not acts] or found
+        named, last = list(dict.fromkeys(self.mentioned)), [] if self.subject is None else [self.subject]
+        found = named or last
+        if acts and EGO in found:  # which is driven by the policy under test
+            found = [each for each in named if each != EGO] or [each for each in last if each != EGO] or found
         if not found:
             self.refuse("it is not clear who is meant", chunk.quote)
         if len(found) == 1:

@@ -301,7 +301,7 @@ class Taken:
         elif kind == "area" and side in ("at", "into", "from"):
             self.at += 1
             self._area(self.chunks[self.at], side)
-        elif side == "to" and kind in ("amount", "bound") and self.clause.deed is not None:
+        elif side == "to" and kind in ("amount", "bound", "no unit") and self.clause.deed is not None:
             self.clause.flags.add("to")
         elif not (
             (side == "to" and kind in ("event", "turn", "deed", "state", "phase", "mood", "kept"))  # "to pass it"
