@@ -111,12 +111,16 @@ class Phrases:
             if isinstance(each, st.Measure) and _stands(each):
                 free = [where for where in conditions if _is_where(where, each.actor) and where not in places.values()]
                 places.update({each: free[0]} if free else {})
-        found = []
+        found, spoken = [], set[int]()
         for each in conditions:
-            if each in places:
-                found.append(f"{self.clause(each, it)} {self.predicate(places[each]).removeprefix('is ')}")
-            elif each not in places.values():
-                found.append(self.clause(each, it, passing))
+            if each in places.values():
+                continue
+            # Whoever alone has been spoken of is "it" from then on.
+            known = each.actor if it is None and isinstance(each, st.Measure) and spoken == {each.actor} else it
+            spoken |= st.people_in(each)
+            clause = self.clause(each, known, passing and each not in places)
+            where = f" {self.predicate(places[each]).removeprefix('is ')}" if each in places else ""
+            found.append(clause + where)
         return found
 
     def clause(self, condition: st.Condition, it: int | None = None, passing: bool = False) -> str:
