@@ -12,9 +12,10 @@ from typing import Literal
 
 from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
-from scenewright.language.read.chunks import Chunk
 from scenewright.language.read.attach import read_clause
-from scenewright.language.read.clauses import PEOPLE, Clause
+from scenewright.language.read.chunks import Chunk
+from scenewright.language.read.clauses import PEOPLE
+from scenewright.language.read.facts import Clause
 from scenewright.language.read.narrative import Narrative
 
 Item = Clause | st.Compound
