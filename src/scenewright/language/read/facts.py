@@ -96,6 +96,7 @@ class Facts:
         )
 
     def way(self, chunk: Chunk) -> None:
+        """Take a chunk that says how somebody drives, with what belongs to it."""
         facts, value = self.clause.facts, chunk.value
         if chunk.kind == "heading" and self.peek(-2)[0] == "heading":  # "north, then south"
             facts["headings"] = facts.get("headings", facts.pop("heading", "")) + value
@@ -134,9 +135,11 @@ class Facts:
         self.fact("destination_heading" if later and not back else "heading", chunk)
 
     def area(self, chunk: Chunk, side: str = "") -> None:
+        """Take a road, from which or into which somebody drives."""
         turned = self.clause.facts.get("turn", "straight") != "straight" and side != "from"
         self.fact("destination" if side == "into" or turned else "origin", chunk)
 
     def fact(self, name: str, chunk: Chunk) -> None:
+        """Take one fact of a way; two that differ are left over."""
         if self.clause.facts.setdefault(name, chunk.value) != chunk.value:
             raise self.left_over(chunk)

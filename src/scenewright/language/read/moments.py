@@ -50,7 +50,7 @@ class Moments:
         for item in items:
             if isinstance(item, Clause):  # what is reached is so when it is
                 item.flags -= {"falls"}
-                if item.deed == "stop" and item.subject == until:  # "until it comes to a stop"
+                if until is not None and (item.deed, item.subject) == ("stop", until):  # "until it comes to a stop"
                     item.deed, item.measures = None, [standstill(until), *item.measures]
         events = [item for item in items if isinstance(item, Clause) and item.deed is not None]
         conditions = self.conditions([item for item in items if item not in events], "times")

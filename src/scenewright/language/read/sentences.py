@@ -168,7 +168,7 @@ class _Sentence(Moments):
     def _acts(self, items: list[Item], happens: bool) -> list[Item]:
         """Return what is done and what is so: a turn, a speed that is kept or an event is a deed where it `happens`.
 
-        What only says why (yields, does not give way) is kept to be checked; where a deed ends at an event, both are one.
+        What only says why (yields, does not give way) is kept to be checked; a deed and the event at its end are one.
         """
         found: list[Item] = []
         for item in items:
