@@ -130,6 +130,8 @@ def sentences(text: str) -> list[list[Chunk]]:
     found: list[list[Chunk]] = [[]]
     for chunk in _chunks(text):
         if chunk.kind == "end":
+            if chunk.text == "?":  # a question states nothing
+                found[-1].append(replace(chunk, kind="unknown"))
             found.append([])
         else:
             found[-1].append(chunk)

@@ -228,8 +228,8 @@ class Taken(Facts):
             or (
                 side in ("at", "of", "for", "to", "with") and kind in ("amount", "bound", "quantity", "kept", "no unit")
             )
-            or (side == "by" and kind == "turn")
-            or (side == "with" and kind == "turn")
+            or (side in ("by", "with") and kind in ("turn", "deed"))
+            or (side in ("at", "with") and (kind, value) == ("link", "start"))
         ):
             raise self.left_over(chunk)
 

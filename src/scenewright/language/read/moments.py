@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
 from scenewright.language import story as st
 from scenewright.language.read.chunks import Chunk
@@ -37,7 +38,15 @@ class Moments:
         for item in items:
             if not isinstance(item, Clause):
                 continue
-            if item.notes & {"wanted", "relative"} or item.facts.get("turn", "straight") == "straight":
+            if item.notes & {"wanted", "relative"}:
+                self.tell_way(item)
+            for each in item.relations:  # "when the ego is behind the hero"
+                if each.kind in ("ahead", "behind") and item.subject is not None:
+                    rear, front = (item.subject, each.of) if each.kind == "behind" else (each.of, item.subject)
+                    zero = st.Amount(Fraction(0), "m")
+                    item.measures.append(st.Measure(rear, st.Quantity.GAP, ">", zero, other=front, quote=each.quote))
+            item.relations = [each for each in item.relations if each.kind not in ("ahead", "behind")]
+            if item.facts.get("turn", "straight") == "straight" and not item.relations:
                 self.tell_way(item)
             if item.says_more_than("measures", *taken):
                 self.narrative.refuse("this is no condition", item.quote)

@@ -99,7 +99,7 @@ class _Sentence(Moments):
         joined = any(chunk.value == "if" for chunk in self.chunks)  # its "then" is another
         kept: list[Chunk] = []
         for chunk in self.chunks:
-            free = not kept or (not joined and kept[-1].kind in ("be", *PEOPLE) and chunk.value != "start")
+            free = not kept or (not joined and kept[-1].kind in ("be", "mood", *PEOPLE) and chunk.value != "start")
             if chunk.kind == "link" and chunk.value in _LEADS and free:
                 lead, _, self.turned = chunk.value.partition("then ")
                 self.leads.add(lead or "then")
