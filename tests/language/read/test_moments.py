@@ -33,12 +33,6 @@ def test_who_waits_goes_on_after_what_it_waits_for(text: str) -> None:
     assert [deed.verb for deed in story.deeds] == ["drive on", "brake", "stand still", "drive on"]
 
 
-def test_passing_while_another_waits_comes_after_its_stop() -> None:
-    story = read(f"{STOPS}The ego passes the conflict point while the hero waits.")
-    (order,) = story.orders
-    assert (order.first, order.second, order.op) == (story.deeds[-1].begins, story.ego[-1], ">=")
-
-
 @pytest.mark.parametrize(
     "text", ["When the hero turns left, the truck brakes.", "When the bus brakes, the hero stops."]
 )

@@ -14,7 +14,8 @@ from fractions import Fraction
 from scenewright.language import story as st
 from scenewright.language.read.cast import Cast
 from scenewright.language.read.chunks import Chunk
-from scenewright.language.read.clauses import IT, Clause, Taken, Target
+from scenewright.language.read.clauses import IT, Taken, Target
+from scenewright.language.read.facts import Clause
 from scenewright.program.types import EGO
 
 _BARE: dict[str, st.Operator] = {  # a side and a place, without an amount

@@ -1,4 +1,4 @@
-"""Who is spoken of: people by name, kind and what describes them, pronouns with one reading, and questions where two fit.
+"""Who is spoken of: people by name, kind and what describes them, pronouns, and questions where two fit.
 
 What enters: mentions, one after the other. What leaves: numbers of actors. It knows no moments and no deeds.
 """
@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
@@ -133,7 +133,7 @@ class Cast:
         return number
 
     def _fits(self, actor: st.Actor, chunk: Chunk, words: set[str]) -> bool:
-        """Whether a mention may mean somebody that is known: of the same kind, or "the car" of one that has no other."""
+        """Whether a mention may mean somebody that is known: of its kind, or "the car" where there is only one."""
         kind = "car" if chunk.value == "hero" else chunk.value
         general = chunk.value == "car" and (len(self.heroes) == 1 or any(e.kind == "other" for e in chunk.traits))
         named = chunk.value in (actor.name, *self.known_by.get(actor.id, ()))
@@ -180,11 +180,12 @@ class Cast:
             whole = many.get(name, value)
             if getattr(way, name) not in (None, (), whole):
                 self.refuse(f"two things are said of the way of {actor.name}", quote)
-            way = replace(way, **{name: whole})
+            fact: dict[str, Any] = {name: whole}
+            way = replace(way, **fact)
         self._change(replace(actor, way=way))
 
     def go_straight(self) -> None:
-        """Let who is said to drive and not to turn go straight on, unless it drives in one line with somebody who turns."""
+        """Let who drives and is not said to turn go straight on, unless it drives in one line with who turns."""
         for actor in self.actors:
             near = [self.actor(each.of) for each in actor.relations if each.kind != "oncoming"]
             near += [other for other in self.actors

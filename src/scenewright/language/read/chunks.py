@@ -94,14 +94,14 @@ def vocabulary() -> Vocabulary:
         known.sort(key=lambda each: -len(each[0]))
     longest = "|".join(map(re.escape, sorted(units, key=len, reverse=True)))
     pattern = re.compile(rf"[\s-]?({longest})(?![\w/^²])", re.IGNORECASE)
-    words = frozenset(word for known in phrases.values() for said, _, _ in known for word in said)
-    return Vocabulary(phrases, units, numbers, labels, words, lookalikes, pattern)
+    single = frozenset(word for same in phrases.values() for said, _, _ in same for word in said)
+    return Vocabulary(phrases, units, numbers, labels, single, lookalikes, pattern)
 
 
 _IRREGULAR = {
-    "drive": "drove driven", "go": "went gone", "come": "came", "stand": "stood", "begin": "began begun", "leave": "left",
-    "get": "got", "keep": "kept", "hold": "held", "make": "made", "take": "took taken", "fall": "fell fallen",
-    "mean": "meant", "shrink": "shrank shrunk", "ride": "rode", "run": "ran",
+    "drive": "drove driven", "go": "went gone", "come": "came", "stand": "stood", "begin": "began begun",
+    "leave": "left", "get": "got", "keep": "kept", "hold": "held", "make": "made", "take": "took taken",
+    "fall": "fell fallen", "mean": "meant", "shrink": "shrank shrunk", "ride": "rode", "run": "ran",
 }  # fmt: skip
 _DOUBLED = ("stop", "begin", "get", "plan", "slam", "drop", "run")
 
@@ -130,6 +130,8 @@ def sentences(text: str) -> list[list[Chunk]]:
     found: list[list[Chunk]] = [[]]
     for chunk in _chunks(text):
         if chunk.kind == "end":
+            if chunk.text == "?":  # a question states nothing
+                found[-1].append(replace(chunk, kind="unknown"))
             found.append([])
         else:
             found[-1].append(chunk)

@@ -6,15 +6,11 @@ or an `UnknownWordsError` with the words that nothing could be made of. Order de
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field, fields, replace
-from fractions import Fraction
+from dataclasses import dataclass, field, replace
 
-from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
-from scenewright.language.compile import COMPASS
-from scenewright.language.read.cast import Cast
 from scenewright.language.read.chunks import Chunk
+from scenewright.language.read.facts import Facts
 from scenewright.program.arithmetic import JUST_BEFORE_M
 from scenewright.program.types import EGO
 
@@ -24,59 +20,6 @@ _OPERATORS: dict[str, st.Operator] = {"==": "==", ">=": ">=", "<=": "<=", ">": "
 _CONFLICTS = ("conflict_point", "intersection", "turn")
 _CONFLICT = st.Place("turn")  # where a driveway joins a road
 _SIDES = ("before", "behind", "from", "to", "ahead", "past")  # of a place that an amount is counted to
-
-
-@dataclass(slots=True)
-class Clause:
-    """What one clause says.
-
-    Attributes
-    ----------
-    measures
-        What is so of the subject: places, speeds, gaps, events.
-    rate
-        How hard it brakes or speeds up, where it does so in this clause.
-    times
-        Amounts of time that say when, or for how long: ``for 3 s``, ``5 s after the start``.
-    facts
-        Of its way: ``heading``, ``turn``, ``origin``, ...
-    flags
-        What else it says: ``standstill``, ``while`` (the end is open), ``to`` a speed, ``first``, ``start``,
-        ``kept`` (its speed), ``way`` (it is open), ``falls`` (an amount that is reached), ``yields``, ``insists``.
-    notes
-        How it says it, which is no meaning of its own: ``event`` (something is passed), ``wanted`` (a wish).
-    rival
-        Before or after whom an event comes: ``passes the conflict point before the ego``.
-    waiting, target
-        Amounts without a place, and the last place that an amount was counted to, for a neighbour.
-    """
-
-    quote: st.Quote
-    subject: int | None = None
-    deed: str | None = None
-    phase: str | None = None
-    ordinal: int = 0
-    measures: list[st.Measure] = field(default_factory=list)
-    rate: st.Measure | None = None
-    times: dict[str, tuple[st.Operator, st.Amount]] = field(default_factory=dict)
-    facts: dict[str, str] = field(default_factory=dict)
-    flags: set[str] = field(default_factory=set)
-    relations: list[st.Relation] = field(default_factory=list)
-    rival: tuple[str, int] | None = None
-    waiting: list[Chunk] = field(default_factory=list)
-    notes: set[str] = field(default_factory=set)
-    target: tuple[str, st.Place] | None = None
-
-    def says_more_than(self, *expected: str) -> bool:
-        """Whether anything but these attributes is filled: what carries meaning must be used up."""
-        known = {*expected, "quote", "subject", "notes", "target"}
-        return any(getattr(self, each.name) for each in fields(self) if each.name not in known)
-
-    @property
-    def is_event(self) -> bool:
-        """Whether it says that its subject comes to a place, and nothing else."""
-        told = self.says_more_than("measures", "rival") or not self.measures or "event" not in self.notes
-        return not told and all(st.is_event(each) for each in self.measures)
 
 
 @dataclass(slots=True)
@@ -92,13 +35,9 @@ class Target:
 
 
 @dataclass(slots=True)
-class Taken:
-    """A clause while it is read: what was found in it, in order; `at` is the last chunk that was taken."""
+class Taken(Facts):
+    """A clause while it is read: what was found in it, in order."""
 
-    chunks: list[Chunk]
-    people: Cast
-    at: int = 0
-    clause: Clause = field(init=False)
     amounts: list[tuple[int, st.Operator, Chunk]] = field(default_factory=list)
     targets: list[Target] = field(default_factory=list)
     states: set[str] = field(default_factory=set)
@@ -108,25 +47,6 @@ class Taken:
     yields_to: int | None = None
     pair: tuple[int, int] | None = None  # between whom a gap is
     later: list[tuple[int, str, Chunk]] = field(default_factory=list)  # whom "it" means after a side
-
-    def __post_init__(self) -> None:
-        start, end = self.chunks[0].start, self.chunks[-1].end
-        self.clause = Clause(st.Quote(start, end, self.people.text[start:end]))
-
-    def peek(self, ahead: int = 1) -> tuple[str, str]:
-        """Return kind and value of a chunk from here; nothing where there is none."""
-        at = self.at + ahead
-        return (self.chunks[at].kind, self.chunks[at].value) if 0 <= at < len(self.chunks) else ("", "")
-
-    def left_over(self, chunk: Chunk) -> UnknownWordsError:
-        """Return the error that names a chunk that nothing was made of."""
-        expected = "a number with a unit, such as 12 m" if chunk.kind == "no unit" else None
-        return UnknownWordsError(
-            f"'{chunk.text}' could not be understood here",
-            found=self.clause.quote.text,
-            expected=expected,
-            fix="say it as `scenewright tell` would",
-        )
 
     def take_all(self) -> None:
         """Take every chunk, in order."""
@@ -196,7 +116,7 @@ class Taken:
                 pass
             case "state" | "event":
                 what, _, self.turn = value.partition(" ")
-                self.states.add("pass" if what == "arrives" else what)
+                self.states.add(what)
                 clause.notes |= {"event", value} if chunk.kind == "event" else {value}
             case "quantity" if self.quantity in (None, "rate", value):
                 self.quantity = value
@@ -209,7 +129,7 @@ class Taken:
             case "joins" if all(each.value == "ego" for each in self.chunks[self.at :] if each.kind == "actor"):
                 self.at = len(self.chunks)
             case "turn" | "heading" | "origin" | "then_headed" | "area" | "lanes":
-                self._way(chunk)
+                self.way(chunk)
             case _:
                 raise self.left_over(chunk)
 
@@ -288,19 +208,19 @@ class Taken:
         elif kind == "pair" and side in ("with", "of", "to"):
             self.at += 1
             self.pair = self.people.pair(self.chunks[self.at])
-        elif side in ("from", "into", "to", "at") and self._is_lane():
+        elif side in ("from", "into", "to", "at") and self.is_lane():
             self.at += 2
-            self._fact("destination_heading" if side == "into" else "heading", self.chunks[self.at - 1])
-            self._area(self.chunks[self.at], side)
+            self.fact("destination_heading" if side == "into" else "heading", self.chunks[self.at - 1])
+            self.area(self.chunks[self.at], side)
         elif kind == "heading" and side in ("to", "from"):
             self.at += 1
-            self._headed(self.chunks[self.at], back=side == "from")
+            self.headed(self.chunks[self.at], back=side == "from")
         elif (kind, value) == ("area", "driveway") and side in _SIDES and self.peek(-1)[0] == "amount":
             self.at += 1
             self.targets.append(Target(self.at - 1, side, self.chunks[self.at], _CONFLICT))
         elif kind == "area" and side in ("at", "into", "from"):
             self.at += 1
-            self._area(self.chunks[self.at], side)
+            self.area(self.chunks[self.at], side)
         elif side == "to" and kind in ("amount", "bound", "no unit") and self.clause.deed is not None:
             self.clause.flags.add("to")
         elif not (
@@ -308,8 +228,8 @@ class Taken:
             or (
                 side in ("at", "of", "for", "to", "with") and kind in ("amount", "bound", "quantity", "kept", "no unit")
             )
-            or (side == "by" and kind == "turn")
-            or (side == "with" and kind == "turn")
+            or (side in ("by", "with") and kind in ("turn", "deed"))
+            or (side in ("at", "with") and (kind, value) == ("link", "start"))
         ):
             raise self.left_over(chunk)
 
@@ -349,7 +269,7 @@ class Taken:
                 self.peek(2)[0] == "area" or (self.peek(2)[1], self.peek(3)[0]) == ("oncoming", "area")
             ):  # "into the ego's lane"
                 self.at += 2 if self.peek(2)[0] == "area" else 3
-                self._area(self.chunks[self.at], side)
+                self.area(self.chunks[self.at], side)
             else:
                 self.targets.append(Target(at, side, chunk, other=who))
 
@@ -357,7 +277,7 @@ class Taken:
         place = st.Place(chunk.value)
         if self.peek() == ("side", "of") and self.peek(2)[0] == "area":  # "the stop line of the driveway"
             self.at += 2
-            self._fact("origin", self.chunks[self.at])
+            self.fact("origin", self.chunks[self.at])
         for side in ("of", "with"):
             if self.peek()[1] != side or self.peek(2)[0] not in ("actor", "name"):
                 continue
@@ -383,53 +303,6 @@ class Taken:
         other = self.people.who(self.chunks[self.at])
         slower = chunk.value == "slower" and amount is not None
         self.measure(chunk, st.Measure(IT, st.Quantity.SPEED, op, amount, other=other, opposite=slower))
-
-    # -- ways ---------------------------------------------------------------------------------------------------------
-    def _way(self, chunk: Chunk) -> None:
-        facts, value = self.clause.facts, chunk.value
-        if chunk.kind == "heading" and self.peek(-2)[0] == "heading":  # "north, then south"
-            facts["headings"] = facts.get("headings", facts.pop("heading", "")) + value
-        elif chunk.kind == "heading":
-            self._headed(chunk)
-        elif chunk.kind == "area":
-            self._area(chunk)
-        elif chunk.kind == "origin" and self._is_lane():
-            self.at += 2
-            self._fact("heading", self.chunks[self.at - 1])
-            self._fact("origin", self.chunks[self.at])
-        elif chunk.kind == "origin" and self.peek()[0] in ("area", "heading"):
-            self.at += 1
-            following = self.chunks[self.at]
-            if following.kind == "heading":  # who comes from the east is headed west
-                self._headed(following, back=True)
-            else:
-                self._fact("origin", following)
-        elif chunk.kind == "origin":
-            raise self.left_over(chunk)
-        else:
-            if chunk.text.lower().split()[0] in ("turning", "making", "taking"):
-                self.clause.notes.add("wanted")
-            self._fact("then" if chunk.kind == "then_headed" else chunk.kind, chunk)
-
-    def _is_lane(self) -> bool:
-        """Whether "the westbound lane" follows, which is no direction to come from."""
-        lane = (self.peek()[0], self.peek(2)[0]) == ("heading", "area")
-        return lane and self.chunks[self.at + 1].text.lower().endswith("bound")
-
-    def _headed(self, chunk: Chunk, back: bool = False) -> None:
-        """Take a heading, of the way before or after its turn; `back` is where somebody comes from."""
-        later = "then" in self.clause.facts or self.clause.facts.get("turn", "straight") != "straight"
-        if back:
-            chunk = replace(chunk, value=COMPASS[(COMPASS.index(chunk.value) + 2) % 4])
-        self._fact("destination_heading" if later and not back else "heading", chunk)
-
-    def _area(self, chunk: Chunk, side: str = "") -> None:
-        turned = self.clause.facts.get("turn", "straight") != "straight" and side != "from"
-        self._fact("destination" if side == "into" or turned else "origin", chunk)
-
-    def _fact(self, name: str, chunk: Chunk) -> None:
-        if self.clause.facts.setdefault(name, chunk.value) != chunk.value:
-            raise self.left_over(chunk)
 
     # -- measures -----------------------------------------------------------------------------------------------------
     def measure(self, chunk: Chunk, measure: st.Measure) -> None:

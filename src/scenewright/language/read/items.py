@@ -12,9 +12,10 @@ from typing import Literal
 
 from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
-from scenewright.language.read.chunks import Chunk
 from scenewright.language.read.attach import read_clause
-from scenewright.language.read.clauses import PEOPLE, Clause
+from scenewright.language.read.chunks import Chunk
+from scenewright.language.read.clauses import PEOPLE
+from scenewright.language.read.facts import Clause
 from scenewright.language.read.narrative import Narrative
 
 Item = Clause | st.Compound
@@ -51,7 +52,9 @@ def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
     """
     found = [Segment("main")]
     opens = [(chunk.kind, chunk.value) for chunk in chunks[:2]] + [("", "")] * 2
-    tells_moment = (opens[0] == ("side", "with") and opens[1][0] in PEOPLE) or opens[0] == ("joint", "if")
+    fronted = opens[0] == ("side", "with") and opens[1][0] in PEOPLE  # "With the ego 12 m from ...", "At a gap of 12 m"
+    fronted |= opens[0] in (("side", "with"), ("side", "at")) and opens[1][0] == "quantity"
+    tells_moment = fronted or opens[0] == ("joint", "if")
     if tells_moment and not is_led:
         found, chunks = [*found, Segment("when")], chunks[1:]
     for index, chunk in enumerate(chunks):

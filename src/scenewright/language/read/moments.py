@@ -8,13 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
 from scenewright.language import story as st
 from scenewright.language.read.chunks import Chunk
-from scenewright.language.read.clauses import Clause
-from scenewright.language.read.items import Item, items_of
+from scenewright.language.read.facts import Clause
+from scenewright.language.read.items import Item, Segment, items_of
 from scenewright.language.read.narrative import Narrative, standstill
 from scenewright.program.types import EGO
+
+ORDERS = ("before", "after", "no later than")
+HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
 
 
 @dataclass(slots=True)
@@ -26,6 +30,7 @@ class Moments:
     quote: st.Quote
 
     def refuse(self, message: str, fix: str | None = None) -> None:
+        """Raise the error that says what of the sentence could not be read."""
         self.narrative.refuse(message, self.quote, fix)
 
     def conditions(self, items: Sequence[Item], *taken: str) -> list[st.Condition]:
@@ -33,7 +38,15 @@ class Moments:
         for item in items:
             if not isinstance(item, Clause):
                 continue
-            if item.notes & {"wanted", "relative"} or item.facts.get("turn", "straight") == "straight":
+            if item.notes & {"wanted", "relative"}:
+                self.tell_way(item)
+            for each in item.relations:  # "when the ego is behind the hero"
+                if each.kind in ("ahead", "behind") and item.subject is not None:
+                    rear, front = (item.subject, each.of) if each.kind == "behind" else (each.of, item.subject)
+                    zero = st.Amount(Fraction(0), "m")
+                    item.measures.append(st.Measure(rear, st.Quantity.GAP, ">", zero, other=front, quote=each.quote))
+            item.relations = [each for each in item.relations if each.kind not in ("ahead", "behind")]
+            if item.facts.get("turn", "straight") == "straight" and not item.relations:
                 self.tell_way(item)
             if item.says_more_than("measures", *taken):
                 self.narrative.refuse("this is no condition", item.quote)
@@ -46,7 +59,7 @@ class Moments:
         for item in items:
             if isinstance(item, Clause):  # what is reached is so when it is
                 item.flags -= {"falls"}
-                if item.deed == "stop" and item.subject == until:  # "until it comes to a stop"
+                if until is not None and (item.deed, item.subject) == ("stop", until):  # "until it comes to a stop"
                     item.deed, item.measures = None, [standstill(until), *item.measures]
         events = [item for item in items if isinstance(item, Clause) and item.deed is not None]
         conditions = self.conditions([item for item in items if item not in events], "times")
@@ -129,12 +142,14 @@ class Moments:
         return self.event(Clause(self.quote, actor, measures=[measure]))
 
     def event_of(self, chunks: list[Chunk]) -> int:
+        """Return the moment of the one event that chunks tell."""
         items = items_of(self.narrative, chunks)
         if len(items) != 1 or not isinstance(items[0], Clause) or items[0].times:
             self.narrative.refuse("this is not one event", self.quote)
         return self.event(items[0])
 
     def point(self, chunks: list[Chunk]) -> st.Point:
+        """Return what "2 s before the hero begins to brake" tells."""
         offset, earlier = None, False
         if len(chunks) > 1 and chunks[0].kind == "amount" and chunks[1].value in ("before", "after"):
             offset, earlier = chunks[0].amount, chunks[1].value == "before"
@@ -142,3 +157,43 @@ class Moments:
         if [chunk.value for chunk in chunks] == ["the start"]:
             return st.Point(st.START, offset, earlier)
         return st.Point(self.event_of(chunks), offset, earlier)
+
+    # -- orders and holds ---------------------------------------------------------------------------------------------
+    def orders(self, moment: int, rest: list[Segment], actor: int | None = None) -> None:
+        """Take what comes before or after a moment, which is not a new event of the `actor` whose deed it is."""
+        for segment in rest:
+            if segment.link not in ORDERS:
+                self.refuse("it is not clear before or after what")
+            count = len(self.narrative.doings)
+            other = self.event_of(segment.chunks) if segment.rival is None else self.same_event(moment, segment.rival)
+            if actor is not None and any(each.actor == actor for each in self.narrative.doings[count:]):
+                self.refuse("nothing was told of this event before")
+            first, second = (other, moment) if segment.link == "after" else (moment, other)
+            plain: tuple[st.Operator, None] = (">=" if segment.link == "no later than" else ">", None)
+            op, margin = segment.margin or plain
+            self.narrative.orders.append(st.Order(first, second, op, margin, self.quote))
+
+    def hold(self, how: Chunk) -> None:
+        """Read ``From ... until ..., always: ...``."""
+        at = self.chunks.index(how)
+        until = next((index for index, each in enumerate(self.chunks) if each.value == "until"), at)
+        if until == at or self.chunks[0].value != "from":
+            self.refuse(f"'{how.text}' needs a time from which and until which", "From the start until ..., never: ...")
+        start = self.point(self.chunks[1:until])
+        end = self.point([each for each in self.chunks[until + 1 : at] if each.kind != "comma"])
+        conditions = self.conditions(
+            items_of(self.narrative, [each for each in self.chunks[at + 1 :] if each.text != ":"])
+        )
+        if len(conditions) != 1:
+            self.refuse("one condition holds all the while", "write a sentence for each")
+        self.narrative.holds.append(st.Hold(HOW[how.value], start, end, conditions[0], self.quote))
+
+    def ego_order(self) -> None:
+        """Read ``In the ego's order: ..., then ...``."""
+        events: list[list[Chunk]] = [[]]
+        for chunk in self.chunks[1:]:
+            if chunk.value == "then":
+                events.append([])
+            elif chunk.kind not in ("comma", "nothing"):
+                events[-1].append(chunk)
+        self.narrative.ego_order([self.event_of(chunks) for chunks in events if chunks])

@@ -14,7 +14,7 @@ from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
 from scenewright.language.phrases import speaks_of_ego
 from scenewright.language.read.cast import Cast
-from scenewright.language.read.clauses import Clause
+from scenewright.language.read.facts import Clause
 from scenewright.program.manner import USUAL, Manner
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 

@@ -14,18 +14,17 @@ from scenewright.errors import Place as Where
 from scenewright.errors import TranslationError
 from scenewright.language import story as st
 from scenewright.language.read.chunks import Chunk, sentences
-from scenewright.language.read.clauses import PEOPLE, Clause
+from scenewright.language.read.clauses import PEOPLE
+from scenewright.language.read.facts import Clause
 from scenewright.language.read.items import Item, Segment, is_told_twice, items_of, parted, segments_of
 from scenewright.language.read.labels import take_labels
-from scenewright.language.read.moments import Moments
+from scenewright.language.read.moments import HOW, ORDERS, Moments
 from scenewright.language.read.narrative import Doing, Narrative, standstill
 from scenewright.program.types import EGO
 
 _LEADS = ("then", "then left", "then right", "at once", "later", "meanwhile", "start")
-_ORDERS = ("before", "after", "no later than")
 _SAYS_NOTHING = {"unknown", "comma", "harmless", "be", "joint", "quality", "name", "mood", "other"}
 _COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "yields", "insists", "order", "side", "link"}
-_HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
 
 
 def read(text: str, answers: Mapping[str, str] | None = None, name: str = "description") -> st.Story:
@@ -84,13 +83,13 @@ class _Sentence(Moments):
         story = self.narrative
         story.mentioned, story.doer = [], None
         self.chunks, self.is_open = story.known_words(self.chunks)
-        how = next((chunk for chunk in self.chunks if chunk.kind == "link" and chunk.value in _HOW), None)
+        how = next((chunk for chunk in self.chunks if chunk.kind == "link" and chunk.value in HOW), None)
         if not self.chunks:
             return
         if self.chunks[0].kind == "ego's order":
-            self._ego_order()
+            self.ego_order()
         elif how is not None:
-            self._hold(how)
+            self.hold(how)
         else:
             self._take_leads()
             self._cut()
@@ -100,7 +99,7 @@ class _Sentence(Moments):
         joined = any(chunk.value == "if" for chunk in self.chunks)  # its "then" is another
         kept: list[Chunk] = []
         for chunk in self.chunks:
-            free = not kept or (not joined and kept[-1].kind in ("be", *PEOPLE) and chunk.value != "start")
+            free = not kept or (not joined and kept[-1].kind in ("be", "mood", *PEOPLE) and chunk.value != "start")
             if chunk.kind == "link" and chunk.value in _LEADS and free:
                 lead, _, self.turned = chunk.value.partition("then ")
                 self.leads.add(lead or "then")
@@ -134,7 +133,7 @@ class _Sentence(Moments):
             return
         clause = next((each for each in items[:1] if isinstance(each, Clause)), None)
         is_deed = clause is not None and clause.deed is not None
-        tells_time = any(each.link in _ORDERS for each in rest)
+        tells_time = any(each.link in ORDERS for each in rest)
         tells_time |= clause is not None and ("after the start" in clause.times or clause.rival is not None)
         # "The hero begins to brake 2 s after ..." speaks of a deed that was told before.
         known = is_deed and clause is not None and clause.phase and story.doing_of(clause) is not None
@@ -150,14 +149,9 @@ class _Sentence(Moments):
             moment = self.moment(when)
             if moment not in story.times and not story.is_owned(moment):
                 story.pending = moment
-            first = items[:1] if clause is not None and "arrives" in clause.notes else items
-            story.add(moment, self.conditions(first))
+            story.add(moment, self.conditions(items))
             story.ego_comes(moment, self.quote)
-            if len(first) < len(items):
-                self.pending, story.pending = moment, None
-                self._main(items[1:], None, rest)
-            else:
-                self._orders(moment, rest)
+            self.orders(moment, rest)
         elif tells_time:
             if clause is None or len(items) > 1:
                 self.refuse("only one event is before or after another")
@@ -167,16 +161,14 @@ class _Sentence(Moments):
             moment = self.event(clause)
             if clause.times:
                 self.timed(moment, clause)
-            self._orders(moment, rest)
-        elif self._passes_meanwhile(items):
-            pass
+            self.orders(moment, rest)
         else:
             self._facts(items, rest)
 
     def _acts(self, items: list[Item], happens: bool) -> list[Item]:
         """Return what is done and what is so: a turn, a speed that is kept or an event is a deed where it `happens`.
 
-        What only says why (yields, does not give way) is kept to be checked; where a deed ends at an event, both are one.
+        What only says why (yields, does not give way) is kept to be checked; a deed and the event at its end are one.
         """
         found: list[Item] = []
         for item in items:
@@ -210,7 +202,7 @@ class _Sentence(Moments):
                 before.measures, before.notes = item.measures, before.notes | item.notes
                 before.rival = item.rival
             elif item.says_more_than():
-                if is_hero and item.is_event and "arrives" not in item.notes:
+                if is_hero and item.is_event:
                     item.deed = st.Verb.DRIVE
                 found.append(item)
         return found
@@ -240,19 +232,6 @@ class _Sentence(Moments):
         there = [st.Measure(each, st.Quantity.PLACE, "==", None, place) for each in (actor, EGO)]
         first, second = (self.event(Clause(self.quote, each.actor, measures=[each])) for each in there)
         self.narrative.orders.append(st.Order(first, second, ">", None, self.quote))
-
-    def _passes_meanwhile(self, items: list[Item]) -> bool:
-        """Take "the ego passes the conflict point while the hero waits": it does not come before the other stands."""
-        if len(items) != 2 or not all(isinstance(item, Clause) for item in items):
-            return False
-        event, waits = items
-        if not (isinstance(event, Clause) and isinstance(waits, Clause) and event.is_event):
-            return False
-        if event.subject != EGO or (waits.deed, waits.says_more_than("deed")) != (st.Verb.STAND, False):
-            return False
-        doing = self.narrative.begin(waits.subject or EGO, st.Verb.STAND, None, {"then"}, self.quote)
-        self.narrative.orders.append(st.Order(doing.begins, self.event(event), ">=", None, self.quote))
-        return True
 
     def _facts(self, items: list[Item], rest: list[Segment]) -> None:
         """Take what is so at the start, all the while, later, or of somebody's way."""
@@ -323,7 +302,7 @@ class _Sentence(Moments):
         for each in rest:
             early = (each.link == "after" and "event" not in clause.notes) or not ends or doing.ends is None
             if each.link != "until":
-                self._orders(doing.begins if early else doing.ends or st.START, [each], doing.actor)
+                self.orders(doing.begins if early else doing.ends or st.START, [each], doing.actor)
         if rests and "for" in clause.times:  # "it stops at the stop line for 3 s"
             story.begin(doing.actor, st.Verb.STAND, None, {"then"}, self.quote).duration = clause.times["for"]
 
@@ -381,46 +360,6 @@ class _Sentence(Moments):
             story.assumptions.append(f"{story.actor(doing.actor).name} brakes to a standstill")
         if doing.ends is not None:
             story.ego_comes(doing.ends, self.quote)
-
-    # -- orders and holds ---------------------------------------------------------------------------------------------
-    def _orders(self, moment: int, rest: list[Segment], actor: int | None = None) -> None:
-        """Take what comes before or after a moment, which is not a new event of the `actor` whose deed it is."""
-        for segment in rest:
-            if segment.link not in _ORDERS:
-                self.refuse("it is not clear before or after what")
-            count = len(self.narrative.doings)
-            other = self.event_of(segment.chunks) if segment.rival is None else self.same_event(moment, segment.rival)
-            if actor is not None and any(each.actor == actor for each in self.narrative.doings[count:]):
-                self.refuse("nothing was told of this event before")
-            first, second = (other, moment) if segment.link == "after" else (moment, other)
-            plain: tuple[st.Operator, None] = (">=" if segment.link == "no later than" else ">", None)
-            op, margin = segment.margin or plain
-            self.narrative.orders.append(st.Order(first, second, op, margin, self.quote))
-
-    def _hold(self, how: Chunk) -> None:
-        """Read ``From ... until ..., always: ...``."""
-        at = self.chunks.index(how)
-        until = next((index for index, each in enumerate(self.chunks) if each.value == "until"), at)
-        if until == at or self.chunks[0].value != "from":
-            self.refuse(f"'{how.text}' needs a time from which and until which", "From the start until ..., never: ...")
-        start = self.point(self.chunks[1:until])
-        end = self.point([each for each in self.chunks[until + 1 : at] if each.kind != "comma"])
-        conditions = self.conditions(
-            items_of(self.narrative, [each for each in self.chunks[at + 1 :] if each.text != ":"])
-        )
-        if len(conditions) != 1:
-            self.refuse("one condition holds all the while", "write a sentence for each")
-        self.narrative.holds.append(st.Hold(_HOW[how.value], start, end, conditions[0], self.quote))
-
-    def _ego_order(self) -> None:
-        """Read ``In the ego's order: ..., then ...``."""
-        events: list[list[Chunk]] = [[]]
-        for chunk in self.chunks[1:]:
-            if chunk.value == "then":
-                events.append([])
-            elif chunk.kind not in ("comma", "nothing"):
-                events[-1].append(chunk)
-        self.narrative.ego_order([self.event_of(chunks) for chunks in events if chunks])
 
 
 def _at(clause: Clause, place: str) -> st.Measure:

@@ -1,4 +1,4 @@
-"""Slips of the pen: a long word of the domain with one slip is corrected and told, any other strange word is asked about.
+"""Slips of the pen: a long word of the domain with one slip is corrected and told, others are asked about.
 
 What enters: a word that nobody knows. What leaves: the word that it is taken for, or the words that it may mean. A real
 word of general English is never corrected: those that look like a word of the domain stand in `words.toml`.
