@@ -38,6 +38,7 @@ DOES: dict[str, tuple[str, str, str]] = {
     st.Verb.BRAKE: ("brakes", "brake", "braking"),
     st.Verb.STAND: ("stands still", "stand still", "standing still"),
 }
+NO_GAP = st.Amount(Fraction(0), "m")
 ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
 _WITHOUT_AMOUNT: dict[st.Operator, str] = {
     "==": "is at",
@@ -169,7 +170,8 @@ class Phrases:
             case st.Quantity.RATE:
                 return f"has {'a deceleration' if measure.opposite else 'an acceleration'} of {bound}"
             case st.Quantity.GAP if measure.other is not None:
-                return f"is {bound} behind {self.name(measure.other)}"
+                bound = "" if (measure.op, measure.amount) == (">", NO_GAP) else f"{bound} "
+                return f"is {bound}behind {self.name(measure.other)}"
             case st.Quantity.HEADWAY if measure.other is not None:
                 return f"has a headway of {bound} to {self.name(measure.other)}"
             case st.Quantity.COLLISION if measure.other is not None:

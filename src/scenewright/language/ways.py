@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from fractions import Fraction
 
 from scenewright.errors import TranslationError
 from scenewright.language import story as st
 from scenewright.language.compile import COMPASS, route_of
-from scenewright.language.phrases import Phrases
+from scenewright.language.phrases import NO_GAP, Phrases
 from scenewright.program.types import HeadingsRoute, LanesRoute
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route, all_routes, find_routes
@@ -149,7 +148,6 @@ def _in_line(story: st.Story, actor: st.Actor) -> st.Story:
             rear, front = (relation.of, actor.id) if relation.kind == "ahead" else (actor.id, relation.of)
             told = [each for each in start.conditions if isinstance(each, st.Measure) and each.other == front]
             if all((each.actor, each.quantity) != (rear, st.Quantity.GAP) for each in told):
-                zero = st.Amount(Fraction(0), "m")
-                added.append(st.Measure(rear, st.Quantity.GAP, ">", zero, other=front, quote=relation.quote))
+                added.append(st.Measure(rear, st.Quantity.GAP, ">", NO_GAP, other=front, quote=relation.quote))
     moments = (replace(start, conditions=(*start.conditions, *added)), *story.moments[1:])
     return replace(story, moments=moments)
