@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,13 +12,15 @@ import pytest
 from scenewright.errors import InputError, OutputError, ParameterError, ScenewrightError, TranslationError
 from scenewright.judge.files import judge_run_directory
 from scenewright.judge.tolerance import LOOSE, TIGHT
+from scenewright.language.model.settings import TranslatorSettings
+from scenewright.language.questions import read_answers
+from scenewright.language.sources import is_program, read_scenario
 from scenewright.orchestrate import EXIT_STATUS, Request, Result, orchestrate
 from scenewright.program.printer import print_program
 from scenewright.program.resolve import resolve
 from scenewright.program.text import parse_program
 from scenewright.roads import find_conflict
 from scenewright.trace.files import read_trace
-from scenewright.translate.sources import is_program, read_scenario
 
 SENTENCE = (
     "The ego drives westbound and is 90 m before the intersection. An oncoming hero turns left into the driveway. "
@@ -29,7 +32,7 @@ STAGES = ["translate", "ground", "check", "plan", "simulate", "judge"]
 
 
 def program_text() -> str:
-    return print_program(read_scenario(SENTENCE)[0])
+    return print_program(read_scenario(SENTENCE, "offline")[0])
 
 
 def test_sentence_file_program_and_text_of_a_program_are_one_scenario(tmp_path: Path) -> None:
@@ -38,9 +41,30 @@ def test_sentence_file_program_and_text_of_a_program_are_one_scenario(tmp_path: 
     sources = [SENTENCE, str(tmp_path / "left turn.txt"), str(tmp_path / "turn.scene"), program_text()]
     found = [orchestrate(Request(source, FINE)) for source in sources]
     assert {result.status for result in found} == {"success"}
-    assert [result.translation is not None for result in found] == [True, True, False, False]
+    assert [result.understanding is not None for result in found] == [True, True, False, False]
     traces = [result.run.trace for result in found if result.run is not None]
     assert len({trace.actors["hero"].s_m.tobytes() for trace in traces}) == 1
+
+
+def test_a_text_with_the_answers_that_its_run_kept_gives_the_same_program(tmp_path: Path) -> None:
+    """Answers that were given, and those that were taken by default."""
+    text = SENTENCE.replace("ego drives westbound and", "ego has an open way and").replace("6 m", "about 6 m")
+    (question, *others) = read_scenario(text, "offline")[1].questions  # type: ignore[union-attr]
+    assert others, "one is answered, the others are taken by default"
+    given = {question.slot: question.alternatives[-1 if question.default == 0 else 0]}
+    out, again = tmp_path / "first", tmp_path / "again"
+    request = Request(text, FINE, translator="offline", takes=1, translation=TranslatorSettings(answers=given))
+    orchestrate(replace(request, out=out))
+    kept = TranslatorSettings(answers=read_answers(out / "answers.json"), strict=True)
+    assert kept.answers.items() > given.items()
+    source = str(out / "description.txt")
+    orchestrate(replace(request, source=source, out=again, translation=kept))
+    assert (again / "program.scene").read_bytes() == (out / "program.scene").read_bytes()
+    told = json.loads((out / "manifest.json").read_text(encoding="utf-8"))
+    assert told["understood"][0]["sentence"].startswith("The ego is headed")
+    assert [each["slot"] for each in told["questions"]] == [each.slot for each in others]
+    orchestrate(Request(program_text(), FINE, takes=1, out=out))
+    assert not (out / "answers.json").exists(), "a program has none"
 
 
 def test_program_is_told_from_a_description() -> None:

@@ -23,6 +23,8 @@ from scenewright.explain.cause import cause_of
 from scenewright.explain.ways_out import ways_out
 from scenewright.judge.tolerance import LOOSE, TIGHT, dimension_of
 from scenewright.judge.tolerance import Tolerance as Tolerances
+from scenewright.language.model.settings import TranslatorSettings
+from scenewright.language.sources import read_scenario
 from scenewright.plan.planner import Attempt
 from scenewright.plan.rehearsal import Rehearsed
 from scenewright.program.check import check_values
@@ -40,18 +42,16 @@ from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
 from scenewright.solve.holding import NotHeld, not_held
 from scenewright.solve.limits import Limits
-from scenewright.translate.model.settings import TranslatorSettings
-from scenewright.translate.sources import read_scenario
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from scenewright.judge.case import Case
     from scenewright.judge.verdict import Condition, Verdict
+    from scenewright.language.understand import Understanding
     from scenewright.program.types import Program
     from scenewright.solve.proofs.witness import Witness
     from scenewright.trace.model import Trace
-    from scenewright.translate.translation import Translation
 
 Mode = Literal["closed", "open"]
 PlannerName = Literal["convex", "smt"]
@@ -90,7 +90,7 @@ class Request:
     mode: Mode = "closed"
     tolerance: Tolerance = "tight"
     seed: int = 0
-    translator: str = "offline"
+    translator: str = "auto"
     out: Path | None = None
     replan_hz: float = 10.0
     predictor: str = "road"
@@ -135,7 +135,7 @@ class Result:
 
     status: Status
     scene: Scene
-    translation: Translation | None = None
+    understanding: Understanding | None = None
     feasibility: Feasibility | None = None
     attempt: Attempt | None = None
     not_held: tuple[NotHeld, ...] = ()
@@ -211,10 +211,10 @@ def orchestrate(
 
 def begin(request: Request, stages: Stages) -> tuple[World, Result, str]:
     """Set everything up and ask whether it can happen; return world, answer, and the result for one that cannot."""
-    world, translation = set_up(request, stages)
+    world, understanding = set_up(request, stages)
     with stages("check"):
         feasibility = world.choose_and_check()
-    result = Result("infeasible", world.scene, translation, feasibility, timings_s=stages.seconds)
+    result = Result("infeasible", world.scene, understanding, feasibility, timings_s=stages.seconds)
     return world, result, feasibility.answer
 
 
@@ -338,21 +338,23 @@ def _happens(
     return tried.status == "success"
 
 
-def set_up(request: Request, stages: Stages) -> tuple[World, Translation | None]:
+def set_up(request: Request, stages: Stages) -> tuple[World, Understanding | None]:
     """Read the source, put it on its map, and load the policy; nothing that is wrong with them is found out late."""
     if request.out is not None:
         from scenewright.simulate.record import prepare_directory
 
         prepare_directory(request.out)
     with stages("translate"):
-        program, translation = read_scenario(request.source, request.translator, request.map_name, request.translation)
+        program, understanding = read_scenario(
+            request.source, request.translator, request.map_name, request.translation
+        )
     with stages("ground"):
         scene = ground(program, load_map(request.map_name or program.map_name), request.parameters)
         check_values(program, scene.parameters, name=program.name)
     rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
     ego, seed, predictor = request.ego, request.seed, request.predictor
     world = World(scene, ego, seed, rates, predictor, request.solver, request.simulator)
-    return world, translation
+    return world, understanding
 
 
 # -- what is left behind --------------------------------------------------------------------------------------------
@@ -390,7 +392,6 @@ def write_result(
     from scenewright.judge.files import write_verdict
     from scenewright.simulate.record import Circumstances, write_run
     from scenewright.studio.page import write_page
-    from scenewright.translate.model.translation import notes_of
 
     assert result.run is not None
     assert result.verdict is not None
@@ -404,15 +405,15 @@ def write_result(
         request.mode if driven else "witness",
         request.tolerance,
         request.seed,
-        request.translator if result.translation else "none",
+        result.understanding.translator if result.understanding else "none",
         world.rates if driven else Rates(replan_s=None),
         frozenset(p.name for p in world.scene.program.parameters if p.name not in given and p.value is None),
         given,
         timings_s,
-        notes_of(result.translation),
         result.take,
         request.simulator if driven else "none",
         request.planner if driven else "none",
+        result.understanding,
     )
     write_run(directory, world.scene, result.run, world.limits, circumstances)
     write_verdict(result.verdict, directory / "verdict.json")

@@ -14,11 +14,11 @@ import pytest
 
 from scenewright.cli.app import app
 from scenewright.errors import TranslationError
+from scenewright.language.understand import understand
 from scenewright.plan.preferences import preferences_of
 from scenewright.program.manner import USUAL
 from scenewright.program.printer import print_program
 from scenewright.program.text import parse_program
-from scenewright.translate.offline import translate_offline
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -71,10 +71,32 @@ def test_descriptions_are_understood_and_happen(command: Command, text: str) -> 
 @pytest.mark.parametrize("text", marked("refused"))
 def test_refused_descriptions_are_refused_as_shown(text: str) -> None:
     with pytest.raises(TranslationError) as caught:
-        translate_offline(text)
+        understand(text)
     page = (ROOT / "docs" / "descriptions.md").read_text(encoding="utf-8")
     first = str(caught.value).splitlines()[0]
     assert f"error: {first}" in page
+
+
+def outputs() -> list[Any]:
+    """Return each command of which a page shows the output below a comment, and that output."""
+    pattern = re.compile(r"^% output: ([^\n]*)\n```text\n(.*?)^```", flags=re.MULTILINE | re.DOTALL)
+    return [
+        pytest.param(shlex.split(words), shown, id=f"{page.stem}: {words}")
+        for page in PAGES
+        for words, shown in pattern.findall(page.read_text(encoding="utf-8"))
+    ]
+
+
+@pytest.mark.parametrize(("words", "shown"), outputs())
+def test_output_is_what_the_page_shows(command: Command, folder: Path, words: list[str], shown: str) -> None:
+    shutil.copytree(ROOT / "examples", folder / "examples")
+    assert command(*words).stdout.split() == shown.split()
+
+
+def test_proof_is_what_the_page_shows(command: Command, folder: Path) -> None:
+    shutil.copytree(ROOT / "examples", folder / "examples")
+    told = command("check", "examples/impossible.txt").stdout
+    assert told[told.index("This cannot") :].strip() in (ROOT / "docs" / "infeasibility.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("text", marked("program"))

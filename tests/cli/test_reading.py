@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,22 +14,71 @@ from sentences import IMPOSSIBLE, OPEN_SENTENCE, SENTENCE
 from scenewright.program.text import parse_program
 
 Command = Callable[..., Any]
+EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "hesitates_and_goes.scene"
+LETTERS = re.compile(r"\bA\d+[xva(.]|==|<=|>=|\bt\d\b")  # of the program language
 
 
-def test_translate_prints_a_program_that_parses_and_every_clause(command: Command) -> None:
+def test_translate_tells_what_was_understood_beside_the_words_it_came_from(command: Command) -> None:
     result = command("translate", SENTENCE)
     assert result.exit_code == 0
-    program, _, clauses = result.stdout.partition("understood as")
-    assert len(parse_program(program.rpartition("\n\n")[0]).constraints) == 5
-    for words in ("An oncoming hero turns left", "A1v(t2) == 0", "assumed:"):
-        assert words in clauses
+    told = " ".join(result.stdout.split())
+    assert "understood offline" in told
+    assert (
+        told.index("The ego is headed west")
+        < told.index("The hero is headed east")
+        < told.index("When the ego is 25 m")
+    )
+    assert "An oncoming hero turns left into the driveway" in told
+    assert not LETTERS.search(told)
+
+
+def test_code_is_given_on_request_and_alone(command: Command) -> None:
+    assert len(parse_program(command("translate", SENTENCE, "--code").stdout).constraints) == 5
+
+
+def test_amounts_are_told_as_they_were_written(command: Command) -> None:
+    text = SENTENCE.replace("25 m before", "80 ft before").replace("hero is 15 m", "hero drives at 30 mph and is 15 m")
+    assert command("translate", text, "--out", "first.scene").exit_code == 0
+    for source in (text, "first.scene"):  # of a program they are found again
+        told = " ".join(
+            line["sentence"] for line in json.loads(command("translate", source, "--json").stdout)["understood"]
+        )
+        assert "80 ft before" in told, told
+        assert "drives at 30 mph" in told
 
 
 def test_translate_as_json(command: Command) -> None:
     data = json.loads(command("translate", SENTENCE, "--json").stdout)
     assert len(parse_program(data["program"]).actors) == 2
-    assert data["readings"][-1]["constraints"] == "A1x(t2) == conflict_point - 8; A1v(t2) == 0"
-    assert data["assumptions"]
+    assert data["translator"] == "offline"
+    assert data["understood"][1]["words"] == "An oncoming hero turns left into the driveway"
+    assert {"questions", "answers", "assumptions", "set_aside", "notes"} <= data.keys()
+
+
+def test_a_program_is_told_too_and_what_has_no_words_stays_code(command: Command) -> None:
+    program = EXAMPLE.read_text(encoding="utf-8") + "A1v(t1) * A0v(t0) == 12\n"
+    Path("product.scene").write_text(program, encoding="utf-8")
+    told = " ".join(command("translate", "product.scene").stdout.split())
+    assert "what the program says" in told
+    assert "Then the hero stands still." in told
+    assert "Besides: A1v(t1) * A0v(t0) == 12." in told
+
+
+def test_what_is_open_is_data_a_refusal_or_answered_from_a_file(command: Command) -> None:
+    text = SENTENCE.replace("The ego drives westbound", "The ego has an open way")
+    (question,) = json.loads(command("translate", text, "--json").stdout)["questions"]
+    assert question["slot"] == "way of ego"
+    assert question["default"] in question["alternatives"]
+    refused = command("translate", text, "--strict", "--json")
+    assert refused.exit_code == 2
+    assert json.loads(refused.stdout)["error"]["questions"] == [question]
+    assert "--answers" in refused.stderr
+    assert all(each in refused.stderr for each in question["alternatives"])
+    other = next(each for each in question["alternatives"] if each != question["default"])
+    Path("answers.json").write_text(json.dumps({"way of ego": other}), encoding="utf-8")
+    data = json.loads(command("translate", text, "--answers", "answers.json", "--strict", "--json").stdout)
+    assert (data["questions"], data["answers"]) == ([], {"way of ego": other})
+    assert other in data["understood"][0]["sentence"]
 
 
 def test_program_written_by_translate_means_the_same(command: Command) -> None:
@@ -61,8 +111,10 @@ def test_check_leans_on_what_the_ego_promises(command: Command) -> None:
 def test_solve_prints_knots_and_writes_the_plan(command: Command) -> None:
     result = command("solve", OPEN_SENTENCE, "-p", "ego_gap_m=30", "--out", "plan.json")
     assert result.exit_code == 0
-    for words in ("30.00 m before conflict point", "5.00 m before conflict point", "hero", "t2"):
-        assert words in result.stdout
+    shown = " ".join(result.stdout.split())
+    for words in ("30.00 m before", "8.00 m before", "start", "begins to"):
+        assert words in shown
+    assert not LETTERS.search(shown)
     plan = json.loads(Path("plan.json").read_text(encoding="utf-8"))
     assert [knot["name"] for knot in plan["actors"]["hero"]["knots"]] == ["t0", "t1", "t2"]
     assert json.loads(command("solve", SENTENCE, "--json").stdout)["plan"]["actors"]

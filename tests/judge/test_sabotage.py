@@ -224,7 +224,8 @@ def test_coarse_sabotage_is_refused_even_loosely(runs: dict[int, Run], sabotage:
 def test_wrong_order_is_told_as_such(runs: dict[int, Run], tmp_path: Path) -> None:
     run = runs[4]
     verdict = run.judged(tmp_path / "doctored", "hero", too_late_to_be_first(run))
-    order = next(c for c in verdict.conditions if "A1(t4) < A0(t2)" in c.text)
+    (order,) = (c for c in verdict.conditions if c.kind == "outcome" and "(margin" in c.text)
+    assert " before the ego " in order.text
     assert not order.holds_at(LOOSE)
 
 

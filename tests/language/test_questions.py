@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from scenewright.errors import InputError, TranslationError
-from scenewright.language.questions import as_data, defaults_of, read_answers
+from scenewright.language.questions import OpenQuestionsError, as_data, defaults_of, read_answers
 from scenewright.language.read.sentences import read
 from scenewright.language.understand import understand
 
@@ -17,13 +17,14 @@ UNKNOWN = "The ego is headed west and goes straight on. The hero turns left. The
 
 
 def test_a_default_is_taken_and_told() -> None:
-    story = understand(TEXT)
-    (question,) = as_data(story.questions)
+    read_once = understand(TEXT)
+    (question,) = as_data(read_once.questions)
     assert question["default"] in question["alternatives"]
     assert question["words"] == "ego"
-    assert defaults_of(story) == {"way of ego": question["default"]}
-    assert understand(TEXT, answers=defaults_of(story)) == story
-    assert not understand(TEXT, answers=defaults_of(story)).questions
+    assert read_once.all_answers == defaults_of(read_once.story) == {"way of ego": question["default"]}
+    again = understand(TEXT, answers=read_once.all_answers)
+    assert again.program == read_once.program
+    assert not again.questions
 
 
 def test_strict_refuses_what_is_open() -> None:
@@ -36,15 +37,26 @@ def test_a_word_that_nobody_knows_must_be_answered() -> None:
     with pytest.raises(TranslationError, match="leaves something open") as caught:
         understand(UNKNOWN)
     assert "What is 'zonks'?" in (caught.value.found or "")
-    story = read(UNKNOWN, {f"word {UNKNOWN.index('zonks')}": "set it aside"})
+    story = read(UNKNOWN, {"word zonks": "set it aside"})
     assert (len(story.questions), len(story.deeds)) == (0, 1)
 
 
+def test_what_must_be_answered_comes_with_the_file_of_answers_to_fill_in() -> None:
+    with pytest.raises(OpenQuestionsError) as caught:
+        understand(UNKNOWN)
+    assert "What is 'zonks'?" in (caught.value.found or "")
+    example = json.loads((caught.value.fix or "").partition("--answers FILE: ")[2])
+    assert example.keys() == {"word zonks"}
+    (question,) = caught.value.as_dict()["questions"]  # type: ignore[misc]
+    assert question["slot"] == "word zonks"
+    assert str(caught.value.place) == f"description:1:{UNKNOWN.index('zonks') + 1}"
+
+
 def test_a_typing_error_is_asked_about_with_the_word_it_may_be() -> None:
-    text = "The ego comes from the drivway and turns left. The hero brakes to a stop."
+    text = "The ego comes from the raod and turns left. The hero brakes to a stop."
     (question,) = read(text).questions
-    assert ("it means 'driveway'" in question.alternatives, question.default) == (True, None)
-    assert read(text, {question.slot: "it means 'driveway'"}).actors[0].way.origin == "driveway"
+    assert ("it means 'road'" in question.alternatives, question.default) == (True, None)
+    assert read(text, {question.slot: "it means 'road'"}).actors[0].way.origin == "road"
 
 
 def test_who_it_is_may_be_asked() -> None:
@@ -63,7 +75,7 @@ def test_an_answer_that_is_none_is_refused() -> None:
 def test_answers_from_a_file(tmp_path: Path) -> None:
     path = tmp_path / "answers.json"
     path.write_text(json.dumps({"way of ego": "is headed west and turns right"}), encoding="utf-8")
-    assert understand(TEXT, answers=read_answers(path)).actors[0].way.turn == "right"
+    assert understand(TEXT, answers=read_answers(path)).story.actors[0].way.turn == "right"
     for wrong in ("[1]", '{"a": 1}', "{"):
         path.write_text(wrong, encoding="utf-8")
         with pytest.raises(InputError):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from scenewright.errors import MapError, TranslationError
+from scenewright.language.story import Question
 from scenewright.language.understand import translate, understand
 from scenewright.roads.grounding import ground
 from scenewright.roads.load import load_map
@@ -19,22 +20,53 @@ def test_a_text_becomes_a_program_that_fits_its_map() -> None:
     program = translate(TEXT)
     assert ground(program, load_map(program.map_name)).routes[1].headings == ("E", "N")
     assert program.description == TEXT
-    assert [program.words_of(each) for each in program.constraints][1] == "25 m"
+    assert program.words_of(program.constraints[1]) == "the ego is 25 m before the conflict point"
 
 
 def test_a_map_that_is_named_and_a_text_that_is_too_long() -> None:
-    assert understand(f"Map: t_intersection\n{TEXT}").map_name == "t_intersection"
+    assert understand(f"Map: t_intersection\n{TEXT}").story.map_name == "t_intersection"
     with pytest.raises(MapError):
         understand(f"Map: nowhere\n{TEXT}")
     with pytest.raises(TranslationError, match="too many characters"):
         understand("The ego stands. " * 1000)
 
 
-@pytest.mark.parametrize("vague", ["about 30 m before", "roughly 30 m before", "within 30 m of"])
+@pytest.mark.parametrize("vague", ["about 30 m", "roughly 30 m"])
 def test_a_vague_amount_is_asked_about_and_not_taken_for_an_exact_one(vague: str) -> None:
     text = (
         "The ego is headed west and goes straight on. The hero is headed east and turns left. "
-        f"When the ego is {vague} the conflict point, the hero brakes to a stop."
+        f"When the ego is {vague} before the conflict point, the hero brakes to a stop."
     )
+    (question,) = understand(text).questions
+    assert question.alternatives[question.default or 0] == "exactly 30 m"
     with pytest.raises(TranslationError, match="leaves something open"):
-        understand(text)
+        understand(text, strict=True)
+    at_least = understand(text, answers={question.slot: "at least 30 m"})
+    assert "at least 30 m before" in at_least.lines[-1].sentence
+
+
+def test_one_question_after_another_until_none_is_open() -> None:
+    asked: list[str] = []
+
+    def last(question: Question) -> str:
+        asked.append(question.slot)
+        return question.alternatives[-1]
+
+    text = "The ego has an open way. The van has an open way. The van zonks and brakes to a stop."
+    found = understand(text, ask=last, strict=True)
+    assert len(asked) == len(set(asked)) == 3
+    assert not found.questions
+    assert understand(text, answers=found.all_answers, strict=True).program == found.program
+
+
+def test_lines_stand_beside_the_words_they_came_from() -> None:
+    found = understand(TEXT)
+    assert [(line.sentence, line.words) for line in found.lines][1:] == [
+        ("The hero is headed east and turns left.", "An oncoming hero turns left into the driveway"),
+        (
+            "When the ego is 25 m before the conflict point and the hero is 15 m before the conflict point, the hero "
+            "begins to brake until it stands 8 m before the conflict point.",
+            TEXT[TEXT.index("When") : -1],
+        ),
+    ]
+    assert found.as_data()["understood"][0]["sentence"] == "The ego is headed west and goes straight on."

@@ -248,23 +248,25 @@ def verdict(trace: Trace, marks: dict[str, dict[str, float]], passes_s: float) -
     stop_m = marks["hero"]["conflict_point"] - hero.position(STOPPED_S)
     start_m = marks["ego"]["stop_line"] - ego.position(0.0)
     rows = [
-        condition("initial", "c1", "it is 40 m behind the stop line: A0x(t0) == stop_line - 40", 40.0, start_m, "m"),
-        condition("trigger", "c2", "A0(t1) == A1(t1)", 0.0, 0.02, "s"),
-        condition("trigger", "c3", "A0x(t1) == stop_line - 12", 12.0, ego_m, "m"),
-        condition("trigger", "c4", "A1x(t1) == conflict_point - hero_distance_m", 42.0, hero_m, "m"),
-        condition("interaction", "c5", "A1x(t2) == conflict_point - end_distance_m", 19.5, stop_m + 0.7, "m"),
+        condition("initial", "c1", "the ego is 40 m before the stop line at the start", 40.0, start_m, "m"),
+        condition("trigger", "c2", "all of this is at one moment, when the hero begins to brake", 0.0, 0.02, "s"),
+        condition("trigger", "c3", "the ego is 12 m before the stop line", 12.0, ego_m, "m"),
+        condition("trigger", "c4", "the hero is hero_distance_m before the conflict point", 42.0, hero_m, "m"),
+        condition("interaction", "c5", "the hero is end_distance_m before the conflict point", 19.5, stop_m + 0.7, "m"),
         condition("interaction", "hero_onset", "hero begins to brake at the trigger", 4.0, 4.0, "s"),
-        condition("interaction", "c6", "A1v(t2) == 0", 0.0, hero.speed(STOPPED_S), "m/s"),
+        condition("interaction", "c6", "the hero stands", 0.0, hero.speed(STOPPED_S), "m/s"),
         condition(
             "outcome",
             "c7",
-            "A0x(t2) == conflict_point",
+            "the ego passes the conflict point",
             marks["ego"]["conflict_point"],
             marks["ego"]["conflict_point"],
             "m",
         ),
         {
-            **condition("outcome", "c8", "A1(t2) < A0(t2)", passes_s, STOPPED_S, "s"),
+            **condition(
+                "outcome", "c8", "the hero stands before the ego passes the conflict point", passes_s, STOPPED_S, "s"
+            ),
             "error": 0.0,
             "tight": True,
             "loose": True,
@@ -294,7 +296,7 @@ def verdict(trace: Trace, marks: dict[str, dict[str, float]], passes_s: float) -
             "closest": [
                 {
                     "who": "ego",
-                    "side": "A0x(t1) == stop_line - 12",
+                    "side": "the ego is 12 m before the stop line",
                     "met": True,
                     "error": 0.1,
                     "unit": "m",

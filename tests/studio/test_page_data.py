@@ -69,13 +69,26 @@ def test_times_measured_by_the_judge_come_before_recorded_ones(run_dir: Path, ed
     edit(run_dir / "verdict.json", lambda v: v["facts"]["knot_times_s"].update(hero={"t1": 4.07}, ego={"t1": 4.07}))
     data = collect(run_dir)
     assert data["triggers"][0]["time_s"] == pytest.approx(4.07)
-    assert dict(actor_named(data, "hero")["knots"])["t1"] == pytest.approx(4.07)
-    assert dict(actor_named(data, "hero")["knots"])["t2"] == pytest.approx(7.75)
+    assert {name: time for name, time, _ in actor_named(data, "hero")["knots"]}["t1"] == pytest.approx(4.07)
+    assert {name: time for name, time, _ in actor_named(data, "hero")["knots"]}["t2"] == pytest.approx(7.75)
+
+
+def test_moments_are_told_by_what_happens_at_them(run_dir: Path) -> None:
+    told = {name: words for name, _, words in actor_named(collect(run_dir), "hero")["knots"]}
+    assert told == {"t0": "start", "t1": "the hero begins to brake", "t2": "the hero finishes braking"}
+
+
+def test_what_was_understood_is_that_of_the_manifest_or_what_the_program_says(run_dir: Path, edit: Edit) -> None:
+    said = [line["sentence"] for line in collect(run_dir)["understood"]]
+    assert said[:2] == ["The ego is headed south and turns right.", "The hero is headed west and goes straight on."]
+    kept = [{"sentence": "The ego drives.", "words": "ego"}]
+    edit(run_dir / "manifest.json", lambda manifest: manifest.update(understood=kept))
+    assert collect(run_dir)["understood"] == kept
 
 
 def test_conditions_know_their_moment_and_their_words_once(run_dir: Path) -> None:
     conditions = {condition["id"]: condition for condition in collect(run_dir)["conditions"]}
-    assert conditions["c1"]["text"] == "A0x(t0) == stop_line - 40"
+    assert conditions["c1"]["text"] == "the ego is 40 m before the stop line at the start"
     assert conditions["c1"]["words"] == "it is 40 m behind the stop line"
     assert (conditions["c1"]["time"], conditions["c3"]["time"], conditions["c5"]["time"]) == (0, 4, 7.75)
     assert conditions["c8"]["time"] > 7.75, "an order is decided when the later of the two happens"

@@ -63,14 +63,22 @@ app.command(
     )
 )(running.run)
 _BY_A_MODEL = (
-    "\n\n[bold]Exit status[/bold]\n\n0 a program; 2 refused, or no program that holds; 4 no reply of a model\n\n"
+    "\n\n[bold]Exit status[/bold]\n\n0 understood; 2 refused, or something must be answered; 4 no reply of a model\n\n"
+    "[bold]What a text leaves open[/bold]\n\n"
+    "You are asked on the terminal; elsewhere defaults are taken and told, or answers come from a file:\n\n"
+    "scenewright translate FILE --answers answers.json\n\n"
     "[bold]By a language model[/bold]\n\n"
     "scenewright translate FILE --translator openai:NAME\n\n"
     "scenewright translate FILE --translator openai-compatible:NAME --base-url http://127.0.0.1:8000/v1\n\n"
     "scenewright translate FILE --translator files:DIR"
 )
 app.command(
-    epilog=_examples(_TRANSLATE, "scenewright translate first.scene --json", "scenewright translate --show-prompt")
+    epilog=_examples(
+        f'scenewright translate "{SENTENCE}"',
+        _TRANSLATE,
+        "scenewright translate first.scene --code",
+        "scenewright translate --show-prompt",
+    )
     + _BY_A_MODEL
 )(reading.translate)
 app.command(epilog=_examples(_TRANSLATE, "scenewright tell first.scene"))(telling.tell)

@@ -65,7 +65,7 @@ def _check_one(asked: Asked, out: Path | None, solver: str, as_json: bool) -> in
         print_json(_data(request, result, status))
         return status
     console = stdout()
-    console.print(tables.understood(result.scene))
+    tables.tell_understood(console, result.scene.program, result.understanding)
     rows = tables.parameters(result.scene, request.parameters)
     if rows:
         console.print(tables.facts(rows))

@@ -42,7 +42,7 @@ def judge(
         if as_json:
             print_json(data)
         else:
-            report_verdict(stdout(), verdict, case.program, tolerance, run_status(directory))
+            report_verdict(stdout(), verdict, tolerance, run_status(directory))
         raise typer.Exit(0 if data["success"][tolerance] and not fails_on(verdict, fail_on) else 1)
 
 

@@ -92,7 +92,7 @@ def complete_ego(incomplete: str) -> list[tuple[str, str]]:
 
 def complete_translator(incomplete: str) -> list[str]:
     """Offer the translators; the name of a model is the user's to know."""
-    names = ("offline", "openai:", "anthropic:", "google:", "openai-compatible:", "files:")
+    names = ("auto", "offline", "openai:", "anthropic:", "google:", "openai-compatible:", "files:")
     return [name for name in names if name.startswith(incomplete)]
 
 
@@ -167,8 +167,8 @@ MapName = Annotated[
 _EGO_HELP = "The driving policy under test: a built-in one, or module:Class for your own."
 Ego = Annotated[str, typer.Option("--ego", metavar="NAME[:k=v,...]", help=_EGO_HELP, autocompletion=complete_ego)]
 _TRANSLATOR_HELP = (
-    "What turns a description into a program: offline, openai:NAME, anthropic:NAME, google:NAME, "
-    "openai-compatible:NAME (with --base-url), or files:DIR."
+    "What reads a description: auto (the model that is configured, else offline; see `scenewright models`), offline, "
+    "openai:NAME, anthropic:NAME, google:NAME, openai-compatible:NAME (with --base-url), or files:DIR."
 )
 Translator = Annotated[
     str, typer.Option("--translator", metavar="NAME", help=_TRANSLATOR_HELP, autocompletion=complete_translator)

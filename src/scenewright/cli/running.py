@@ -21,14 +21,15 @@ from scenewright.cli.directories import claim
 from scenewright.cli.faults import error_data, tell, told
 from scenewright.cli.options import AsJson, FailOn, FailOnOption, ModeOption, PlannerOption, Simulator, ToleranceOption
 from scenewright.cli.translators import Asked, with_asked
+from scenewright.cli.translators import ask as on_terminal
 from scenewright.errors import PolicyError
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from scenewright.judge.verdict import Verdict
+    from scenewright.language.story import Question
     from scenewright.orchestrate import Request, Result, Stop
-    from scenewright.program.types import Program
 
 _SAYS = {
     "translate": "reading the description",
@@ -109,12 +110,15 @@ def carry_out(request: Request, until: Stop = "end", quiet: bool = False) -> Res
     from scenewright.cli.terminal import SignsOfLife
     from scenewright.orchestrate import orchestrate
 
-    asks = request.translation.ask is not None  # a question on the terminal wants it for itself
     with (
-        SignsOfLife(stderr(), not quiet and not asks) as signs,
+        SignsOfLife(stderr(), not quiet) as signs,
         _interruptible() as shield,
         redirect_stdout(sys.stderr),
     ):
+
+        def ask(question: Question) -> str:
+            with signs.silent():
+                return on_terminal(question)
 
         def report(stage: str) -> None:
             if stage in _UNBROKEN:
@@ -126,6 +130,8 @@ def carry_out(request: Request, until: Stop = "end", quiet: bool = False) -> Res
         def progress(time_s: float) -> None:
             signs.say(f"driving: {time_s:.1f} s of the run")
 
+        if request.translation.ask is not None:
+            request = replace(request, translation=replace(request.translation, ask=ask))
         try:
             return orchestrate(request, report, progress, until)
         except SystemExit as error:  # else a policy that calls sys.exit() would decide on our exit status
@@ -206,7 +212,7 @@ def fails_on(verdict: Verdict | None, fail_on: FailOn | None) -> bool:
 
 def result_data(request: Request, result: Result, status: int) -> dict[str, object]:
     """Return what came of a request as plain data."""
-    from scenewright.cli.tables import parameter_data
+    from scenewright.cli.tables import parameter_data, understanding_data
 
     fault = result.run.fault if result.run is not None else None
     directory = result.run_directory
@@ -219,7 +225,7 @@ def result_data(request: Request, result: Result, status: int) -> dict[str, obje
         "page": str(directory / "index.html") if directory is not None else None,
         "tolerance": request.tolerance,
         "parameters": parameter_data(result.scene, request.parameters),
-        "assumptions": list(result.translation.assumptions) if result.translation else [],
+        "understanding": understanding_data(result.scene.program, result.understanding),
         "notes": [*result.scene.notes, *result.scene.road_map.notes],
         "verdict": result.verdict.as_dict() if result.verdict is not None else None,
         "findings": list(result.run.findings) if result.run is not None else [],
@@ -271,12 +277,10 @@ def report_run(console: Console, request: Request, result: Result) -> None:
 
     verdict = result.verdict
     assert verdict is not None
-    console.print(tables.understood(result.scene))
-    report_verdict(
-        console, verdict, result.scene.program, request.tolerance, result.run.status if result.run else "finished"
-    )
+    tables.tell_understood(console, result.scene.program, result.understanding)
+    report_verdict(console, verdict, request.tolerance, result.run.status if result.run else "finished")
     rows = tables.parameters(result.scene, request.parameters)
-    rows += [("assumed" if not index else "", text) for index, text in enumerate(_assumed(result))]
+    rows += [("assumed", text) for text in result.scene.notes]
     rows += [("map", text) for text in result.scene.road_map.notes]
     rows += [("finding", text) for text in (result.run.findings if result.run else ())]
     if rows:
@@ -289,19 +293,13 @@ def report_run(console: Console, request: Request, result: Result) -> None:
         console.print(f"look  scenewright view {directory}", soft_wrap=True)
 
 
-def _assumed(result: Result) -> list[str]:
-    return [*(result.translation.assumptions if result.translation else ()), *result.scene.notes]
-
-
-def report_verdict(
-    console: Console, verdict: Verdict, program: Program, tolerance: str, status: str = "finished"
-) -> None:
+def report_verdict(console: Console, verdict: Verdict, tolerance: str, status: str = "finished") -> None:
     """Print the conditions and the headline; `status` says whether the run came to its end."""
     from rich.text import Text
 
     from scenewright.cli import tables
 
-    console.print(tables.verdict(verdict, program))
+    console.print(tables.verdict(verdict))
     console.print(tables.routine(verdict))
     missed = len(tables.missed(verdict, tolerance))
     if status != "finished":

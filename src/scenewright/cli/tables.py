@@ -6,7 +6,7 @@ What enters: scenes, plans, verdicts. What leaves: rich renderables. Nothing is 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rich import box
 from rich.padding import Padding
@@ -18,11 +18,13 @@ from scenewright.cli.console import marks
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from rich.console import Console
+
     from scenewright.judge.verdict import Condition, Verdict
+    from scenewright.language.understand import Understanding
     from scenewright.program.types import Program
     from scenewright.roads.grounding import Scene
     from scenewright.solve.plan import Plan
-    from scenewright.translate.translation import Translation
 
 # Conditions of these kinds are the same in every run; they are shown one by one only where one fails.
 ROUTINE = ("route", "safety")
@@ -48,47 +50,32 @@ def facts(rows: Iterable[tuple[str, str | Text]]) -> Table:
 
 
 # -- the scenario ---------------------------------------------------------------------------------------------------
-def understood(scene: Scene) -> Table:
-    """Return in short what the scenario is: ways, and the words or formulas of each part of the story."""
-    from scenewright.program.structure import read_structure, synchronised
+def tell_understood(console: Console, program: Program, understanding: Understanding | None) -> None:
+    """Print what was understood, sentence by sentence with the words it came from, and what was taken for granted."""
+    from scenewright.language.lines import lines_of_program
 
-    program = scene.program
-    rows = [(actor.name, f"{scene.routes[actor.id]}") for actor in program.actors]
-    rows.append(("map", scene.road_map.name))
-    parts: dict[str, dict[str, None]] = {}
-    roles = read_structure(program).roles
-    for constraint in program.constraints:
-        if next(synchronised(constraint.formula), None) is not None:
-            continue  # that two things are one moment is in the words of each
-        parts.setdefault(str(roles[constraint.id]), {})[_in_words(program, constraint.id)] = None
-    rows += [(part, "; ".join(told)) for part, told in parts.items()]
-    return facts(rows)
-
-
-def _in_words(program: Program, constraint_id: str) -> str:
-    from scenewright.program.printer import print_expression
-
-    constraint = program.constraint(constraint_id)
-    return program.words_of(constraint) or print_expression(constraint.formula)
+    if understanding is None:
+        lines, heads = lines_of_program(program), ("what the program says", "the words beside it")
+    else:
+        who = "offline" if understanding.translator == "offline" else f"by {understanding.translator}"
+        lines, heads = understanding.lines, (f"understood {who}", "from your words")
+    with_words = any(line.words for line in lines)
+    made = table(*heads if with_words else heads[:1])
+    for line in lines:
+        made.add_row(Text(line.sentence), *([Text(line.words, style="dim")] if with_words else []))
+    console.print(made)
+    if understanding is not None and understanding.remarks:
+        console.print(facts(understanding.remarks))
 
 
-def clauses(translation: Translation) -> Table:
-    """Return how each clause was understood."""
-    made = table("words", "understood as", "constraints")
-    for reading in translation.readings:
-        formulas = list(_formulas(translation, reading.constraint_ids))
-        plain = reading.understood
-        for formula in formulas:
-            plain = plain.replace(formula, "")
-        made.add_row(Text(reading.text), Text(plain.strip("; ")), Text("\n".join(formulas)))
-    return made
+def understanding_data(program: Program, understanding: Understanding | None) -> dict[str, Any]:
+    """Return what was understood as plain data; of a program what it says."""
+    from scenewright.language.lines import lines_of_program
 
-
-def _formulas(translation: Translation, ids: Iterable[str]) -> Iterator[str]:
-    from scenewright.program.printer import print_expression
-
-    for identifier in ids:
-        yield print_expression(translation.program.constraint(identifier).formula)
+    if understanding is not None:
+        return understanding.as_data()
+    lines = [{"sentence": line.sentence, "words": line.words} for line in lines_of_program(program)]
+    return {"translator": "none", "understood": lines}
 
 
 def parameters(scene: Scene, given: Iterable[str]) -> list[tuple[str, str]]:
@@ -114,9 +101,12 @@ def parameter_data(scene: Scene, given: Iterable[str]) -> dict[str, dict[str, fl
 
 # -- the plan -------------------------------------------------------------------------------------------------------
 def knots(scene: Scene, plan: Plan) -> Table:
-    """Return when and where each actor is at its knots, and how it goes on from there."""
+    """Return when and where each actor is at its moments, and how it goes on from there."""
+    from scenewright.language.lines import told_knots
+
     numbers = ("time s", "position m", "speed m/s", "then m/s^2")
-    made = table("actor", "knot", "time s", "position m", "place", "speed m/s", "then m/s^2", right=numbers)
+    made = table("actor", "when", "time s", "position m", "place", "speed m/s", "then m/s^2", right=numbers)
+    told = told_knots(scene.program)
     for actor_id, profile in sorted(plan.profiles.items()):
         actor = scene.program.actor(actor_id)
         for knot, time_s in profile.knot_times_s.items():
@@ -124,7 +114,13 @@ def knots(scene: Scene, plan: Plan) -> Table:
             accel_mpss = profile.state(time_s + 1e-6)[2]
             place = relative_to(s_m, scene.landmarks_m[actor_id])
             made.add_row(
-                actor.name, knot, f"{time_s:.2f}", f"{s_m:.2f}", place, f"{speed_mps:.2f}", f"{accel_mpss:.2f}"
+                actor.name,
+                told.get((actor_id, knot), "the end"),
+                f"{time_s:.2f}",
+                f"{s_m:.2f}",
+                place,
+                f"{speed_mps:.2f}",
+                f"{accel_mpss:.2f}",
             )
         made.add_section()
     return made
@@ -147,11 +143,11 @@ def relative_to(s_m: float, landmarks_m: Mapping[str, float]) -> str:
 
 
 # -- the verdict ----------------------------------------------------------------------------------------------------
-def verdict(judged: Verdict, program: Program) -> Table:
+def verdict(judged: Verdict) -> Table:
     """Return the conditions with required and measured values; routine ones only where they fail."""
     numbers = ("required", "measured", "error")
     made = table("condition", *numbers, "tight", "loose", right=numbers)
-    kind, said = "", ""
+    kind = ""
     for condition in judged.conditions:
         row = condition.as_dict()
         if condition.kind in ROUTINE and row["tight"] and row["loose"]:
@@ -159,11 +155,8 @@ def verdict(judged: Verdict, program: Program) -> Table:
         if condition.kind != kind:
             kind = condition.kind
             made.add_row(Text(kind, style="bold"))
-        words, formula = _wording(condition, program)
-        text = formula if formula and words == said else words
-        said = words
         made.add_row(
-            Padding(Text(text), (0, 0, 0, 2)),
+            Padding(Text(condition.text), (0, 0, 0, 2)),
             _quantity(condition.required, condition.unit),
             _quantity(condition.measured, condition.unit),
             "-" if condition.error is None else _signed(condition.error),
@@ -171,26 +164,6 @@ def verdict(judged: Verdict, program: Program) -> Table:
             mark(row["loose"]),
         )
     return made
-
-
-def _wording(condition: Condition, program: Program) -> tuple[str, str]:
-    """Return how to call a condition, and its formula where it has one."""
-    from scenewright.program.expressions import Compare, Elapsed
-    from scenewright.program.printer import print_expression
-    from scenewright.program.structure import synchronised
-
-    try:
-        constraint = program.constraint(condition.id)
-    except KeyError:
-        return condition.text, ""
-    formula = print_expression(constraint.formula)
-    if condition.miss is None:  # its text says why it could not be judged
-        return condition.text, ""
-    if next(synchronised(constraint.formula), None) is not None:
-        return f"at one moment: {formula}", ""
-    if isinstance(constraint.formula, Compare) and isinstance(constraint.formula.left, Elapsed):
-        return f"in this order: {formula}", ""
-    return program.words_of(constraint) or formula, formula
 
 
 def routine(judged: Verdict) -> str:

@@ -14,11 +14,11 @@ def tell(source: Source, map_name: MapName = None, as_json: AsJson = False) -> N
     """Tell a program in plain English: who there is, the moment, and what happens, one line each."""
     with told(as_json):
         from scenewright.language.decompile import decompile
+        from scenewright.language.sources import read_scenario
         from scenewright.language.tell import tell as told_story
-        from scenewright.translate.sources import read_scenario
 
-        program, _ = read_scenario(source, map_name=map_name)
-        sentences = told_story(decompile(program))
+        program, understanding = read_scenario(source, map_name=map_name)
+        sentences = told_story(understanding.story if understanding else decompile(program))
         if as_json:
             print_json({"sentences": sentences})
             return

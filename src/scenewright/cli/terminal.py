@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import os
 import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from types import TracebackType
 from typing import Any, Self
 
@@ -65,6 +67,16 @@ class SignsOfLife:
         self._text = text
         if self._status is not None:
             self._status.update(text)
+
+    @contextmanager
+    def silent(self) -> Iterator[None]:
+        """Leave the terminal to a question for as long as it is asked."""
+        with self._lock:
+            if self._status is not None:
+                self._status.stop()
+            yield
+            if self._status is not None:
+                self._status.start()
 
     def _show(self) -> None:
         with self._lock:

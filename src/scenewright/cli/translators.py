@@ -1,7 +1,7 @@
-"""The options of every command that may translate a description, and what a model translator gets from above.
+"""The options of every command that may translate a description, and the asking of open questions on the terminal.
 
 What enters: words from a command line. What leaves: what is `Asked`, and `TranslatorSettings` with the means to ask the
-user, to ask the solver and to compare meanings, none of which the translator imports itself.
+user, which the translator does not import itself.
 """
 
 from __future__ import annotations
@@ -17,17 +17,16 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 import typer
 
 from scenewright.cli.options import Ego, MapName, Parameters, Source, Translator, parameters_of
-from scenewright.translate.model.settings import (
+from scenewright.language.model.settings import (
     DEFAULT_MAX_TOKENS,
     DEFAULT_REPAIRS,
     DEFAULT_TIMEOUT_S,
-    Question,
     TranslatorSettings,
 )
 
 if TYPE_CHECKING:
+    from scenewright.language.story import Question
     from scenewright.orchestrate import Request
-    from scenewright.program.types import Program
 
 _PANEL = "Translation"
 T = TypeVar("T")
@@ -58,8 +57,23 @@ _option = functools.partial(typer.Option, rich_help_panel=_PANEL)
 
 
 def _settings(
-    strict: Annotated[bool, _option("--strict", help="Refuse a description that leaves something open.")] = False,
-    ask: Annotated[bool, _option("--ask", help="Ask on the terminal about what is left open.")] = False,
+    answers: Annotated[
+        Path | None,
+        _option(
+            "--answers",
+            metavar="FILE",
+            help="Answers to what the description leaves open: a JSON object, as a run keeps it in answers.json.",
+            show_default=False,
+        ),
+    ] = None,
+    strict: Annotated[
+        bool,
+        _option("--strict", help="Refuse a description that leaves something open, even where there is a default."),
+    ] = False,
+    second_opinion: Annotated[
+        bool,
+        _option("--second-opinion", help="Let the model judge, blind, whether what was understood is what was said."),
+    ] = False,
     base_url: Annotated[
         str | None,
         _option(
@@ -95,9 +109,8 @@ def _settings(
     ] = None,
 ) -> TranslatorSettings:
     """Return the settings that these options say."""
-    can_ask = ask and sys.stdin.isatty() and sys.stderr.isatty()
-    if ask and not can_ask:
-        _say("there is no terminal to ask on: defaults are taken, and listed")
+    from scenewright.language.questions import read_answers
+
     return TranslatorSettings(
         base_url=base_url,
         repairs=repairs,
@@ -107,8 +120,9 @@ def _settings(
         timeout_s=timeout_s,
         reply_wait_s=reply_wait_s,
         max_tokens=max_tokens,
-        ask=_ask if can_ask else None,
-        compare=differences_in_meaning,
+        ask=ask if not strict and sys.stdin.isatty() and sys.stderr.isatty() else None,
+        answers=read_answers(answers) if answers is not None else {},
+        second_opinion=second_opinion,
         say=_say if sys.stderr.isatty() else None,
     )
 
@@ -143,7 +157,7 @@ def _asked(
     parameter: Parameters = None,
     map_name: MapName = None,
     ego: Ego = "idm",
-    translator: Translator = "offline",
+    translator: Translator = "auto",
     *,
     settings: TranslatorSettings,
 ) -> Asked:
@@ -153,43 +167,33 @@ def _asked(
 with_asked = _given("asked", _asked)
 
 
-def impossibility(program: Program, map_name: str | None, ego: str = "idm") -> str | None:
-    """Return the proof that `program` cannot happen; None where nothing speaks against it."""
-    from scenewright.orchestrate import Request, orchestrate
-    from scenewright.program.printer import print_program
+def ask(question: Question) -> str:
+    """Put a question on stderr, and return the alternative that the user chooses, by number.
 
-    result = orchestrate(Request(print_program(program), map_name=map_name, ego=ego), until="check")
-    if result.status != "infeasible" or result.feasibility is None:
-        return None
-    return result.feasibility.explain()
+    An empty line, or the end of the input, takes the default.
 
+    Raises
+    ------
+    OpenQuestionsError
+        At the end of the input where there is no default.
+    """
+    from scenewright.language.questions import OpenQuestionsError
 
-def differences_in_meaning(offline: Program, other: Program) -> list[str]:
-    """Return how the program of a model differs in meaning from that of the offline translator, in sentences."""
-    from scenewright.study.meaning import differences
-
-    words = {"lost: ": "only the offline translator understood ", "added: ": "only the model understood "}
-    found = []
-    for each in differences(offline, other):
-        start = next((start for start in words if each.startswith(start)), "")
-        told = words.get(start, "the model differs from the offline translator: ")
-        found.append(told + each.removeprefix(start))
-    return found
-
-
-def _ask(question: Question) -> str:
-    """Put a question on stderr, and return the alternative that the user chooses; its default for an empty line."""
-    lines = [f"\n{question.question}" + (f" ('{question.words}')" if question.words else "")]
+    words = f'  ("{question.quote.text}")' if question.quote else ""
+    lines = [f"\n{question.text}{words}"]
     lines += [f"  {number}  {each}" for number, each in enumerate(question.alternatives, start=1)]
-    default = question.alternatives.index(question.default) + 1
     sys.stderr.write("\n".join(lines) + "\n")
     while True:
-        sys.stderr.write(f"number [{default}]: ")
+        sys.stderr.write("number: " if question.default is None else f"number [{question.default + 1}]: ")
         sys.stderr.flush()
         line = sys.stdin.readline()
         answer = line.strip()
-        if not answer:  # an empty line, or the end of the input
-            return question.default
+        if not answer and question.default is not None:
+            return question.alternatives[question.default]
+        if not line:
+            raise OpenQuestionsError([question])
+        if answer in question.alternatives:
+            return answer
         if answer.isdecimal() and 1 <= int(answer) <= len(question.alternatives):
             return question.alternatives[int(answer) - 1]
         sys.stderr.write(f"a number from 1 to {len(question.alternatives)}\n")

@@ -21,7 +21,7 @@ from scenewright.explain.evidence import (
 from scenewright.explain.in_way import hero_in_way
 from scenewright.judge.tolerance import Tolerance
 from scenewright.judge.verdict import Cause, CauseKind, Condition, Verdict
-from scenewright.program.printer import print_expression
+from scenewright.language.lines import in_words
 from scenewright.program.structure import Role, actors_of
 from scenewright.program.types import EGO, Actor, Constraint, Program
 from scenewright.simulate.loop import Run
@@ -87,7 +87,7 @@ def _denied(
     alone = {constraint.id: constraint for constraint in failed if actors_of(constraint.formula) == {EGO}}
     if proof is not None:
         clashes = [clash for clash in proof.clashes if clash.formula is not None]
-        told = ", ".join(dict.fromkeys(f'"{clash.words or clash.formula}"' for clash in clashes))
+        told = ", ".join(dict.fromkeys(f'"{clash.words or clash.told}"' for clash in clashes))
         return Finding(
             f"against the way the ego drove, no hero within the laws of motion could have met all of {told}",
             {"proof": [str(clash) for clash in proof.clashes]},
@@ -95,7 +95,7 @@ def _denied(
     for condition in missed:
         # Where it starts, and when a trigger comes, is not in its hands alone.
         if condition.id in alone and condition.kind not in ("initial", "trigger"):
-            words = program.words_of(alone[condition.id]) or print_expression(alone[condition.id].formula)
+            words = in_words(program, alone[condition.id])
             off = "" if condition.error is None else f", off by {abs(condition.error):.2f} {condition.unit}".rstrip()
             return Finding(
                 f'the ego alone decides on "{words}", and did not do it{off}',

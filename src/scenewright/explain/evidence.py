@@ -14,9 +14,9 @@ import numpy as np
 
 from scenewright.judge.tolerance import TIGHT
 from scenewright.judge.verdict import Verdict
+from scenewright.language.lines import in_words, told_constraints
 from scenewright.plan.planner import GOOD, Replan
 from scenewright.program.expressions import Compare, Elapsed
-from scenewright.program.printer import print_expression
 from scenewright.program.types import EGO, Actor, Constraint
 from scenewright.roads.routes import Route
 from scenewright.simulate.loop import Run
@@ -42,11 +42,12 @@ class Finding:
 def ego_never_there(world: World, run: Run, verdict: Verdict) -> Finding | None:
     """Return how near the ego came to its side of the trigger, where it never came to all of it at once."""
     program = world.scene.program
-    asked = {print_expression(constraint.formula): constraint for constraint in program.constraints}
+    told = told_constraints(program)
+    asked = {told[constraint.id]: constraint for constraint in program.constraints}
     for side in verdict.facts["closest"]:
         if side["who"] == "ego" and not side["met"]:
             constraint = asked.get(side["side"])
-            words = (constraint and program.words_of(constraint)) or side["side"]
+            words = in_words(program, constraint) if constraint else side["side"]
             off = None if side["error"] is None else f"off by {side['error']:.2f} {side['unit']}".rstrip()
             return _never(words, off, side["time_s"], {"condition": constraint and constraint.id, "off": side["error"]})
     ego, knot = run.trace.actors[program.ego.name], world.structure.trigger_knot(EGO)
@@ -64,7 +65,7 @@ def ego_never_there(world: World, run: Run, verdict: Verdict) -> Finding | None:
     best = int(worst.argmin())
     if worst[best] <= 1.0:
         return None
-    words = " and ".join(dict.fromkeys(program.words_of(each) or each.id for each in map(program.constraint, off_by)))
+    words = " and ".join(dict.fromkeys(in_words(program, each) for each in map(program.constraint, off_by)))
     off = f"off by {worst[best]:.1f} tight tolerances"
     return _never(words, off, float(ego.time_s[best]), {"off_tolerances": float(worst[best])})
 
@@ -184,7 +185,7 @@ def came_too_late(world: World, run: Run, verdict: Verdict, constraint: Constrai
         came = "" if trigger_s is None else f"its trigger came at {trigger_s:.1f} s, and "
         until = "never have been first" if safe_s is None else f"have been first until {safe_s:.1f} s"
         late = f"came {hero_s - ego_s:.1f} s after the ego: {came}at full acceleration it could {until}"
-    words = program.words_of(constraint) or print_expression(constraint.formula)
+    words = in_words(program, constraint)
     return Finding(
         f'{hero.name} was to be first ("{words}") and {late}',
         {

@@ -16,6 +16,7 @@ from scenewright.judge.knots import Measured
 from scenewright.judge.terms import Moments, sides
 from scenewright.judge.tolerance import TIGHT, Leaf, Values, dimension_of, normalised, unit_symbol
 from scenewright.judge.verdict import Condition, Kind, unjudged
+from scenewright.language.lines import told_constraints
 from scenewright.program.expressions import (
     Arithmetic,
     Compare,
@@ -30,8 +31,7 @@ from scenewright.program.expressions import (
     piece_of,
     walk,
 )
-from scenewright.program.printer import print_expression
-from scenewright.program.structure import Role, knots_of, synchronised
+from scenewright.program.structure import Role, knots_of
 from scenewright.program.types import EGO, Constraint, PieceKind
 
 _KINDS: dict[Role, Kind] = {
@@ -44,17 +44,15 @@ _KINDS: dict[Role, Kind] = {
 
 def program_conditions(case: Case, measured: Measured) -> list[Condition]:
     """Judge every constraint of the program, in its order."""
-    return [_judge(case, measured, constraint) for constraint in case.program.constraints]
+    told = told_constraints(case.program)
+    return [_judge(case, measured, constraint, told[constraint.id]) for constraint in case.program.constraints]
 
 
-def _judge(case: Case, measured: Measured, constraint: Constraint) -> Condition:
+def _judge(case: Case, measured: Measured, constraint: Constraint, text: str) -> Condition:
     kind = _KINDS[case.structure.roles[constraint.id]]
     formula = signed_rate(case, constraint.formula, measured.moments)
-    text = _text(case, constraint)
     try:
         if isinstance(formula, Compare):
-            if list(synchronised(formula)):
-                text += " (all that belongs to this moment is measured at one instant)"
             return _comparison(case, measured.moments, constraint.id, kind, text, formula)
         miss = miss_of(case, formula, measured.moments)
         error = float(normalised(miss, TIGHT))
@@ -63,11 +61,6 @@ def _judge(case: Case, measured: Measured, constraint: Constraint) -> Condition:
         return _not_reached(case, measured, constraint, kind, text, reason)
     except CannotJudge as reason:
         return unjudged(constraint.id, kind, text, str(reason))
-
-
-def _text(case: Case, constraint: Constraint) -> str:
-    words, formula = case.program.words_of(constraint), print_expression(constraint.formula)
-    return f"{words}: {formula}" if words else formula
 
 
 def signed_rate(case: Case, formula: Formula, moments: Moments) -> Formula:

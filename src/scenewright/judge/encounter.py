@@ -17,6 +17,7 @@ from scenewright.judge.instants import minima
 from scenewright.judge.knots import Measured, sides_of
 from scenewright.judge.terms import Moments
 from scenewright.judge.tolerance import TIGHT, FloatArray, dimension_of, normalised, unit_symbol
+from scenewright.language.lines import told_formulas
 from scenewright.program.expressions import Compare, Derived, Formula, State, walk
 from scenewright.program.printer import print_expression
 from scenewright.program.structure import KnotKey
@@ -31,10 +32,11 @@ def encounter_facts(case: Case, measured: Measured) -> dict[str, Any]:
         "pair_never_met_condition": False,
         "closest": [],
     }
+    told = told_formulas(case.program)
     starts = {(actor.id, actor.sketch.knots[0]) for actor in case.program.actors}
     for instant in dict.fromkeys(case.structure.triggers.values()):
         for part in sides_of(case, instant, starts):
-            evidence = _closest(case, part, instant, measured)
+            evidence = _closest(case, part, told.get(part) or print_expression(part), instant, measured)
             if evidence is None:
                 continue
             actors = _actors(part)
@@ -50,7 +52,9 @@ def _actors(part: Formula) -> set[int]:
     return actors | {node.target for node in walk(part) if isinstance(node, Derived) and isinstance(node.target, int)}
 
 
-def _closest(case: Case, part: Formula, instant: frozenset[KnotKey], measured: Measured) -> dict[str, Any] | None:
+def _closest(
+    case: Case, part: Formula, told: str, instant: frozenset[KnotKey], measured: Measured
+) -> dict[str, Any] | None:
     """Return how near one side came to being met, at the instant nearest to the trigger among equally good ones."""
 
     def score(time_s: FloatArray) -> FloatArray:
@@ -65,13 +69,13 @@ def _closest(case: Case, part: Formula, instant: frozenset[KnotKey], measured: M
     heroes = [hero for hero, knots in case.structure.triggers.items() if knots == instant]
     trigger_s = measured.triggers[heroes[0]]
     if not found:
-        return {"side": print_expression(part), "met": False, "error": None, "unit": "", "time_s": None}
+        return {"side": told, "met": False, "error": None, "unit": "", "time_s": None}
     good = [minimum for minimum in found if minimum.score <= found[0].score + 1e-3]
     best = min(good, key=lambda minimum: abs(minimum.time_s - trigger_s))
     dimension = dimension_of(part) if isinstance(part, Compare) else None
     error = best.score * TIGHT.of(dimension) if isinstance(part, Compare) else best.score
     return {
-        "side": print_expression(part),
+        "side": told,
         "met": bool(best.score <= 1),
         "error": error,
         "unit": unit_symbol(dimension),

@@ -15,6 +15,7 @@ from scenewright.judge.case import Case
 from scenewright.judge.knots import SIGN_OF, Measured, demands_standstill
 from scenewright.judge.phases import move_off_after, rest_after
 from scenewright.judge.verdict import Condition, bounded, unjudged
+from scenewright.language.phrases import does
 from scenewright.program.types import Actor, PieceKind
 
 _VERBS = {PieceKind.DEC: "brake", PieceKind.ACC: "speed up"}
@@ -89,12 +90,10 @@ def _beginning(case: Case, measured: Measured, hero: Actor, kind: PieceKind) -> 
 
 def _piece(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[Condition]:
     kind = hero.sketch.pieces[index]
-    name = hero.sketch.piece_names()[index]
+    name, doing = hero.sketch.piece_names()[index], does(kind, hero.sketch.pieces[:index].count(kind))
     span = measured.moments.spans.get((hero.id, index))
     if span is None:
-        yield unjudged(
-            f"{hero.name}_{name}", "interaction", f"{hero.name} does its piece {name}", "it never came to it"
-        )
+        yield unjudged(f"{hero.name}_{name}", "interaction", f"{hero.name} {doing}", "it never came to it")
         return
     timeline = case.timelines[hero.id]
     if kind in SIGN_OF:
@@ -104,13 +103,13 @@ def _piece(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[
         against = float(np.max(np.abs(speeds - best)))
         verb = "speeds up" if kind is PieceKind.DEC else "slows down"
         yield bounded(
-            f"{hero.name}_{name}", "interaction", f"{hero.name} never {verb} during {name}",
+            f"{hero.name}_{name}", "interaction", f"{hero.name} never {verb} while it {doing}",
             required=0.0, measured=against, error=against, dimension="speed",
         )  # fmt: skip
     if kind is PieceKind.STOP:
         top = float(np.max(np.abs(timeline.speed(timeline.instants(*span)))))
         yield bounded(
-            f"{hero.name}_{name}", "interaction", f"{hero.name} stays still during {name}",
+            f"{hero.name}_{name}", "interaction", f"{hero.name} does not move while it {doing}",
             required=0.0, measured=top, error=top, dimension="speed",
         )  # fmt: skip
         if index + 1 < len(hero.sketch.pieces):

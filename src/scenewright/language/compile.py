@@ -12,6 +12,7 @@ from typing import Literal
 
 from scenewright.errors import Span, TranslationError
 from scenewright.language import story as st
+from scenewright.language.stretches import clause_around
 from scenewright.program import expressions as ex
 from scenewright.program import types as pt
 from scenewright.program.arithmetic import combine, negate
@@ -53,7 +54,7 @@ def compile_story(story: st.Story, description: str | None = None) -> pt.Program
         Where the story contradicts itself, such as a speed in metres.
     """
     _check_known(story)
-    compiler = _Compiler(story)
+    compiler = _Compiler(story, description)
     compiler.constrain()
     program = pt.Program(
         story.title or UNNAMED[0],
@@ -61,7 +62,7 @@ def compile_story(story: st.Story, description: str | None = None) -> pt.Program
             pt.Actor(actor.id, actor.name, route_of(actor.way), compiler.sketches[actor.id]) for actor in story.actors
         ),
         tuple(
-            pt.Constraint(f"c{number}", formula, source if description else None)
+            pt.Constraint(f"c{number}", formula, source)
             for number, (formula, source) in enumerate(compiler.formulas, start=1)
         ),
         _parameters(story),
@@ -100,7 +101,8 @@ def _check_known(story: st.Story) -> None:
         if actor.kind not in DRIVEN:
             raise refused(f"a {actor.kind}", f"there may be any number of: {', '.join(DRIVEN)}", actor.quote)
         for relation in actor.relations:
-            raise refused(f"that somebody is {relation.kind}", "put the ways on a map, or say them", relation.quote)
+            fix = "say which way each drives; who is ahead, behind, oncoming or comes from a side can be said"
+            raise refused(f"that somebody is {relation.kind}", fix, relation.quote)
     for deed in story.deeds:
         if deed.verb not in set(st.Verb):
             raise refused(f"'{deed.verb}'", f"what somebody may do: {', '.join(st.Verb)}", deed.quote)
@@ -152,6 +154,7 @@ class _Compiler:
     """Gathers the formulas of a story, each with where it came from."""
 
     story: st.Story
+    text: str | None
     sketches: dict[int, pt.Sketch] = field(init=False)
     formulas: list[tuple[ex.Formula, Span | None]] = field(default_factory=list)
 
@@ -172,7 +175,8 @@ class _Compiler:
             self._add(ex.Temporal(how, start, end, self._condition(hold.condition, None)), hold.quote)
 
     def _add(self, formula: ex.Formula, quote: st.Quote | None) -> None:
-        self.formulas.append((formula, quote.span if quote else None))
+        span = None if quote is None or self.text is None else clause_around(self.text, quote.span)
+        self.formulas.append((formula, span))
 
     def _knot(self, actor: int, moment: int) -> str:
         return self.sketches[actor].knots[self.story.knots_of(actor).index(moment)]
@@ -186,7 +190,7 @@ class _Compiler:
             if instants and moment.time is not None:
                 self._add(ex.Compare("==", instants[-1], _term(moment.time)), moment.time.quote)
         for condition in moment.conditions:
-            self._add(self._condition(condition, number), condition.quote)
+            self._add(self._condition(condition, number), condition.quote or moment.quote)
 
     def _throughout(self, deed: st.Deed) -> None:
         sketch = self.sketches[deed.actor]

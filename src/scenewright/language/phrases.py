@@ -13,7 +13,8 @@ from typing import TypeGuard
 
 from scenewright.errors import TranslationError
 from scenewright.language import story as st
-from scenewright.program.types import EGO
+from scenewright.language.compile import PIECES
+from scenewright.program.types import EGO, PieceKind
 from scenewright.units import format_fraction
 
 BOUNDS: dict[st.Operator, str] = {"==": "", ">=": "at least ", "<=": "at most ", ">": "more than ", "<": "less than "}
@@ -37,6 +38,7 @@ DOES: dict[str, tuple[str, str, str]] = {
     st.Verb.BRAKE: ("brakes", "brake", "braking"),
     st.Verb.STAND: ("stands still", "stand still", "standing still"),
 }
+NO_GAP = st.Amount(Fraction(0), "m")
 ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
 _WITHOUT_AMOUNT: dict[st.Operator, str] = {
     "==": "is at",
@@ -52,6 +54,12 @@ _AS_FAST: dict[st.Operator, str] = {
     "<=": "at most as fast as",
     "<": "slower than",
 }
+
+
+def does(piece: PieceKind, before: int = 0) -> str:
+    """Return what somebody does in a piece of a sketch, after so many of its kind: ``brakes for the second time``."""
+    verb = DOES[next(verb for verb, kind in PIECES.items() if kind is piece)][0]
+    return f"{verb} for the {ORDINALS[before]} time" if 0 < before < len(ORDINALS) else verb
 
 
 def untold(what: str) -> TranslationError:
@@ -104,12 +112,16 @@ class Phrases:
             if isinstance(each, st.Measure) and _stands(each):
                 free = [where for where in conditions if _is_where(where, each.actor) and where not in places.values()]
                 places.update({each: free[0]} if free else {})
-        found = []
+        found, spoken = [], set[int]()
         for each in conditions:
-            if each in places:
-                found.append(f"{self.clause(each, it)} {self.predicate(places[each]).removeprefix('is ')}")
-            elif each not in places.values():
-                found.append(self.clause(each, it, passing))
+            if each in places.values():
+                continue
+            # Whoever alone has been spoken of is "it" from then on.
+            known = each.actor if it is None and isinstance(each, st.Measure) and spoken == {each.actor} else it
+            spoken |= st.people_in(each)
+            clause = self.clause(each, known, passing and each not in places)
+            where = f" {self.predicate(places[each]).removeprefix('is ')}" if each in places else ""
+            found.append(clause + where)
         return found
 
     def clause(self, condition: st.Condition, it: int | None = None, passing: bool = False) -> str:
@@ -158,7 +170,8 @@ class Phrases:
             case st.Quantity.RATE:
                 return f"has {'a deceleration' if measure.opposite else 'an acceleration'} of {bound}"
             case st.Quantity.GAP if measure.other is not None:
-                return f"is {bound} behind {self.name(measure.other)}"
+                bound = "" if (measure.op, measure.amount) == (">", NO_GAP) else f"{bound} "
+                return f"is {bound}behind {self.name(measure.other)}"
             case st.Quantity.HEADWAY if measure.other is not None:
                 return f"has a headway of {bound} to {self.name(measure.other)}"
             case st.Quantity.COLLISION if measure.other is not None:

@@ -7,11 +7,12 @@ what must be answered first. A text with its answers is reproducible: both reade
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from scenewright.errors import InputError, TranslationError
+from scenewright.errors import InputError, Place, TranslationError
 from scenewright.language.story import Question, Story
 
 
@@ -46,13 +47,35 @@ def read_answers(path: Path) -> dict[str, str]:
     return answers
 
 
-def settled(story: Story, answers: Mapping[str, str], strict: bool = False) -> Story:
+class OpenQuestionsError(TranslationError):
+    """A text leaves open what must be said: the message holds the questions, and the file of answers to fill in."""
+
+    def __init__(self, questions: Sequence[Question], place: Place | None = None) -> None:
+        first = questions[0].quote
+        place = replace(place, span=first.span) if place is not None and first is not None else place
+        told = [f"{each.text}  {'  /  '.join(each.alternatives)}" for each in questions]
+        example = {each.slot: each.alternatives[each.default or 0] for each in questions}
+        super().__init__(
+            "the text leaves something open",
+            place=place,
+            found=("\n" + " " * 12).join(told),
+            expected="an answer to each",
+            fix=f"say it in the text, or write what you mean to a file for --answers FILE: {json.dumps(example)}",
+        )
+        self.questions = tuple(questions)
+
+    def as_dict(self) -> dict[str, object]:
+        """Return the error as plain data, with the questions for a front end to ask."""
+        return {**super().as_dict(), "questions": as_data(self.questions)}
+
+
+def settled(story: Story, answers: Mapping[str, str], strict: bool = False, place: Place | None = None) -> Story:
     """Return `story` where it may be compiled: what is left open has a default, which `strict` does not allow.
 
     Raises
     ------
-    TranslationError
-        Where a question must be answered first; the message holds them all.
+    OpenQuestionsError
+        Where a question must be answered first.
     InputError
         Where an answer is not among the alternatives of its question.
     """
@@ -62,9 +85,7 @@ def settled(story: Story, answers: Mapping[str, str], strict: bool = False) -> S
             raise InputError(f"this is no answer to '{each.text}'", found=answers[each.slot], expected=expected)
     waiting = [each for each in story.questions if strict or each.default is None]
     if waiting:
-        told = "; ".join(f"{each.text} ({' / '.join(each.alternatives)})" for each in waiting)
-        fix = "say it in the text, or give the answers in a file"
-        raise TranslationError("the text leaves something open", found=told, expected="an answer to each", fix=fix)
+        raise OpenQuestionsError(waiting, place)
     return story
 
 

@@ -236,6 +236,14 @@ class Question:
     default: int | None = 0
     quote: Quote | None = field(default=None, compare=False, repr=False)
 
+    def with_default(self) -> str:
+        """Return the question with what was taken, and what else it could be, as a sentence."""
+        if self.default is None:
+            return f"{self.text} It is open: {' / '.join(self.alternatives)}."
+        others = [each for number, each in enumerate(self.alternatives) if number != self.default]
+        could = f" It could also be: {'; '.join(others)}." if others else ""
+        return f"{self.text} Taken: {self.alternatives[self.default]}.{could}"
+
 
 @dataclass(frozen=True, slots=True)
 class Story:

@@ -1,7 +1,7 @@
 """Tells a story in plain English: people and their ways first, then the moment, then what happens, one line each.
 
-What enters: a `Story`. What leaves: sentences of the controlled English, which `read` reads back to the same story, or
-a `TranslationError` for the little that has no words yet. It decides nothing.
+What enters: a `Story`. What leaves: sentences of the controlled English, which `read` reads back to the same story,
+with the quotes of what each tells, or a `TranslationError` for the little that has no words yet. It decides nothing.
 """
 
 from __future__ import annotations
@@ -35,6 +35,14 @@ _RATES = {
 }  # deeds that are told with their rate, and whether it is a slowing
 
 
+@dataclass(frozen=True, slots=True)
+class Told:
+    """A sentence, and the quotes of what it tells."""
+
+    sentence: str
+    quotes: tuple[st.Quote, ...] = ()
+
+
 def tell(story: st.Story) -> list[str]:
     """Return `story` as sentences, one a line.
 
@@ -43,14 +51,24 @@ def tell(story: st.Story) -> list[str]:
     TranslationError
         Where it holds something that there are no words for.
     """
-    return _Teller(st.arranged(story)).lines()
+    return [each.sentence for each in tell_with_quotes(story)]
+
+
+def tell_with_quotes(story: st.Story) -> list[Told]:
+    """Return the same sentences, each with the quotes of what it tells; raises as `tell` does."""
+    return Teller(st.arranged(story)).lines()
+
+
+Quoted = st.Actor | st.Relation | st.Condition | st.Deed | st.Order | st.Hold
 
 
 @dataclass(slots=True)
-class _Teller:
+class Teller:
+    """Tells one story, sentence by sentence."""
+
     story: st.Story
     phrases: Phrases = field(init=False)
-    told: list[str] = field(default_factory=list)
+    told: list[Told] = field(default_factory=list)
     known: set[int] = field(default_factory=lambda: {st.START})  # moments that have been told
     ego: list[int] = field(default_factory=list)  # its moments as a reader finds them
     open_order: bool = False  # a reader would have to ask how the ego's moments follow each other
@@ -62,13 +80,15 @@ class _Teller:
     def __post_init__(self) -> None:
         self.phrases = Phrases(self.story)
 
-    def lines(self) -> list[str]:
+    def lines(self) -> list[Told]:
+        """Return all sentences."""
         story = self.story
         self._head()
-        self.told += [sentence(f"{self.phrases.name(each.id)} {self.phrases.way(each.way)}") for each in story.actors]
+        for each in story.actors:
+            self._say(sentence(f"{self.phrases.name(each.id)} {self.phrases.way(each.way)}"), each)
         if any(actor.relations for actor in story.actors):
             raise untold("how one way lies to another: choose the ways first")
-        self.told += [_parameter(parameter) for parameter in story.parameters if _is_told(parameter, story)]
+        self.told += [Told(_parameter(parameter)) for parameter in story.parameters if _is_told(parameter, story)]
         self._start()
         for moment in self._in_time():
             if not any(moment in (deed.begins, deed.ends) for deed in story.deeds):
@@ -78,13 +98,19 @@ class _Teller:
                     self._deed(deed)
         for order in story.orders:
             if order not in self.durations:
-                self._order(order)
+                self._say(sentence(self.order(order)), order)
+                for moment in (order.first, order.second):
+                    self._introduce(moment)
         for hold in story.holds:
-            self._hold(hold)
+            self._say(sentence(self.hold(hold)), hold)
         if tuple(self.ego) != story.ego or self.open_order:
             events = [self.event(moment) for moment in story.ego] or ["nothing"]
-            self.told.append(f"In the ego's order: {', then '.join(events)}.")
+            self._say(f"In the ego's order: {', then '.join(events)}.")
         return self.told
+
+    def _say(self, text: str, *told: Quoted) -> None:
+        quotes = [each.quote for thing in told for each in (thing, *_inside(thing)) if each.quote is not None]
+        self.told.append(Told(text, tuple(sorted(dict.fromkeys(quotes), key=lambda quote: quote.start))))
 
     def _head(self) -> None:
         story = self.story
@@ -92,14 +118,14 @@ class _Teller:
             if text is not None:
                 if text != " ".join(text.split()) or not text:
                     raise untold(f"a {label.lower()} of this form")
-                self.told.append(f"{label}: {text}")
+                self._say(f"{label}: {text}")
         names = [actor.name for actor in story.actors]
         if "'" in "".join(names) or names[0] != "ego" or [actor.id for actor in story.actors] != [*range(len(names))]:
             raise untold("actors of these names")
         for name in NUMBERS:
             value = getattr(story.manner, name)
             if value != getattr(type(story.manner)(), name):
-                self.told.append(f"Manner: {name} is {format_fraction(value)} {SI_SYMBOL[unit_of(name).dimension]}.")
+                self._say(f"Manner: {name} is {format_fraction(value)} {SI_SYMBOL[unit_of(name).dimension]}.")
 
     def _start(self) -> None:
         conditions = self.story.moments[st.START].conditions
@@ -107,8 +133,10 @@ class _Teller:
         for actor in self.story.actors:
             own = [each for each in simple if each.actor == actor.id]
             if own:
-                self.told.append(f"At the start, {listed(self.phrases.clauses(own, passing=False))}.")
-        self.told += [f"At the start, {self.phrases.clause(each)}." for each in conditions if each not in simple]
+                self._say(f"At the start, {listed(self.phrases.clauses(own, passing=False))}.", *own)
+        for each in conditions:
+            if each not in simple:
+                self._say(f"At the start, {self.phrases.clause(each)}.", each)
 
     def _in_time(self) -> list[int]:
         """Return the moments in an order that agrees with everybody's own, the smallest number first."""
@@ -140,7 +168,7 @@ class _Teller:
         if any(isinstance(each, st.Compound) for each in conditions) or (time is None and moment not in self.story.ego):
             raise untold("a moment that is nobody's")
         when = "Later" if time is None else f"When it is {amount(time)} after the start"
-        self.told.append(f"{when}, {listed(self.phrases.clauses(conditions))}.")
+        self._say(f"{when}, {listed(self.phrases.clauses(conditions))}.", *conditions)
         self._introduce(moment)
 
     def _is_left_to_an_order(self, moment: int) -> bool:
@@ -194,7 +222,7 @@ class _Teller:
         for each in conditions:
             if isinstance(each, st.Compound) and (moment, each) not in self.joined:
                 self.joined.add((moment, each))
-                self.told.append(f"When {self.event(moment)}, {self.phrases.clause(each)}.")
+                self._say(f"When {self.event(moment)}, {self.phrases.clause(each)}.", each)
                 self._ego_comes(moment, conditions)
 
     # -- deeds --------------------------------------------------------------------------------------------------------
@@ -240,8 +268,10 @@ class _Teller:
         elif not waits:
             text += "" if duration is not None or deed.verb in (st.Verb.DRIVE, st.Verb.STAND) else " for a while"
             self._introduce(deed.ends)
-        self.told.append(sentence(text))
-        self.told += [f"Meanwhile, {self.phrases.clause(each)}." for each in held]
+        ended = () if waits else self.story.moments[deed.ends].conditions
+        self._say(sentence(text), deed, *(self.story.moments[deed.begins].conditions if begins else ()), *ended)
+        for each in held:
+            self._say(f"Meanwhile, {self.phrases.clause(each)}.", each)
         for moment in ([deed.begins] if fresh else []) + ([] if waits else [deed.ends]):
             self._compounds(moment)
 
@@ -287,29 +317,40 @@ class _Teller:
             raise untold("so many deeds of one kind")
         return "" if number == 0 else f" for the {ORDINALS[number]} time"
 
-    def _order(self, order: st.Order) -> None:
+    def order(self, order: st.Order) -> str:
+        """Return the order of two moments as a clause."""
         if st.START in (order.first, order.second):
             if order.first != st.START or order.margin is None:
                 raise untold("what comes before the start")
-            self.told.append(sentence(f"{self.event(order.second)} {bounded(order.op, order.margin)} after the start"))
-        elif order.margin is not None:
+            return f"{self.event(order.second)} {bounded(order.op, order.margin)} after the start"
+        if order.margin is not None:
             margin = bounded(order.op, order.margin)
-            self.told.append(sentence(f"{self.event(order.second)} {margin} after {self.event(order.first)}"))
-        else:
-            link = "before" if order.op == ">" else "no later than"
-            self.told.append(sentence(f"{self.event(order.first)} {link} {self.event(order.second)}"))
-        for moment in (order.first, order.second):
-            self._introduce(moment)
+            return f"{self.event(order.second)} {margin} after {self.event(order.first)}"
+        link = "before" if order.op == ">" else "no later than"
+        return f"{self.event(order.first)} {link} {self.event(order.second)}"
 
-    def _hold(self, hold: st.Hold) -> None:
+    def hold(self, hold: st.Hold) -> str:
+        """Return what holds over an interval as a clause."""
         start, end = self._point(hold.start, False), self._point(hold.end, True)
-        self.told.append(f"From {start} until {end}, {hold.how}: {self.phrases.clause(hold.condition)}.")
+        return f"from {start} until {end}, {hold.how}: {self.phrases.clause(hold.condition)}"
 
     def _point(self, point: st.Point, is_end: bool) -> str:
         event = "the start" if point.moment == st.START else self.event(point.moment)
         if point.offset is None:
             return event if is_end or point.moment == st.START else f"when {event}"
         return f"{amount(point.offset)} {'before' if point.earlier else 'after'} {event}"
+
+
+def _inside(thing: Quoted) -> tuple[Quoted, ...]:
+    """Return what is told together with a thing, and has quotes of its own."""
+    match thing:
+        case st.Actor(relations=relations):
+            return relations
+        case st.Deed(throughout=throughout):
+            return throughout
+        case st.Hold(condition=condition):
+            return (condition,)
+    return ()
 
 
 def _rate(deed: st.Deed) -> tuple[st.Measure | None, tuple[st.Measure, ...]]:

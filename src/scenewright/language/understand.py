@@ -1,32 +1,103 @@
 """The way of a text: read, put on a map, asked about, compiled.
 
-What enters: a text, a map, answers. What leaves: a story that may be compiled, and its program.
+What enters: a text or whatever else makes a story of one, a map, answers and somebody to ask. What leaves: an
+`Understanding`: story and program, what was answered and what is open. A text with its answers is reproducible.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
 
+from scenewright.errors import Place, Span, TranslationError
 from scenewright.language.compile import compile_story
-from scenewright.language.questions import settled
+from scenewright.language.lines import Line, lines_of_program, lines_of_story
+from scenewright.language.questions import as_data, defaults_of, settled
 from scenewright.language.read.sentences import read
-from scenewright.language.story import Story
+from scenewright.language.story import Question, Story
 from scenewright.language.ways import put_on_map
 from scenewright.program.limits import check_description
 from scenewright.program.types import DEFAULT_MAP, Program
 from scenewright.roads.load import load_map
 from scenewright.roads.model import RoadMap
 
+OFFLINE = "offline"
+Answers = Mapping[str, str]
+Ask = Callable[[Question], str]  # returns one of the alternatives
+
+
+@dataclass(frozen=True, slots=True)
+class Understanding:
+    """What was understood of a text.
+
+    Attributes
+    ----------
+    translator
+        Who read it: ``offline``, ``openai:NAME``, ``files:DIR``.
+    answers
+        The answers that were given, by slot.
+    notes
+        What else is to be known of the reading: what a model took, its doubts.
+    """
+
+    text: str
+    story: Story
+    program: Program
+    translator: str = OFFLINE
+    answers: Answers = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+    @property
+    def questions(self) -> tuple[Question, ...]:
+        """What is open still; the default of each was taken."""
+        return self.story.questions
+
+    @property
+    def all_answers(self) -> dict[str, str]:
+        """The answers that were given or taken by default: with them the text gives the same program again."""
+        return {**self.answers, **defaults_of(self.story)}
+
+    @property
+    def lines(self) -> tuple[Line, ...]:
+        """The story in plain English beside the words it came from; its program where the story has no words."""
+        try:
+            return lines_of_story(self.story, self.text)
+        except TranslationError:
+            return lines_of_program(self.program)
+
+    @property
+    def remarks(self) -> tuple[tuple[str, str], ...]:
+        """What is open, assumed, set aside as saying nothing of the test, and noted: each with which of these it is."""
+        return (
+            *(("open", each.with_default()) for each in self.questions),
+            *(("assumed", each) for each in self.story.assumptions),
+            *(("set aside", f'"{each.text}"') for each in self.story.asides),
+            *(("note", each) for each in self.notes),
+        )
+
+    def as_data(self) -> dict[str, Any]:
+        """Return all of it but the program as plain data."""
+        return {
+            "translator": self.translator,
+            "understood": [{"sentence": each.sentence, "words": each.words} for each in self.lines],
+            "questions": as_data(self.questions),
+            "answers": self.all_answers,
+            "assumptions": list(self.story.assumptions),
+            "set_aside": [each.text for each in self.story.asides],
+            "notes": list(self.notes),
+        }
+
 
 def understand(
     text: str,
     road_map: RoadMap | None = None,
-    answers: Mapping[str, str] | None = None,
+    answers: Answers | None = None,
     strict: bool = False,
     name: str = "description",
-) -> Story:
-    """Return the story of `text` on a map, the one that it names itself where it does.
+    ask: Ask | None = None,
+) -> Understanding:
+    """Return what `text` says, read without a model, on a map: the one that it names itself where it does.
 
     Raises
     ------
@@ -35,20 +106,66 @@ def understand(
 
     Examples
     --------
-    >>> story = understand("The ego drives west. The hero is oncoming. The hero brakes to a stop at its stop line.")
-    >>> [actor.way.heading for actor in story.actors]
-    ['W', 'E']
+    >>> text = "The ego drives west. The hero is oncoming. The hero brakes to a stop at its stop line."
+    >>> [line.sentence for line in understand(text).lines][0]
+    'The ego is headed west and goes straight on.'
     """
     check_description(text, name)
-    answers = answers or {}
-    story = read(text, answers, name)
+    return understand_story(lambda given: read(text, given, name), text, road_map, answers, strict, name, ask)
+
+
+def understand_story(
+    read_with: Callable[[Answers], Story],
+    text: str,
+    road_map: RoadMap | None = None,
+    answers: Answers | None = None,
+    strict: bool = False,
+    name: str = "description",
+    ask: Ask | None = None,
+) -> Understanding:
+    """Return what a story says on a map, whoever made it of `text`.
+
+    Parameters
+    ----------
+    read_with
+        Makes the story, with the answers that are known; called again after every answer, which may open or close
+        other questions.
+    answers
+        What is answered already, by slot.
+    strict
+        Refuse what is left open even where there is a default.
+    ask
+        Asked about one open question after another; None where nobody can be asked.
+
+    Raises
+    ------
+    TranslationError
+        As `understand` does.
+    """
+    given = dict(answers or {})
+    while True:
+        story = _on_map(read_with(given), road_map, given)
+        waiting = [each for each in story.questions if each.slot not in given]
+        if ask is None or not waiting:
+            break
+        given[waiting[0].slot] = ask(waiting[0])
+    story = settled(story, given, strict, Place(name, text))
+    try:
+        return Understanding(text, story, compile_story(story, text), answers=given)
+    except TranslationError as error:  # of something that no program says yet, in the words that say it
+        if error.place is None and error.found and (at := text.find(error.found)) >= 0:
+            error.place = Place(name, text, Span(at, at + len(error.found)))
+        raise
+
+
+def translate(text: str, road_map: RoadMap | None = None, answers: Answers | None = None) -> Program:
+    """Return the program of `text`, read without a model; raises as `understand` does."""
+    return understand(text, road_map, answers).program
+
+
+def _on_map(story: Story, road_map: RoadMap | None, answers: Answers) -> Story:
     if road_map is None:
         road_map = load_map(story.map_name)
     elif story.map_name == DEFAULT_MAP:
         story = replace(story, map_name=road_map.name)
-    return settled(put_on_map(story, road_map, answers), answers, strict)
-
-
-def translate(text: str, road_map: RoadMap | None = None, answers: Mapping[str, str] | None = None) -> Program:
-    """Return the program of `text`; raises as `understand` and `compile_story` do."""
-    return compile_story(understand(text, road_map, answers), text)
+    return put_on_map(story, road_map, answers)

@@ -8,17 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from fractions import Fraction
 
 from scenewright.errors import TranslationError
 from scenewright.language import story as st
 from scenewright.language.compile import COMPASS, route_of
-from scenewright.language.phrases import Phrases
+from scenewright.language.phrases import NO_GAP, Phrases
 from scenewright.program.types import HeadingsRoute, LanesRoute
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route, all_routes, find_routes
 
 # How somebody's way begins against another's, in quarters of the compass to the right of it.
+_OF_A_TURN = (st.Place("turn_start"), st.Place("turn_end"))
+_INSTEAD = "it passes the conflict point"
 BEARINGS = {"oncoming": 2, "from the left": 1, "from the right": 3, "ahead": 0, "behind": 0, "same way": 0}
 
 
@@ -39,7 +40,7 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
     for actor in story.actors:
         found = list(dict.fromkeys(_way(route, road_map) for route in fitting[actor.id]))
         if not found:
-            there_are = "; ".join(dict.fromkeys(str(route) for route in all_routes(road_map)))
+            there_are = "; ".join(dict.fromkeys(phrases.way(_way(route, road_map)) for route in all_routes(road_map)))
             raise TranslationError(
                 f"no way on {road_map.name} fits what is said of {phrases.name(actor.id)}",
                 found=phrases.way(actor.way),
@@ -56,7 +57,44 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
         settled = replace(actor, way=found[0], relations=relations)
         others = tuple(settled if each.id == actor.id else each for each in story.actors)
         story = _in_line(replace(story, actors=others), actor)
-    return replace(story, questions=tuple(questions))
+    return _fits_ways(replace(story, questions=tuple(questions)), answers or {})
+
+
+def _fits_ways(story: st.Story, answers: Mapping[str, str]) -> st.Story:
+    """Ask what an event of a turn means of somebody who does not turn, and refuse a collision of ways that cross.
+
+    Raises
+    ------
+    TranslationError
+        Where a time to collision is asked for of ways that have no lane in common.
+    """
+    ways = {actor.id: actor.way for actor in story.actors}
+    phrases, questions, moments = Phrases(story), list(story.questions), []
+    for moment in story.moments:
+        conditions = list(moment.conditions)
+        for number, each in enumerate(conditions):
+            if not isinstance(each, st.Measure):
+                continue
+            if each.quantity is st.Quantity.COLLISION and _cross(ways[each.actor], ways[each.other or 0]):
+                found = each.quote.text if each.quote else phrases.clause(each)
+                fix = "say the time to arrival of each: 'the ego is 3 s from the conflict point'"
+                raise TranslationError("a time to collision needs a lane that both drive in", found=found, fix=fix)
+            if each.place in _OF_A_TURN and ways[each.actor].turn == "straight":
+                name = phrases.name(each.actor)
+                asked = f"{name} does not turn. What is meant by: {phrases.clause(each, passing=True)}?"
+                slot = f"turn of {name.removeprefix('the ')}"
+                if answers.get(slot) == _INSTEAD:
+                    conditions[number] = replace(each, place=st.Place("conflict_point"))
+                elif all(question.slot != slot for question in questions):
+                    questions.append(st.Question(slot, asked[0].upper() + asked[1:], (_INSTEAD,), None, each.quote))
+        moments.append(replace(moment, conditions=tuple(conditions)))
+    return replace(story, moments=tuple(moments), questions=tuple(questions))
+
+
+def _cross(one: st.Way, other: st.Way) -> bool:
+    """Whether two whole ways begin and end in different directions."""
+    ends = [way.headings if isinstance(way := route_of(each), HeadingsRoute) else () for each in (one, other)]
+    return all(ends) and ends[0][0] != ends[1][0] and ends[0][-1] != ends[1][-1]
 
 
 def _fitting(actor: st.Actor, road_map: RoadMap) -> list[Route]:
@@ -110,7 +148,6 @@ def _in_line(story: st.Story, actor: st.Actor) -> st.Story:
             rear, front = (relation.of, actor.id) if relation.kind == "ahead" else (actor.id, relation.of)
             told = [each for each in start.conditions if isinstance(each, st.Measure) and each.other == front]
             if all((each.actor, each.quantity) != (rear, st.Quantity.GAP) for each in told):
-                zero = st.Amount(Fraction(0), "m")
-                added.append(st.Measure(rear, st.Quantity.GAP, ">", zero, other=front, quote=relation.quote))
+                added.append(st.Measure(rear, st.Quantity.GAP, ">", NO_GAP, other=front, quote=relation.quote))
     moments = (replace(start, conditions=(*start.conditions, *added)), *story.moments[1:])
     return replace(story, moments=moments)

@@ -13,13 +13,13 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import product
 
+from scenewright.language.lines import told_constraints
 from scenewright.motion.profile import Profile, Segment
 from scenewright.plan.one_rate import OneRate, Past, Question
 from scenewright.plan.planner import Attempt, Replan
 from scenewright.plan.prediction import EgoSample
 from scenewright.plan.problem import Missed
 from scenewright.plan.situation import SeenAndForeseen
-from scenewright.program.printer import print_expression
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
@@ -154,5 +154,5 @@ class SmtPlanner:
         return f"no motion of one rate a piece holds all of: {self._words(sorted(core))}"
 
     def _words(self, origins: Sequence[str]) -> str:
-        formulas = {each.id: print_expression(each.formula) for each in self.scene.program.constraints}
-        return "; ".join(f"{name}: {formulas[name]}" if name in formulas else name for name in origins)
+        told = told_constraints(self.scene.program)
+        return "; ".join(told.get(name, name) for name in origins)

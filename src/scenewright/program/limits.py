@@ -60,7 +60,15 @@ def check_text(text: str, name: str) -> None:
 
 
 def check_description(text: str, name: str) -> None:
-    """Raise `TranslationError` where a description is more than anybody could mean by one scenario."""
+    """Raise `TranslationError` where a description is empty, or more than anybody could mean by one scenario."""
+    if not text.strip():
+        fix = "for example: The ego drives west. An oncoming hero turns left. When the ego is 25 m before the conflict "
+        raise TranslationError(
+            "the description is empty",
+            place=Place(name),
+            expected="a few sentences that say who drives where, and what happens when",
+            fix=f"{fix}point, the hero brakes to a stop.",
+        )
     _check_characters(text, name)
     for whose, what, count, most in (
         ("the description", "characters", len(text), DESCRIPTION_CHARACTERS),

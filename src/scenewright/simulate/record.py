@@ -19,6 +19,9 @@ from typing import Any
 
 from scenewright import __version__
 from scenewright.errors import OutputError, Place
+from scenewright.language.lines import lines_of_program
+from scenewright.language.questions import as_data
+from scenewright.language.understand import Understanding
 from scenewright.program.printer import print_program
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.conflicts import shared_offset_m
@@ -29,6 +32,7 @@ from scenewright.solve.limits import Limits
 from scenewright.solve.plan import SCHEMA_VERSION
 from scenewright.trace.files import TRACE_FILE, write_trace
 
+TEXT_FILE, ANSWERS_FILE = "description.txt", "answers.json"
 _PACKAGES = ("z3-solver", "daqp", "numpy", "scipy", "pyarrow")
 
 
@@ -46,10 +50,10 @@ class Circumstances:
     chosen_parameters: frozenset[str] = frozenset()
     given_parameters: frozenset[str] = frozenset()
     timings_s: Mapping[str, float] = field(default_factory=dict)
-    notes: tuple[str, ...] = ()
     take: int = 1
     simulator: str = "builtin"
     planner: str = "convex"
+    understanding: Understanding | None = None  # of a text; None where a program was given
 
 
 def prepare_directory(directory: Path) -> None:
@@ -80,10 +84,22 @@ def write_run(
     """
     _write(directory / "program.scene", lambda path: path.write_text(print_program(scene.program), encoding="utf-8"))
     write_json(directory / "params.json", _parameters(scene, circumstances))
+    _write_text(directory, circumstances.understanding)
     write_json(directory / "plan.json", run.first_plan.as_dict(scene))
     _write(directory / TRACE_FILE, lambda path: write_trace(run.trace, path))
     _write(directory / "replans.parquet", lambda path: _write_replans(run, path))
     write_json(directory / "manifest.json", _manifest(scene, run, limits, circumstances))
+
+
+def _write_text(directory: Path, understanding: Understanding | None) -> None:
+    """Keep a text with its answers, which give the same program again; leave none of an earlier run."""
+    if understanding is None:
+        for name in (TEXT_FILE, ANSWERS_FILE):
+            (directory / name).unlink(missing_ok=True)
+        return
+    text = understanding.text
+    _write(directory / TEXT_FILE, lambda path: path.write_text(text, encoding="utf-8", newline=""))
+    write_json(directory / ANSWERS_FILE, understanding.all_answers)
 
 
 def write_json(path: Path, data: object) -> None:
@@ -125,12 +141,16 @@ def _write_replans(run: Run, path: Path) -> None:
 
 
 def _manifest(scene: Scene, run: Run, limits: Mapping[int, Limits], circumstances: Circumstances) -> dict[str, Any]:
-    program = scene.program
+    program, understanding = scene.program, circumstances.understanding
+    lines = understanding.lines if understanding else lines_of_program(program)
+    notes = [": ".join(each) for each in understanding.remarks] if understanding else []
     return {
         "schema_version": SCHEMA_VERSION,
         "scenewright_version": __version__,
         "name": program.name,
         "description": program.description,
+        "understood": [{"sentence": line.sentence, "words": line.words} for line in lines],
+        "questions": as_data(understanding.questions) if understanding else [],
         "status": run.status,
         "fault": str(run.fault) if run.fault else None,
         "seed": circumstances.seed,
@@ -160,7 +180,7 @@ def _manifest(scene: Scene, run: Run, limits: Mapping[int, Limits], circumstance
         "plan": {"style": run.first_plan.style, "tolerance": run.last_plan.tolerance},
         "timings": {name: round(seconds, 6) for name, seconds in circumstances.timings_s.items()},
         "packages": _packages(),
-        "notes": [*circumstances.notes, *scene.notes, *scene.road_map.notes],
+        "notes": [*notes, *scene.notes, *scene.road_map.notes],
         "findings": list(run.findings),
     }
 

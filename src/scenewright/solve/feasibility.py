@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal
 
+from scenewright.language.lines import named
 from scenewright.program.printer import print_expression
 from scenewright.program.structure import Structure
 from scenewright.program.types import Program
@@ -34,11 +35,12 @@ class Clash:
     id: str
     formula: str | None
     words: str | None
+    told: str = ""  # the constraint in plain English
 
     def __str__(self) -> str:
         if self.formula is None:
             return self.id
-        return f"{self.id}: {self.formula}" + (f'  ("{self.words}")' if self.words else "")
+        return self.told + (f'  ("{self.words}")' if self.words else "")
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +75,7 @@ class Feasibility:
         return {
             "answer": self.answer,
             "reason": self.reason,
-            "clashes": [{"id": c.id, "formula": c.formula, "words": c.words} for c in self.clashes],
+            "clashes": [{"id": c.id, "told": c.told, "formula": c.formula, "words": c.words} for c in self.clashes],
             "suggestions": [
                 {"what": s.what, "value": s.value, "nearest": s.nearest, "unit": s.unit} for s in self.suggestions
             ],
@@ -145,4 +147,5 @@ def _clash(program: Program, origin: str) -> Clash:
         constraint = program.constraint(origin)
     except KeyError:
         return Clash(origin, None, None)
-    return Clash(origin, print_expression(constraint.formula), program.words_of(constraint))
+    told = named(program, constraint)
+    return Clash(origin, print_expression(constraint.formula), program.words_of(constraint), told)

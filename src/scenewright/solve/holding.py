@@ -10,10 +10,10 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
+from scenewright.language.lines import named
 from scenewright.motion.profile import Profile
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import term_value, violation
-from scenewright.program.printer import print_expression
 from scenewright.program.structure import Role, actors_of, knots_of, read_structure
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
@@ -28,6 +28,7 @@ class NotHeld:
     """A constraint that a plan breaks, and by how much: in `unit`, infinite where no number says it."""
 
     constraint: Constraint
+    told: str
     words: str | None
     by: float
     unit: str
@@ -36,7 +37,7 @@ class NotHeld:
         words = f'  ("{self.words}")' if self.words else ""
         off = f", off by {self.by:.3g} {self.unit}".rstrip() if math.isfinite(self.by) else ""
         whose = "; the ego is nobody's to hold to it" if actors_of(self.constraint.formula) == {EGO} else ""
-        return f"{self.constraint.id}: {print_expression(self.constraint.formula)}{words}{off}{whose}"
+        return f"{self.told}{words}{off}{whose}"
 
 
 def not_held(
@@ -68,7 +69,8 @@ def not_held(
             if not by <= max(_ROUNDED, *map(allowed, dimensions)):
                 dimension = dimensions.pop() if len(dimensions) == 1 else None
                 unit = SI_SYMBOL[dimension] if dimension else ""
-                yield NotHeld(constraint, scene.program.words_of(constraint), by, unit)
+                told = named(scene.program, constraint)
+                yield NotHeld(constraint, told, scene.program.words_of(constraint), by, unit)
                 break
 
 

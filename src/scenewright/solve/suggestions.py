@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
+from scenewright.language.lines import in_words
 from scenewright.program.expressions import (
     Arithmetic,
     Compare,
@@ -119,10 +120,9 @@ def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
                 dimension = compared_dimension(constraint.formula)
                 if node.value == 0 and dimension not in _FROM_ZERO:
                     continue
-                words = program.words_of(constraint)
-                what = f"{format_fraction(node.value)} in " + (
-                    f'"{words}"' if words else print_expression(constraint.formula)
-                )
+                is_code = program.description is None  # whoever wrote the program looks for its line
+                said = print_expression(constraint.formula) if is_code else f'"{in_words(program, constraint)}"'
+                what = f"{format_fraction(node.value)} in {said}"
                 yield Lever(what, node.value, dimension, f"free_{constraint.id}", constraint, node)
 
 

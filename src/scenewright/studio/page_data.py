@@ -63,6 +63,7 @@ def collect(run_dir: Path) -> Json:
         "cause": _cause(verdict),
         "about": _about(manifest),
         "description": clauses(program) if program and program.description else _plain(manifest.get("description")),
+        "understood": _understood(manifest, program),
         "program": _text(run_dir / "program.scene"),
         "parameters": _parameters(params),
         "missing": missing,
@@ -70,7 +71,7 @@ def collect(run_dir: Path) -> Json:
         "origin": list(scene.origin_xy_m),
         "map": scene.roads,
         "time": _numbers(trace.time_s[chosen], 4),
-        "actors": _actors(trace, chosen, manifest, plan, scene, knots),
+        "actors": _actors(trace, chosen, manifest, plan, scene, _in_order(knots, program)),
         "triggers": reached,
         "places": places(program) if program else None,
         "conditions": _conditions(verdict, program, knots, reached),
@@ -134,6 +135,15 @@ def _program(run_dir: Path, missing: list[str]) -> Program | None:
 
 def _plain(description: object) -> list[Json]:
     return [{"text": str(description), "ids": []}] if description else []
+
+
+def _understood(manifest: Json, program: Program | None) -> list[Json]:
+    """Return the sentences of what was understood with the words they came from, or else what the program says."""
+    from scenewright.language.lines import lines_of_program
+
+    if (told := manifest.get("understood")) or program is None:
+        return told or []
+    return [{"sentence": line.sentence, "words": line.words} for line in lines_of_program(program)]
 
 
 def _outcome(manifest: Json, verdict: Json | None) -> Json:
@@ -221,8 +231,19 @@ def _knots(manifest: Json, verdict: Json | None) -> dict[str, dict[str, float]]:
     }
 
 
-def _in_order(knots: Mapping[str, float]) -> list[list[Any]]:
-    return [[name, round(time, 4)] for name, time in sorted(knots.items(), key=lambda knot: knot[1])]
+def _in_order(knots: Mapping[str, Mapping[str, float]], program: Program | None) -> dict[str, list[list[Any]]]:
+    """Return by actor its knots in time: name, moment, and what happens then; nothing where nothing is said of it."""
+    from scenewright.language.lines import told_knots
+
+    told = told_knots(program) if program else {}
+    numbers = {actor.name: actor.id for actor in program.actors} if program else {}
+    return {
+        actor: [
+            [name, round(time, 4), told.get((numbers.get(actor, -1), name), "")]
+            for name, time in sorted(own.items(), key=lambda knot: knot[1])
+        ]
+        for actor, own in knots.items()
+    }
 
 
 def _chosen_samples(trace: Trace) -> NDArray[np.intp]:
@@ -237,10 +258,10 @@ def _actors(
     manifest: Json,
     plan: Json,
     scene: SceneGeometry,
-    knots: Mapping[str, Mapping[str, float]],
+    knots: Mapping[str, list[list[Any]]],
 ) -> list[Json]:
     return [
-        _actor(name, actor, chosen, manifest, plan, scene) | {"knots": _in_order(knots.get(name, {}))}
+        _actor(name, actor, chosen, manifest, plan, scene) | {"knots": knots.get(name, [])}
         for name, actor in trace.actors.items()
     ]
 
@@ -290,7 +311,7 @@ def _conditions(
                 "id": identifier,
                 "owner": owner,
                 "kind": condition.get("kind") or "",
-                "text": text.removeprefix(f"{said}: ") if said else text,
+                "text": text,
                 "words": said,
                 "required": condition.get("required"),
                 "measured": condition.get("measured"),

@@ -13,11 +13,12 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from scenewright.errors import InputError, Place, ScenewrightError
+from scenewright.language.sources import read_scenario
+from scenewright.language.understand import OFFLINE
 from scenewright.orchestrate import Request, Result, orchestrate
 from scenewright.study.causes import cause_of
 from scenewright.study.draws import draw_parameters
 from scenewright.study.workers import Crash, each_done
-from scenewright.translate.sources import read_scenario
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +124,7 @@ def make_cases(
     """Return every combination; a draw is the same for all egos."""
     cases = []
     for number, description in enumerate(descriptions):
-        program, _ = read_scenario(description.text)
+        program, _ = read_scenario(description.text, OFFLINE)
         for draw in range(draws):
             parameters = draw_parameters(program.parameters, (seed, number, draw))
             cases += [Case(description, ego, draw, seed + draw, parameters, takes) for ego in egos]
@@ -138,7 +139,9 @@ def run_cases(cases: Sequence[Case], workers: int) -> Iterator[Outcome]:
 
 def run_case(case: Case) -> Outcome:
     """Run one case and say what came of it."""
-    request = Request(case.description.text, case.parameters, ego=case.ego, seed=case.seed, takes=case.takes)
+    request = Request(
+        case.description.text, case.parameters, ego=case.ego, seed=case.seed, takes=case.takes, translator=OFFLINE
+    )
     try:
         result = orchestrate(request)
     except ScenewrightError as error:

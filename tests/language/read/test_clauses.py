@@ -1,62 +1,64 @@
-"""Chunks attach by type and dimension, whatever their order, and nothing that carries meaning is left over."""
+"""What a clause says of its subject: deeds, facts of a way, flags, and amounts that a use gives a unit."""
 
 from __future__ import annotations
 
 import pytest
 
 from scenewright.errors import UnknownWordsError
-from scenewright.language import story as st
+from scenewright.language.read.attach import read_clause
 from scenewright.language.read.chunks import sentences
-from scenewright.language.read.clauses import Clause, read_clause
+from scenewright.language.read.facts import Clause
 from scenewright.language.read.narrative import Narrative
 
 
 def clause(text: str) -> Clause:
     (chunks,) = sentences(text)
-    return read_clause(chunks, Narrative(text))
+    return read_clause([chunk for chunk in chunks if chunk.kind not in ("harmless", "comma")], Narrative(text))
 
 
 @pytest.mark.parametrize(
-    "texts",
+    ("text", "facts"),
     [
-        (
-            "the hero is 12 m before the stop line",
-            "the hero before the stop line 12 m",
-            "12 m before its stop line the hero is",
-        ),
-        ("the hero is 3 s from the stop line", "the hero's time to arrival at the stop line is 3 s"),
-        (
-            "the hero is 20 m behind the ego",
-            "the ego is 20 m ahead of the hero",
-            "the hero's gap is 20 m behind the ego",
-        ),
-        ("the hero has a headway of 2 s to the ego", "the hero is 2 s behind the ego"),
-        ("the hero drives at 8 m/s", "the hero has a speed of 8 m/s", "the hero's speed is 8 m/s"),
-        ("the hero is at the stop line", "the hero reaches its stop line", "the hero arrives at the stop line"),
+        ("the hero turns left out of the driveway onto the eastbound lane",
+         {"turn": "left", "origin": "driveway", "destination": "road", "destination_heading": "E"}),
+        ("the hero comes from the east along the road", {"heading": "W", "origin": "road"}),
+        ("the hero leaves the eastbound road to the left, into the driveway",
+         {"heading": "E", "origin": "road", "turn": "left", "destination": "driveway"}),
+        ("the hero turns left into the driveway from the eastbound lane",
+         {"turn": "left", "destination": "driveway", "heading": "E", "origin": "road"}),
+        ("the hero stays in its lane on the westbound road", {"turn": "straight", "heading": "W", "origin": "road"}),
+        ("the hero turns left across the ego's path into the driveway", {"turn": "left", "destination": "driveway"}),
     ],
-)
-def test_one_measure_said_in_several_ways(texts: tuple[str, ...]) -> None:
-    found = [clause(text).measures for text in texts]
-    assert len(found[0]) == 1
-    kinds = [(each.quantity, each.op, each.amount, each.place) for (each,) in found]
-    assert kinds == kinds[:1] * len(texts)
+)  # fmt: skip
+def test_ways(text: str, facts: dict[str, str]) -> None:
+    assert clause(text).facts == facts
+
+
+def test_deeds_and_flags() -> None:
+    assert clause("the hero gently brakes to a stop").flags == {"standstill"}
+    assert clause("the hero keeps its speed").flags == {"kept"}
+    assert clause("the hero does not give way").flags == {"insists"}
+    assert clause("the hero has to go").deed == "drive on"
+    assert clause("the conflict point is passed by the hero").is_event
+    assert clause("the hero passes the conflict point before the ego").rival == ("before", 0)
 
 
 @pytest.mark.parametrize(
-    "text",
-    ["the hero is 12 m before", "the hero is 12 m with the ego", "the hero is the ego", "12 m before the stop line",
-     "the hero is at least at the stop line", "the hero passes", "the hero brakes and speeds up",
-     "the hero is 2 s past the stop line", "the hero turns left turns right"],
+    ("text", "unit"),
+    [("the hero brakes at {x}", "m/s^2"), ("the hero drives at {x}", "m/s"), ("the hero's speed is {x}", "m/s"),
+     ("the hero is {x} past the stop line", "m"), ("the hero has a headway of {x} to the ego", "s")],
 )  # fmt: skip
-def test_what_is_left_over_is_named(text: str) -> None:
-    with pytest.raises(UnknownWordsError, match="could not be understood here"):
+def test_the_use_of_a_parameter_tells_its_unit(text: str, unit: str) -> None:
+    found = clause(text)
+    amount = (found.rate or found.measures[0]).amount
+    assert amount is not None
+    assert (amount.unit, amount.name) == (unit, {"m/s^2": "x_mpss", "m/s": "x_mps", "m": "x_m", "s": "x_s"}[unit])
+
+
+@pytest.mark.parametrize(
+    "text", ["the hero is 12 m/s before the stop line", "the hero brakes with an acceleration of 3 m/s^2",
+             "the hero yields to the hero", "the hero is 12 before the stop line"],
+)  # fmt: skip
+def test_what_does_not_go_together_is_left_over(text: str) -> None:
+    with pytest.raises(UnknownWordsError):
         clause(text)
-
-
-def test_an_amount_may_wait_for_the_place_of_its_neighbour() -> None:
-    waiting = clause("the hero is 12 m")
-    assert waiting.waiting
-    assert waiting.says_more_than("measures")
-    (chunks,) = sentences("the hero is 12 m")
-    told = read_clause(chunks, Narrative(""), clause("the ego is 5 m before the stop line"))
-    assert told.measures[0].place == st.Place("stop_line")

@@ -10,29 +10,33 @@ import re
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from difflib import get_close_matches
 from fractions import Fraction
 from functools import lru_cache
 from importlib.resources import files
 
 from scenewright.language.phrases import ORDINALS
+from scenewright.language.read.spelling import corrected, nearest
 from scenewright.language.story import Amount, Quote
 from scenewright.units import UNITS, unit_of_name
 
 _TOKEN = re.compile(
-    r"(?P<quoted>(?<![\w'])'[^'\n]+')"
+    r"(?P<layout>\n[ \t]*(?=\n|[A-Z][A-Za-z ]{1,24}:)|(?:(?<=\n)|\A)[ \t]*(?:[-*•]|\d{1,2}[.)])[ \t]+)"
+    r"|(?P<quoted>(?<![\w'])'[^'\n]+')"
     r"|(?P<number>(?<![\w.])-?\d+(?:\.\d+|/[1-9]\d*)?)"
     r"|\{(?P<braced>[A-Za-z]\w*)\}"
     r"|(?P<snake>[A-Za-z][A-Za-z0-9]*_\w*)"
-    r"|(?P<word>[A-Za-z][A-Za-z0-9]*(?:[-’'](?!s\b)[A-Za-z]+)*)"
+    r"|(?P<word>[^\W\d_][^\W_]*(?:[-’'](?!s\b|ve\b|ll\b)[^\W\d_]+)*)"
     r"|(?P<possessive>['’]s\b|['’](?=\s))"
-    r"|(?P<mark>[.,;:!?])"
+    r"|(?P<short>['’](?:ve|ll)\b)"
+    r"|(?P<mark>[.,;:!?()\[\]–—\"“”])"
     r"|(?P<other>\S)"
 )
 _LANES = re.compile(r"follows? the lanes ((?:[A-Za-z0-9_]+(?:\.-?[A-Za-z0-9_]+)+(?:, )?)+)")
 _NUMBERS = "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen"
 _TENS = "twenty thirty forty fifty sixty"
 _ENDS = ".;!?"
+_QUOTES = '"“”'
+_TRAITS = ("heading", "relation", "quality", "other", "turn")
 _SUFFIX = {"m": "_m", "s": "_s", "m/s": "_mps", "m/s^2": "_mpss", "km/h": "_kmph", "mph": "_mph", "ft": "_ft"}
 
 
@@ -46,6 +50,9 @@ class Chunk:
     end: int
     text: str
     amount: Amount | None = None
+    traits: tuple[Chunk, ...] = ()  # of somebody: which one, how its way lies
+    is_new: bool = False  # "a car", "another car"
+    slips: tuple[str, ...] = ()  # the words that were meant where the text has a slip of the pen
 
     @property
     def quote(self) -> Quote:
@@ -60,6 +67,9 @@ class Vocabulary:
     phrases: dict[str, list[tuple[tuple[str, ...], str, str]]]
     units: dict[str, str]
     numbers: dict[str, Fraction]
+    labels: dict[str, str]
+    words: frozenset[str]  # all that stand in phrases
+    lookalikes: frozenset[str]
     unit_pattern: re.Pattern[str]
 
 
@@ -70,6 +80,8 @@ def vocabulary() -> Vocabulary:
     units = {word: symbol for symbol, said in table.pop("unit").items() for word in said.split(" | ")}
     numbers = {word: Fraction(number) for number, word in enumerate(_NUMBERS.split())}
     numbers |= {word: Fraction(10 * tens) for tens, word in enumerate(_TENS.split(), start=2)}
+    labels = {word: kind for kind, said in table.pop("label").items() for word in said.split(" | ")}
+    lookalikes = frozenset(table.pop("lookalike")["words"].split())
     table["ordinal"] = {str(number): f"for the {word} time" for number, word in enumerate(ORDINALS)}
     phrases: dict[str, list[tuple[tuple[str, ...], str, str]]] = {}
     for kind, values in table.items():
@@ -82,7 +94,16 @@ def vocabulary() -> Vocabulary:
         known.sort(key=lambda each: -len(each[0]))
     longest = "|".join(map(re.escape, sorted(units, key=len, reverse=True)))
     pattern = re.compile(rf"[\s-]?({longest})(?![\w/^²])", re.IGNORECASE)
-    return Vocabulary(phrases, units, numbers, pattern)
+    single = frozenset(word for same in phrases.values() for said, _, _ in same for word in said)
+    return Vocabulary(phrases, units, numbers, labels, single, lookalikes, pattern)
+
+
+_IRREGULAR = {
+    "drive": "drove driven", "go": "went gone", "come": "came", "stand": "stood", "begin": "began begun",
+    "leave": "left", "get": "got", "keep": "kept", "hold": "held", "make": "made", "take": "took taken",
+    "fall": "fell fallen", "mean": "meant", "shrink": "shrank shrunk", "ride": "rode", "run": "ran",
+}  # fmt: skip
+_DOUBLED = ("stop", "begin", "get", "plan", "slam", "drop", "run")
 
 
 def _forms(phrase: str) -> list[str]:
@@ -90,12 +111,11 @@ def _forms(phrase: str) -> list[str]:
     if not phrase.startswith("*"):
         return [phrase]
     verb, _, rest = phrase[1:].partition(" ")
-    irregular = {"drive": "drove", "go": "went", "come": "came", "stand": "stood", "begin": "began", "leave": "left"}
-    doubled = verb + verb[-1] if verb in ("stop", "begin", "get", "plan") else verb
+    doubled = verb + verb[-1] if verb in _DOUBLED else verb
     stem = verb.removesuffix("e")
     third = f"{verb}es" if verb.endswith(("s", "sh", "ch", "x", "o")) else f"{verb}s"
-    past = irregular.get(verb, f"{stem}ed" if verb.endswith("e") else f"{doubled}ed")
-    forms = [verb, third, f"{stem if verb.endswith('e') else doubled}ing", past]
+    past = _IRREGULAR.get(verb, f"{stem}ed" if verb.endswith("e") else f"{doubled}ed").split()
+    forms = [verb, third, f"{stem if verb.endswith('e') else doubled}ing", *past]
     return [f"{form} {rest}".strip() for form in forms]
 
 
@@ -110,22 +130,62 @@ def sentences(text: str) -> list[list[Chunk]]:
     found: list[list[Chunk]] = [[]]
     for chunk in _chunks(text):
         if chunk.kind == "end":
+            if chunk.text == "?":  # a question states nothing
+                found[-1].append(replace(chunk, kind="unknown"))
             found.append([])
-        elif chunk.kind != "filler":
+        else:
             found[-1].append(chunk)
-    return [each for each in found if each]
+    return [chunks for each in found if (chunks := _described(_labelled(each, text)))]
+
+
+def _labelled(chunks: list[Chunk], text: str) -> list[Chunk]:
+    """Take what a label in front of a colon says: whom, when, or nothing (``Action: ...``)."""
+    colon = next((number for number, each in enumerate(chunks[:6]) if each.text == ":"), 0)
+    if not colon:
+        return chunks
+    people = [each for each in chunks[:colon] if each.kind == "actor"]
+    words = " ".join(each.text.lower() for each in chunks[:colon] if each.kind not in ("actor", "filler", "possessive"))
+    kind = vocabulary().labels.get(words)
+    if kind is None and (words or not people):
+        return chunks
+    first = replace(chunks[0], kind="link", value="when" if kind == "when" else "start")
+    return [*people, *([first] if kind in ("when", "start") else []), *chunks[colon + 1 :]]
+
+
+def _described(chunks: list[Chunk]) -> list[Chunk]:
+    """Give somebody the words that describe it, and leave out what means nothing: ``an oncoming red car``."""
+    found: list[Chunk] = []
+    for chunk in chunks:
+        if chunk.kind == "actor":
+            first = len(found)
+            while first and found[first - 1].kind in _TRAITS:
+                first -= 1
+            is_new = first > 0 and (found[first - 1].kind, found[first - 1].value) == ("det", "a")
+            chunk = replace(chunk, traits=tuple(found[first:]), is_new=is_new)
+            del found[first - is_new :]
+        if chunk.kind == "name" and found and found[-1].kind == "actor":  # "the car 'blue'"
+            chunk = replace(chunk, traits=(found.pop(),))
+        found.append(chunk)
+    others = [each for each in found if each.kind == "det" and len(each.text) > 3]  # "another stop line" is not the one
+    found = [replace(each, kind="unknown") if each in others and each.value == "a" else each for each in found]
+    return [each for each in found if each.kind not in ("filler", "det")]
 
 
 def _chunks(text: str) -> Iterator[Chunk]:
     tokens = list(_TOKEN.finditer(text))
+    known = vocabulary()
     words = [token.group().lower() for token in tokens]
+    slips = {at: right for at, word in enumerate(words)
+             if tokens[at]["word"] and (right := corrected(word, known.words, known.lookalikes))}  # fmt: skip
+    words = [slips.get(at, word) for at, word in enumerate(words)]
     end = 0
     for index, token in enumerate(tokens):
         if token.start() >= end:
             chunk = _lanes(text, token.start()) or _amount(text, token) or _phrase(text, tokens, words, index)
             chunk = chunk or _plain(token)
             end = chunk.end
-            yield chunk
+            slipped = [each for at, each in slips.items() if chunk.start <= tokens[at].start() < end]
+            yield replace(chunk, slips=tuple(slipped)) if slipped else chunk
 
 
 def _lanes(text: str, at: int) -> Chunk | None:
@@ -166,7 +226,7 @@ def _amount(text: str, match: re.Match[str]) -> Chunk | None:
 
 def _phrase(text: str, tokens: list[re.Match[str]], said: list[str], index: int) -> Chunk | None:
     """Return the longest phrase of the domain that begins here."""
-    if tokens[index]["word"] is None:
+    if tokens[index]["word"] is None and tokens[index]["short"] is None:
         return None
     for words, kind, value in vocabulary().phrases.get(said[index], ()):
         last = index + len(words) - 1
@@ -184,15 +244,17 @@ def _plain(token: re.Match[str]) -> Chunk:
     (start, end), said = token.span(), token.group()
     if token["quoted"]:
         return Chunk("name", said[1:-1], start, end, said)
+    if token["layout"]:
+        return Chunk("end", said, start, end, said)
     if token["mark"]:
-        return Chunk("end" if said in _ENDS else "comma", said, start, end, said)
+        return Chunk("end" if said in _ENDS else "filler" if said in _QUOTES else "comma", said, start, end, said)
     return Chunk("possessive" if token["possessive"] else "unknown", said, start, end, said)
 
 
 def nearest_words(word: str) -> list[str]:
     """Return the words of the domain that are spelled most like `word`."""
     single = {words[0] for known in vocabulary().phrases.values() for words, _, _ in known if len(words) == 1}
-    return get_close_matches(word.lower(), sorted(single), n=2, cutoff=0.7)
+    return nearest(word, frozenset(single))
 
 
 def word_as(chunk: Chunk, word: str) -> Chunk:

@@ -7,13 +7,15 @@ that are joined by "either", "both", "if" and "it is not so that".
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
+from scenewright.language.read.attach import read_clause
 from scenewright.language.read.chunks import Chunk
-from scenewright.language.read.clauses import PEOPLE, Clause, read_clause
+from scenewright.language.read.clauses import PEOPLE
+from scenewright.language.read.facts import Clause
 from scenewright.language.read.narrative import Narrative
 
 Item = Clause | st.Compound
@@ -22,8 +24,10 @@ _PREDICATES = {
     "be", "state", "event", "phase", "deed", "turn", "mood", "heading", "origin", "quantity", "amount", "lanes",
 }  # fmt: skip
 _BEGINS_A_CLAUSE = {
-    *PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed", "kept",
+    *PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed", "kept", "pair",
+    "order", "yields", "insists", "open",
 }  # fmt: skip
+_FRONTED = ("side", "turn", "state", "origin", "heading", "area")
 _JOINTS: dict[str, tuple[Literal["and", "or", "if"], str]] = {  # what a word makes of its parts, and what parts them
     "either": ("or", "or"),
     "both": ("and", "and"),
@@ -38,21 +42,33 @@ class Segment:
     link: str
     chunks: list[Chunk] = field(default_factory=list)
     margin: tuple[st.Operator, st.Amount] | None = None
+    rival: int | None = None  # who does the same then: "before the ego"
 
 
-def segments_of(chunks: list[Chunk]) -> list[Segment]:
-    """Cut a sentence at its links; "before" and "after" are links where a clause follows, not a place."""
+def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
+    """Cut a sentence at its links; "before" and "after" are links where a clause follows, not a place.
+
+    "With the ego 12 m from ..., the hero ..." and "If ..., then ..." tell a moment, unless something leads them.
+    """
     found = [Segment("main")]
+    opens = [(chunk.kind, chunk.value) for chunk in chunks[:2]] + [("", "")] * 2
+    fronted = opens[0] == ("side", "with") and opens[1][0] in PEOPLE  # "With the ego 12 m from ...", "At a gap of 12 m"
+    fronted |= opens[0] in (("side", "with"), ("side", "at")) and opens[1][0] == "quantity"
+    tells_moment = fronted or opens[0] == ("joint", "if")
+    if tells_moment and not is_led:
+        found, chunks = [*found, Segment("when")], chunks[1:]
     for index, chunk in enumerate(chunks):
         orders = chunk.kind == "side" and chunk.value in ("before", "after")
         if orders and _is_clause(chunks[index + 1 :]):
             found.append(Segment(chunk.value, margin=_margin(found[-1].chunks)))
         elif chunk.kind == "link" and chunk.value in LINKS:
+            if found[-1].chunks and found[-1].chunks[-1].kind == "bound":  # "exactly when"
+                found[-1].chunks.pop()
             found.append(Segment(chunk.value))
         else:
             found[-1].chunks.append(chunk)
     for segment in found:
-        while segment.chunks and segment.chunks[-1].kind == "comma" and segment.link != "when":
+        while segment.chunks and segment.chunks[-1].text in (",", "and") and segment.link != "when":
             segment.chunks.pop()
     return found
 
@@ -83,9 +99,10 @@ def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
     if not commas:
         raise UnknownWordsError("it is not clear where the moment ends", fix="put a comma before what happens")
     acts = (start for start, end in zip(commas, [*commas[1:], len(chunks)], strict=True)
-            if any(chunk.kind in ("deed", "order") for chunk in chunks[start:end]))  # fmt: skip
+            if any(chunk.kind in ("deed", "order", "yields", "insists") for chunk in chunks[start:end]))  # fmt: skip
     cut = next(acts, commas[-1])
-    return chunks[:cut], chunks[cut + 1 :]
+    main = chunks[cut + 1 :]
+    return chunks[:cut], main[1:] if main and main[0].value == "then" else main
 
 
 def items_of(narrative: Narrative, chunks: Sequence[Chunk], subject: int | None = None) -> list[Item]:
@@ -94,11 +111,13 @@ def items_of(narrative: Narrative, chunks: Sequence[Chunk], subject: int | None 
     found: list[Item] = []
     starts: list[int] = []
     while parser.at < len(parser.chunks):
-        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and"):
+        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and") or parser.is_joint("then"):
             parser.at += 1
         else:
-            starts.append(parser.at)
-            found.append(parser.one(()))
+            start, item = parser.at, parser.one(())
+            starts += [start] * (1 + len(parser.others))
+            found += [*parser.others, item]
+            parser.others = []
     for index, item in enumerate(found[:-1]):  # "the ego is 35 m and the hero 20 m from the conflict point"
         following = found[index + 1]
         if isinstance(item, Clause) and item.waiting and isinstance(following, Clause):
@@ -114,6 +133,9 @@ class _Items:
     subject: int | None
     at: int = 0
     before: Clause | None = None
+    turned: set[int | None] = field(default_factory=set)  # who turns, as was said
+    both: list[Chunk] = field(default_factory=list)  # of whom a clause is said that is said of two
+    others: list[Clause] = field(default_factory=list)  # what the last clause says of the others of them
 
     def is_joint(self, value: str) -> bool:
         chunk = self.chunks[self.at] if self.at < len(self.chunks) else None
@@ -124,8 +146,15 @@ class _Items:
         if self.at >= len(self.chunks):
             raise UnknownWordsError("a condition is missing", fix="say what is so")
         chunk = self.chunks[self.at]
-        if chunk.kind != "joint" or chunk.value not in (*_JOINTS, "not so"):
-            return self._clause(inside)
+        kinds = [each.kind for each in self.chunks[self.at + 1 : self.at + 4]] + [""] * 3
+        joins = chunk.value == "both" and kinds[0] in PEOPLE
+        if joins and kinds[2] in PEOPLE and self.chunks[self.at + 2].value == "and":  # "both the ego and the hero"
+            self.at += 1
+        elif joins or (chunk.kind == "joint" and chunk.value in (*_JOINTS, "not so")):
+            return self._joined(chunk, inside)
+        return self._clause(inside)
+
+    def _joined(self, chunk: Chunk, inside: tuple[str, ...]) -> Item:
         self.at += 1
         if chunk.value == "not so":
             return st.Compound("not", (self._part(inside),), chunk.quote)
@@ -142,30 +171,82 @@ class _Items:
         item = self.one(inside)
         if isinstance(item, st.Compound):
             return item
+        if self.others:
+            raise UnknownWordsError("this is said of two at once", found=item.quote.text, fix="say it of each")
         if not item.measures or item.says_more_than("measures"):
             raise UnknownWordsError("this is no condition", found=item.quote.text, fix="say what is so")
         measures = tuple(item.measures)
         return measures[0] if len(measures) == 1 else st.Compound("and", measures, item.quote)
 
     def _clause(self, inside: tuple[str, ...]) -> Clause:
+        subjects = self._subjects()
         start = self.at
         while self.at < len(self.chunks):
             chunk = self.chunks[self.at]
             parts = chunk.kind == "comma" or (chunk.kind == "joint" and chunk.value in ("and", "or"))
-            closes = any(self.is_joint(link) for link in inside)
-            if self.at > start and (closes or (parts and self._begins(self.at + 1))):
+            between = self.at > 1 and self.chunks[self.at - 2].value == "between"
+            closes = any(self.is_joint(link) for link in inside) or self._turns_to_another(start)
+            fronted = self._is_fronted(start)
+            if self.at > start and (closes or (parts and not (between or fronted) and self._begins(self.at + 1))):
                 break
             self.at += 1
         own = [chunk for chunk in self.chunks[start : self.at] if chunk.kind != "comma"]
         if [chunk.value for chunk in own[:2]] == ["it", "is"] and own[-1].value == "the start":
             own = own[2:]  # nobody: "it is 5 s after the start"
-        subject = self.subject if self.before is None else self.before.subject
-        self.before = read_clause(own, self.narrative, self.before, subject)
+        if subjects or (own and own[0].kind in PEOPLE):
+            self.both = subjects
+        for each in self.both[:-1]:
+            self.others.append(self._read([each, *own]))
+        self.before = self._read([*self.both[-1:], *own])
+        if any(each.subject == self.before.subject for each in self.others):
+            raise UnknownWordsError("one and the same is named twice", found=self.before.quote.text)
         return self.before
+
+    def _read(self, own: list[Chunk]) -> Clause:
+        before = self.before
+        clause = read_clause(own, self.narrative, before, self.subject if before is None else before.subject)
+        if clause.facts.get("turn", "straight") != "straight":
+            self.turned.add(clause.subject)
+        elif clause.subject in self.turned and "heading" in clause.facts and "headed" not in clause.flags:
+            clause.facts["destination_heading"] = clause.facts.pop("heading")  # "turns left out of it and goes east"
+        return clause
+
+    def _is_fronted(self, start: int) -> bool:
+        """Whether what stands before this comma is of whom is named after it: "Behind it, the ego drives"."""
+        opens = start == 0 and not any(chunk.kind in PEOPLE for chunk in self.chunks[:1])
+        named = self.at + 1 < len(self.chunks) and self.chunks[self.at + 1].kind in PEOPLE
+        return opens and named and self.chunks[self.at].kind == "comma" and self.chunks[0].kind in _FRONTED
+
+    def _subjects(self) -> list[Chunk]:
+        """Take the two whom a clause is about: "both", "the ego and the hero"."""
+        chunks = self.chunks[self.at : self.at + 4]
+        if chunks[0].kind == "pair":
+            self.at += 1
+            return [replace(chunks[0], kind="name", value=self.narrative.actor(each).name, traits=())
+                    for each in self.narrative.pair(chunks[0])]  # fmt: skip
+        kinds = [chunk.kind for chunk in chunks]
+        if kinds == ["actor", "comma", "actor", "comma"] and chunks[2].is_new:  # "the hero, a truck, ..."
+            self.narrative.same(self.narrative.who(chunks[0]), chunks[2])
+            del self.chunks[self.at + 1 : self.at + 4]
+        if len(chunks) == 4 and kinds[0] in PEOPLE and kinds[2] in PEOPLE and chunks[1].value == "and":
+            self.at += 3
+            return [chunks[0], chunks[2]]
+        return []
+
+    def _turns_to_another(self, start: int) -> bool:
+        """Whether "which" stands here for somebody who is not the subject of the clause that begins at `start`."""
+        if self.chunks[self.at].kind != "relative" or self.at <= start:
+            return False
+        return any(chunk.kind in PEOPLE for chunk in self.chunks[start : self.at - 1]) or (
+            self.chunks[self.at - 1].kind not in PEOPLE
+        )
 
     def _begins(self, at: int) -> bool:
         """Whether a clause begins here."""
-        while at < len(self.chunks) and (self.chunks[at].kind == "comma" or self.chunks[at].value == "and"):
+        skipped = ("comma", ("joint", "and"), ("link", "then"))
+        while at < len(self.chunks) and (
+            {self.chunks[at].kind, (self.chunks[at].kind, self.chunks[at].value)} & {*skipped}
+        ):
             at += 1
         return at < len(self.chunks) and self.chunks[at].kind in _BEGINS_A_CLAUSE
 
@@ -173,5 +254,7 @@ class _Items:
 def is_told_twice(item: Item, following: Item | None) -> bool:
     """Whether two clauses tell one deed: "it brakes at 3 m/s^2 and stops at the stop line"."""
     if not (isinstance(item, Clause) and isinstance(following, Clause)):
+        return False
+    if item.says_more_than("deed", "phase", "rate", "measures", "times"):
         return False
     return (item.subject, item.deed, following.deed) == (following.subject, st.Verb.BRAKE, "stop")

@@ -17,6 +17,12 @@ from scenewright.units import UNITS, Dimension, unit_of_name
 _LINE = re.compile(r"^(Title|Map): (.*)$", re.MULTILINE)
 _NUMBER = r"(-?[\d./]+) (\S+?)"
 _MANNER = re.compile(rf"^Manner: (\w+) is {_NUMBER}\.$", re.MULTILINE)
+_AMOUNT = r"(\d+(?:\.\d+)?)(?: ?([A-Za-z][A-Za-z/^0-9]*))?"
+_VALUE = re.compile(  # "gap_m = 12 m", "gap_m is between 10 and 20 m", "gap_m in [10, 20]"
+    rf"\{{?\b([A-Za-z]\w*_\w+)\}}?(?: is(?: set to)?| equals|:| =) ?{_AMOUNT}(?=\s*(?:[,;)\n]|and |\.\s|\.?$))"
+    rf"|\{{?\b([A-Za-z]\w*_\w+)\}}?(?: is| lies| ranges| varies)?(?: between| from| in \[) ?{_AMOUNT}"
+    rf"(?: and| to|,) {_AMOUNT}\]?"
+)
 _PARAMETER = re.compile(rf"^Parameter (\w+) is (?:open|{_NUMBER})(?:, from {_NUMBER} to {_NUMBER})?\.$", re.MULTILINE)
 
 
@@ -46,7 +52,22 @@ def take_labels(text: str, narrative: Narrative) -> str:
         narrative.parameters.append(Parameter(match[1], value, low, high))
         return " " * len(match[0])
 
-    for pattern, taken in ((_LINE, line), (_MANNER, of_manner), (_PARAMETER, parameter)):
+    def value(match: re.Match[str]) -> str:
+        name = match[1] or match[4]
+        unit = unit_of_name(name)
+        if unit is None:
+            return match[0]
+        symbol = match[3] or match[8] or match[6] or unit.symbol
+        told, low, high = (
+            None if match[at] is None else _in(unit.dimension, match[at], match[at + 1] or symbol) / unit.si_factor
+            for at in (2, 5, 7)
+        )
+        if any(each.name == name for each in narrative.parameters):
+            raise UnknownWordsError(f"two values are told of {name}", found=match[0], fix="leave one out")
+        narrative.parameters.append(Parameter(name, told, low, high))
+        return " " * len(match[0])
+
+    for pattern, taken in ((_LINE, line), (_MANNER, of_manner), (_PARAMETER, parameter), (_VALUE, value)):
         text = pattern.sub(taken, text)
     if manner:
         narrative.manner = manner_of(manner)

@@ -6,17 +6,15 @@ by custom (who brakes comes to a standstill, who stops and goes on has stood in 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import NoReturn
 
 from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
-from scenewright.language.compile import DRIVEN, kind_of
 from scenewright.language.phrases import speaks_of_ego
-from scenewright.language.read.chunks import Chunk, nearest_words, word_as
-from scenewright.language.read.clauses import Clause
+from scenewright.language.read.cast import Cast
+from scenewright.language.read.facts import Clause
 from scenewright.program.manner import USUAL, Manner
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 
@@ -37,12 +35,9 @@ class Doing:
 
 
 @dataclass(slots=True)
-class Narrative:
+class Narrative(Cast):
     """The story so far."""
 
-    text: str
-    answers: Mapping[str, str] = field(default_factory=dict)
-    actors: list[st.Actor] = field(default_factory=list)
     conditions: list[list[st.Condition]] = field(default_factory=lambda: [[]])  # by moment
     times: dict[int, st.Amount] = field(default_factory=dict)
     quotes: dict[int, st.Quote] = field(default_factory=dict)
@@ -52,29 +47,33 @@ class Narrative:
     holds: list[st.Hold] = field(default_factory=list)
     pending: int | None = None  # a moment that the last sentence told, at which nobody does anything yet
     kept: list[tuple[int, st.Quote]] = field(default_factory=list)  # who keeps the speed that it has at the start
+    courtesies: list[tuple[int | None, str, st.Quote]] = field(default_factory=list)  # who yields, or does not
     parameters: list[Parameter] = field(default_factory=list)
     manner: Manner = USUAL
     map_name: str = DEFAULT_MAP
     title: str | None = None
     asides: list[st.Quote] = field(default_factory=list)
-    assumptions: list[str] = field(default_factory=list)
-    questions: list[st.Question] = field(default_factory=list)
-    mentioned: list[int] = field(default_factory=list)  # in this sentence
-    subject: int | None = None  # of the last main clause
-    place: st.Place | None = None  # that was spoken of last
-    doer: int | None = None  # whose deed it is, while what ends it is read
 
     def story(self) -> st.Story:
         """Return the story; deeds that are still open end at moments of their own."""
+        if not any(actor.id == EGO for actor in self.actors):
+            raise UnknownWordsError("the text does not say who is under test", fix="call it the ego")
         for actor, quote in self.kept:
             self._keep(actor, quote)
+        for who, courtesy, quote in self.courtesies:
+            verbs = {doing.verb for doing in self.doings if who in (None, doing.actor)}
+            if (
+                not verbs
+                or (courtesy == "first" and not self.orders)
+                or (courtesy != "first" and bool(verbs & {st.Verb.BRAKE, st.Verb.STAND}) is not (courtesy == "yields"))
+            ):
+                self.refuse("it is not said what is done to yield, or instead", quote, "say where it stops or passes")
+        self.go_straight()
         for doing in self.doings:
             if doing.ends is None:
                 doing.ends = self.moment()
             if doing.duration is not None:
                 self.orders.append(st.Order(doing.begins, doing.ends, *doing.duration, doing.quote))
-        if not any(actor.id == EGO for actor in self.actors):
-            raise UnknownWordsError("the text does not say who is under test", fix="call it the ego")
         return st.Story(
             tuple(sorted(self.actors, key=lambda actor: actor.id)),
             tuple(st.Moment(tuple(own), self.times.get(number), self.quotes.get(number))
@@ -96,64 +95,14 @@ class Narrative:
     def _keep(self, actor: int, quote: st.Quote) -> None:
         """Let somebody keep its first speed until its first deed, throughout where it has none."""
         first = next((doing for doing in self.doings if doing.actor == actor), None)
-        first = first or self.begin(actor, st.Verb.DRIVE, None, set(), quote)
+        if first is None or first.verb != st.Verb.DRIVE or first.begins != st.START:
+            if actor == EGO or first is not None:
+                self.refuse("it is not clear until when a speed is kept", quote)
+            first = self.begin(actor, st.Verb.DRIVE, None, set(), quote)
         speeds = [each for each in self.conditions[st.START] if isinstance(each, st.Measure) and each.actor == actor
                   and (each.quantity, each.op, each.other) == (st.Quantity.SPEED, "==", None)]  # fmt: skip
-        if first.verb != st.Verb.DRIVE or first.begins != st.START or len(speeds) != 1:
-            self.refuse("it is not clear which speed is kept, or until when", quote)
-        first.throughout.append(speeds[0])
-
-    # -- people -------------------------------------------------------------------------------------------------------
-    def who(self, chunk: Chunk) -> int:
-        """Return the number of whoever is mentioned; somebody new is added."""
-        actor = self._it(chunk) if chunk.kind == "pronoun" else self._named(chunk)
-        self.mentioned.append(actor)
-        return actor
-
-    def whom(self, chunk: Chunk, subject: int | None) -> int:
-        """Return the one that "it" means who is not the subject."""
-        others = set(self.mentioned) - {subject} or {actor.id for actor in self.actors} - {subject}
-        if len(others) != 1:
-            self.refuse("it is not clear who is meant", chunk.quote)
-        return others.pop()
-
-    def where(self, chunk: Chunk) -> st.Place:
-        """Return the place that "it" means: the one that was spoken of last."""
-        if self.place is None:
-            self.refuse("it is not clear which place is meant", chunk.quote)
-        return self.place
-
-    def _it(self, chunk: Chunk) -> int:
-        if self.doer is not None:
-            return self.doer
-        found = list(dict.fromkeys(self.mentioned)) or ([] if self.subject is None else [self.subject])
-        if not found:
-            self.refuse("it is not clear who is meant", chunk.quote)
-        if len(found) == 1:
-            return found[0]
-        names = [next(each.name for each in self.actors if each.id == actor) for actor in found]
-        chosen = self.ask(f"who {chunk.start}", "Who is 'it'?", names, len(found) - 1, chunk.quote)
-        return found[names.index(chosen)]
-
-    def _named(self, chunk: Chunk) -> int:
-        name = chunk.value
-        kind = "car" if chunk.kind == "name" or name in ("ego", "hero") else name
-        if chunk.kind.startswith("name of "):
-            kind = chunk.kind.removeprefix("name of ")
-        for actor in self.actors:
-            if actor.name == name:
-                return actor.id
-        heroes = [actor for actor in self.actors if actor.id != EGO]
-        if chunk.kind == "actor" and name == "car" and [each.name for each in heroes] == ["hero"]:
-            return heroes[0].id
-        number = EGO if name == "ego" and chunk.kind == "actor" else max((each.id for each in heroes), default=0) + 1
-        known = kind_of(name) if kind in DRIVEN else kind
-        self.actors.append(st.Actor(number, name, st.Way(), known, quote=chunk.quote))
-        return number
-
-    def actor(self, number: int) -> st.Actor:
-        """Return somebody by number."""
-        return next(actor for actor in self.actors if actor.id == number)
+        steady = st.Measure(actor, st.Quantity.RATE, "==", st.Amount(Fraction(0), "m/s^2"), quote=quote)
+        first.throughout.append(speeds[0] if len(speeds) == 1 else steady)
 
     # -- moments ------------------------------------------------------------------------------------------------------
     def moment(self, conditions: Sequence[st.Condition] = (), quote: st.Quote | None = None) -> int:
@@ -252,35 +201,6 @@ class Narrative:
         verb = st.Verb.BRAKE if clause.deed == "stop" else clause.deed
         same = [each for each in self.doings if each.actor == clause.subject and each.verb == verb]
         return same[clause.ordinal] if clause.ordinal < len(same) else None
-
-    # -- asking -------------------------------------------------------------------------------------------------------
-    def ask(self, slot: str, text: str, alternatives: list[str], default: int | None, quote: st.Quote) -> str:
-        """Return the answer to a question; its default, or nothing, where it is noted as open."""
-        answer = self.answers.get(slot, "")
-        if answer in alternatives:
-            return answer
-        if all(each.slot != slot for each in self.questions):
-            self.questions.append(st.Question(slot, text, tuple(alternatives), default, quote))
-        return "" if default is None else alternatives[default]
-
-    def known_words(self, chunks: Sequence[Chunk]) -> tuple[list[Chunk], bool]:
-        """Ask what unknown words mean: return the chunks with those that are answered, and whether some are not."""
-        known, is_open = [], False
-        for chunk in chunks:
-            if chunk.kind != "unknown":
-                known.append(chunk)
-                continue
-            meant = {f"it means '{word}'": word for word in nearest_words(chunk.text)}
-            asked = f"What is '{chunk.text}'?"
-            answer = self.ask(f"word {chunk.start}", asked, [*meant, "set it aside"], None, chunk.quote)
-            is_open |= not answer
-            if answer in meant:
-                known.append(word_as(chunk, meant[answer]))
-        return known, is_open
-
-    def refuse(self, message: str, quote: st.Quote, fix: str | None = None) -> NoReturn:
-        """Raise the error that says what could not be read."""
-        raise UnknownWordsError(message, found=quote.text, fix=fix or "say it as `scenewright tell` would")
 
 
 def standstill(actor: int) -> st.Measure:

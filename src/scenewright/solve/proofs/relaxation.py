@@ -14,6 +14,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from scenewright.language.phrases import does
 from scenewright.motion.laws import Law, reach
 from scenewright.program.types import EGO
 from scenewright.solve.proofs.events import Events, Stretch
@@ -93,7 +94,7 @@ def _motion(events: Events, narrowings: Sequence[Narrowing], actor: int, least: 
     name = events.scene.program.actor(actor).name
     instants = events.instants_of(actor)
     for stretch in events.stretches[actor]:
-        origin = f"in {'an' if stretch.kind == 'acc' else 'a'} {stretch.kind} piece {name} {stretch.law.words()}"
+        origin = f"while {name} {does(stretch.kind)}, it {stretch.law.words()}"
         if actor == EGO:
             origin = events.ego.words(name)
         inside = [instant for instant in instants if _possibly_inside(stretch, instant, least)]

@@ -180,12 +180,12 @@ function paintPlaces(chart) {
   }
 }
 
-/** Knots of all actors; those of one name at one moment share a label, and the trigger's carries its name. */
+/** Moments of all actors of which something is said; those told alike share a label, and the trigger's is marked. */
 function knotGroups() {
   const groups = [];
   for (const actor of run.actors) {
-    for (const [name, time] of actor.knots) {
-      if (time < FIRST || time > LAST) continue;
+    for (const [, time, name] of actor.knots) {
+      if (!name || time < FIRST || time > LAST) continue;
       const same = groups.find((group) => group.name === name && Math.abs(group.time - time) < 0.03);
       if (same) same.actors.push(actor);
       else groups.push({ name, time, actors: [actor] });
@@ -207,8 +207,7 @@ function paintKnots(chart) {
     const tone = group.trigger ? 'trigger' : group.actors.length === 1 ? `own ${group.actors[0].tone}` : '';
     lines.append(draw('line', { class: `knot ${group.trigger ? 'trigger' : ''}`, x1: x, x2: x, y1: chart.top, y2: chart.height - chart.bottom }));
     if (chart.key !== 's') continue;
-    const who = group.actors.length && group.actors.length < run.actors.length ? `${group.actors.map((actor) => actor.name).join(' ')} ` : '';
-    const text = draw('text', { class: `knot-name ${tone}`, text: group.trigger ? `▼ trigger ${who}${group.name}` : `${who}${group.name}` });
+    const text = draw('text', { class: `knot-name ${tone}`, text: group.trigger ? `▼ ${group.name || 'trigger'}` : group.name });
     chart.svg.append(text);
     const width = text.getComputedTextLength();
     const left = clamp(x - width / 2, LEFT - 14, chart.width - width - 2);

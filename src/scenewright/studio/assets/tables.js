@@ -27,6 +27,16 @@ function buildHeader() {
   byId('cause').textContent = run.cause ? `Why: ${run.cause}`.replaceAll('^2', '²') : '';
   buildAftermath();
   buildDescription();
+  buildUnderstood();
+}
+
+/** What was understood, a sentence a line, each with the words that it came from. */
+function buildUnderstood() {
+  const holder = byId('understood');
+  holder.hidden = !run.understood.length;
+  if (!run.understood.length) return;
+  const rows = run.understood.map(({ sentence, words }) => make('li', {}, make('span', { text: sentence.replaceAll('^2', '²') }), words ? make('q', { text: words }) : null));
+  holder.append(make('summary', { text: run.description.length ? 'What was understood' : 'What the program says' }), make('ul', {}, ...rows));
 }
 
 /** What came of it is not part of the verdict: a test that went as told may end in a collision. */
@@ -101,7 +111,7 @@ function routineBodies(conditions, columns) {
 
 function conditionRow(condition) {
   const words = condition.words ? make('span', { class: 'words', text: `“${condition.words}”` }) : null;
-  const text = make('td', {}, make('div', { class: 'said' }, make('code', { text: condition.text }), words));
+  const text = make('td', {}, make('div', { class: 'said' }, make('span', { text: condition.text.replaceAll('^2', '²') }), words));
   const known = isNumber(condition.time) && condition.time >= FIRST && condition.time <= LAST;
   const jump = known ? make('button', { type: 'button', class: 'jump', text: `${fixed(condition.time, 2)} s`, 'aria-label': `Jump to ${fixed(condition.time, 2)} seconds` }) : null;
   const row = make('tr', { class: known ? 'jumps-to' : null, 'data-owner': condition.owner, 'data-id': condition.id },

@@ -1,0 +1,132 @@
+"""What was understood as people read it: sentences beside the words they came from, and each constraint in words.
+
+What enters: stories with the texts that they were read from, and programs. What leaves: lines and clauses in plain
+English. What has no words yet stands there as code, so that nothing is left out.
+"""
+
+from __future__ import annotations
+
+import re
+from contextlib import suppress
+from dataclasses import dataclass, replace
+
+from scenewright.errors import TranslationError
+from scenewright.language import story as st
+from scenewright.language.decompile import Became, Decompiled, decompiled, parts_of, way_of
+from scenewright.language.phrases import DOES, Phrases, listed, sentence
+from scenewright.language.stretches import words_of
+from scenewright.language.tell import Teller, tell_with_quotes
+from scenewright.program.expressions import Formula
+from scenewright.program.printer import print_expression
+from scenewright.program.types import Constraint, Program
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A sentence of what was understood, and the words of the text that it came from."""
+
+    sentence: str
+    words: str = ""
+
+
+def lines_of_story(story: st.Story, text: str) -> tuple[Line, ...]:
+    """Return `story` as lines with their words in `text`; raises as `tell` does."""
+    return tuple(Line(each.sentence, words_of(each.quotes, text)) for each in tell_with_quotes(story))
+
+
+def lines_of_program(program: Program) -> tuple[Line, ...]:
+    """Return `program` as lines; what has no words yet is told as code."""
+    text = program.description or ""
+    try:
+        found = decompiled(program, leniently=True)
+        lines, rest = lines_of_story(replace(found.story, title=None), text), found.untold  # a program has its name
+    except TranslationError:
+        ways = ((actor.name, Phrases(st.Story(())).way(way_of(actor.route))) for actor in program.actors)
+        lines, rest = tuple(Line(sentence(f"the {name} {way}")) for name, way in ways), program.constraints
+    told = told_constraints(program) if rest else {}
+    return (*lines, *(Line(f"Besides: {told[each.id]}.", program.words_of(each) or "") for each in rest))
+
+
+def told_constraints(program: Program) -> dict[str, str]:
+    """Return each constraint as a clause of plain English, by its id; as code where there are no words for it yet."""
+    told = told_formulas(program)
+    return {each.id: listed([told[part] for part in parts_of(each.formula)]) for each in program.constraints}
+
+
+def told_knots(program: Program) -> dict[tuple[int, str], str]:
+    """Return what happens at each knot of which anything is said, by actor and knot: ``the hero begins to brake``."""
+    told: dict[tuple[int, str], str] = {}
+    with suppress(TranslationError):
+        found = decompiled(program, leniently=True)
+        clauses = _Clauses(found.story)
+        for key, moment in found.moment_of.items():
+            with suppress(TranslationError):
+                told[key] = "start" if moment == st.START else clauses.event(moment)
+    return told
+
+
+def told_formulas(program: Program) -> dict[Formula, str]:
+    """Return the same for each formula of those that stand side by side in a constraint."""
+    try:
+        found = decompiled(program, leniently=True)
+    except TranslationError:
+        found = Decompiled(st.Story(()))
+    clauses, told = _Clauses(found.story), {}
+    for formula in (part for constraint in program.constraints for part in parts_of(constraint.formula)):
+        try:
+            told[formula] = listed([clauses.clause(*each) for each in found.taken[formula]])
+        except (TranslationError, LookupError):
+            told[formula] = print_expression(formula)
+    return told
+
+
+def named(program: Program, constraint: Constraint) -> str:
+    """Return a constraint as told, after its own name where somebody gave it one."""
+    own = "" if re.fullmatch(r"c\d+", constraint.id) else f"{constraint.id}: "
+    return own + told_constraints(program)[constraint.id]
+
+
+def in_words(program: Program, constraint: Constraint) -> str:
+    """Return a constraint in the user's own words, or told in plain English where there are none."""
+    return program.words_of(constraint) or told_constraints(program)[constraint.id]
+
+
+class _Clauses:
+    """Tells parts of a story by themselves: every moment is known, by what begins or ends at it."""
+
+    def __init__(self, story: st.Story) -> None:
+        self._story = story
+        self._teller = Teller(story, begun=list(story.deeds), ended=list(story.deeds))
+
+    def event(self, moment: int) -> str:
+        """Return what a moment is known by."""
+        return self._teller.event(moment)
+
+    def clause(self, moment: int | None, told: Became) -> str:
+        """Return what a constraint became as a clause."""
+        phrases = self._teller.phrases
+        match told:
+            case st.Order():
+                return self._teller.order(told)
+            case st.Hold():
+                return self._teller.hold(told)
+            case None if moment is not None:
+                return f"all of this is at one moment, when {self.event(moment)}"
+            case st.Measure() if moment is None:
+                own = (DOES[each.verb][0] for each in self._story.deeds_of(told.actor) if told in each.throughout)
+                return f"{phrases.clause(told)} while it {next(own, DOES[st.Verb.STAND][0])}"
+            case st.Measure() | st.Compound() if moment is not None:
+                return self._at(moment, told)
+        raise LookupError(told)
+
+    def _at(self, moment: int, condition: st.Condition) -> str:
+        if moment == st.START:
+            return f"{self._teller.phrases.clause(condition)} at the start"
+        clause = self._teller.phrases.clause(condition, passing=st.is_event(condition))
+        event = self.event(moment)
+        if isinstance(condition, st.Measure):
+            name = self._teller.phrases.name(condition.actor)
+            event = re.sub(f"^{re.escape(name)} ", "it ", event)
+            if event == clause.replace(name, "it", 1):
+                return clause
+        return f"{clause} when {event}"

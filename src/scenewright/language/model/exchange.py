@@ -1,0 +1,116 @@
+"""One exchange with a model: the messages that go out, the text that comes back, and the key both are kept under.
+
+What enters: messages. What leaves: data classes, and the protocol that every kind of model meets: a server, a folder of
+files, a folder of records. Nothing is sent or read here.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal, Protocol
+
+from scenewright.errors import TranslationError
+
+CHARACTERS_PER_TOKEN = 4  # what English and code come to with the tokenisers of today, near enough for an estimate
+CUT_OFF = "[cut off by the limit of tokens]"  # what stands at the end of a reply that came to no end
+LONGEST_REPLY = 100_000  # characters; a whole reply of a model is some thousands
+
+
+class GaveUpError(TranslationError):
+    """No reply came, and trying again later may bring one: a busy or silent server, a reply not yet written."""
+
+    exit_status = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """What one side says."""
+
+    role: Literal["system", "user", "assistant"]
+    content: str
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """One request: all that has been said so far.
+
+    Attributes
+    ----------
+    messages
+        The instructions, the text, and for a repair every reply and fault since.
+    description
+        The text to translate, which the messages hold too.
+    attempt
+        1 for the first request about a text.
+    map_name
+        The map that the instructions tell of.
+    schema
+        The JSON schema that the reply has to meet.
+    """
+
+    messages: tuple[Message, ...]
+    description: str
+    attempt: int
+    map_name: str
+    schema: Mapping[str, Any] = field(default_factory=dict, compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Usage:
+    """What was read and written, in tokens; `estimated` where the provider did not say."""
+
+    calls: int = 0
+    input_tokens: int = 0
+    output_tokens: int = 0
+    estimated: bool = False
+
+    def __add__(self, other: Usage) -> Usage:
+        tokens = self.input_tokens + other.input_tokens, self.output_tokens + other.output_tokens
+        return Usage(self.calls + other.calls, *tokens, self.estimated or other.estimated)
+
+    def __str__(self) -> str:
+        calls = "1 call" if self.calls == 1 else f"{self.calls} calls"
+        how = "estimated from the length of the texts" if self.estimated else "as the provider counts"
+        return f"{calls}, {self.input_tokens} tokens in and {self.output_tokens} out, {how}"
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What a model said to one call."""
+
+    text: str
+    usage: Usage
+
+
+class Model(Protocol):
+    """Whoever answers: a provider's server, a person with an editor, a recording."""
+
+    @property
+    def name(self) -> str:
+        """Return what the user calls it, such as ``openai:NAME``; never a key or an address."""
+        ...
+
+    @property
+    def settings(self) -> Mapping[str, Any]:
+        """Return what else decides on the reply; part of the key of every record."""
+        ...
+
+    def reply(self, call: Call) -> Answer:
+        """Return the answer to `call`; raises TranslationError where none is to be had."""
+        ...
+
+
+def key_of(model: Model, call: Call) -> str:
+    """Return what an exchange is kept under: the same messages to the same model in the same settings share it."""
+    said = [[message.role, message.content] for message in call.messages]
+    data = json.dumps([model.name, dict(model.settings), said], sort_keys=True, ensure_ascii=False)
+    return hashlib.sha256(data.encode("utf-8", "surrogatepass")).hexdigest()[:24]
+
+
+def estimated_usage(call: Call, text: str) -> Usage:
+    """Return an estimate of the tokens of one exchange, and say that it is one."""
+    length = sum(len(message.content) for message in call.messages)
+    return Usage(1, -(-length // CHARACTERS_PER_TOKEN), -(-len(text) // CHARACTERS_PER_TOKEN), estimated=True)

@@ -1,0 +1,127 @@
+"""What a user hands over: a file or a text, holding a description or a program.
+
+What enters: words from a command line. What leaves: a checked program, with how it was understood where it was a
+description. Who reads a description follows from a name: ``auto``, ``offline``, ``PROVIDER:MODEL`` or ``files:DIR``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from scenewright.errors import InputError, Place
+from scenewright.language.model.settings import TranslatorSettings
+from scenewright.language.understand import OFFLINE, Understanding, understand, understand_story
+from scenewright.program.check import check_program
+from scenewright.program.limits import TEXT_CHARACTERS, check_description
+from scenewright.program.types import DEFAULT_MAP, Program
+from scenewright.roads.load import load_map
+
+AUTO = "auto"
+TRANSLATORS = "auto, offline, openai:NAME, anthropic:NAME, google:NAME, openai-compatible:NAME or files:DIR"
+
+
+def read_scenario(
+    source: str,
+    translator: str = AUTO,
+    map_name: str | None = None,
+    settings: TranslatorSettings | None = None,
+) -> tuple[Program, Understanding | None]:
+    """Return the program that `source` stands for: a file (`.txt`, `.scene`), a description, or the text of a program.
+
+    Parameters
+    ----------
+    translator
+        ``auto`` (the model that is configured, else offline), ``offline``, ``PROVIDER:MODEL`` or ``files:DIR``; asked
+        only where `source` is a description.
+    map_name
+        The map that a description is about; the one that it names, or the T intersection that is shipped, where None.
+    settings
+        What a translator may do and has to keep; defaults where None.
+
+    Raises
+    ------
+    TranslationError, ProgramError, InputError, MapError
+        Where it cannot be read or understood.
+    """
+    text, name = text_of(source)
+    if is_program(text):
+        from scenewright.program.text import parse_program  # its grammar takes longer to load than a text to read
+
+        program = parse_program(text, name)
+        check_program(program, text, name)
+        return program, None
+    check_description(text, name)
+    understanding = _understanding(text, name, translator, map_name, settings or TranslatorSettings())
+    return understanding.program, understanding
+
+
+def _understanding(
+    text: str, name: str, translator: str, map_name: str | None, settings: TranslatorSettings
+) -> Understanding:
+    on = load_map(map_name) if map_name else None
+    if translator != OFFLINE:
+        from scenewright.language.model.choose import model_named
+
+        if (model := model_named(translator, settings)) is not None:
+            from scenewright.language.model.translator import story_by_model
+
+            on = on or load_map(DEFAULT_MAP)
+            told = story_by_model(text, on, name, model, settings)
+            given = {**settings.answers, **told.answers}
+            read = understand_story(lambda _: told.story, text, on, given, settings.strict, name, settings.ask)
+            return replace(read, translator=model.name, notes=told.notes)
+    return understand(text, on, settings.answers, settings.strict, name, settings.ask)
+
+
+def is_program(text: str) -> bool:
+    """Whether `text` is meant as a program rather than as a description: some line begins an actor."""
+    begins = ("actor 0", "actor 1", 'scenario "')
+    return any(line.strip().lower().startswith(begins) for line in text.splitlines())
+
+
+def text_of(source: str) -> tuple[str, str]:
+    """Return the text that `source` is or names, and what to call it in messages.
+
+    Raises
+    ------
+    InputError
+        Where it names a file that is not there or is no text.
+    """
+    path = Path(source)
+    looks_like_file = path.suffix in (".txt", ".scene", ".md") and " " not in source.strip()
+    try:
+        is_file = bool(source.strip()) and path.is_file()
+    except (OSError, ValueError):  # too long or too odd for a file name: a description
+        is_file = False
+    if is_file:
+        return _read_text(path), path.name
+    if looks_like_file:
+        fix = "give the path of a file, or the description itself in quotes"
+        raise InputError("there is no such file", place=Place(source), fix=fix)
+    return source, "description"
+
+
+def _read_text(path: Path) -> str:
+    """Read a file of text, whatever it is: no more of it than a text may hold."""
+    most = 4 * TEXT_CHARACTERS  # a character takes up to four bytes
+    try:
+        with path.open("rb") as file:
+            read = file.read(most + 1)
+        if len(read) > most:
+            raise InputError(
+                "the file is too large for a description or a program",
+                place=Place(str(path)),
+                found=f"more than {most:,} bytes",
+                expected=f"a text of at most {TEXT_CHARACTERS:,} characters",
+                fix="give the file that holds the text",
+            )
+        return read.decode("utf-8-sig")  # some editors begin a file with a mark of their own
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(
+            "the file cannot be read as text",
+            place=Place(str(path)),
+            found=str(error),
+            expected="a text in UTF-8",
+            fix="save the file as text in UTF-8",
+        ) from None

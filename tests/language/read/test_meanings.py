@@ -1,0 +1,124 @@
+"""What words mean, one test for each meaning that the reader keeps to."""
+
+from __future__ import annotations
+
+import pytest
+from readings import FILLED, Reading, reading_of, written
+
+from scenewright.program.printer import print_expression
+
+MEETS = FILLED["DL"] + FILLED["W"]  # the ego turns left out of the driveway, the hero drives west
+ALONG = "The ego drives west along the road. The hero is ahead of the ego and goes straight on. "
+ONCOMING = "The ego drives west. An oncoming hero turns left into the driveway. "
+
+
+def formulas(reading: Reading) -> frozenset[str]:
+    assert reading.program is not None, reading
+    return written(print_expression(each.formula) for each in reading.program.constraints)
+
+
+def pieces(reading: Reading) -> str:
+    assert reading.program is not None, reading
+    return " ".join(reading.program.actors[1].sketch.pieces)
+
+
+def test_who_goes_first_passes_before_the_other_and_it_is_never_lost() -> None:
+    first = reading_of(FILLED["DL"] + "When the ego is 12 m from the stop line, the hero goes first.")
+    assert {"A1x(t2) == conflict_point", "A0x(t2) == conflict_point", "A0(t2) > A1(t2)"} <= formulas(first)
+    assert reading_of(MEETS + "the ego goes first.").kind == "refused"
+    assert reading_of(ONCOMING + "The ego passes the conflict point first.").program is None
+
+
+def test_who_brakes_comes_to_a_standstill() -> None:
+    for said in ("brakes", "brakes at 3 m/s^2", "slows down", "brakes to a stop", "comes to a halt"):
+        assert "A1v(t2) == 0" in formulas(reading_of(f"{MEETS}the hero {said}.")), said
+
+
+def test_only_who_speeds_up_accelerates() -> None:
+    for said in ("goes", "sets off", "pulls out", "drives on", "drives through the conflict point"):
+        assert pieces(reading_of(f"{MEETS}the hero {said}.")) == "go go", said
+    for said in ("accelerates", "speeds up"):
+        assert pieces(reading_of(f"{MEETS}the hero {said}.")) == "go acc", said
+
+
+def test_a_speed_is_that_of_the_start_and_a_kept_one_is_kept() -> None:
+    start = "The ego turns left out of the driveway. A truck approaches from the east at 60 km/h"
+    end = " When the ego is 10 m from the stop line, the truck brakes at 3 m/s^2."
+    assert "A1v(go) == 50/3" not in formulas(reading_of(f"{start}.{end}"))
+    kept = formulas(reading_of(f"{start} and keeps its speed.{end}"))
+    assert {"A1v(t0) == 50/3", "A1v(go) == 50/3"} <= kept
+    then = formulas(reading_of(f"{MEETS}the hero keeps its speed and passes the conflict point before the ego."))
+    assert {"A1a(go2) == 0", "A1x(t2) == conflict_point", "A0(t2) > A1(t2)"} <= then
+    assert "A1v(t1) == 8" in formulas(reading_of(MEETS.replace("hero is 20 m", "hero drives at 8 m/s and is 20 m") +
+                                                 "the hero brakes."))  # fmt: skip
+
+
+def test_the_junction_is_a_place_of_its_own() -> None:
+    assert "A0x(t0) == intersection - 60" in formulas(reading_of("The ego is 60 m before the junction. " + ONCOMING))
+
+
+def test_an_event_of_a_turn_of_somebody_who_does_not_turn_is_a_question() -> None:
+    when = "When the ego is 30 m from the conflict point, the hero speeds up to pass the conflict point "
+    asked = reading_of(f"{ONCOMING}{when}before the ego begins to turn.")
+    assert asked.kind == "asked"
+    assert "The ego does not turn" in " ".join(asked.told)
+
+
+def test_bounds_are_bounds_and_what_is_reached_is_its_value() -> None:
+    text = FILLED["DL"] + "When the ego is {} the stop line, the hero brakes."
+    for said, formula in (("at least 12 m before", "A0x(t1) <= stop_line - 12"),
+                          ("within 12 m of", "A0x(t1) == stop_line - 12")):  # fmt: skip
+        assert formula in formulas(reading_of(text.format(said)))
+    vague = reading_of(text.format("about 12 m before"))
+    assert vague.kind == "default"
+    assert "How much is 'about 12 m'?" in vague.told
+    assert reading_of(MEETS + "the hero brakes to a stop within 5 m of the conflict point.").program is None
+
+
+def test_places_of_braking_and_of_standing() -> None:
+    assert "A1x(t2) == stop_line - 5" in formulas(reading_of(MEETS + "the hero stops just before the stop line."))
+    begins = formulas(reading_of(FILLED["DL"] + "The hero brakes 15 m before the conflict point."))
+    assert begins == {"A1x(t1) == conflict_point - 15", "A1v(t2) == 0"}
+    assert "A1x(t2) == conflict_point - 5" in formulas(
+        reading_of(MEETS + "the hero stops 5 m before the conflict point.")
+    )
+
+
+def test_a_time_to_collision_needs_one_lane() -> None:
+    ahead = "When the time to collision is 2.5 s, the hero brakes."
+    assert "ttc(A0, A1, t1) == 2.5" in formulas(reading_of(ALONG + ahead))
+    crossing = reading_of(ONCOMING + ahead)
+    assert (crossing.kind, "time to collision" in crossing.told[0]) == ("refused", True)
+
+
+def test_ahead_is_so_at_the_start() -> None:
+    reading = reading_of(ALONG + "When the gap is 12 m, the hero brakes.")
+    assert reading.program is not None
+    told = [print_expression(each.formula) for each in reading.program.constraints]
+    assert {"gap(A0, A1, t0) > 0", "gap(A0, A1, t1) == 12"} <= set(told)
+
+
+def test_a_deed_told_twice_is_one() -> None:
+    assert pieces(reading_of(MEETS + "the hero brakes at 3 m/s^2 and stops 5 m before the conflict point.")) == "go dec"
+    assert pieces(reading_of(MEETS + "the hero yields, stopping 5 m before the conflict point.")) == "go dec"
+    assert reading_of(MEETS + "the hero does not yield and stops 5 m before the conflict point.").kind == "refused"
+
+
+@pytest.mark.parametrize("who", ["They", "Both"])
+def test_who_both_are_where_there_are_three_must_be_said(who: str) -> None:
+    two = reading_of(f"The ego turns left out of the driveway. The hero drives west. {who} start at 5 m/s.")
+    assert {"A0v(t0) == 5", "A1v(t0) == 5"} == formulas(two)
+    three = reading_of(f"The ego turns left out of it. The hero drives west. A bus drives east. {who} start at 5 m/s.")
+    assert three.program is None
+
+
+@pytest.mark.parametrize(
+    ("said", "name"),
+    [("brakes at {rate}", "rate_mpss"), ("brakes for {time}", "time_s"), ("speeds up to {v}", "v_mps"),
+     ("stops hero_place past the stop line", "hero_place_m")],
+)  # fmt: skip
+def test_any_identifier_may_be_a_parameter_and_its_use_tells_its_unit(said: str, name: str) -> None:
+    reading = reading_of(f"{MEETS}the hero {said}.")
+    assert reading.program is not None
+    assert [each.name for each in reading.program.parameters] == [name]
+    assert reading_of(MEETS + "the hero stops {x} before the conflict point.").kind == "asked"  # metres, or seconds?
