@@ -244,6 +244,7 @@ class Teller:
             and not held
             and duration is None
             and self._items(deed.ends)
+            and not any(_is_standstill(each, deed.actor) for each in self.story.moments[st.START].conditions)
         ):
             return  # "When ..., the hero begins to brake" says it
         self.begun += [each for each in chain[: index + 1] if each not in self.begun]

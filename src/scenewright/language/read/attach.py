@@ -31,6 +31,9 @@ _TO_ACTOR = {
     ("headway", "to", True): st.Quantity.HEADWAY, ("time to collision", "with", True): st.Quantity.COLLISION,
     ("time to collision", "to", True): st.Quantity.COLLISION,
 }  # fmt: skip
+_JUNCTIONS = (st.Place("intersection"), st.Place("conflict_point"))
+_OF_A_PLACE = {True: (None, "time to arrival"), False: (None, "gap")}  # what may be asked for, by whether it is a time
+_OF_ITS_OWN = {"speed": (None, "speed"), "acceleration": (None, "rate", "acceleration", "deceleration")}
 _CONTRARY = ((st.Verb.BRAKE, "acceleration"), ("stop", "acceleration"), (st.Verb.SPEED_UP, "deceleration"))
 _OF_A_PAIR = {
     ("gap", False): st.Quantity.GAP, (None, False): st.Quantity.GAP, ("headway", True): st.Quantity.HEADWAY,
@@ -74,6 +77,8 @@ def _attach(taken: Taken, neighbour: Clause | None, subject: int | None) -> None
     for target in taken.targets:
         if not target.used:
             _stand_alone(taken, target)
+    if taken.quantity and not (taken.amounts or "kept" in clause.flags):
+        raise taken.left_over(last)
     if "pass" in taken.states and not any(each.quantity is st.Quantity.PLACE for each in clause.measures):
         raise taken.left_over(last)
     if "goes" in taken.states and clause.deed is None and not (clause.facts or clause.measures or clause.flags):
@@ -128,7 +133,7 @@ def _stand_alone(taken: Taken, target: Target) -> None:
         clause.rival = ("after" if target.side == "after" else "before", target.other)
     elif target.other is not None and target.side in ("ahead", "behind") and clause.deed is None:
         clause.relations.append(st.Relation(target.side, target.other, target.chunk.quote))
-    elif target.place is not None and target.side == "at" and "turn" in clause.facts and "pass" not in taken.states:
+    elif target.place in _JUNCTIONS and target.side == "at" and clause.facts.get("turn", "straight") != "straight":
         pass  # "turns left at the junction"
     elif target.side == "at" and target.at < taken.subject_at and "pass" not in taken.states:
         raise taken.left_over(target.chunk)  # "at the junction, the ego ...": it is what follows that is there
@@ -142,6 +147,8 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk, neighbour: Claus
     """Make a measure of an amount, with the nearest free target after it, else before it, else its neighbour's."""
     amount, clause = chunk.amount, taken.clause
     assert amount is not None
+    if taken.quantity not in _OF_ITS_OWN.get(amount.dimension, (taken.quantity,)):
+        raise taken.left_over(chunk)
     if amount.dimension == "speed":
         taken.measure(chunk, st.Measure(IT, st.Quantity.SPEED, op, amount))
         return
@@ -177,7 +184,8 @@ def _to_target(taken: Taken, target: Target, op: st.Operator, amount: st.Amount,
     if place is not None:
         taken.clause.target = (side, place)
         quantity = st.Quantity.ARRIVAL if is_time else st.Quantity.PLACE
-        if not (past or side in _TO_PLACE or (side == "at" and taken.quantity == "time to arrival")):
+        fits = past or side in _TO_PLACE or (side == "at" and taken.quantity == "time to arrival")
+        if not fits or taken.quantity not in _OF_A_PLACE[is_time]:
             raise taken.left_over(target.chunk)
         taken.measure(chunk, st.Measure(IT, quantity, op, amount, place, opposite=past))
         return

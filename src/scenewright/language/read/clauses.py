@@ -73,11 +73,13 @@ class Taken(Facts):
                 acts = "deed" in kinds or ("turn" in kinds and "mood" not in kinds)
                 clause.subject, self.subject_at = self.people.who(chunk, acts), self.at
                 clause.notes |= {"relative"} if chunk.kind == "relative" else set()
+            case "quality" if self.peek(-1)[0] != "be":  # "the truck is red", not "5 m heavy"
+                raise self.left_over(chunk)
             case "be" | "possessive" | "quality":
                 clause.notes |= {"has"} if value == "has" else set()
             case "mood":
                 clause.notes.add(value)
-            case "bound" if self.peek()[0] in ("amount", "bound", "link", "near") or self.peek()[1] == "as fast as":
+            case "bound" if self.peek()[0] in ("amount", "no unit", "bound", "near") or self.peek()[1] == "as fast as":
                 pass
             case "amount" | "no unit":
                 self._amount(chunk)
@@ -94,7 +96,7 @@ class Taken(Facts):
                 self.targets.append(Target(self.at, "at", chunk, _CONFLICT))
             case "area" if clause.subject is None and value == "driveway" and self.peek(2)[1] == "ahead":
                 self.targets.append(Target(self.at, "at", chunk, _CONFLICT))
-            case "place" if self.peek(-1)[0] == "state":  # "approaches the intersection"
+            case "place" if self.chunks[self.at - 1].text.lower().startswith("approach"):  # "approaches the junction"
                 pass
             case "deed" if clause.deed is None:
                 clause.deed = value
@@ -112,8 +114,9 @@ class Taken(Facts):
                 self.later.append((self.at, value, chunk))
             case "relation":
                 clause.relations.append(st.Relation(value, EGO, chunk.quote))
-            case "event" if value == "pass" and self.peek()[0] in ("amount", "bound"):  # "gets to 2 s behind the bus"
-                pass
+            case "event" if value == "pass" and self.peek()[0] in ("amount", "bound"):
+                if not chunk.text.lower().startswith(("get", "got", "reach", "come", "came", "arriv")):
+                    raise self.left_over(chunk)  # "gets to 2 s behind the bus", not "passes 2 s"
             case "state" | "event":
                 what, _, self.turn = value.partition(" ")
                 self.states.add(what)
@@ -126,7 +129,9 @@ class Taken(Facts):
                 pass
             case "joint" if value == "and" and self.peek()[0] == "side":  # "across its path and into the driveway"
                 pass
-            case "joins" if all(each.value == "ego" for each in self.chunks[self.at :] if each.kind == "actor"):
+            case "joins" if self.targets and all(
+                each.value == "ego" for each in self.chunks[self.at :] if each.kind == "actor"
+            ):
                 self.at = len(self.chunks)
             case "turn" | "heading" | "origin" | "then_headed" | "area" | "lanes":
                 self.way(chunk)

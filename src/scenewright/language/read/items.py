@@ -111,7 +111,7 @@ def items_of(narrative: Narrative, chunks: Sequence[Chunk], subject: int | None 
     found: list[Item] = []
     starts: list[int] = []
     while parser.at < len(parser.chunks):
-        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and") or parser.is_joint("then"):
+        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and") or parser.is_then():
             parser.at += 1
         else:
             start, item = parser.at, parser.one(())
@@ -136,6 +136,10 @@ class _Items:
     turned: set[int | None] = field(default_factory=set)  # who turns, as was said
     both: list[Chunk] = field(default_factory=list)  # of whom a clause is said that is said of two
     others: list[Clause] = field(default_factory=list)  # what the last clause says of the others of them
+
+    def is_then(self) -> bool:
+        """Whether "then" stands here, or what means no more than that."""
+        return self.is_joint("then") and "turn" not in self.chunks[self.at].text
 
     def is_joint(self, value: str) -> bool:
         chunk = self.chunks[self.at] if self.at < len(self.chunks) else None

@@ -169,7 +169,10 @@ class Narrative(Cast):
         if before is None:
             moment = self.moment() if moment is None and "then" in leads else moment
             if moment is not None and moment != st.START:
-                self.doings.append(Doing(actor, st.Verb.DRIVE, st.START, moment, quote=quote))
+                waits = verb != st.Verb.BRAKE and standstill(actor) in self.conditions[st.START]
+                first = st.Verb.STAND if waits else st.Verb.DRIVE
+                self.doings.append(Doing(actor, first, st.START, moment, quote=quote))
+                self.assumptions += [f"{self.actor(actor).name} stands still until then"] * waits
             begins = st.START if moment is None else moment
         elif before.ends is None:
             begins = before.ends = self.moment() if moment is None else moment
