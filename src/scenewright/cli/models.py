@@ -17,7 +17,6 @@ def models(as_json: AsJson = False) -> None:
     """Show which language model reads descriptions, and try it with one call."""
     with told(as_json):
         from scenewright.cli import tables
-        from scenewright.errors import InputError
         from scenewright.language.model import choose
         from scenewright.language.model.keys import KEY_VARIABLES
 
@@ -30,15 +29,15 @@ def models(as_json: AsJson = False) -> None:
             "keys in the environment": keys,
             "settings file": str(choose.settings_file()),
         }
-        if found.translator == choose.OFFLINE:
-            raise InputError(
-                "no language model is configured: descriptions are read offline",
-                found=f"keys: {', '.join(keys) or 'none'}; settings file: {facts['settings file']}",
-                expected=f"{choose.TRANSLATOR_VARIABLE}=PROVIDER:NAME, or translator = \"PROVIDER:NAME\" in that file",
-                fix=f"export {choose.TRANSLATOR_VARIABLE}=openai:NAME and the provider's key; see docs/language-models.md",
+        if found.translator == choose.OFFLINE:  # nothing is wrong with that: it is told what to set
+            facts["to set"] = (
+                f"{choose.TRANSLATOR_VARIABLE}=PROVIDER:NAME in the environment, or translator = "
+                '"PROVIDER:NAME" in the settings file, and the key of the provider; see docs/language-models.md'
             )
-        answer = choose.tried(found)
-        facts["one call"] = str(answer.usage) if answer else "not tried: whoever answers by files is no server"
+            answer, call = None, "not tried: descriptions are read offline"
+        else:
+            answer, call = choose.tried(found), "not tried: whoever answers by files is no server"
+        facts["one call"] = str(answer.usage) if answer else call
         if as_json:
             print_json(facts)
         else:
