@@ -79,7 +79,9 @@ def _attach(taken: Taken, neighbour: Clause | None, subject: int | None) -> None
             _stand_alone(taken, target)
     if taken.quantity and not (taken.amounts or "kept" in clause.flags):
         raise taken.left_over(last)
-    if "pass" in taken.states and not any(each.quantity is st.Quantity.PLACE for each in clause.measures):
+    places = [each for each in clause.measures if each.quantity is st.Quantity.PLACE]
+    passed = [each for each in places if each.amount is None]
+    if ("pass" in taken.states and not passed) or ("reach" in taken.states and not places):
         raise taken.left_over(last)
     if "goes" in taken.states and clause.deed is None and not (clause.facts or clause.measures or clause.flags):
         clause.deed = st.Verb.DRIVE
@@ -129,13 +131,13 @@ def _of(measure: st.Measure, subject: int | None) -> st.Measure:
 def _stand_alone(taken: Taken, target: Target) -> None:
     """Make of a target without an amount what it says: how two ways lie, or where somebody is."""
     clause = taken.clause
-    if target.other is not None and "pass" in taken.states and target.side in ("before", "ahead", "after"):
+    if target.other is not None and taken.states & {"pass", "reach"} and target.side in ("before", "ahead", "after"):
         clause.rival = ("after" if target.side == "after" else "before", target.other)
     elif target.other is not None and target.side in ("ahead", "behind") and clause.deed is None:
         clause.relations.append(st.Relation(target.side, target.other, target.chunk.quote))
     elif target.place in _JUNCTIONS and target.side == "at" and clause.facts.get("turn", "straight") != "straight":
         pass  # "turns left at the junction"
-    elif target.side == "at" and target.at < taken.subject_at and "pass" not in taken.states:
+    elif target.side == "at" and target.at < taken.subject_at and not taken.states & {"pass", "reach"}:
         raise taken.left_over(target.chunk)  # "at the junction, the ego ...": it is what follows that is there
     elif target.place is not None and target.side in _BARE:
         taken.measure(target.chunk, st.Measure(IT, st.Quantity.PLACE, _BARE[target.side], None, target.place))

@@ -17,6 +17,14 @@ from scenewright.program.types import EGO
 IT = -1  # the subject, in a measure of a clause that is still being read
 PEOPLE = ("actor", "name", "pronoun", "relative")
 _OPERATORS: dict[str, st.Operator] = {"==": "==", ">=": ">=", "<=": "<=", ">": ">", "<": "<"}
+_REACHES = (
+    "reach",
+    "get",
+    "got",
+    "come",
+    "came",
+    "arriv",
+)  # verbs that may have an amount: "reaches a point 12 m before"
 _CONFLICTS = ("conflict_point", "intersection", "turn")
 _CONFLICT = st.Place("turn")  # where a driveway joins a road
 _SIDES = ("before", "behind", "from", "to", "ahead", "past")  # of a place that an amount is counted to
@@ -58,7 +66,7 @@ class Taken(Facts):
         """Take the chunk at `at`, and those behind it that belong to it."""
         clause, value = self.clause, chunk.value
         match chunk.kind:
-            case "pronoun" if value == "it" and "pass" in self.states:
+            case "pronoun" if value == "it" and self.states & {"pass", "reach"}:
                 self.targets.append(Target(self.at, "at", chunk, self.people.where(chunk)))
             case "pronoun" if value == "its":
                 pass
@@ -89,10 +97,10 @@ class Taken(Facts):
                 self._target("before")
             case "side":
                 self._side(chunk)
-            case "place" if "pass" in self.states or self.peek()[0] in ("be", "event"):
+            case "place" if self.states & {"pass", "reach"} or self.peek()[0] in ("be", "event"):
                 self.at -= 1
                 self._target("at")
-            case "area" if "pass" in self.states and not self.targets and value == "driveway":
+            case "area" if self.states & {"pass", "reach"} and not self.targets and value == "driveway":
                 self.targets.append(Target(self.at, "at", chunk, _CONFLICT))
             case "area" if clause.subject is None and value == "driveway" and self.peek(2)[1] == "ahead":
                 self.targets.append(Target(self.at, "at", chunk, _CONFLICT))
@@ -114,12 +122,11 @@ class Taken(Facts):
                 self.later.append((self.at, value, chunk))
             case "relation":
                 clause.relations.append(st.Relation(value, EGO, chunk.quote))
-            case "event" if value == "pass" and self.peek()[0] in ("amount", "bound"):
-                if not chunk.text.lower().startswith(("get", "got", "reach", "come", "came", "arriv")):
-                    raise self.left_over(chunk)  # "gets to 2 s behind the bus", not "passes 2 s"
+            case "event" if self._gets_near(chunk):  # "gets to 2 s behind the bus"
+                pass
             case "state" | "event":
                 what, _, self.turn = value.partition(" ")
-                self.states.add(what)
+                self.states.add("reach" if what == "pass" and chunk.text.lower().startswith(_REACHES) else what)
                 clause.notes |= {"event", value} if chunk.kind == "event" else {value}
             case "quantity" if self.quantity in (None, "rate", value):
                 self.quantity = value
@@ -137,6 +144,10 @@ class Taken(Facts):
                 self.way(chunk)
             case _:
                 raise self.left_over(chunk)
+
+    def _gets_near(self, chunk: Chunk) -> bool:
+        """Whether an amount follows "gets to": of what is reached, a place or somebody, the amount says how near."""
+        return self.peek()[0] in ("amount", "bound") and chunk.text.lower().startswith(_REACHES)
 
     def bound(self) -> st.Operator:
         """Return the bound in front of the amount at `at`; one that is only reached is told, a vague one is asked."""

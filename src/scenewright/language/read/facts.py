@@ -117,6 +117,8 @@ class Facts:
                 self.fact("origin", following)
         elif chunk.kind == "origin":
             raise self.left_over(chunk)
+        elif chunk.kind == "then_headed" and self.peek()[0] != "heading":
+            raise self.left_over(chunk)
         else:
             if chunk.text.lower().split()[0] in ("turning", "making", "taking"):
                 self.clause.notes.add("wanted")

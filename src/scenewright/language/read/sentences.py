@@ -296,6 +296,8 @@ class _Sentence(Moments):
         doing.throughout += [*held, *([clause.rate] if clause.rate else [])]
         rests = clause.deed == "stop" or "standstill" in clause.flags
         doing.duration = None if rests else clause.times.get("for")
+        if "while" in clause.flags and ends:
+            self.refuse("it is not clear when this ends")
         if clause.rival is not None and ends:
             rest = [*rest, Segment(clause.rival[0], rival=clause.rival[1])]
         self._end(doing, clause, ends, next((each for each in rest if each.link == "until"), None))
