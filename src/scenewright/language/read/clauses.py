@@ -85,6 +85,13 @@ class Taken(Facts):
                 raise self.left_over(chunk)
             case "be" | "possessive" | "quality":
                 clause.notes |= {"has"} if value == "has" else set()
+            case "lets" if self.peek()[0] in PEOPLE and self.peek(2)[0] in ("order", "event", "state"):
+                self.at += 2  # "lets the ego go first"
+                clause.flags.add("lets")
+                if self.chunks[self.at - 1].kind == "pronoun":  # the other one of two
+                    self.people.pair(chunk)
+                else:
+                    self.yields_to = self.people.who(self.chunks[self.at - 1])
             case "mood":
                 clause.notes.add(value)
             case "bound" if self.peek()[0] in ("amount", "no unit", "bound", "near") or self.peek()[1] == "as fast as":

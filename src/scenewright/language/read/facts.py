@@ -115,9 +115,7 @@ class Facts:
                 self.headed(following, back=True)
             else:
                 self.fact("origin", following)
-        elif chunk.kind == "origin":
-            raise self.left_over(chunk)
-        elif chunk.kind == "then_headed" and self.peek()[0] != "heading":
+        elif chunk.kind == "origin" or (chunk.kind == "then_headed" and self.peek()[0] != "heading"):
             raise self.left_over(chunk)
         else:
             if chunk.text.lower().split()[0] in ("turning", "making", "taking"):

@@ -25,8 +25,9 @@ _PREDICATES = {
 }  # fmt: skip
 _BEGINS_A_CLAUSE = {
     *PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed", "kept", "pair",
-    "order", "yields", "insists", "open",
+    "order", "yields", "insists", "lets", "open",
 }  # fmt: skip
+_ACTS = ("deed", "order", "yields", "insists", "lets")
 _FRONTED = ("side", "turn", "state", "origin", "heading", "area")
 _JOINTS: dict[str, tuple[Literal["and", "or", "if"], str]] = {  # what a word makes of its parts, and what parts them
     "either": ("or", "or"),
@@ -99,7 +100,7 @@ def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
     if not commas:
         raise UnknownWordsError("it is not clear where the moment ends", fix="put a comma before what happens")
     acts = (start for start, end in zip(commas, [*commas[1:], len(chunks)], strict=True)
-            if any(chunk.kind in ("deed", "order", "yields", "insists") for chunk in chunks[start:end]))  # fmt: skip
+            if any(chunk.kind in _ACTS for chunk in chunks[start:end]))  # fmt: skip
     cut = next(acts, commas[-1])
     main = chunks[cut + 1 :]
     return chunks[:cut], main[1:] if main and main[0].value == "then" else main

@@ -19,7 +19,7 @@ from scenewright.language.read.facts import Clause
 from scenewright.language.read.items import Item, Segment, is_told_twice, items_of, parted, segments_of
 from scenewright.language.read.labels import take_labels
 from scenewright.language.read.moments import HOW, ORDERS, Moments
-from scenewright.language.read.narrative import Doing, Narrative, standstill
+from scenewright.language.read.narrative import COURTESIES, Doing, Narrative, standstill
 from scenewright.program.types import EGO
 
 _LEADS = ("then", "then left", "then right", "at once", "later", "meanwhile", "start")
@@ -175,9 +175,9 @@ class _Sentence(Moments):
             if not isinstance(item, Clause):
                 found.append(item)
                 continue
-            for courtesy in item.flags & {"yields", "insists"}:
+            for courtesy in item.flags & COURTESIES:
                 self.narrative.courtesies.append((item.subject, courtesy, item.quote))
-            item.flags -= {"yields", "insists"}
+            item.flags -= COURTESIES
             is_hero = happens and item.deed is None and item.subject not in (None, EGO)
             turn = item.facts.get("turn", "")
             acts = any(isinstance(each, Clause) and each.deed is not None for each in items)
