@@ -63,7 +63,7 @@ def read_amounts(words: str) -> set[tuple[Fraction | str, str | None]]:
 
 def _unit_at(rest: str) -> str | None:
     """Return the unit that `rest` begins with."""
-    rest = re.sub(r"(?i)^\W*(?:of an? |an? )?", "", rest)
+    rest = re.sub(r"(?i)^\W*(?:of (?:an? )?|an? )?", "", rest)
     for spelled, unit in _SPELLED.items():
         if re.match(rf"(?i){spelled}\b", rest):
             return unit

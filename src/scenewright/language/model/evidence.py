@@ -133,15 +133,20 @@ class _Evidence(Measured):
 
     # -- moments, deeds, orders, holds --------------------------------------------------------------------------------
     def _time(self, number: int, moment: st.Moment) -> Iterator[str]:
-        """Check that a moment's time is told where its conditions or its deeds are."""
+        """Check that a moment's time is told where its conditions or its deeds are: "when" one begins, "until" it ends."""
         yield from self.amount(moment.time)
-        story = self.claim.story
-        told: list[st.Quote | None] = [each.quote for each in story.deeds if number in (each.begins, each.ends)]
+        quote = moment.time.quote if moment.time else None
+        if quote is None:
+            return
+        story, (sentence, own, index) = self.claim.story, self.heard.sentence(quote.start)
+        link = next((each.value for each in reversed(own[:index]) if each.kind == "link"), "")
+        bounds = [(each.quote, (each.begins if link != "until" else -1, each.ends if link != "when" else -1))
+                  for each in story.deeds]  # fmt: skip
+        told = [each for each, at in bounds if number in at]
         told += [each.quote for condition in moment.conditions for each in st.atoms(condition)]
         told += [each.quote for each in story.orders if number in (each.first, each.second)]
-        near = {self.heard.sentence(quote.start)[0] for quote in told if quote}
-        quote = moment.time.quote if moment.time else None
-        if quote and near and self.heard.sentence(quote.start)[0] not in near:
+        near = {self.heard.sentence(each.start)[0] for each in told if each}
+        if near and sentence not in near:
             yield f"'{quote.text}' is not told with what is so then: say it as an order from start"
 
     def _deed(self, deed: st.Deed) -> Iterator[str]:

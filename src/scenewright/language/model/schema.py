@@ -83,6 +83,9 @@ def descriptions() -> dict[str, dict[str, str]]:
     return tomllib.loads(files("scenewright.language.model").joinpath("slots.toml").read_text(encoding="utf-8"))
 
 
+_hints = cache(get_type_hints)
+
+
 def _made(name: str, slots: Mapping[str, tuple[Any, Any]]) -> type[BaseModel]:
     told = descriptions().get(name.rstrip("0123456789"), {})
     made: dict[str, Any] = {}
@@ -95,7 +98,7 @@ def _made(name: str, slots: Mapping[str, tuple[Any, Any]]) -> type[BaseModel]:
 @cache
 def form_of(cls: type, depth: int = DEEPEST) -> type[BaseModel]:
     """Return the form for a dataclass of the story; `depth` says how many conditions may lie in each other."""
-    hints = get_type_hints(cls)
+    hints = _hints(cls)
     slots: dict[str, tuple[Any, Any]] = dict(_MORE.get(cls, {}))
     for each in fields(cls):
         if each.name in _OURS.get(cls, ()):
@@ -308,7 +311,7 @@ class _Reader:
 
     def build(self, cls: type, form: Any, within: Span | None) -> Any:
         """Return the part of the story that a form fills; `within` is the stretch that an amount is quoted from."""
-        hints, values = get_type_hints(cls), dict[str, Any]()
+        hints, values = _hints(cls), dict[str, Any]()
         within = within if cls is st.Amount else None
         quote = self.quote(form.words, within) if "words" in type(form).model_fields and cls is not st.Way else None
         inner = quote.span if quote else None

@@ -24,7 +24,6 @@ from scenewright.program.limits import check_description
 from scenewright.roads.grounding import ground
 from scenewright.roads.model import RoadMap
 
-LONGEST_TEXT = 20_000  # characters
 _KEPT_OF_A_REPLY = 20_000
 AS_TOLD, NOT_AS_TOLD = "yes, it is meant as told", "no, as in the text"
 _JUDGE = (
@@ -68,9 +67,8 @@ def story_by_model(text: str, road_map: RoadMap, name: str, model: Model, settin
         at all (then with exit status 4).
     """
     check_description(text, name)
-    if len(text) > LONGEST_TEXT:
-        found, fix = f"{len(text)} characters", "describe one test at a time"
-        raise TranslationError("the text is too long for a model", place=Place(name), found=found, fix=fix)
+    if not text.strip():
+        raise TranslationError("the text is empty", place=Place(name), fix="say what should happen")
     return _Conversation(text, road_map, name, model, settings).told()
 
 
