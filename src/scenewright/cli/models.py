@@ -1,6 +1,7 @@
 """`models`: which language model is configured, whether it answers, and what to set where none is.
 
-What enters: the environment and the settings file. What leaves: what was found, never a key, and an honest exit status.
+What enters: the environment and the settings file. What leaves: what was found, never a key; the exit status is that of
+the one call, 0 where nothing is configured.
 """
 
 from __future__ import annotations
@@ -17,7 +18,6 @@ def models(as_json: AsJson = False) -> None:
     """Show which language model reads descriptions, and try it with one call."""
     with told(as_json):
         from scenewright.cli import tables
-        from scenewright.errors import InputError
         from scenewright.language.model import choose
         from scenewright.language.model.keys import KEY_VARIABLES
 
@@ -31,14 +31,10 @@ def models(as_json: AsJson = False) -> None:
             "settings file": str(choose.settings_file()),
         }
         if found.translator == choose.OFFLINE:
-            raise InputError(
-                "no language model is configured: descriptions are read offline",
-                found=f"keys: {', '.join(keys) or 'none'}; settings file: {facts['settings file']}",
-                expected=f"{choose.TRANSLATOR_VARIABLE}=PROVIDER:NAME, or translator = \"PROVIDER:NAME\" in that file",
-                fix=f"export {choose.TRANSLATOR_VARIABLE}=openai:NAME and the provider's key; see docs/language-models.md",
-            )
-        answer = choose.tried(found)
-        facts["one call"] = str(answer.usage) if answer else "not tried: whoever answers by files is no server"
+            facts["to set"] = f"{choose.TRANSLATOR_VARIABLE}=PROVIDER:NAME, or translator in the settings file"
+        else:
+            answer = choose.tried(found)
+            facts["one call"] = str(answer.usage) if answer else "not tried: whoever answers by files is no server"
         if as_json:
             print_json(facts)
         else:
