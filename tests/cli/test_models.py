@@ -48,10 +48,10 @@ def models(*options: str) -> Any:
 
 def test_nothing_configured_says_what_to_set() -> None:
     result = models()
-    assert result.exit_code == 2
+    assert result.exit_code == 0
     assert "SCENEWRIGHT_TRANSLATOR=PROVIDER:NAME" in result.output
     assert "settings.toml" in result.output
-    assert json.loads(models("--json").stdout)["exit_status"] == 2
+    assert json.loads(models("--json").stdout)["translator"] == "offline"
 
 
 def test_model_that_answers(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,6 +1,7 @@
 """`models`: which language model is configured, whether it answers, and what to set where none is.
 
-What enters: the environment and the settings file. What leaves: what was found, never a key, and an honest exit status.
+What enters: the environment and the settings file. What leaves: what was found, never a key; the exit status is that of
+the one call, 0 where nothing is configured.
 """
 
 from __future__ import annotations
@@ -29,15 +30,11 @@ def models(as_json: AsJson = False) -> None:
             "keys in the environment": keys,
             "settings file": str(choose.settings_file()),
         }
-        if found.translator == choose.OFFLINE:  # nothing is wrong with that: it is told what to set
-            facts["to set"] = (
-                f"{choose.TRANSLATOR_VARIABLE}=PROVIDER:NAME in the environment, or translator = "
-                '"PROVIDER:NAME" in the settings file, and the key of the provider; see docs/language-models.md'
-            )
-            answer, call = None, "not tried: descriptions are read offline"
+        if found.translator == choose.OFFLINE:
+            facts["to set"] = f"{choose.TRANSLATOR_VARIABLE}=PROVIDER:NAME, or translator in the settings file"
         else:
-            answer, call = choose.tried(found), "not tried: whoever answers by files is no server"
-        facts["one call"] = str(answer.usage) if answer else call
+            answer = choose.tried(found)
+            facts["one call"] = str(answer.usage) if answer else "not tried: whoever answers by files is no server"
         if as_json:
             print_json(facts)
         else:

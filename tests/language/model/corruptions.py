@@ -98,13 +98,19 @@ def corruptions(reply: Reply, seed: int = 0) -> Iterator[tuple[str, Reply]]:
         yield changed("doer", lambda story: list(story["deeds"]), place, {"actor": pick.choice(others)})
     for place, actor in enumerate(story["actors"]):
         way = actor["way"]
-        for slot, values in (("heading", "NESW"), ("turn", ("left", "right", "straight")), ("origin", ("road", "driveway"))):
+        for slot, values in (
+            ("heading", "NESW"),
+            ("turn", ("left", "right", "straight")),
+            ("origin", ("road", "driveway")),
+        ):
             if way.get(slot):
                 new = pick.choice([each for each in values if each != way[slot]])
                 find: Any = lambda story: [each["way"] for each in story["actors"]]
                 yield changed(slot, find, place, {slot: new})
         for relation in actor.get("relations", ()):
-            new = pick.choice([each for each in ("ahead", "behind", "oncoming", "from the left") if each != relation["kind"]])
+            new = pick.choice(
+                [each for each in ("ahead", "behind", "oncoming", "from the left") if each != relation["kind"]]
+            )
             wrong = copy.deepcopy(reply)
             wrong["story"]["actors"][place]["relations"][0]["kind"] = new
             yield "relation", wrong

@@ -44,7 +44,7 @@ class _Writer:
         if isinstance(value, st.Quote):
             return value.text
         if is_dataclass(value):
-            ours = schema._OURS.get(type(value), set())
+            ours = schema.OURS.get(type(value), set())
             return {
                 "words" if each.name == "quote" else each.name: self.of(getattr(value, each.name), each.name, value)
                 for each in fields(value)
@@ -55,7 +55,7 @@ class _Writer:
         if isinstance(value, bool | StrEnum) or value is None:
             return value
         if isinstance(value, int) and not isinstance(owner, st.Question):
-            return (self.people if slot in schema._PEOPLE else self.moments)[value]
+            return (self.people if slot in schema.PEOPLE else self.moments)[value]
         return format_fraction(value) if isinstance(value, Fraction) else value
 
 
@@ -73,7 +73,9 @@ def told_reply(lines: list[str]) -> tuple[dict[str, Any], str]:
     quoted = replace(
         story,
         moments=tuple(
-            replace(moment, conditions=tuple(_clause(_implied(story, number, each), text) for each in moment.conditions))
+            replace(
+                moment, conditions=tuple(_clause(_implied(story, number, each), text) for each in moment.conditions)
+            )
             for number, moment in enumerate(story.moments)
         ),
         deeds=tuple(

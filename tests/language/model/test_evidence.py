@@ -117,7 +117,9 @@ def test_two_distances_exchanged() -> None:
 )
 def test_what_carries_meaning_must_be_used_up(slots: dict[str, Any], told: str) -> None:
     reply = reply_to(**slots)
-    reply["story"]["moments"][1]["conditions"][0].update({"amount": None, "words": "the AV is 12 m short of the stop line"})
+    reply["story"]["moments"][1]["conditions"][0].update(
+        {"amount": None, "words": "the AV is 12 m short of the stop line"}
+    )
     assert told in str(fault_of_words(reply, TEXT)) or told in str(fault_of(reply, TEXT))
 
 

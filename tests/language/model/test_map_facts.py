@@ -14,7 +14,9 @@ T_INTERSECTION = load_map("t_intersection")
 
 def test_map_is_told_as_it_is() -> None:
     told = map_facts(T_INTERSECTION)
-    ways = re.findall(r"^- \d+: from the (\w+), heading (\w)\w+, (?:turns )?(\w+)[ ,].*?the (\w+), then (\w)", told, re.MULTILINE)
+    ways = re.findall(
+        r"^- \d+: from the (\w+), heading (\w)\w+, (?:turns )?(\w+)[ ,].*?the (\w+), then (\w)", told, re.MULTILINE
+    )
     assert len(ways) == len(all_routes(T_INTERSECTION)) == 6
     for origin, heading, turn, destination, end in ways:
         kinds = find_routes(T_INTERSECTION, origin_kind=origin, turn=turn, destination_kind=destination)  # type: ignore[arg-type]

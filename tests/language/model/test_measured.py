@@ -24,7 +24,14 @@ def faults(text: str, value: str, unit: str, words: str, owned: str = "", **slot
     """Return what the words of a whole text say against a measure of it."""
     amount = st.Amount(Fraction(value), unit, None, quote(words, text)) if value else None
     claim = Claim(st.Story(ACTORS), CALLED, owned=[(Span(0, len(text)), owned)])
-    given = {"actor": 1, "quantity": st.Quantity.PLACE, "op": "==", "amount": amount, "quote": quote(text, text), **slots}
+    given = {
+        "actor": 1,
+        "quantity": st.Quantity.PLACE,
+        "op": "==",
+        "amount": amount,
+        "quote": quote(text, text),
+        **slots,
+    }
     return "; ".join(Measured(claim, text).measure(st.Measure(**given)))  # type: ignore[arg-type]
 
 

@@ -110,7 +110,9 @@ def test_amount_is_quoted_from_the_words_of_its_measure() -> None:
 
 def test_start_need_not_be_listed_and_case_and_signs_do_not_matter() -> None:
     reply = reply_to(moments=STORY["moments"][1:])
-    claim = claim_of(read_reply(f"Here it is:\n```json\n{json.dumps(reply).replace('The AV comes', 'the  av, comes')}\n```"), TEXT)
+    claim = claim_of(
+        read_reply(f"Here it is:\n```json\n{json.dumps(reply).replace('The AV comes', 'the  av, comes')}\n```"), TEXT
+    )
     assert claim.story.moments[0] == st.Moment()
     assert claim.ways[0] == st.Quote(0, 62, TEXT[:62])
 

@@ -10,7 +10,13 @@ from scenewright.language.model.settings import TranslatorSettings
 
 def test_usual_settings_ask_nobody_twice_for_nothing() -> None:
     usual = TranslatorSettings()
-    assert (usual.strict, usual.second_opinion, usual.record, usual.replay, usual.ask) == (False, False, None, None, None)
+    assert (usual.strict, usual.second_opinion, usual.record, usual.replay, usual.ask) == (
+        False,
+        False,
+        None,
+        None,
+        None,
+    )
     assert usual.answers == {}
 
 

@@ -210,7 +210,9 @@ class _Evidence(Measured):
         conditions = [each for condition in story.moments[moment].conditions for each in st.atoms(condition)]
         who = {deed.actor for deed in deeds} | {each for condition in conditions for each in st.people_in(condition)}
         told = [each.quote.text for each in conditions if each.quote]
-        told += [" ".join(DOES.get(deed.verb, (deed.verb,))) for deed in deeds if deed.begins == moment or not conditions]
+        told += [
+            " ".join(DOES.get(deed.verb, (deed.verb,))) for deed in deeds if deed.begins == moment or not conditions
+        ]
         return {f"#{each}" for each in who} | set(re.findall(r"\w+", " ".join(told).lower()))
 
     def _told_first(self, quote: st.Quote) -> tuple[set[str], set[str]]:
@@ -223,7 +225,11 @@ class _Evidence(Measured):
                 return first, {f"#{actor.id}" for actor in self.claim.story.actors if first} - first
             follows = said[place + 1].kind if place + 1 < len(said) else ""
             if each.value in _FIRST and follows in ("who", "pronoun"):
-                ends = (number for number, other in enumerate(said) if number > place + 1 and other.kind in ("comma", "pronoun"))
+                ends = (
+                    number
+                    for number, other in enumerate(said)
+                    if number > place + 1 and other.kind in ("comma", "pronoun")
+                )
                 end = next(ends, len(said)) if place < 2 else len(said)
                 inner, outer = self._spoken(said[place + 1 : end]), self._spoken([*said[:place], *said[end:]])
                 if not any(word[0] == "#" for word in outer):
@@ -262,9 +268,12 @@ class _Evidence(Measured):
                  *(lane for actor in story.actors for lane in actor.way.lanes),
                  *(parameter.name for parameter in story.parameters)]  # fmt: skip
         named = [span for name in names for span in locate(name, self.text)]
-        measures = [each.quote for moment in story.moments for condition in moment.conditions for each in st.atoms(condition)]
+        measures = [
+            each.quote for moment in story.moments for condition in moment.conditions for each in st.atoms(condition)
+        ]
         measures += [each.quote for deed in story.deeds for each in deed.throughout]
-        longer = [part.quote.span for part in (*story.deeds, *story.orders, *story.holds) if part.quote]
+        parts: list[st.Deed | st.Order | st.Hold] = [*story.deeds, *story.orders, *story.holds]
+        longer = [part.quote.span for part in parts if part.quote]
         for span in spoken_of(self.text):
             word = span.excerpt(self.text)
             again = _covered(span, longer) and any(self.text.startswith(quote.text, span.start) for quote in amounts)

@@ -25,9 +25,7 @@ _NEGATED = re.compile(r"(?i)\b(?:not|never|no|n't)\b (?:\w+ ){0,2}?(?:exceed\w*|
 _LOWER = re.compile(
     r"(?i)at least|no less|not less|more|over|above|exceed|beyond|minimum|faster|further|greater|sooner|earlier"
 )
-_UPPER = re.compile(
-    r"(?i)at most|no more|up to|less|under|below|within|maximum|slower|closer|nearer|limit|later"
-)
+_UPPER = re.compile(r"(?i)at most|no more|up to|less|under|below|within|maximum|slower|closer|nearer|limit|later")
 _BARE: dict[str, st.Operator] = {"past": ">", "at or past": ">=", "at or before": "<=", "before": "<"}
 _FAST = {"faster": (">", ">="), "slower": ("<", "<="), "as fast as": ("==", ">=", "<=")}
 _SLOWING = {"brake": True, "stop": True, "deceleration": True, "speed up": False, "acceleration": False}
@@ -203,7 +201,10 @@ class Measured:
             yield from self.silent(quote, f"does not name {self.name(other)}", *self.names(other))
         fast = measure.quantity is st.Quantity.SPEED
         for place, each in enumerate(said[:-1]):
-            one, two = next((who for who in said[:place][::-1] if who.kind in ("who", "pronoun")), None), said[place + 1]
+            one, two = (
+                next((who for who in said[:place][::-1] if who.kind in ("who", "pronoun")), None),
+                said[place + 1],
+            )
             if each.value not in (("than", "as fast as") if fast else ("ahead", "behind", "to", "with")) or one is None:
                 continue
             pairs = zip((measure.actor, other), (two, one) if each.value == "ahead" else (one, two), strict=True)
@@ -219,5 +220,9 @@ class Measured:
         if fast and factor is None and measure.op != "==":
             yield from self.silent(quote, f"says no {BOUNDS[measure.op].strip()}", "faster", "slower")
         elif fast and factor is not None:
-            if measure.op not in _FAST[factor] if measure.amount is None else measure.opposite is not (factor == "slower"):
+            if (
+                measure.op not in _FAST[factor]
+                if measure.amount is None
+                else measure.opposite is not (factor == "slower")
+            ):
                 yield f"'{quote.text}' says {factor}"

@@ -147,7 +147,10 @@ class ServedModel:
         if isinstance(error, library.ContentFilterError):
             return self._declined(str(error))
         if isinstance(error, TimeoutError | library.ModelTimeoutError):
-            found, fix = f"no whole reply after {self.timeout_s:g} s", f"allow more with --timeout SECONDS, or {_OFFLINE}"
+            found, fix = (
+                f"no whole reply after {self.timeout_s:g} s",
+                f"allow more with --timeout SECONDS, or {_OFFLINE}",
+            )
             return GaveUpError(f"{self.name} did not answer in time", found=found, fix=fix)
         if not isinstance(error, library.ModelHTTPError | library.ModelConnectionError):
             found, fix = f"{type(error).__name__}: {_line(str(error))}", "check the address and the model"

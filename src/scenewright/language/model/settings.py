@@ -29,7 +29,9 @@ class TranslatorSettings:
     record: Path | None = None  # folder in which exchanges are kept
     replay: Path | None = None  # folder from which replies are taken, without asking anybody
     timeout_s: float = DEFAULT_TIMEOUT_S  # for one reply, waits that a busy server asks for included
-    reply_wait_s: float = 0.0  # for a reply file of ``files:DIR``; with 0 the request is left there and the call gives up
+    reply_wait_s: float = (
+        0.0  # for a reply file of ``files:DIR``; with 0 the request is left there and the call gives up
+    )
     max_tokens: int = DEFAULT_MAX_TOKENS  # that one reply may hold
     ask: Callable[[Question], str] | None = None  # the user's choice; None where nobody can be asked
     answers: Mapping[str, str] = field(default_factory=dict)  # that were given before, by the slot of their question
