@@ -96,9 +96,8 @@ def _find_subject(taken: Taken, subject: int | None) -> None:
     clause = taken.clause
     ahead = next((each for each in taken.targets if each.side == "ahead" and each.other is not None), None)
     place = next((each for each in taken.targets if each.place is not None and each.side == "at"), None)
-    if (
-        clause.subject is None and taken.amounts and ahead is not None and place is not None
-    ):  # "a driveway 100 m in front of the ego"
+    # "There is a driveway 100 m in front of the ego."
+    if clause.subject is None and taken.amounts and ahead is not None and place is not None:
         clause.subject, ahead.used, place.side = ahead.other, True, "before"
     if clause.subject is None and taken.pair is None and taken.quantity in ("gap", "headway", "time to collision"):
         to = [each for each in taken.targets if each.other is not None]
@@ -115,8 +114,7 @@ def _find_subject(taken: Taken, subject: int | None) -> None:
             told = taken.people.ask(f"behind {clause.quote.start}", "Who drives behind?", names, 0, clause.quote)
             rear = taken.pair[names.index(told)]
         clause.subject = rear
-    if clause.subject is None:
-        clause.subject = subject
+    clause.subject = subject if clause.subject is None else clause.subject
 
 
 def _of(measure: st.Measure, subject: int | None) -> st.Measure:

@@ -242,16 +242,13 @@ class _Items:
         """Whether "which" stands here for somebody who is not the subject of the clause that begins at `start`."""
         if self.chunks[self.at].kind != "relative" or self.at <= start:
             return False
-        return any(chunk.kind in PEOPLE for chunk in self.chunks[start : self.at - 1]) or (
-            self.chunks[self.at - 1].kind not in PEOPLE
-        )
+        named = any(chunk.kind in PEOPLE for chunk in self.chunks[start : self.at - 1])
+        return named or self.chunks[self.at - 1].kind not in PEOPLE
 
     def _begins(self, at: int) -> bool:
         """Whether a clause begins here."""
-        skipped = ("comma", ("joint", "and"), ("link", "then"))
-        while at < len(self.chunks) and (
-            {self.chunks[at].kind, (self.chunks[at].kind, self.chunks[at].value)} & {*skipped}
-        ):
+        skipped = (("joint", "and"), ("link", "then"), ("comma", ","))
+        while at < len(self.chunks) and (self.chunks[at].kind, self.chunks[at].value) in skipped:
             at += 1
         return at < len(self.chunks) and self.chunks[at].kind in _BEGINS_A_CLAUSE
 
