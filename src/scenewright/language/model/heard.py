@@ -25,6 +25,10 @@ def people(*chunks: Chunk) -> set[int]:
     return {int(number) for each in chunks if each.kind == "who" for number in each.value.split()}
 
 
+def _lies_in(chunk: Chunk, span: Span) -> bool:
+    return span.start <= chunk.start + len("the ") * (chunk.kind == "place") and chunk.end <= span.end
+
+
 def is_head(own: Sequence[Chunk], at: int) -> bool:
     """Whether a name or "it" is whom a clause speaks of: it stands at its beginning."""
     if own[at].kind != "who" and (own[at].kind, own[at].value) != ("pronoun", "it"):
@@ -64,8 +68,8 @@ class Heard:
             self.said.append(sorted([*kept, *own_names], key=lambda chunk: (chunk.start, -chunk.end)))
 
     def within(self, span: Span) -> list[Chunk]:
-        """Return the chunks that lie in a stretch."""
-        return [each for own in self.said for each in own if span.start <= each.start and each.end <= span.end]
+        """Return the chunks that lie in a stretch, whether or not it begins with their article."""
+        return [each for own in self.said for each in own if _lies_in(each, span)]
 
     def sentence(self, at: int) -> tuple[int, list[Chunk], int]:
         """Return the number and the chunks of the sentence at a place of the text, and which chunk is there."""
@@ -79,7 +83,7 @@ class Heard:
         parts = [place for place, each in enumerate(own) if each.kind == "link" or is_head(own, place)]
         start = max((place for place in parts if place <= index), default=0)
         end = min((place for place in parts if place > index), default=len(own))
-        return [each for each in own[start:end] if span.start <= each.start and each.end <= span.end]
+        return [each for each in own[start:end] if _lies_in(each, span)]
 
     def subjects(self, at: int) -> tuple[set[int], int | None]:
         """Return who may be spoken of at a place, and where the "it" is that stands for it."""
@@ -92,8 +96,11 @@ class Heard:
         heads = [place for place in range(len(own)) if is_head(own, place)]
         names = [place for place, each in enumerate(own) if each.kind == "who"]
         behind = [place for place in names if index <= place < end and place and own[place - 1].kind == "side"
-                  and own[place - 1].value not in _NOT_OF_WHOM and own[max(place - 2, 0)].kind != "place"]  # fmt: skip
+                  and own[place - 1].value not in _NOT_OF_WHOM
+                  and (own[max(place - 2, 0)].kind != "place" or own[place - 1].value == "for")]  # fmt: skip
+        beside_it = own[index].amount and index - 1 in names and (index < 2 or own[index - 2].kind != "side")
         for found in (  # from the nearest to the farthest; "3 s for the ego" names it behind
+            [index - 1] if beside_it else [],  # "sees the hero 20 m before the stop line"
             [place for place in heads if start <= place <= index][-1:],
             [place for place in names if start <= place <= index][-1:] or behind[:1],
             [place for place in heads if place <= index][-1:],

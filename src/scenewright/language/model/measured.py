@@ -196,26 +196,30 @@ class Measured:
             yield f"'{quote.text}' is not at the place: `op` is {' or '.join(known)}"
 
     def _other(self, measure: st.Measure, other: int, quote: st.Quote, said: list[Chunk]) -> Iterator[str]:
-        named = people(*said) | self.heard.subjects(quote.start)[0]
-        if other not in named and not any(each.kind == "pronoun" for each in said):
+        whole = self.heard.within(quote.span)
+        if other not in people(*whole) | self.heard.subjects(quote.start)[0] and all(
+            each.kind != "pronoun" for each in whole
+        ):
             yield from self.silent(quote, f"does not name {self.name(other)}", *self.names(other))
-        fast = measure.quantity is st.Quantity.SPEED
+        fast, told = measure.quantity is st.Quantity.SPEED, False
         for place, each in enumerate(said[:-1]):
             one, two = (
                 next((who for who in said[:place][::-1] if who.kind in ("who", "pronoun")), None),
                 said[place + 1],
             )
-            if each.value not in (("than", "as fast as") if fast else ("ahead", "behind", "to", "with")) or one is None:
+            sides = ("than", "as fast as") if fast else ("ahead", "behind", "to", "with")
+            if each.value not in sides or one is None or two.kind not in ("who", "pronoun"):
                 continue
-            pairs = zip((measure.actor, other), (two, one) if each.value == "ahead" else (one, two), strict=True)
-            if two.kind in ("who", "pronoun") and any(
-                slot not in people(who) and {measure.actor, other} & people(who) for slot, who in pairs
-            ):
+            told, pair = True, (two, one) if each.value == "ahead" else (one, two)
+            if any(slot not in people(who) and {measure.actor, other} & people(who)
+                   for slot, who in zip((measure.actor, other), pair, strict=True)):  # fmt: skip
                 yield f"'{quote.text}' says it of {self.name(other)} and {self.name(measure.actor)} the other way round"
         relations = {(actor.id, each.kind, each.of) for actor in self.claim.story.actors for each in actor.relations}
-        in_line = measure.quantity in (st.Quantity.GAP, st.Quantity.HEADWAY) and len(people(*said)) < 2
-        if in_line and (measure.actor, "ahead", other) in relations:
-            yield f"{self.name(measure.actor)} is ahead: the one behind measures the {measure.quantity}"
+        if measure.quantity in (st.Quantity.GAP, st.Quantity.HEADWAY) and not told:
+            if {(measure.actor, "ahead", other), (other, "behind", measure.actor)} & relations:
+                yield f"{self.name(measure.actor)} is ahead: the one behind measures the {measure.quantity}"
+            elif not {(measure.actor, "behind", other), (other, "ahead", measure.actor)} & relations:
+                yield from self.silent(quote, "does not say who is in front", "behind", "ahead", "in front")
         factor = next((each.value for each in said if each.kind == "factor"), None)
         if fast and factor is None and measure.op != "==":
             yield from self.silent(quote, f"says no {BOUNDS[measure.op].strip()}", "faster", "slower")
