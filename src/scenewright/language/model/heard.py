@@ -61,7 +61,8 @@ class Heard:
                 value = " ".join(map(str, sorted(named[start, end])))
                 taken.append(Chunk("who", value, start, end, self.text[start:end]))
         self.said = []
-        for chunks in sentences(self.text):
+        for plain in sentences(self.text):
+            chunks = [each for chunk in plain for each in (*chunk.traits, chunk)]
             own_names = [each for each in taken if each.end >= chunks[0].start and each.start < chunks[-1].end]
             kept = [chunk for chunk in chunks if chunk.kind not in ("actor", "name", "unknown")
                     or not any(each.start < chunk.end and chunk.start < each.end for each in own_names)]  # fmt: skip

@@ -108,7 +108,7 @@ class Measured:
             return
         near = Span(max(quote.start, amount.quote.start - _NEAR), min(quote.end, amount.quote.end + 12))
         words = near.excerpt(self.text)
-        bounds = [each.value for each in self.heard.within(near)
+        bounds = ["==" if each.value == "falls" else each.value for each in self.heard.within(near)
                   if each.kind == "bound" and 0 <= amount.quote.start - each.end < 4]  # fmt: skip
         if bounds and op != bounds[-1]:
             yield f"'{words}' says {bounds[-1]}, not {op}"
