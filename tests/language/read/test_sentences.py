@@ -43,6 +43,13 @@ REFUSED = (  # what is said after the ways, and a word of it that the message na
     ("The hero brakes until it stands for a while.", "condition"),
     ("When the ego is 20 m behind the hero and the hero brakes, the hero speeds up.", "told"),
     ("The hero brakes at 8 m/s.", "fast"),
+    ("The hero stops. So does the truck.", "does the truck"),
+    ("The hero brakes for 3 s to a stop.", "3 s"),
+    ("The hero keeps a gap of 20 m to the ego.", "gap"),
+    ("The hero holds at the stop line.", "stop line"),
+    ("The hero gets to 10 m/s.", "10 m/s"),
+    ("The hero is to the left.", "left"),
+    ("When the hero keeps its distance, the hero brakes.", "distance"),
 )
 
 
@@ -131,3 +138,11 @@ def test_every_change_of_meaning_is_noticed() -> None:
             except ScenewrightError:
                 continue
             assert story.questions or st.arranged(story) != base, f"{what}\n{changed}"
+
+
+def test_what_comes_after_an_event_may_stand_in_front() -> None:
+    for text in ("2 s after the ego passes the stop line, the hero brakes.",
+                 "The hero brakes 2 s after the ego passes the stop line."):  # fmt: skip
+        story = read(WAYS + text)
+        ((order,), (driving, braking)) = story.orders, story.deeds
+        assert (order.first, order.second, driving.verb) == (story.ego[0], braking.begins, "drive on")

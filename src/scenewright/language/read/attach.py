@@ -79,6 +79,11 @@ def _attach(taken: Taken, neighbour: Clause | None, subject: int | None) -> None
             _stand_alone(taken, target)
     if taken.quantity and not (taken.amounts or "kept" in clause.flags):
         raise taken.left_over(last)
+    fast = taken.quantity == "speed" or any(each.quantity is st.Quantity.SPEED for each in clause.measures)
+    if "kept" in clause.flags and clause.rate is not None:  # "brakes at a constant rate of 3 m/s^2"
+        clause.flags.discard("kept")
+    elif "kept" in clause.flags and not fast:
+        raise taken.left_over(last)  # "keeps a gap of 20 m"
     places = [each for each in clause.measures if each.quantity is st.Quantity.PLACE]
     passed = [each for each in places if each.amount is None]
     if ("pass" in taken.states and not passed) or ("reach" in taken.states and not places):

@@ -153,7 +153,9 @@ class Taken(Facts):
             case "place":  # "approaches the junction"
                 return before.text.lower().startswith("approach")
             case "event":  # "gets to 2 s behind the bus": the amount says how near
-                return following in ("amount", "bound") and chunk.text.lower().startswith(_REACHES)
+                amounts = [each.amount for each in self.chunks[self.at + 1 : self.at + 3] if each.amount]
+                near = following in ("amount", "bound") and amounts and amounts[0].dimension in ("length", "time")
+                return bool(near) and chunk.text.lower().startswith(_REACHES)
             case "link":  # "north, then south"
                 return chunk.value == "then" and before.kind == following == "heading"
         return (chunk.kind, chunk.value, following) == ("joint", "and", "side")  # "across it and into the driveway"

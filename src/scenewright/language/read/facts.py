@@ -117,6 +117,8 @@ class Facts:
                 self.fact("origin", following)
         elif chunk.kind == "origin" or (chunk.kind == "then_headed" and self.peek()[0] != "heading"):
             raise self.left_over(chunk)
+        elif chunk.text.lower().startswith("to ") and "origin" not in facts:
+            raise self.left_over(chunk)  # "leaves the road to the left", not "is to the left"
         else:
             if chunk.text.lower().split()[0] in ("turning", "making", "taking"):
                 self.clause.notes.add("wanted")

@@ -110,6 +110,8 @@ class _Sentence(Moments):
     def _cut(self) -> None:
         """Cut the sentence into what happens, the moment at which it does, and the rest."""
         story, segments = self.narrative, segments_of(self.chunks, bool(self.leads))
+        if not segments[0].chunks and len(segments) > 1 and segments[1].link in ("before", "after"):
+            segments[1].chunks, segments[0].chunks = parted(segments[1].chunks)  # "2 s after ..., the hero brakes"
         if not segments[0].chunks and len(segments) > 1 and segments[1].link == "when":
             first, main = segments[1].chunks, list[Chunk]()
             if any(chunk.kind in ("comma", "deed") for chunk in first):
@@ -126,10 +128,13 @@ class _Sentence(Moments):
     def _main(self, items: list[Item], when: list[Item] | None, rest: list[Segment]) -> None:
         story = self.narrative
         items = [each for each in items if isinstance(each, st.Compound) or each.says_more_than()] or items[:1]
+        does = any(isinstance(each, Clause) and "shall" in each.notes and not each.says_more_than() for each in items)
         timed = any(isinstance(each, Clause) and each.times for each in when or ())
         is_told = when is not None or self.pending is not None or bool(self.leads & {"then", "at once"})
         items = self._acts(items, is_told and not timed)
         if not items and when is None:
+            if rest or does:  # "so does the hero"
+                self.refuse("it is not said what is done")
             return
         clause = next((each for each in items[:1] if isinstance(each, Clause)), None)
         is_deed = clause is not None and clause.deed is not None
@@ -283,7 +288,9 @@ class _Sentence(Moments):
         if clause.deed == "turn" and not self._is_somewhere(clause.subject, moment):
             begins.append(_at(clause, "turn_start"))
         drives_on = bool(begins) and clause.deed not in (st.Verb.STAND, "turn")  # "it brakes 15 m before the stop line"
-        follows = any(each.link == "after" for each in rest) and "event" not in clause.notes
+        follows = "event" not in clause.notes and any(
+            each.link == "after" or (each.link in ORDERS and each.margin is not None and not ends) for each in rest
+        )
         if drives_on or waited is not None or follows:
             self.leads.add("then")
         verb = {"stop": st.Verb.BRAKE, "turn": st.Verb.DRIVE}.get(clause.deed, clause.deed)
@@ -305,6 +312,8 @@ class _Sentence(Moments):
             early = (each.link == "after" and "event" not in clause.notes) or not ends or doing.ends is None
             if each.link != "until":
                 self.orders(doing.begins if early else doing.ends or st.START, [each], doing.actor)
+        if rests and "for" in clause.times and clause.deed != "stop":
+            self.refuse("it is not clear what lasts so long")
         if rests and "for" in clause.times:  # "it stops at the stop line for 3 s"
             story.begin(doing.actor, st.Verb.STAND, None, {"then"}, self.quote).duration = clause.times["for"]
 
