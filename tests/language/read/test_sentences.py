@@ -49,6 +49,8 @@ REFUSED = (  # what is said after the ways, and a word of it that the message na
     ("The hero holds at the stop line.", "stop line"),
     ("The hero gets to 10 m/s.", "10 m/s"),
     ("The hero is to the left.", "left"),
+    ("The hero accelerates when the ego does.", "when the ego does"),
+    ("When the ego is at the stop line, the hero, which was braking, accelerates.", "which"),
     ("When the hero keeps its distance, the hero brakes.", "distance"),
 )
 

@@ -72,6 +72,8 @@ class Taken(Facts):
                 self.targets.append(Target(self.at, "at", chunk, self.people.where(chunk)))
             case _ if self._says_no_more(chunk):
                 pass
+            case "relative" if "deed" in (self.peek()[0], self.peek(2)[0]):
+                raise self.left_over(chunk)  # "which was braking" is no deed of the moment
             case "relative" if clause.subject is not None:
                 clause.notes.add("relative")
             case "actor" if clause.subject is not None and chunk.is_new and self.peek(-1)[0] == "be":
