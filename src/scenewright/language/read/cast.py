@@ -12,6 +12,7 @@ from typing import Any, NoReturn
 from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
 from scenewright.language.compile import DRIVEN, kind_of
+from scenewright.language.phrases import OTHERWISE
 from scenewright.language.read.chunks import Chunk, nearest_words, word_as
 from scenewright.program.types import EGO
 
@@ -238,4 +239,4 @@ class Cast:
 
     def refuse(self, message: str, quote: st.Quote, fix: str | None = None) -> NoReturn:
         """Raise the error that says what could not be read."""
-        raise UnknownWordsError(message, found=quote.text, fix=fix or "say it as `scenewright tell` would")
+        raise UnknownWordsError(message, found=quote.text, fix=fix or OTHERWISE)

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, fields, replace
 from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
 from scenewright.language.compile import COMPASS
+from scenewright.language.phrases import OTHERWISE
 from scenewright.language.read.cast import Cast
 from scenewright.language.read.chunks import Chunk
 
@@ -92,7 +93,7 @@ class Facts:
             f"'{chunk.text}' could not be understood here",
             found=self.clause.quote.text,
             expected=expected,
-            fix="say it as `scenewright tell` would",
+            fix=OTHERWISE,
         )
 
     def way(self, chunk: Chunk) -> None:
