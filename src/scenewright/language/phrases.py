@@ -63,7 +63,7 @@ def does(piece: PieceKind, before: int = 0) -> str:
 
 
 # What to do about words that are not understood: there is a sentence for everything, and models read the others.
-OTHERWISE = "say it in plainer words (docs/english.md says everything), or let a model read it: --translator PROVIDER:NAME"
+OTHERWISE = "say it in plainer words, as in docs/english.md, or let a model read it: --translator PROVIDER:NAME"
 
 
 def untold(what: str) -> TranslationError:
