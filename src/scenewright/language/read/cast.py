@@ -166,8 +166,11 @@ class Cast:
         return [actor for actor in self.actors if actor.id != EGO]
 
     def actor(self, number: int) -> st.Actor:
-        """Return somebody by number."""
-        return next(actor for actor in self.actors if actor.id == number)
+        """Return somebody by number; the ego may not have been named yet."""
+        found = [actor for actor in self.actors if actor.id == number]
+        if not found:
+            raise UnknownWordsError("the text does not say who is under test", fix="name the ego first")
+        return found[0]
 
     # -- ways ---------------------------------------------------------------------------------------------------------
     def tell_way(self, number: int, facts: Mapping[str, str], quote: st.Quote, turns_then: bool = False) -> None:
