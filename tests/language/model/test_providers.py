@@ -17,11 +17,9 @@ from talk import (
     Server,
     breaks_off,
     breaks_off_in_a_stream,
-    completion,
     drips,
     fails,
     is_silent,
-    reply_to,
     says,
 )
 
