@@ -272,8 +272,9 @@ class _Evidence(Measured):
             each.quote for moment in story.moments for condition in moment.conditions for each in st.atoms(condition)
         ]
         measures += [each.quote for deed in story.deeds for each in deed.throughout]
-        parts: list[st.Deed | st.Order | st.Hold] = [*story.deeds, *story.orders, *story.holds]
-        longer = [part.quote.span for part in parts if part.quote]
+        events: list[st.Order | st.Hold] = [*story.orders, *story.holds]
+        ordered = [each.quote.span for each in events if each.quote]
+        longer = [*ordered, *(deed.quote.span for deed in story.deeds if deed.quote)]
         for span in spoken_of(self.text):
             word = span.excerpt(self.text)
             again = _covered(span, longer) and any(self.text.startswith(quote.text, span.start) for quote in amounts)
@@ -290,7 +291,9 @@ class _Evidence(Measured):
             for place, each in enumerate(own):
                 quoted = [deed.quote.span for deed in story.deeds if deed.quote and deed.verb == _verb(each)]
                 used = each.kind != "deed" or _covered(Span(each.start, each.end), [*quoted, *asides])
-                if not used and not self._is_background(own, place):
+                # "It begins to brake 2 s after ...": an order speaks of a deed that is told elsewhere.
+                event = own[max(place - 1, 0)].kind == "phase" and _covered(Span(each.start, each.end), ordered)
+                if not (used or event or self._is_background(own, place)):
                     where = whole.excerpt(self.text)
                     yield f"'{each.text}' in '{where}' is in the words of no such deed and no aside"
 

@@ -61,7 +61,7 @@ class Heard:
                 value = " ".join(map(str, sorted(named[start, end])))
                 taken.append(Chunk("who", value, start, end, self.text[start:end]))
         self.said = []
-        for chunks in sentences(self.text):
+        for chunks in sentences(self.text) or [[Chunk("unknown", "", 0, len(self.text), self.text)]]:
             own_names = [each for each in taken if each.end >= chunks[0].start and each.start < chunks[-1].end]
             kept = [chunk for chunk in chunks if chunk.kind not in ("actor", "name", "unknown")
                     or not any(each.start < chunk.end and chunk.start < each.end for each in own_names)]  # fmt: skip
