@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 # Helpers of these tests alone; import mode `importlib` does not put their folders on the path.
-sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent.parent)]
+sys.path.insert(0, str(Path(__file__).parent.parent))
+sys.path.insert(0, str(Path(__file__).parent))
 
 from talk import KEY, Handler, Server
 

@@ -22,7 +22,6 @@ from talk import STORY, TEXT, Said, reply_to
 from scenewright.errors import ScenewrightError, TranslationError
 from scenewright.language.model import prompt
 from scenewright.language.model.evidence import check_evidence
-from scenewright.language.model.exchange import GaveUpError
 from scenewright.language.model.schema import claim_of, read_reply
 from scenewright.language.model.settings import TranslatorSettings
 from scenewright.language.model.translator import story_by_model
@@ -33,8 +32,8 @@ from scenewright.roads.load import load_map
 
 MAP = load_map("t_intersection")
 FREE = tomllib.loads((Path(__file__).parent / "free_texts.toml").read_text(encoding="utf-8"))["case"]
-STORIES = [(text, reply) for text, reply in [*prompt.examples(), *((each["text"], json.loads(each["reply"])) for each in FREE)]
-           if reply.get("story") and "pedestrian" not in text]  # fmt: skip
+REPLIES = [*prompt.examples(), *((each["text"], json.loads(each["reply"])) for each in FREE)]
+STORIES = [(text, reply) for text, reply in REPLIES if reply.get("story") and "pedestrian" not in text]
 TOLD, MOST = 16, 60
 
 
@@ -43,7 +42,6 @@ def fault_of(reply: dict[str, Any], text: str) -> ScenewrightError | None:
     try:
         story_by_model(text, MAP, "mine", Said([json.dumps(reply)]), TranslatorSettings(repairs=0))
     except ScenewrightError as error:
-        assert not isinstance(error, GaveUpError)
         return error
     return None
 
@@ -58,7 +56,7 @@ def fault_of_words(reply: dict[str, Any], text: str) -> ScenewrightError | None:
 
 
 def told() -> Iterator[tuple[str, dict[str, Any]]]:
-    """Yield told stories with their right replies; random ones contradict themselves, or tell a time apart, now and then."""
+    """Yield told stories with right replies; random ones contradict themselves, or tell a time apart, now and then."""
     for seed in range(TOLD):
         story = replace(random_story(seed), title=None, map_name=DEFAULT_MAP, manner=USUAL)
         try:
@@ -127,13 +125,15 @@ def test_silence_is_owned_to_by_an_assumption_that_names_it() -> None:
     text = "The ego drives west. An oncoming truck yields to it."
     story = {
         "actors": [
-            {"name": "ego", "called": ["The ego"], "kind": "car", "way": {"words": "The ego drives west", "heading": "W"}},
+            {"name": "ego", "called": ["The ego"], "kind": "car",
+             "way": {"words": "The ego drives west", "heading": "W"}},
             {"name": "truck", "called": ["oncoming truck"], "kind": "truck", "way": {},
              "relations": [{"kind": "oncoming", "of": "ego", "words": "An oncoming truck"}]}],
         "moments": [{"name": "start"}, {"name": "stands", "conditions": [
             {"actor": "truck", "quantity": "speed", "op": "==", "words": "An oncoming truck yields",
              "amount": {"value": "0", "unit": "m/s", "words": "yields"}}]}],
-        "deeds": [{"actor": "truck", "verb": "brake", "begins": "start", "ends": "stands", "words": "oncoming truck yields"}],
+        "deeds": [{"actor": "truck", "verb": "brake", "begins": "start", "ends": "stands",
+                   "words": "oncoming truck yields"}],
     }  # fmt: skip
     reply: dict[str, Any] = {"readings": [], "story": story}
     assert "an assumption that quotes these words says" in str(fault_of_words(reply, text))

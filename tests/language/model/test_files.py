@@ -12,13 +12,13 @@ import pytest
 from talk import GOOD, TEXT, Said, reply_to
 
 from scenewright.errors import OutputError, ScenewrightError, TranslationError
-from scenewright.roads.load import load_map
-from scenewright.language.model.exchange import Call, GaveUpError, Message, key_of
 from scenewright.language.model.choose import model_named
+from scenewright.language.model.exchange import Call, GaveUpError, Message, key_of
 from scenewright.language.model.files import FilesModel, NoReplyYetError, Recording, Replayed, write_whole
 from scenewright.language.model.prompt import PROMPT_VERSION
 from scenewright.language.model.settings import TranslatorSettings
 from scenewright.language.model.translator import Told, story_by_model
+from scenewright.roads.load import load_map
 
 MAP = load_map("t_intersection")
 

@@ -56,3 +56,9 @@ def test_clause_of_a_place() -> None:
     text = "The ego is 25 m and the van is 15 m before the stop line."
     told = [each.text for each in Heard(text, CALLED).clause(text.index("15"), Span(0, len(text)))]
     assert told == ["the van", "is", "15 m", "before", "the stop line"]
+
+
+def test_text_without_any_word_of_meaning_is_heard_too() -> None:
+    heard = Heard("the a", {0: ("the",)})
+    assert heard.subjects(0)[0] == {0}
+    assert heard.places(4) == set()

@@ -17,11 +17,9 @@ from talk import (
     Server,
     breaks_off,
     breaks_off_in_a_stream,
-    completion,
     drips,
     fails,
     is_silent,
-    reply_to,
     says,
 )
 
@@ -228,6 +226,22 @@ def test_model_is_asked_for_the_form_at_temperature_zero(server: Server) -> None
     translate(server, says())
     assert server.asked[0]["response_format"]["type"] == "json_schema"
     assert server.asked[0]["temperature"] == 0
+
+
+@pytest.mark.parametrize(
+    ("who", "speaks", "kept"),
+    [
+        ("anthropic:claude-sonnet-4-5", anthropic_says, ("output_config", "format")),
+        ("google:gemini-2.5-pro", google_says, ("generationConfig", "responseJsonSchema")),
+    ],
+)
+def test_form_is_asked_for_in_the_dialect_of_the_provider(
+    server: Server, who: str, speaks: Callable[[str], Act], kept: tuple[str, str]
+) -> None:
+    translate(server, speaks(GOOD), who=who, base_url=server.address.removesuffix("/v1"))
+    assert "additionalProperties" in json.dumps(server.asked[0][kept[0]][kept[1]])
+    if who.startswith("anthropic"):
+        assert server.asked[0]["system"][-1]["cache_control"]["type"] == "ephemeral", "the prompt is kept by the server"
 
 
 def test_server_that_takes_no_schema_is_asked_without(server: Server) -> None:

@@ -79,6 +79,10 @@ def test_what_is_no_reply_is_told(text: str, fault: str) -> None:
     assert not fault or any(each in str(caught.value) for each in fault.split("|"))
 
 
+def timed(time: dict[str, Any]) -> list[dict[str, Any]]:
+    return [{"name": "start", "time": time}, *STORY["moments"][1:]]
+
+
 @pytest.mark.parametrize(
     ("slot", "value", "fault"),
     [
@@ -88,10 +92,10 @@ def test_what_is_no_reply_is_told(text: str, fault: str) -> None:
         ("actors", [*STORY["actors"], STORY["actors"][1]], "a name of its own"),
         ("asides", ["words of nobody"], "the words 'words of nobody' are not in the text"),
         ("questions", [{"slot": "s", "text": "?", "alternatives": ["a"], "default": "a"}], "two alternatives"),
-        ("moments", [{"name": "start", "time": {"value": "1/0", "unit": "s", "words": "12"}}, *STORY["moments"][1:]], "no number"),
-        ("moments", [{"name": "start", "time": {"value": "9" * 60, "unit": "s", "words": "12"}}, *STORY["moments"][1:]], "no number"),
-        ("moments", [{"name": "start", "time": {"value": None, "unit": "s", "words": "12"}}, *STORY["moments"][1:]], "either a value"),
-        ("moments", [{"name": "start", "time": {"value": None, "unit": "m", "name": "x_s", "words": "12"}}, *STORY["moments"][1:]], "it is s"),
+        ("moments", timed({"value": "1/0", "unit": "s", "words": "12"}), "no number"),
+        ("moments", timed({"value": "9" * 60, "unit": "s", "words": "12"}), "no number"),
+        ("moments", timed({"value": None, "unit": "s", "words": "12"}), "either a value"),
+        ("moments", timed({"value": None, "unit": "m", "name": "x_s", "words": "12"}), "it is s"),
     ],
 )  # fmt: skip
 def test_what_does_not_hold_together_is_told(slot: str, value: Any, fault: str) -> None:

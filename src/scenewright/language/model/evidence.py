@@ -1,7 +1,7 @@
 """Nothing is believed that its own words do not say: holds what a reply claims against the stretches that it quotes.
 
-What enters: a `Claim` and the text. What leaves: a `TranslationError` with every fault, for the model. Who, ways, deeds,
-orders and what holds are checked here, amounts and measures in `measured`; and whether all of the text was used.
+What enters: a `Claim` and the text. What leaves: a `TranslationError` with every fault, for the model. Who, ways,
+deeds, orders and what holds are checked here, amounts and measures in `measured`; and whether all of the text was used.
 """
 
 from __future__ import annotations
@@ -133,7 +133,7 @@ class _Evidence(Measured):
 
     # -- moments, deeds, orders, holds --------------------------------------------------------------------------------
     def _time(self, number: int, moment: st.Moment) -> Iterator[str]:
-        """Check that a moment's time is told where its conditions or its deeds are: "when" one begins, "until" it ends."""
+        """Check that a moment's time is told with its conditions or deeds: "when" one begins, "until" it ends."""
         yield from self.amount(moment.time)
         quote = moment.time.quote if moment.time else None
         if quote is None:
@@ -272,8 +272,9 @@ class _Evidence(Measured):
             each.quote for moment in story.moments for condition in moment.conditions for each in st.atoms(condition)
         ]
         measures += [each.quote for deed in story.deeds for each in deed.throughout]
-        parts: list[st.Deed | st.Order | st.Hold] = [*story.deeds, *story.orders, *story.holds]
-        longer = [part.quote.span for part in parts if part.quote]
+        events: list[st.Order | st.Hold] = [*story.orders, *story.holds]
+        ordered = [each.quote.span for each in events if each.quote]
+        longer = [*ordered, *(deed.quote.span for deed in story.deeds if deed.quote)]
         for span in spoken_of(self.text):
             word = span.excerpt(self.text)
             again = _covered(span, longer) and any(self.text.startswith(quote.text, span.start) for quote in amounts)
@@ -289,9 +290,12 @@ class _Evidence(Measured):
                 yield f"no reading and no slot tells of '{whole.excerpt(self.text)}'"
             for place, each in enumerate(own):
                 quoted = [deed.quote.span for deed in story.deeds if deed.quote and deed.verb == _verb(each)]
-                if each.kind == "deed" and not _covered(Span(each.start, each.end), [*quoted, *asides]):
-                    if not self._is_background(own, place):
-                        yield f"'{each.text}' in '{whole.excerpt(self.text)}' is in the words of no such deed and no aside"
+                used = each.kind != "deed" or _covered(Span(each.start, each.end), [*quoted, *asides])
+                # "It begins to brake 2 s after ...": an order speaks of a deed that is told elsewhere.
+                event = own[max(place - 1, 0)].kind == "phase" and _covered(Span(each.start, each.end), ordered)
+                if not (used or event or self._is_background(own, place)):
+                    where = whole.excerpt(self.text)
+                    yield f"'{each.text}' in '{where}' is in the words of no such deed and no aside"
 
     def _is_background(self, own: list[Chunk], place: int) -> bool:
         """Whether a deed is told as a moment or a wish, or of the ego."""

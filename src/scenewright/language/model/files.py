@@ -132,7 +132,7 @@ def _read(path: Path, longest: int = 4 * LONGEST_REPLY) -> str | None:
 
 
 def write_whole(path: Path, data: object) -> None:
-    """Write `data` as JSON in one step, so that nobody reads half of it; raises OutputError where it cannot be written."""
+    """Write `data` as JSON in one step, so that nobody reads half of it; raises OutputError where that fails."""
     _write_text(path, json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
 
 

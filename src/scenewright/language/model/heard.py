@@ -1,7 +1,7 @@
 """A text as typed chunks with the people of a reply in it: who is spoken of at a place of it, and which place is meant.
 
-What enters: a text and the words by which it names each actor. What leaves: sets of what is possible; an empty one where
-the words do not tell. Words that nobody knows are no fault: they only leave more open.
+What enters: a text and the words by which it names each actor. What leaves: sets of what is possible, empty where the
+words do not tell. Words that nobody knows are no fault: they only leave more open.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def is_head(own: Sequence[Chunk], at: int) -> bool:
 
 @dataclass(slots=True)
 class Heard:
-    """The chunks of a text by sentence; a name of somebody is of kind ``who``, its value the numbers of who it may be."""
+    """The chunks of a text by sentence; a name of somebody is of kind ``who``, its value the numbers of whose it is."""
 
     text: str
     called: Mapping[int, tuple[str, ...]]
@@ -61,7 +61,7 @@ class Heard:
                 value = " ".join(map(str, sorted(named[start, end])))
                 taken.append(Chunk("who", value, start, end, self.text[start:end]))
         self.said = []
-        for plain in sentences(self.text):
+        for plain in sentences(self.text) or [[Chunk("unknown", "", 0, len(self.text), self.text)]]:
             chunks = [each for chunk in plain for each in (*chunk.traits, chunk)]
             own_names = [each for each in taken if each.end >= chunks[0].start and each.start < chunks[-1].end]
             kept = [chunk for chunk in chunks if chunk.kind not in ("actor", "name", "unknown")

@@ -55,9 +55,9 @@ class Measured:
     def silent(self, quote: st.Quote, fault: str, *about: str) -> Iterator[str]:
         """Yield a fault of silence, where no assumption and no question on these words owns to it by one of `about`."""
         for span, said in self.claim.owned:
-            if span and span.start < quote.end and quote.start < span.end:
-                if any(re.search(rf"(?i)(?<![\w.]){re.escape(word)}", said) for word in about):
-                    return
+            near = span is not None and span.start < quote.end and quote.start < span.end
+            if near and any(re.search(rf"(?i)(?<![\w.]){re.escape(word)}", said) for word in about):
+                return
         yield f"'{quote.text}' {fault}; if it is meant so, an assumption that quotes these words says '{about[0]}'"
 
     def subject(
@@ -68,9 +68,10 @@ class Measured:
         for at in places:
             found, pronoun = self.heard.subjects(at)
             known |= found
-            if pronoun is not None and other is None and len(places) == 1:
-                if (before := self.by_pronoun.setdefault(pronoun, actor)) != actor:
-                    yield f"'it' in '{quote.text}' cannot be both {self.name(actor)} and {self.name(before)}"
+            stands = pronoun is not None and other is None and len(places) == 1
+            before = self.by_pronoun.setdefault(pronoun, actor) if pronoun is not None and stands else actor
+            if before != actor:
+                yield f"'it' in '{quote.text}' cannot be both {self.name(actor)} and {self.name(before)}"
         known |= people(*self.heard.within(quote.span)) if other is not None else set()
         if not known or known == {other}:
             yield from self.silent(quote, f"names nobody of `called` that is {self.name(actor)}", *self.names(actor))
@@ -112,9 +113,9 @@ class Measured:
                   if each.kind == "bound" and 0 <= amount.quote.start - each.end < 4]  # fmt: skip
         if bounds and op != bounds[-1]:
             yield f"'{words}' says {bounds[-1]}, not {op}"
-        elif not bounds and op != "==":
-            if not (_LOWER if op in (">", ">=") else _UPPER).search(_NEGATED.sub("at most", words)):
-                yield from self.silent(quote, f"has no bound ({op}) but the amount itself (==)", BOUNDS[op].strip())
+        said = (_LOWER if op in (">", ">=") else _UPPER).search(_NEGATED.sub("at most", words))
+        if not bounds and op != "==" and not said:
+            yield from self.silent(quote, f"has no bound ({op}) but the amount itself (==)", BOUNDS[op].strip())
 
     # -- measures -----------------------------------------------------------------------------------------------------
     def condition(self, condition: st.Condition) -> Iterator[str]:
@@ -224,9 +225,6 @@ class Measured:
         if fast and factor is None and measure.op != "==":
             yield from self.silent(quote, f"says no {BOUNDS[measure.op].strip()}", "faster", "slower")
         elif fast and factor is not None:
-            if (
-                measure.op not in _FAST[factor]
-                if measure.amount is None
-                else measure.opposite is not (factor == "slower")
-            ):
+            opposed = measure.opposite is not (factor == "slower")
+            if measure.op not in _FAST[factor] if measure.amount is None else opposed:
                 yield f"'{quote.text}' says {factor}"

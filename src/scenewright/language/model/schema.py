@@ -221,7 +221,7 @@ class Claim:
 
 
 def claim_of(reply: Any, text: str) -> Claim:
-    """Return what a reply claims of `text`; raises TranslationError where a name is nobody's, or words are not in it."""
+    """Return what a reply claims; raises TranslationError where a name is nobody's, or words are not in `text`."""
     reader = _Reader(text, reply.story)
     claim = Claim(reader.build(st.Story, reply.story, None))
     for number, actor in enumerate(reply.story.actors):

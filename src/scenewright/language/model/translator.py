@@ -1,7 +1,7 @@
 """Asks a model for a story until what it says holds: ask, read, hold against the words, send the fault back, ask again.
 
-What enters: a text, a map, a model, settings. What leaves: `Told`, or a `TranslationError` that says what was wrong with
-the last reply. Nothing that a model wrote is executed, and nothing is written to disk here.
+What enters: a text, a map, a model, settings. What leaves: `Told`, or a `TranslationError` that says what was wrong
+with the last reply. Nothing that a model wrote is executed, and nothing is written to disk here.
 """
 
 from __future__ import annotations
