@@ -28,7 +28,8 @@ _TO_ACTOR = {
     (None, "ahead", False): st.Quantity.GAP, ("gap", "ahead", False): st.Quantity.GAP,
     ("gap", "to", False): st.Quantity.GAP, (None, "behind", True): st.Quantity.HEADWAY,
     ("headway", "behind", True): st.Quantity.HEADWAY, ("headway", "to", True): st.Quantity.HEADWAY,
-    ("time to collision", "with", True): st.Quantity.COLLISION, ("time to collision", "to", True): st.Quantity.COLLISION,
+    ("time to collision", "with", True): st.Quantity.COLLISION,
+    ("time to collision", "to", True): st.Quantity.COLLISION,
 }  # fmt: skip
 _JUNCTIONS = (st.Place("intersection"), st.Place("conflict_point"))
 _OF_A_PLACE = {True: (None, "time to arrival"), False: (None, "gap")}  # what may be asked for, by whether it is a time
