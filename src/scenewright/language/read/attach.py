@@ -26,9 +26,9 @@ _TO_PLACE = ("before", "behind", "from", "to", "ahead", "of")
 _TO_ACTOR = {
     (None, "behind", False): st.Quantity.GAP, ("gap", "behind", False): st.Quantity.GAP,
     (None, "ahead", False): st.Quantity.GAP, ("gap", "ahead", False): st.Quantity.GAP,
-    ("gap", "to", False): st.Quantity.GAP,
-    (None, "behind", True): st.Quantity.HEADWAY, ("headway", "behind", True): st.Quantity.HEADWAY,
-    ("headway", "to", True): st.Quantity.HEADWAY, ("time to collision", "with", True): st.Quantity.COLLISION,
+    ("gap", "to", False): st.Quantity.GAP, (None, "behind", True): st.Quantity.HEADWAY,
+    ("headway", "behind", True): st.Quantity.HEADWAY, ("headway", "to", True): st.Quantity.HEADWAY,
+    ("time to collision", "with", True): st.Quantity.COLLISION,
     ("time to collision", "to", True): st.Quantity.COLLISION,
 }  # fmt: skip
 _JUNCTIONS = (st.Place("intersection"), st.Place("conflict_point"))

@@ -115,12 +115,10 @@ class Cast:
         fitting = [each for each in self.heroes if self._fits(each, chunk, words)]
         fitting = [each for each in fitting if each.name == chunk.value] or fitting
         fitting = [each for each in fitting if words and words <= self.known_by[each.id]] or fitting
-        if chunk.is_new and fitting and not any(each.kind == "other" for each in chunk.traits):
-            asked = f"Is '{chunk.text}' the one that was told before?"
-            if self.ask(f"new {chunk.start}", asked, [SAME, NEW], None, chunk.quote) != SAME:
+        if chunk.is_new and fitting:
+            asked, another = f"Is '{chunk.text}' the one that was told before?", [e.kind for e in chunk.traits]
+            if "other" in another or self.ask(f"new {chunk.start}", asked, [SAME, NEW], None, chunk.quote) != SAME:
                 fitting = []
-        elif chunk.is_new:
-            fitting = []
         if len(fitting) > 1:
             names = [each.name for each in fitting]
             told = self.ask(f"who {chunk.start}", f"Who is '{chunk.text}'?", names, None, chunk.quote)
@@ -172,7 +170,6 @@ class Cast:
             raise UnknownWordsError("the text does not say who is under test", fix="name the ego first")
         return found[0]
 
-    # -- ways ---------------------------------------------------------------------------------------------------------
     def tell_way(self, number: int, facts: Mapping[str, str], quote: st.Quote, turns_then: bool = False) -> None:
         """Add facts of somebody's way; who went straight until then may turn at a moment."""
         actor = self.actor(number)
@@ -213,7 +210,6 @@ class Cast:
     def _change(self, changed: st.Actor) -> None:
         self.actors = [changed if each.id == changed.id else each for each in self.actors]
 
-    # -- asking -------------------------------------------------------------------------------------------------------
     def ask(self, slot: str, text: str, alternatives: list[str], default: int | None, quote: st.Quote) -> str:
         """Return the answer to a question; its default, or nothing, where it is noted as open."""
         answer = self.answers.get(slot, "")

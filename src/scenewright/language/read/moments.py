@@ -160,7 +160,6 @@ class Moments:
             return st.Point(st.START, offset, earlier)
         return st.Point(self.event_of(chunks), offset, earlier)
 
-    # -- orders and holds ---------------------------------------------------------------------------------------------
     def orders(self, moment: int, rest: list[Segment], actor: int | None = None) -> None:
         """Take what comes before or after a moment, which is not a new event of the `actor` whose deed it is."""
         for segment in rest:

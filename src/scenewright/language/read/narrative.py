@@ -114,7 +114,6 @@ class Narrative(Cast):
         steady = st.Measure(actor, st.Quantity.RATE, "==", st.Amount(Fraction(0), "m/s^2"), quote=quote)
         first.throughout.append(speeds[0] if len(speeds) == 1 else steady)
 
-    # -- moments ------------------------------------------------------------------------------------------------------
     def moment(self, conditions: Sequence[st.Condition] = (), quote: st.Quote | None = None) -> int:
         """Add a moment and return its number."""
         self.conditions.append(list(conditions))
@@ -166,7 +165,6 @@ class Narrative(Cast):
                 return True
         return False
 
-    # -- deeds --------------------------------------------------------------------------------------------------------
     def last(self, actor: int) -> Doing | None:
         """Return what somebody was told to do last."""
         return next((doing for doing in reversed(self.doings) if doing.actor == actor), None)

@@ -124,7 +124,6 @@ class _Sentence(Moments):
             when = items_of(story, later[0].chunks) if later else None
             self._main(items, when, [each for each in segments[1:] if each not in later[:1]])
 
-    # -- main clauses -------------------------------------------------------------------------------------------------
     def _main(self, items: list[Item], when: list[Item] | None, rest: list[Segment]) -> None:
         story = self.narrative
         items = [each for each in items if isinstance(each, st.Compound) or each.says_more_than()] or items[:1]
@@ -270,7 +269,6 @@ class _Sentence(Moments):
         else:
             self.refuse("it is not clear when this is so", "begin it with 'At the start,' or 'Later,'")
 
-    # -- deeds --------------------------------------------------------------------------------------------------------
     def _deed(self, clause: Clause, when: list[Item] | None, rest: list[Segment]) -> None:
         story = self.narrative
         if clause.subject is not None and clause.subject != EGO:
