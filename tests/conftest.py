@@ -30,6 +30,13 @@ hypothesis.settings.register_profile("dev", deadline=None)
 hypothesis.settings.load_profile("ci" if os.environ.get("CI") else "dev")
 
 
+@pytest.fixture(autouse=True)
+def no_model_of_the_users(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Let nobody be asked whom the user has configured: descriptions are read offline."""
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "no configuration"))
+    monkeypatch.delenv("SCENEWRIGHT_TRANSLATOR", raising=False)
+
+
 @pytest.fixture(scope="session")
 def shared_dir() -> Path:
     """Return the folder `shared` beside the clone, which holds maps and texts that are not ours to keep in it."""

@@ -14,7 +14,7 @@ from scenewright.judge.files import judge_run_directory
 from scenewright.judge.tolerance import LOOSE, TIGHT
 from scenewright.language.model.settings import TranslatorSettings
 from scenewright.language.questions import read_answers
-from scenewright.language.sources import is_program, read_scenario
+from scenewright.language.sources import read_scenario
 from scenewright.orchestrate import EXIT_STATUS, Request, Result, orchestrate
 from scenewright.program.printer import print_program
 from scenewright.program.resolve import resolve
@@ -65,21 +65,6 @@ def test_a_text_with_the_answers_that_its_run_kept_gives_the_same_program(tmp_pa
     assert [each["slot"] for each in told["questions"]] == [each.slot for each in others]
     orchestrate(Request(program_text(), FINE, takes=1, out=out))
     assert not (out / "answers.json").exists(), "a program has none"
-
-
-def test_program_is_told_from_a_description() -> None:
-    assert is_program(program_text())
-    assert is_program("  ACTOR 0 (ego):\n- W")
-    assert not is_program(SENTENCE)
-    assert not is_program("The actor 1 m before the line brakes.")
-
-
-def test_source_that_is_no_file_is_told_by_its_name(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="no such file"):
-        read_scenario(str(tmp_path / "nothing.scene"))
-    (tmp_path / "picture.txt").write_bytes(b"\xff\xfe\x00\xd8")
-    with pytest.raises(InputError, match="cannot be read as text"):
-        read_scenario(str(tmp_path / "picture.txt"))
 
 
 @pytest.mark.parametrize("source", ["", "   \n", "x" * 5000, "\0", "It rains."])

@@ -54,7 +54,7 @@ def main() -> None:
     if browser is None:
         sys.exit(f"none of {', '.join(BROWSERS)} is on the PATH")
     with tempfile.TemporaryDirectory() as folder:
-        photograph(drive(ROOT / "examples" / "demo.txt", Path(folder) / "run"), IMAGES / "run.png", browser)
+        photograph(drive(ROOT / "examples" / "demo.txt", Path(folder) / "demo"), IMAGES / "run.png", browser)
 
 
 if __name__ == "__main__":

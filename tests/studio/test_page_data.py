@@ -243,3 +243,9 @@ def test_coordinates_far_from_zero_are_moved_near_it(run_dir: Path) -> None:
     data = collect(run_dir)
     assert abs(np.array(actor_named(data, "ego")["x"])).max() < 1000
     np.testing.assert_allclose(np.array(actor_named(data, "ego")["y"]) + data["origin"][1], moved["ego"].y_m, atol=1e-3)
+
+
+def test_a_run_of_a_text_without_a_title_is_called_as_its_folder(run_dir: Path, edit: Edit) -> None:
+    assert collect(run_dir)["name"] == "right turn, hero yields"
+    edit(run_dir / "manifest.json", lambda manifest: manifest.update(name="description"))
+    assert collect(run_dir)["name"] == run_dir.name

@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from scenewright import __version__
-from scenewright.cli import bench, checking, faults, listing, looking, reading, running, telling
+from scenewright.cli import bench, checking, faults, listing, looking, models, reading, running, telling
 
 SENTENCE = (
     "The ego drives westbound. An oncoming hero turns left into the driveway. When the ego is 25 m before the "
@@ -94,6 +94,7 @@ app.command(epilog=_examples(_TRANSLATE, "scenewright solve first.scene --out pl
 app.command(epilog=_examples(_TRANSLATE, _RUN, "scenewright judge runs/first --tolerance loose"))(looking.judge)
 app.command(epilog=_examples("scenewright maps", "scenewright maps t_intersection"))(listing.maps)
 app.command(epilog=_examples("scenewright egos", "scenewright egos --json"))(listing.egos)
+app.command(epilog=_examples("scenewright models", "scenewright models --json"))(models.models)
 app.command(epilog=_examples("scenewright simulators", "scenewright simulators --json"))(listing.simulators)
 app.command(epilog=_examples("scenewright solvers", "scenewright solvers --json"))(listing.solvers)
 app.command(epilog=_examples(_TRANSLATE, _RUN, "scenewright view runs/first --no-browser"))(looking.view)

@@ -1,4 +1,1 @@
-"""The language part, new and small: text -> story -> program, and program -> story -> plain English.
-
-It stands beside `translate` until it can take its place.
-"""
+"""Language: text -> story -> program, and program -> story -> plain English, with one typed story in the middle."""

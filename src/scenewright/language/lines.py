@@ -7,8 +7,10 @@ English. What has no words yet stands there as code, so that nothing is left out
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from scenewright.errors import TranslationError
 from scenewright.language import story as st
@@ -65,7 +67,8 @@ def told_knots(program: Program) -> dict[tuple[int, str], str]:
     return told
 
 
-def told_formulas(program: Program) -> dict[Formula, str]:
+@lru_cache(maxsize=4)  # one program is asked about constraint by constraint
+def told_formulas(program: Program) -> Mapping[Formula, str]:
     """Return the same for each formula of those that stand side by side in a constraint."""
     try:
         found = decompiled(program, leniently=True)

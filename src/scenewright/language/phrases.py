@@ -62,6 +62,10 @@ def does(piece: PieceKind, before: int = 0) -> str:
     return f"{verb} for the {ORDINALS[before]} time" if 0 < before < len(ORDINALS) else verb
 
 
+# What to do about words that are not understood: there is a sentence for everything, and models read the others.
+OTHERWISE = "say it in plainer words, as in docs/english.md, or let a model read it: --translator PROVIDER:NAME"
+
+
 def untold(what: str) -> TranslationError:
     """Return the error for a story that the controlled English has no words for."""
     return TranslationError(f"there are no words yet for {what}", fix="write it as a program: see docs/program.md")

@@ -109,19 +109,12 @@ def _read_text(path: Path) -> str:
         with path.open("rb") as file:
             read = file.read(most + 1)
         if len(read) > most:
-            raise InputError(
-                "the file is too large for a description or a program",
-                place=Place(str(path)),
-                found=f"more than {most:,} bytes",
-                expected=f"a text of at most {TEXT_CHARACTERS:,} characters",
-                fix="give the file that holds the text",
-            )
+            found, expected = f"more than {most:,} bytes", f"a text of at most {TEXT_CHARACTERS:,} characters"
+            message, fix = "the file is too large for a description or a program", "give the file that holds the text"
+            raise InputError(message, place=Place(str(path)), found=found, expected=expected, fix=fix)
         return read.decode("utf-8-sig")  # some editors begin a file with a mark of their own
     except (OSError, UnicodeDecodeError) as error:
+        expected, fix = "a text in UTF-8", "save the file as text in UTF-8"
         raise InputError(
-            "the file cannot be read as text",
-            place=Place(str(path)),
-            found=str(error),
-            expected="a text in UTF-8",
-            fix="save the file as text in UTF-8",
+            "the file cannot be read as text", place=Place(str(path)), found=str(error), expected=expected, fix=fix
         ) from None

@@ -29,10 +29,7 @@ from scenewright.program.manner import NUMBERS, unit_of
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.units import SI_SYMBOL, format_fraction
 
-_RATES = {
-    st.Verb.BRAKE: True,
-    st.Verb.SPEED_UP: False,
-}  # deeds that are told with their rate, and whether it is a slowing
+_RATES = {st.Verb.BRAKE: True, st.Verb.SPEED_UP: False}  # deeds told with their rate, and whether it is a slowing
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,33 +226,23 @@ class Teller:
     def _deed(self, deed: st.Deed) -> None:
         chain = self.story.deeds_of(deed.actor)
         index = chain.index(deed)
-        waits = deed.verb in (st.Verb.DRIVE, st.Verb.STAND) and index + 1 < len(
-            chain
-        )  # its end is told with what follows
+        waits = deed.verb in (st.Verb.DRIVE, st.Verb.STAND) and deed != chain[-1]  # its end is told with what follows
         fresh = deed.begins not in self.known
         lead, begins = self._begin(deed, chain, index)
         rate, held = _rate(deed)
         duration = next((each for each in self.story.orders if (each.first, each.second) == (deed.begins, deed.ends)
                          and each.margin is not None and each not in self.durations), None)  # fmt: skip
-        if (
-            index == 0
-            and waits
-            and deed.verb == st.Verb.DRIVE
-            and not held
-            and duration is None
-            and self._items(deed.ends)
-        ):
+        plain = waits and deed.verb == st.Verb.DRIVE and not held and duration is None
+        plain &= not any(_is_standstill(each, deed.actor) for each in self.story.moments[st.START].conditions)
+        if index == 0 and plain and self._items(deed.ends):
             return  # "When ..., the hero begins to brake" says it
         self.begun += [each for each in chain[: index + 1] if each not in self.begun]
         self.ended += chain[:index] if waits else chain[: index + 1]
         self._introduce(deed.begins)
         does, begin, _ = DOES[deed.verb]
         text = f"{lead}{self.phrases.name(deed.actor)} {f'begins to {begin}' if begins else does}"
-        text += (
-            ""
-            if rate is None or rate.amount is None
-            else f" {'at' if rate.op == '==' else 'with'} {bounded(rate.op, rate.amount)}"
-        )
+        if rate is not None and rate.amount is not None:
+            text += f" {'at' if rate.op == '==' else 'with'} {bounded(rate.op, rate.amount)}"
         if duration is not None and duration.margin is not None:
             self.durations.add(duration)
             text += f" for {bounded(duration.op, duration.margin)}"

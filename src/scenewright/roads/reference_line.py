@@ -49,7 +49,7 @@ def poses_along(geometries: tuple[Geometry, ...], s_m: FloatArray) -> FloatArray
     starts = np.array([geometry.s_m for geometry in geometries])
     index = np.clip(np.searchsorted(starts, s_m + 1e-9, side="right") - 1, 0, len(geometries) - 1)
     poses = np.empty((len(s_m), 3))
-    for number in np.unique(index):
+    for number in sorted(set(index.tolist())):  # np.unique would load numpy's masked arrays, which takes longer
         chosen = index == number
         poses[chosen] = geometries[number].poses(s_m[chosen] - starts[number])
     return poses

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.errors import InputError, Place, ProgramError
+from scenewright.language.compile import UNNAMED
 from scenewright.program.types import Program
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.studio.program_data import clauses, condition_times, places, triggers
@@ -57,7 +58,7 @@ def collect(run_dir: Path) -> Json:
     facts = (verdict or {}).get("facts") or {}
     data: Json = {
         "schema_version": 1,
-        "name": manifest.get("name") or run_dir.resolve().name,
+        "name": run_dir.resolve().name if manifest.get("name") in (None, "", *UNNAMED) else manifest["name"],
         "outcome": _outcome(manifest, verdict),
         "aftermath": _aftermath(verdict),
         "cause": _cause(verdict),

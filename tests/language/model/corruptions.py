@@ -1,4 +1,4 @@
-"""Wrong replies, made from right ones: one slot is exchanged for another of its kind, as a model that misreads would."""
+"""Wrong replies, made from right ones: one slot is exchanged for another of its kind, as by misreading."""
 
 from __future__ import annotations
 
@@ -35,6 +35,14 @@ def measures_in(story: Reply) -> list[Reply]:
     return list(_nodes(story, lambda node: "quantity" in node))
 
 
+def _ways_in(story: Reply) -> list[Reply]:
+    return [each["way"] for each in story["actors"]]
+
+
+def _same(one: Reply, other: Reply) -> bool:
+    return all(one.get(slot) == other.get(slot) for slot in ("value", "unit", "name"))
+
+
 def corruptions(reply: Reply, seed: int = 0) -> Iterator[tuple[str, Reply]]:
     """Yield kinds of faults with replies that have one: in every slot, one exchange by chance."""
     pick = random.Random(seed)
@@ -54,8 +62,8 @@ def corruptions(reply: Reply, seed: int = 0) -> Iterator[tuple[str, Reply]]:
             yield changed("number", amounts_in, place, {"value": number})
             units = [each for each in UNITS if UNITS[each].dimension == dimension and each != amount["unit"]]
             yield changed("unit", amounts_in, place, {"unit": pick.choice(units)})
-        others = [each for each in amounts if UNITS[each["unit"]].dimension == dimension
-                  and (each.get("value"), each["unit"], each.get("name")) != (amount.get("value"), amount["unit"], amount.get("name"))]  # fmt: skip
+        alike = [each for each in amounts if UNITS[each["unit"]].dimension == dimension]
+        others = [each for each in alike if not _same(each, amount)]
         named = [each for each in others if each.get("name") and amount.get("name")]
         if named:
             other = pick.choice(named)
@@ -105,8 +113,7 @@ def corruptions(reply: Reply, seed: int = 0) -> Iterator[tuple[str, Reply]]:
         ):
             if way.get(slot):
                 new = pick.choice([each for each in values if each != way[slot]])
-                find: Any = lambda story: [each["way"] for each in story["actors"]]
-                yield changed(slot, find, place, {slot: new})
+                yield changed(slot, _ways_in, place, {slot: new})
         for relation in actor.get("relations", ()):
             new = pick.choice(
                 [each for each in ("ahead", "behind", "oncoming", "from the left") if each != relation["kind"]]

@@ -16,24 +16,6 @@ def clause(text: str) -> Clause:
     return read_clause([chunk for chunk in chunks if chunk.kind not in ("harmless", "comma")], Narrative(text))
 
 
-@pytest.mark.parametrize(
-    ("text", "facts"),
-    [
-        ("the hero turns left out of the driveway onto the eastbound lane",
-         {"turn": "left", "origin": "driveway", "destination": "road", "destination_heading": "E"}),
-        ("the hero comes from the east along the road", {"heading": "W", "origin": "road"}),
-        ("the hero leaves the eastbound road to the left, into the driveway",
-         {"heading": "E", "origin": "road", "turn": "left", "destination": "driveway"}),
-        ("the hero turns left into the driveway from the eastbound lane",
-         {"turn": "left", "destination": "driveway", "heading": "E", "origin": "road"}),
-        ("the hero stays in its lane on the westbound road", {"turn": "straight", "heading": "W", "origin": "road"}),
-        ("the hero turns left across the ego's path into the driveway", {"turn": "left", "destination": "driveway"}),
-    ],
-)  # fmt: skip
-def test_ways(text: str, facts: dict[str, str]) -> None:
-    assert clause(text).facts == facts
-
-
 def test_deeds_and_flags() -> None:
     assert clause("the hero gently brakes to a stop").flags == {"standstill"}
     assert clause("the hero keeps its speed").flags == {"kept"}

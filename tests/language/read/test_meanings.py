@@ -29,6 +29,14 @@ def test_who_goes_first_passes_before_the_other_and_it_is_never_lost() -> None:
     assert reading_of(ONCOMING + "The ego passes the conflict point first.").program is None
 
 
+def test_who_lets_the_ego_go_first_goes_on_after_it() -> None:
+    stops = "the hero stops 5 m before the conflict point, lets the ego go first"
+    goes_on = formulas(reading_of(f"{MEETS}{stops} and then drives on."))
+    assert {"A0x(t2) == conflict_point", "A1(t3) > A0(t2)"} <= goes_on
+    assert not any("A0x(t2)" in each for each in formulas(reading_of(f"{MEETS}{stops}.")))
+    assert reading_of(f"{MEETS}the hero lets the ego go first and accelerates.").program is None
+
+
 def test_who_brakes_comes_to_a_standstill() -> None:
     for said in ("brakes", "brakes at 3 m/s^2", "slows down", "brakes to a stop", "comes to a halt"):
         assert "A1v(t2) == 0" in formulas(reading_of(f"{MEETS}the hero {said}.")), said

@@ -58,3 +58,10 @@ def test_where_a_deed_begins_and_how_long_a_stop_lasts() -> None:
     story = read("The ego has an open way. The hero stops at the stop line for 3 s and drives on.")
     assert [deed.verb for deed in story.deeds] == [Verb.BRAKE, Verb.STAND, Verb.DRIVE]
     assert (story.orders[0].first, story.orders[0].second) == (story.deeds[1].begins, story.deeds[1].ends)
+
+
+def test_who_stands_at_the_start_stands_until_it_does_something() -> None:
+    start = "The ego has an open way. A truck stands at the stop line. When the ego is 30 m from the conflict point, "
+    story = read(f"{start}the truck sets off.")
+    assert [deed.verb for deed in story.deeds] == [Verb.STAND, Verb.DRIVE]
+    assert story.assumptions == ("truck stands still until then",)

@@ -1,7 +1,6 @@
 """One exchange with a model: the messages that go out, the text that comes back, and the key both are kept under.
 
-What enters: messages. What leaves: data classes, and the protocol that every kind of model meets: a server, a folder of
-files, a folder of records. Nothing is sent or read here.
+What enters: messages. What leaves: data classes, and the protocol that every kind of model meets. Nothing is sent here.
 """
 
 from __future__ import annotations
@@ -35,21 +34,7 @@ class Message:
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """One request: all that has been said so far.
-
-    Attributes
-    ----------
-    messages
-        The instructions, the text, and for a repair every reply and fault since.
-    description
-        The text to translate, which the messages hold too.
-    attempt
-        1 for the first request about a text.
-    map_name
-        The map that the instructions tell of.
-    schema
-        The JSON schema that the reply has to meet.
-    """
+    """One request: all that has been said so far of a text, which try it is, and the JSON schema of the reply."""
 
     messages: tuple[Message, ...]
     description: str
@@ -93,20 +78,15 @@ class Model(Protocol):
         """Return what the user calls it, such as ``openai:NAME``; never a key or an address."""
         ...
 
-    @property
-    def settings(self) -> Mapping[str, Any]:
-        """Return what else decides on the reply; part of the key of every record."""
-        ...
-
     def reply(self, call: Call) -> Answer:
         """Return the answer to `call`; raises TranslationError where none is to be had."""
         ...
 
 
 def key_of(model: Model, call: Call) -> str:
-    """Return what an exchange is kept under: the same messages to the same model in the same settings share it."""
+    """Return what an exchange is kept under: the same messages to the same model share it."""
     said = [[message.role, message.content] for message in call.messages]
-    data = json.dumps([model.name, dict(model.settings), said], sort_keys=True, ensure_ascii=False)
+    data = json.dumps([model.name, said], ensure_ascii=False)
     return hashlib.sha256(data.encode("utf-8", "surrogatepass")).hexdigest()[:24]
 
 

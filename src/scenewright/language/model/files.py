@@ -1,7 +1,7 @@
-"""The file provider: each request is a file, its reply another, so that any process or person can be the model.
+"""Exchanges as files: somebody who answers by files, and exchanges that are kept and said again.
 
-What enters: calls. What leaves: ``KEY.request.json`` in a folder, written in one step, and the text of
-``KEY.reply.json`` or ``KEY.reply.txt`` once somebody has put it there. No reply is ever written here.
+What enters: calls. What leaves: one JSON file for each request or record, named by the key of its call and written in
+one step, and the text of a reply that somebody has put beside its request. Keys and addresses never come here.
 """
 
 from __future__ import annotations
@@ -10,17 +10,19 @@ import hashlib
 import json
 import os
 import time
-from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from pydantic import TypeAdapter, ValidationError
+
 from scenewright.errors import OutputError, Place, TranslationError
-from scenewright.language.model.exchange import LONGEST_REPLY, Answer, Call, GaveUpError, estimated_usage, key_of
+from scenewright.language.model.exchange import LONGEST_REPLY, Answer, Call, GaveUpError, Model, estimated_usage, key_of
 from scenewright.language.model.prompt import PROMPT_VERSION
 
 SCHEMA_VERSION = 2
 _LOOK_EVERY_S = 0.2
+_LONGEST_RECORD = 4_000_000  # bytes: all that was said, more than once where replies were sent back
 
 
 class NoReplyYetError(GaveUpError):
@@ -35,18 +37,10 @@ class FilesModel:
     wait_s: float = 0.0
     name: str = "files"
 
-    @property
-    def settings(self) -> Mapping[str, Any]:
-        """Return what the key of a request depends on beside its messages: nothing."""
-        return {}
-
     def reply(self, call: Call) -> Answer:
-        """Leave the request in the folder, and read its reply.
+        """Leave ``KEY.request.json``, and read ``KEY.reply.json`` or ``KEY.reply.txt``.
 
-        Raises
-        ------
-        NoReplyYetError
-            Where it is not there in time; the request stays, and the same call finds the reply later.
+        Raises `NoReplyYetError` where neither is there in time; the same call finds the reply later.
         """
         key = key_of(self, call)
         request = self.folder / f"{key}.request.json"
@@ -55,16 +49,12 @@ class FilesModel:
         instructions = next((each.content for each in call.messages if each.role == "system"), "")
         shared = self.folder / f"{hashlib.sha256(instructions.encode()).hexdigest()[:12]}.instructions.md"
         if not shared.exists():
-            write_text_whole(shared, instructions)
+            _write_text(shared, instructions)
         more = {"instructions_file": shared.name, "reply_schema": call.schema, "reply_file": places[0].name}
-        write_whole(request, {**as_data(call, key), **more})
+        write_whole(request, {**_as_data(call, key), **more})
         until = time.monotonic() + self.wait_s
-        while True:
-            text = next((text for text in map(read_bounded, places) if text is not None), None)
-            if text is not None:
-                return Answer(text, estimated_usage(call, text))
-            left = until - time.monotonic()
-            if left <= 0:
+        while (text := next(filter(None, map(_read, places)), None)) is None:
+            if (left := until - time.monotonic()) <= 0:
                 raise NoReplyYetError(
                     f"there is no reply yet to request {key}",
                     place=Place(str(request)),
@@ -73,22 +63,62 @@ class FilesModel:
                     "or wait for it with --reply-wait SECONDS",
                 )
             time.sleep(min(_LOOK_EVERY_S, left))
+        return Answer(text, estimated_usage(call, text))
 
 
-def as_data(call: Call, key: str) -> dict[str, Any]:
+@dataclass(frozen=True, slots=True)
+class Recording:
+    """A model whose exchanges are kept in `folder`."""
+
+    model: Model
+    folder: Path
+
+    @property
+    def name(self) -> str:
+        """Return the name of the model that answers."""
+        return self.model.name
+
+    def reply(self, call: Call) -> Answer:
+        """Return the model's answer, and keep it with the call."""
+        answer, key = self.model.reply(call), key_of(self.model, call)
+        data = {**_as_data(call, key), "model": self.name, "answer": asdict(answer)}
+        write_whole(self.folder / f"{key}.json", data)
+        return answer
+
+
+@dataclass(frozen=True, slots=True)
+class Replayed:
+    """A model that says again what `folder` holds of it, and nothing else; it asks nobody."""
+
+    name: str
+    folder: Path
+
+    def reply(self, call: Call) -> Answer:
+        """Return what was answered when this call was recorded; raises TranslationError where it was not."""
+        path = self.folder / f"{key_of(self, call)}.json"
+        if (text := _read(path, _LONGEST_RECORD)) is None:
+            raise TranslationError(
+                "this exchange was not recorded",
+                place=Place(str(self.folder)),
+                found=f"no {path.name}",
+                expected=f"a record of {self.name} for this text, map and prompt (version {PROMPT_VERSION})",
+                fix="record it once with --record DIR in place of --replay DIR",
+            )
+        try:
+            return TypeAdapter(Answer).validate_python(json.loads(text)["answer"])
+        except (ValidationError, ValueError, KeyError, TypeError, RecursionError):
+            fix = "record it again with --record DIR"
+            raise TranslationError("a record cannot be read", place=Place(str(path)), fix=fix) from None
+
+
+def _as_data(call: Call, key: str) -> dict[str, Any]:
     """Return a call as it stands in files."""
-    return {
-        "schema_version": SCHEMA_VERSION,
-        "key": key,
-        "prompt_version": PROMPT_VERSION,
-        "attempt": call.attempt,
-        "map": call.map_name,
-        "description": call.description,
-        "messages": [asdict(message) for message in call.messages],
-    }
+    version = {"schema_version": SCHEMA_VERSION, "key": key, "prompt_version": PROMPT_VERSION}
+    said = {"description": call.description, "messages": [asdict(message) for message in call.messages]}
+    return {**version, "attempt": call.attempt, "map": call.map_name, **said}
 
 
-def read_bounded(path: Path, longest: int = 4 * LONGEST_REPLY) -> str | None:
+def _read(path: Path, longest: int = 4 * LONGEST_REPLY) -> str | None:
     """Return the text of a file, its first `longest` bytes and one more; None where there is none, or nothing in it."""
     try:
         with path.open("rb") as file:
@@ -96,25 +126,23 @@ def read_bounded(path: Path, longest: int = 4 * LONGEST_REPLY) -> str | None:
     except (FileNotFoundError, NotADirectoryError):
         return None
     except OSError as error:
-        found = error.strerror or str(error)
-        message = "a reply cannot be read"
-        raise TranslationError(message, place=Place(str(path)), found=found, fix="make it readable") from None
+        place, found = Place(str(path)), error.strerror or str(error)
+        raise TranslationError("a reply cannot be read", place=place, found=found, fix="make it readable") from None
     return raw.decode("utf-8", errors="replace") if raw.strip() else None
 
 
 def write_whole(path: Path, data: object) -> None:
-    """Write `data` as JSON in one step; raises OutputError where it cannot be written."""
-    write_text_whole(path, json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+    """Write `data` as JSON in one step, so that nobody reads half of it; raises OutputError where that fails."""
+    _write_text(path, json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
 
 
-def write_text_whole(path: Path, text: str) -> None:
-    """Write a text in one step, so that nobody ever reads half of it; raises OutputError where it cannot be written."""
+def _write_text(path: Path, text: str) -> None:
     temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         temporary.write_text(text, encoding="utf-8", errors="replace")
         os.replace(temporary, path)
     except OSError as error:
-        message, found = "an exchange with the model cannot be written", error.strerror or str(error)
-        fix = "choose a folder that can be written"
-        raise OutputError(message, place=Place(str(path)), found=found, fix=fix) from None
+        place, found = Place(str(path)), error.strerror or str(error)
+        message, fix = "an exchange with the model cannot be written", "choose a folder that can be written"
+        raise OutputError(message, place=place, found=found, fix=fix) from None

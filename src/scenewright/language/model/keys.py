@@ -29,25 +29,15 @@ _LOOKS_LIKE_A_KEY = re.compile(r"\b(?:sk|pk|AIza|gsk|xai)[-_][\w-]{6,}|\bAIza[\w
 def key_for(provider: str) -> str | None:
     """Return the key of `provider`: from the environment, else from a keyring; None where a local server needs none.
 
-    Raises
-    ------
-    InputError
-        Where there is no key and one is needed.
+    Raises InputError where there is no key and one is needed.
     """
     names = KEY_VARIABLES[provider]
-    for name in names:
-        if value := os.environ.get(name, "").strip():
-            return value
-    kept = _from_keyring(provider)
-    if kept is not None:
-        return kept
-    if provider == "openai-compatible":
-        return None
-    raise InputError(
-        f"there is no key for {provider}",
-        expected=f"{' or '.join(names)} in the environment, or {provider} under {KEYRING_SERVICE} in a keyring",
-        fix=f"export {names[0]}=..., or translate with --translator offline",
-    )
+    found = next(filter(None, (os.environ.get(name, "").strip() for name in names)), None) or _from_keyring(provider)
+    if found is None and provider != "openai-compatible":
+        expected = f"{' or '.join(names)} in the environment, or {provider} under {KEYRING_SERVICE} in a keyring"
+        fix = f"export {names[0]}=..., or translate with --translator offline"
+        raise InputError(f"there is no key for {provider}", expected=expected, fix=fix)
+    return found
 
 
 def scrubbed(text: str) -> str:
@@ -57,24 +47,17 @@ def scrubbed(text: str) -> str:
 
 def without_known_keys(text: str) -> str:
     """Return `text` without the keys that are known here. For what models say."""
-    for names in KEY_VARIABLES.values():
-        for name in names:
-            value = os.environ.get(name, "").strip()
-            if len(value) >= _SHORTEST:
-                text = text.replace(value, "[key]")
-    for value in _SEEN:
-        text = text.replace(value, "[key]")
+    known = {os.environ.get(name, "").strip() for names in KEY_VARIABLES.values() for name in names} | _SEEN
+    for value in known:
+        text = text.replace(value, "[key]") if len(value) >= _SHORTEST else text
     return text
 
 
 def _from_keyring(provider: str) -> str | None:
     """Return the key from the system's keyring, where the package `keyring` is installed and has one."""
     try:
-        value = import_module("keyring").get_password(KEYRING_SERVICE, provider)
+        value = str(import_module("keyring").get_password(KEYRING_SERVICE, provider) or "")
     except Exception:  # no such package, no keyring on this machine, a locked one: no key from there
         return None
-    if not value:
-        return None
-    if len(str(value)) >= _SHORTEST:
-        _SEEN.add(str(value))
-    return str(value)
+    _SEEN.add(value)
+    return value or None

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import re
 import tomllib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, dataclass, field, fields, is_dataclass
 from enum import StrEnum
 from fractions import Fraction
@@ -27,54 +27,42 @@ from scenewright.language.compile import COMPASS, DRIVEN, TURNS
 from scenewright.language.model.exchange import CUT_OFF, LONGEST_REPLY
 from scenewright.language.phrases import PLACES
 from scenewright.language.ways import BEARINGS
-from scenewright.program.types import EGO, AreaKind, Parameter
+from scenewright.program.types import AreaKind, Parameter
 from scenewright.units import DIGITS, UNITS, is_size_of_a_scenario, unit_of_name
 
-EGO_NAME = "ego"
-START_NAME = "start"
 MOST_ENTRIES = 100
 LONGEST_WORDS = 2_000
 DEEPEST = 3  # conditions in conditions; the teller has words for no more
-_PEOPLE = ("actor", "other", "of", "partner")  # slots that are numbers of actors; all other numbers are of moments
+PEOPLE = ("actor", "other", "of", "partner")  # slots that are numbers of actors; all other numbers are of moments
 # Ours to say, or found by the program: a reply could name any file as its map, or let anything pass as a standstill.
-_OURS = {
-    st.Story: {"manner", "map_name", "title"},
-    st.Actor: {"id", "quote"},
-    st.Moment: {"quote"},
-    st.Compound: {"quote"},
-    Parameter: {"span"},
-}
-_WORDS: dict[tuple[type, str], Any] = {  # slots of any text, and the words that they may be
-    (st.Amount, "unit"): Literal[tuple(UNITS)],
-    (st.Place, "name"): Literal[tuple(PLACES)],
-    (st.Way, "heading"): Literal[tuple(COMPASS)],
-    (st.Way, "destination_heading"): Literal[tuple(COMPASS)],
-    (st.Way, "turn"): Literal[tuple(TURNS)],
-    (st.Way, "origin"): AreaKind,
-    (st.Way, "destination"): AreaKind,
-}
-# Slots in which a word that the program language does not know may stand: it is refused by that name.
-_KNOWN: dict[tuple[type, str], tuple[str, ...]] = {
-    (st.Actor, "kind"): DRIVEN,
-    (st.Deed, "verb"): tuple(st.Verb),
-    (st.Relation, "kind"): tuple(BEARINGS),
-}
+OURS: dict[Any, set[str]] = {
+    st.Story: {"manner", "map_name", "title"}, st.Actor: {"id", "quote"}, st.Moment: {"quote"},
+    st.Compound: {"quote"}, Parameter: {"span"},
+}  # fmt: skip
+# Slots of any text, and the words that they may be; in the latter a word that no program knows is refused by its name.
+_WORDS: dict[tuple[Any, str], Any] = {
+    (st.Amount, "unit"): Literal[tuple(UNITS)], (st.Place, "name"): Literal[tuple(PLACES)],
+    (st.Way, "heading"): Literal[tuple(COMPASS)], (st.Way, "destination_heading"): Literal[tuple(COMPASS)],
+    (st.Way, "turn"): Literal[tuple(TURNS)], (st.Way, "origin"): AreaKind, (st.Way, "destination"): AreaKind,
+}  # fmt: skip
+_KNOWN: dict[tuple[Any, str], tuple[str, ...]] = {
+    (st.Actor, "kind"): DRIVEN, (st.Deed, "verb"): tuple(st.Verb), (st.Relation, "kind"): tuple(BEARINGS),
+}  # fmt: skip
 
 
 def _plain(value: object) -> object:
-    """Return a text without characters that could steer a terminal."""
+    """Return a text without characters that could steer a terminal; a number as a text."""
     if isinstance(value, str):
         return "".join(c if c.isprintable() else " " for c in value).strip()[:LONGEST_WORDS]
     return str(value) if isinstance(value, int | float) and not isinstance(value, bool) else value
 
 
 Words = Annotated[str, BeforeValidator(_plain)]
-_MORE: dict[type, dict[str, tuple[Any, Any]]] = {
-    st.Actor: {"called": (list[Words], ...)},
-    st.Moment: {"name": (Words, ...)},
-    st.Way: {"words": (Words, "")},
-}
-_CONFIG = ConfigDict(extra="forbid")
+_Slots = Mapping[str, tuple[Any, Any]]
+_MORE: dict[Any, _Slots] = {
+    st.Actor: {"called": (list[Words], ...)}, st.Moment: {"name": (Words, ...)}, st.Way: {"words": (Words, "")},
+}  # fmt: skip
+_hints: Any = cache(get_type_hints)
 
 
 @cache
@@ -83,29 +71,32 @@ def descriptions() -> dict[str, dict[str, str]]:
     return tomllib.loads(files("scenewright.language.model").joinpath("slots.toml").read_text(encoding="utf-8"))
 
 
-def _made(name: str, slots: Mapping[str, tuple[Any, Any]]) -> type[BaseModel]:
-    told = descriptions().get(name.rstrip("0123456789"), {})
-    made: dict[str, Any] = {}
+def _is_part(kind: Any) -> bool:
+    return is_dataclass(kind)
+
+
+def _made(name: str, slots: _Slots) -> Any:
+    told, made = descriptions().get(name.rstrip("0123456789"), {}), dict[str, Any]()
     for slot, (kind, default) in slots.items():
-        often = {"max_length": MOST_ENTRIES} if get_origin(kind) is list else {}
-        made[slot] = (kind, Field(default, description=told.get(slot), **often))
-    return create_model(name, __config__=_CONFIG, **made)
+        origin: Any = get_origin(kind)
+        most = MOST_ENTRIES if origin is list else None
+        made[slot] = (kind, Field(default, description=told.get(slot), max_length=most))
+    return create_model(name, __config__=ConfigDict(extra="forbid"), **made)
 
 
 @cache
-def form_of(cls: type, depth: int = DEEPEST) -> type[BaseModel]:
+def form_of(cls: Any, depth: int = DEEPEST) -> Any:
     """Return the form for a dataclass of the story; `depth` says how many conditions may lie in each other."""
-    hints = get_type_hints(cls)
     slots: dict[str, tuple[Any, Any]] = dict(_MORE.get(cls, {}))
     for each in fields(cls):
-        if each.name in _OURS.get(cls, ()):
-            continue
-        kind = _kind(hints[each.name], depth - (cls is st.Compound), (cls, each.name))
-        empty: Any = None if type(None) in get_args(hints[each.name]) else ...
-        default = empty if each.default is MISSING or is_dataclass(each.default) else each.default
-        slots["words" if each.name == "quote" else each.name] = (
-            (Words, "") if each.name == "quote" else (kind, [] if default == () else default)
-        )
+        hint = _hints(cls)[each.name]
+        default: Any = None if type(None) in get_args(hint) else ...
+        if each.default is not MISSING and not is_dataclass(each.default):
+            default = [] if each.default == () else each.default
+        if each.name == "quote" and "quote" not in OURS.get(cls, ()):
+            slots["words"] = (Words, "")
+        elif each.name not in OURS.get(cls, ()):
+            slots[each.name] = (_kind(hint, depth - (cls is st.Compound), (cls, each.name)), default)
     if cls is st.Story:
         slots |= {"asides": (list[Words], []), "assumptions": (list[Assumption], [])}
     if cls is st.Question:
@@ -113,28 +104,25 @@ def form_of(cls: type, depth: int = DEEPEST) -> type[BaseModel]:
     return _made(cls.__name__ + (str(depth) if cls is st.Compound else ""), slots)
 
 
-def _kind(hint: Any, depth: int, slot: tuple[type, str] | None = None) -> Any:
+def _kind(hint: Any, depth: int, slot: tuple[Any, str]) -> Any:
     """Return what stands in a reply for a type of the story."""
     origin, parts = get_origin(hint), get_args(hint)
     if origin in (Union, UnionType):
-        kinds = [_kind(each, depth, slot) for each in parts if each is not st.Compound or depth > 0]
-        return Union[tuple(kinds)]  # noqa: UP007
+        return Union[tuple(_kind(each, depth, slot) for each in parts if each is not st.Compound or depth > 0)]  # noqa: UP007
     if origin is tuple:
         return list[_kind(parts[0], depth, slot)]  # type: ignore[misc]
-    if slot in _WORDS and hint is str:
-        return _WORDS[slot]
     if hint in (str, int, Fraction):  # numbers of actors and moments are names; a number is written in digits
-        return Words
-    return form_of(hint, depth) if is_dataclass(hint) else hint
+        return _WORDS.get(slot, Words)
+    return form_of(hint, depth) if _is_part(hint) else hint
 
 
-Assumption = _made("Assumption", {"words": (Words, ""), "says": (Words, ...)})
-_READING = _made("Reading", {"words": (Words, ...), "means": (Words, ...)})
-_REFUSAL = _made("Refusal", {"reason": (Words, ...), "words": (Words, ""), "fix": (Words, "")})
-Reply: Any = _made(
+Assumption: Any = _made("Assumption", {"words": (Words, ""), "says": (Words, ...)})
+_READING: Any = _made("Reading", {"words": (Words, ...), "means": (Words, ...)})
+_REFUSAL: Any = _made("Refusal", {"reason": (Words, ...), "words": (Words, ""), "fix": (Words, "")})
+Reply: type[BaseModel] = _made(
     "Reply",
     {
-        "readings": (list[_READING], []),  # type: ignore[valid-type]
+        "readings": (list[_READING], []),
         "refusal": (_REFUSAL | None, None),
         "story": (form_of(st.Story) | None, None),
     },
@@ -143,7 +131,7 @@ Reply: Any = _made(
 
 def reply_schema() -> dict[str, Any]:
     """Return the JSON schema of a reply."""
-    return Reply.model_json_schema()  # type: ignore[no-any-return]
+    return Reply.model_json_schema()
 
 
 def sheet() -> str:
@@ -151,41 +139,34 @@ def sheet() -> str:
     parts = (Reply, _READING, _REFUSAL, st.Story, Assumption, st.Question, st.Actor, st.Way, st.Relation, st.Moment,
              st.Measure, st.Amount, st.Place, st.Compound, st.Deed, st.Order, st.Hold, st.Point, Parameter)  # fmt: skip
     lines: list[str] = []
+    part: Any
     for part in parts:
-        form: Any = form_of(part) if is_dataclass(part) else part
+        form: Any = form_of(part) if _is_part(part) else part
         lines.append(f"\n{part.__name__}")
         for name, slot in form.model_fields.items():
-            known = _KNOWN.get((part, name), ())  # type: ignore[arg-type]
-            words = [f'"{word}"' for word in known] or [_shown(slot.annotation)]
+            words = [json.dumps(word) for word in _KNOWN.get((part, name), ())] or [_shown(slot.annotation)]
             lines.append(f"- {name}: {' | '.join(words)}. {slot.description or ''}".rstrip())
     return "\n".join(lines).strip()
 
 
 def _shown(kind: Any) -> str:
     """Return a type in the words of the sheet."""
-    if get_origin(kind) is Annotated:
-        return _shown(get_args(kind)[0])
-    if get_origin(kind) is list:
-        return f"[{_shown(get_args(kind)[0])}, ...]"
-    if get_origin(kind) is Literal:
-        return " | ".join(json.dumps(each) for each in get_args(kind))
-    if get_args(kind):
-        shown = [_shown(each) for each in get_args(kind)]
-        return " | ".join(dict.fromkeys(shown))
-    if isinstance(kind, type) and issubclass(kind, StrEnum):
-        return " | ".join(f'"{each}"' for each in kind)
-    names = {str: "text", bool: "true | false", type(None): "null"}
-    return names.get(kind) or kind.__name__.rstrip("0123456789")
+    origin, parts = get_origin(kind), get_args(kind)
+    if origin is list:
+        return f"[{_shown(parts[0])}, ...]"
+    if origin is Literal or (isinstance(kind, type) and issubclass(kind, StrEnum)):
+        return " | ".join(json.dumps(each) for each in parts or tuple(kind))
+    if parts:
+        return " | ".join(dict.fromkeys(_shown(each) for each in (parts[:1] if origin is Annotated else parts)))
+    names: dict[Any, str] = {str: "text", bool: "true | false", type(None): "null"}
+    return names.get(kind) or str(kind.__name__).rstrip("0123456789")
 
 
 # -- reading --------------------------------------------------------------------------------------------------------
 def read_reply(text: str) -> Any:
     """Read the one JSON object in `text`; what stands around it (a code fence, a greeting) does no harm.
 
-    Raises
-    ------
-    TranslationError
-        Where there is none, or it is not of the form.
+    Raises TranslationError where there is none, or it is not of the form.
 
     Examples
     --------
@@ -199,7 +180,7 @@ def read_reply(text: str) -> Any:
         shorter = "a shorter reply: the JSON object alone, each reading in a few words"
         raise TranslationError("the reply is cut off", found="more tokens than --max-tokens allows", expected=shorter)
     try:
-        reply = Reply.model_validate(_object_in(text))
+        reply: Any = Reply.model_validate(_object_in(text))
     except ValidationError as error:
         told = [f"{'.'.join(map(str, each['loc']))}: {each['msg']}" for each in error.errors(include_url=False)[:4]]
         form = "the slots of the form, and no others"
@@ -210,12 +191,12 @@ def read_reply(text: str) -> Any:
 
 
 def _object_in(text: str) -> object:
-    fault = "no JSON object"
-    for start in [match.start() for match in re.finditer(r"\{", text)][:50]:
+    fault = ""
+    for match in list(re.finditer(r"\{", text))[:50]:
         try:
-            value, _ = json.JSONDecoder().raw_decode(text, start)
+            value, _ = json.JSONDecoder().raw_decode(text, match.start())
         except json.JSONDecodeError as error:
-            fault = f"{error.msg} at character {error.pos} of the reply" if fault == "no JSON object" else fault
+            fault = fault or f"{error.msg} at character {error.pos} of the reply"
         except (RecursionError, ValueError):
             fault = "an object or a number without end"
             break
@@ -223,54 +204,35 @@ def _object_in(text: str) -> object:
             if isinstance(value, dict) and value.keys() & Reply.model_fields.keys():
                 return value
     begins = str(_plain(text[:160]))
-    found = f"{fault}; it begins: {begins}" if begins else "an empty reply"
+    found = f"{fault or 'no JSON object'}; it begins: {begins}" if begins else "an empty reply"
     raise TranslationError("the reply holds no JSON object that can be read", found=found, expected="one JSON object")
 
 
 # -- from names and words to numbers and positions ------------------------------------------------------------------
 @dataclass(slots=True)
 class Claim:
-    """A story as a reply claims it, with what it quotes beside the quotes of the story itself.
-
-    Attributes
-    ----------
-    called
-        By actor, the words by which the text names it.
-    ways
-        By actor, the stretch that tells its way.
-    owned
-        The stretches of assumptions and questions, with what they say: what they name is told to the user.
-    read
-        The stretches of the readings.
-    """
+    """A story as a reply claims it, with what it quotes beside the quotes of the story itself."""
 
     story: st.Story
-    called: dict[int, tuple[str, ...]] = field(default_factory=dict)
-    ways: dict[int, st.Quote] = field(default_factory=dict)
-    owned: list[tuple[Span | None, str]] = field(default_factory=list)
-    read: list[Span] = field(default_factory=list)
+    called: dict[int, tuple[str, ...]] = field(default_factory=dict)  # by actor, the words by which the text names it
+    ways: dict[int, st.Quote] = field(default_factory=dict)  # by actor, the stretch that tells its way
+    owned: list[tuple[Span | None, str]] = field(default_factory=list)  # what assumptions and questions quote and say
+    read: list[Span] = field(default_factory=list)  # the stretches of the readings
 
 
 def claim_of(reply: Any, text: str) -> Claim:
-    """Return what a reply claims of `text`.
-
-    Raises
-    ------
-    TranslationError
-        Where a name is nobody's, or quoted words are not in the text.
-    """
+    """Return what a reply claims; raises TranslationError where a name is nobody's, or words are not in `text`."""
     reader = _Reader(text, reply.story)
-    claim = Claim(reader.story())
+    claim = Claim(reader.build(st.Story, reply.story, None))
     for number, actor in enumerate(reply.story.actors):
         claim.called[number] = tuple(actor.called)
-        if quote := reader.quote(actor.way.words, None):
+        if quote := reader.quote(actor.way.words):
             claim.ways[number] = quote
     for each in (*reply.story.assumptions, *reply.story.questions):
-        quote = reader.quote(each.words, None)
+        quote = reader.quote(each.words)
         said = getattr(each, "says", "") or f"{each.text} {' '.join(each.alternatives)}"
         claim.owned.append((quote.span if quote else None, said))
-    found = [reader.quote(each.words, None) for each in reply.readings]
-    claim.read = [quote.span for quote in found if quote]
+    claim.read = [quote.span for each in reply.readings if (quote := reader.quote(each.words))]
     if reader.faults:
         raise TranslationError(
             "the story does not hold together",
@@ -284,124 +246,104 @@ def claim_of(reply: Any, text: str) -> Claim:
 class _Reader:
     text: str
     form: Any
-    people: dict[str, int] = field(default_factory=dict)
-    moments: dict[str, int] = field(default_factory=dict)
+    names: dict[str, dict[str, int]] = field(default_factory=dict)
     faults: list[str] = field(default_factory=list)
     said: dict[tuple[str, Span | None], int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self.people = self._numbers("actor", [each.name for each in self.form.actors], EGO_NAME, EGO)
-        names = [each.name for each in self.form.moments]
-        if START_NAME not in names:
-            self.form.moments.insert(0, form_of(st.Moment)(name=START_NAME))
-            names.insert(0, START_NAME)
-        self.moments = self._numbers("moment", names, START_NAME, st.START)
+        if all(each.name != "start" for each in self.form.moments):
+            self.form.moments.insert(0, form_of(st.Moment)(name="start"))
+        for what, forms, first in (("actor", self.form.actors, "ego"), ("moment", self.form.moments, "start")):
+            names = [each.name for each in forms]
+            self.names[what] = {name: number for number, name in enumerate(names)}
+            if len(self.names[what]) < len(names) or names[:1] != [first]:
+                self.faults.append(f"each {what} has a name of its own, and '{first}' is the first: {', '.join(names)}")
 
-    def _numbers(self, what: str, names: Sequence[str], first: str, number: int) -> dict[str, int]:
-        if len(set(names)) < len(names) or names[number : number + 1] != [first]:
-            self.faults.append(f"each {what} has a name of its own, and '{first}' is the first: {', '.join(names)}")
-        return {name: place for place, name in enumerate(names)}
-
-    def story(self) -> st.Story:
-        made: st.Story = self.build(st.Story, self.form, None)
-        return made
-
-    def build(self, cls: type, form: Any, within: Span | None) -> Any:
+    def build(self, cls: Any, form: Any, within: Span | None) -> Any:
         """Return the part of the story that a form fills; `within` is the stretch that an amount is quoted from."""
-        hints, values = get_type_hints(cls), dict[str, Any]()
-        within = within if cls is st.Amount else None
-        quote = self.quote(form.words, within) if "words" in type(form).model_fields and cls is not st.Way else None
-        inner = quote.span if quote else None
-        special: dict[str, Callable[[], Any]] = {
-            "id": lambda: self.people[form.name],
-            "quote": lambda: quote or self._mention(form),
-            "asides": lambda: tuple(filter(None, (self.quote(words, None) for words in form.asides))),
-            "assumptions": lambda: tuple(each.says for each in form.assumptions),
-            "default": lambda: self._default(form),
-        }
+        quote = None
+        if "words" in type(form).model_fields and cls is not st.Way:
+            quote = self.quote(form.words, within if cls is st.Amount else None)
+        values: dict[str, Any] = {}
         for each in fields(cls):
-            if each.name in special:
-                values[each.name] = special[each.name]()
-            elif each.name not in _OURS.get(cls, ()):
-                values[each.name] = self._value(hints[each.name], getattr(form, each.name), inner, each.name)
-        made = cls(**values)
-        if isinstance(made, st.Amount):
-            self._check_amount(made)
-        return made
+            if each.name == "quote":
+                values["quote"] = self._mention(form.called) if cls is st.Actor else quote
+            elif each.name == "id":
+                values["id"] = self.names["actor"][form.name]
+            elif each.name == "asides":
+                values["asides"] = tuple(filter(None, map(self.quote, form.asides)))
+            elif each.name == "assumptions":
+                values["assumptions"] = tuple(assumption.says for assumption in form.assumptions)
+            elif cls is st.Question and each.name == "default":
+                values["default"] = self._default(form)
+            elif each.name not in OURS.get(cls, ()):
+                inner = quote.span if quote else None
+                values[each.name] = self._value(_hints(cls)[each.name], getattr(form, each.name), inner, each.name)
+        if cls is st.Amount:
+            self._check_amount(form)
+        return cls(**values)
 
     def _value(self, hint: Any, value: Any, within: Span | None, slot: str) -> Any:
+        if get_origin(hint) in (Union, UnionType):
+            name = type(value).__name__.rstrip("0123456789")
+            kinds = [each for each in get_args(hint) if each is not type(None)]
+            hint = next((each for each in kinds if getattr(each, "__name__", "") == name), kinds[0])
         if value is None:
             return None
-        if get_origin(hint) in (Union, UnionType):
-            kinds = [each for each in get_args(hint) if each is not type(None)]
-            name = type(value).__name__.rstrip("0123456789")
-            hint = next((each for each in kinds if getattr(each, "__name__", "") == name), kinds[0])
         if get_origin(hint) is tuple:
             return tuple(self._value(get_args(hint)[0], each, within, slot) for each in value)
         if hint is int:
-            return self._number(value, slot)
+            what = "actor" if slot in PEOPLE else "moment"
+            if value not in self.names[what]:
+                self.faults.append(f"there is no {what} '{value}' ({slot}); there are: {', '.join(self.names[what])}")
+            return self.names[what].get(value, 0)
         if hint is Fraction:
             return self._fraction(value)
         return self.build(hint, value, within) if is_dataclass(hint) else value
 
-    def _number(self, name: str, slot: str) -> int:
-        what, known = ("actor", self.people) if slot in _PEOPLE else ("moment", self.moments)
-        if name not in known:
-            self.faults.append(f"there is no {what} '{name}' ({slot}); there are: {', '.join(known)}")
-        return known.get(name, 0)
-
     def _fraction(self, digits: str) -> Fraction:
         try:
-            value = Fraction(digits) if len(digits) <= DIGITS else Fraction(-1, 10**DIGITS)
+            value = Fraction(digits[:DIGITS])
         except (ValueError, ZeroDivisionError):
-            value = Fraction(-1, 10**DIGITS)
-        if not is_size_of_a_scenario(value):
-            self.faults.append(f"'{digits[:DIGITS]}' is no number in digits of a size that a test has")
+            digits, value = f"{digits} " * DIGITS, Fraction(0)
+        if len(digits) > DIGITS or not is_size_of_a_scenario(value):
+            self.faults.append(f"'{digits[:DIGITS].strip()}' is no number in digits of a size that a test has")
         return value
 
-    def _check_amount(self, amount: st.Amount) -> None:
-        if (amount.name is None) == (amount.value is None):
+    def _check_amount(self, form: Any) -> None:
+        unit = unit_of_name(form.name or "")
+        if (form.name is None) == (form.value is None):
             self.faults.append("an amount has either a value or the name of a parameter")
-        elif amount.name is not None:
-            unit = unit_of_name(amount.name)
-            if unit is None or unit.symbol != amount.unit:
-                ends = f"it is {unit.symbol}" if unit else "it ends in none; ask for it, or refuse"
-                self.faults.append(f"'{amount.unit}' is not the unit that the parameter {amount.name} ends in: {ends}")
+        elif form.name is not None and (unit is None or unit.symbol != form.unit):
+            ends = f"it is {unit.symbol}" if unit else "it ends in none; ask for it, or refuse"
+            self.faults.append(f"'{form.unit}' is not the unit that the parameter {form.name} ends in: {ends}")
 
     def _default(self, form: Any) -> int | None:
-        if len(form.alternatives) < 2 or (form.default is not None and form.default not in form.alternatives):
+        if len(form.alternatives) < 2 or form.default not in (None, *form.alternatives):
             self.faults.append(f"the question '{form.slot}' needs two alternatives, its default among them")
             return None
-        return None if form.default is None else list(form.alternatives).index(form.default)
+        return None if form.default is None else int(form.alternatives.index(form.default))
 
-    def _mention(self, form: Any) -> st.Quote | None:
+    def _mention(self, names: Sequence[str]) -> st.Quote | None:
         """Return where the text first names an actor."""
-        names = getattr(form, "called", ())
-        for name in names:
-            if not locate(name, self.text):
-                self.faults.append(f"nobody is called '{name}' in the text")
-        found = [span for name in names for span in locate(name, self.text)]
-        return self._quoted(min(found, key=lambda span: span.start)) if found else None
+        self.faults += [f"nobody is called '{name}' in the text" for name in names if not locate(name, self.text)]
+        found = sorted((span.start, span.end) for name in names for span in locate(name, self.text))
+        return st.Quote(*found[0], self.text[slice(*found[0])]) if found else None
 
-    def quote(self, words: str, within: Span | None) -> st.Quote | None:
+    def quote(self, words: str, within: Span | None = None) -> st.Quote | None:
         """Return the stretch that is quoted; words that stand there more than once are taken in turn."""
         if not words:
             return None
-        places = [span for span in locate(words, self.text) if not within or _is_in(span, within)]
+        places = [each for each in locate(words, self.text)
+                  if not within or (within.start <= each.start and each.end <= within.end)]  # fmt: skip
         if not places:
             where = "the text" if within is None else f"'{within.excerpt(self.text)}', the words of what it belongs to"
             self.faults.append(f"the words '{words[:80]}' are not in {where}")
             return None
         number = self.said.get((words, within), 0)
         self.said[words, within] = number + 1
-        return self._quoted(places[min(number, len(places) - 1)])
-
-    def _quoted(self, span: Span) -> st.Quote:
+        span = places[min(number, len(places) - 1)]
         return st.Quote(span.start, span.end, span.excerpt(self.text))
-
-
-def _is_in(inner: Span, outer: Span) -> bool:
-    return outer.start <= inner.start and inner.end <= outer.end
 
 
 def locate(words: str, text: str) -> list[Span]:
@@ -413,7 +355,5 @@ def locate(words: str, text: str) -> list[Span]:
     [Span(start=5, end=18)]
     """
     tokens = re.findall(r"\w+", words)
-    if not tokens:
-        return []
     pattern = r"(?<!\w)" + r"[^\w]{1,4}".join(map(re.escape, tokens)) + r"(?!\w)"
-    return [Span(*match.span()) for match in re.finditer(pattern, text, re.IGNORECASE)]
+    return [Span(*match.span()) for match in re.finditer(pattern, text, re.IGNORECASE)] if tokens else []

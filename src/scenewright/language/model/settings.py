@@ -21,46 +21,20 @@ DEFAULT_MAX_TOKENS = 16_000  # a reply takes one to three thousand; models that 
 
 @dataclass(frozen=True, slots=True)
 class TranslatorSettings:
-    """How to translate.
+    """How to translate; the offline reader knows `strict`, `ask` and `answers` alone."""
 
-    Attributes
-    ----------
-    base_url
-        Address of an OpenAI-compatible server, or of a proxy of a provider; None for the provider's own.
-    repairs
-        How often a reply that does not hold goes back to the model.
-    strict
-        Refuse a text that leaves something open, instead of taking a default.
-    record, replay
-        Folder in which exchanges are kept; folder from which replies are taken, without asking anybody.
-    timeout_s
-        How long (s) one reply may take, waits that a busy server asks for included.
-    reply_wait_s
-        How long (s) to wait for a reply file of ``files:DIR``; with 0 the request is left there and the call gives up.
-    max_tokens
-        What one reply may hold at most.
-    ask
-        Returns the user's choice among a question's alternatives; None where nobody can be asked.
-    answers
-        Alternatives that were chosen before, by the slot of their question.
-    second_opinion
-        Let a second call judge whether the story that was told says what the text says.
-    verify
-        Says why a program cannot happen, None where nothing speaks against it.
-    say
-        Told what is being waited for.
-    """
-
-    base_url: str | None = None
-    repairs: int = DEFAULT_REPAIRS
-    strict: bool = False
-    record: Path | None = None
-    replay: Path | None = None
-    timeout_s: float = DEFAULT_TIMEOUT_S
-    reply_wait_s: float = 0.0
-    max_tokens: int = DEFAULT_MAX_TOKENS
-    ask: Callable[[Question], str] | None = None
-    answers: Mapping[str, str] = field(default_factory=dict)
-    second_opinion: bool = False
-    verify: Callable[[Program], str | None] | None = None
-    say: Callable[[str], None] | None = None
+    base_url: str | None = None  # of an OpenAI-compatible server, or of a proxy of a provider
+    repairs: int = DEFAULT_REPAIRS  # how often a reply that does not hold goes back to the model
+    strict: bool = False  # refuse a text that leaves something open, instead of taking a default
+    record: Path | None = None  # folder in which exchanges are kept
+    replay: Path | None = None  # folder from which replies are taken, without asking anybody
+    timeout_s: float = DEFAULT_TIMEOUT_S  # for one reply, waits that a busy server asks for included
+    reply_wait_s: float = (
+        0.0  # for a reply file of ``files:DIR``; with 0 the request is left there and the call gives up
+    )
+    max_tokens: int = DEFAULT_MAX_TOKENS  # that one reply may hold
+    ask: Callable[[Question], str] | None = None  # the user's choice; None where nobody can be asked
+    answers: Mapping[str, str] = field(default_factory=dict)  # that were given before, by the slot of their question
+    second_opinion: bool = False  # let a second call judge the story that was told
+    verify: Callable[[Program], str | None] | None = None  # says why a program cannot happen
+    say: Callable[[str], None] | None = None  # told what is being waited for

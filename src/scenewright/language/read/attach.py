@@ -26,11 +26,14 @@ _TO_PLACE = ("before", "behind", "from", "to", "ahead", "of")
 _TO_ACTOR = {
     (None, "behind", False): st.Quantity.GAP, ("gap", "behind", False): st.Quantity.GAP,
     (None, "ahead", False): st.Quantity.GAP, ("gap", "ahead", False): st.Quantity.GAP,
-    ("gap", "to", False): st.Quantity.GAP,
-    (None, "behind", True): st.Quantity.HEADWAY, ("headway", "behind", True): st.Quantity.HEADWAY,
-    ("headway", "to", True): st.Quantity.HEADWAY, ("time to collision", "with", True): st.Quantity.COLLISION,
+    ("gap", "to", False): st.Quantity.GAP, (None, "behind", True): st.Quantity.HEADWAY,
+    ("headway", "behind", True): st.Quantity.HEADWAY, ("headway", "to", True): st.Quantity.HEADWAY,
+    ("time to collision", "with", True): st.Quantity.COLLISION,
     ("time to collision", "to", True): st.Quantity.COLLISION,
 }  # fmt: skip
+_JUNCTIONS = (st.Place("intersection"), st.Place("conflict_point"))
+_OF_A_PLACE = {True: (None, "time to arrival"), False: (None, "gap")}  # what may be asked for, by whether it is a time
+_OF_ITS_OWN = {"speed": (None, "speed"), "acceleration": (None, "rate", "acceleration", "deceleration")}
 _CONTRARY = ((st.Verb.BRAKE, "acceleration"), ("stop", "acceleration"), (st.Verb.SPEED_UP, "deceleration"))
 _OF_A_PAIR = {
     ("gap", False): st.Quantity.GAP, (None, False): st.Quantity.GAP, ("headway", True): st.Quantity.HEADWAY,
@@ -74,7 +77,16 @@ def _attach(taken: Taken, neighbour: Clause | None, subject: int | None) -> None
     for target in taken.targets:
         if not target.used:
             _stand_alone(taken, target)
-    if "pass" in taken.states and not any(each.quantity is st.Quantity.PLACE for each in clause.measures):
+    if taken.quantity and not (taken.amounts or "kept" in clause.flags):
+        raise taken.left_over(last)
+    fast = taken.quantity == "speed" or any(each.quantity is st.Quantity.SPEED for each in clause.measures)
+    if "kept" in clause.flags and clause.rate is not None:  # "brakes at a constant rate of 3 m/s^2"
+        clause.flags.discard("kept")
+    elif "kept" in clause.flags and not fast:
+        raise taken.left_over(last)  # "keeps a gap of 20 m"
+    places = [each for each in clause.measures if each.quantity is st.Quantity.PLACE]
+    passed = [each for each in places if each.amount is None]
+    if ("pass" in taken.states and not passed) or ("reach" in taken.states and not places):
         raise taken.left_over(last)
     if "goes" in taken.states and clause.deed is None and not (clause.facts or clause.measures or clause.flags):
         clause.deed = st.Verb.DRIVE
@@ -89,9 +101,8 @@ def _find_subject(taken: Taken, subject: int | None) -> None:
     clause = taken.clause
     ahead = next((each for each in taken.targets if each.side == "ahead" and each.other is not None), None)
     place = next((each for each in taken.targets if each.place is not None and each.side == "at"), None)
-    if (
-        clause.subject is None and taken.amounts and ahead is not None and place is not None
-    ):  # "a driveway 100 m in front of the ego"
+    # "There is a driveway 100 m in front of the ego."
+    if clause.subject is None and taken.amounts and ahead is not None and place is not None:
         clause.subject, ahead.used, place.side = ahead.other, True, "before"
     if clause.subject is None and taken.pair is None and taken.quantity in ("gap", "headway", "time to collision"):
         to = [each for each in taken.targets if each.other is not None]
@@ -108,8 +119,7 @@ def _find_subject(taken: Taken, subject: int | None) -> None:
             told = taken.people.ask(f"behind {clause.quote.start}", "Who drives behind?", names, 0, clause.quote)
             rear = taken.pair[names.index(told)]
         clause.subject = rear
-    if clause.subject is None:
-        clause.subject = subject
+    clause.subject = subject if clause.subject is None else clause.subject
 
 
 def _of(measure: st.Measure, subject: int | None) -> st.Measure:
@@ -124,13 +134,13 @@ def _of(measure: st.Measure, subject: int | None) -> st.Measure:
 def _stand_alone(taken: Taken, target: Target) -> None:
     """Make of a target without an amount what it says: how two ways lie, or where somebody is."""
     clause = taken.clause
-    if target.other is not None and "pass" in taken.states and target.side in ("before", "ahead", "after"):
+    if target.other is not None and taken.states & {"pass", "reach"} and target.side in ("before", "ahead", "after"):
         clause.rival = ("after" if target.side == "after" else "before", target.other)
     elif target.other is not None and target.side in ("ahead", "behind") and clause.deed is None:
         clause.relations.append(st.Relation(target.side, target.other, target.chunk.quote))
-    elif target.place is not None and target.side == "at" and "turn" in clause.facts and "pass" not in taken.states:
+    elif target.place in _JUNCTIONS and target.side == "at" and clause.facts.get("turn", "straight") != "straight":
         pass  # "turns left at the junction"
-    elif target.side == "at" and target.at < taken.subject_at and "pass" not in taken.states:
+    elif target.side == "at" and target.at < taken.subject_at and not taken.states & {"pass", "reach"}:
         raise taken.left_over(target.chunk)  # "at the junction, the ego ...": it is what follows that is there
     elif target.place is not None and target.side in _BARE:
         taken.measure(target.chunk, st.Measure(IT, st.Quantity.PLACE, _BARE[target.side], None, target.place))
@@ -142,6 +152,8 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk, neighbour: Claus
     """Make a measure of an amount, with the nearest free target after it, else before it, else its neighbour's."""
     amount, clause = chunk.amount, taken.clause
     assert amount is not None
+    if taken.quantity not in _OF_ITS_OWN.get(amount.dimension, (taken.quantity,)):
+        raise taken.left_over(chunk)
     if amount.dimension == "speed":
         taken.measure(chunk, st.Measure(IT, st.Quantity.SPEED, op, amount))
         return
@@ -177,7 +189,8 @@ def _to_target(taken: Taken, target: Target, op: st.Operator, amount: st.Amount,
     if place is not None:
         taken.clause.target = (side, place)
         quantity = st.Quantity.ARRIVAL if is_time else st.Quantity.PLACE
-        if not (past or side in _TO_PLACE or (side == "at" and taken.quantity == "time to arrival")):
+        fits = past or side in _TO_PLACE or (side == "at" and taken.quantity == "time to arrival")
+        if not fits or taken.quantity not in _OF_A_PLACE[is_time]:
             raise taken.left_over(target.chunk)
         taken.measure(chunk, st.Measure(IT, quantity, op, amount, place, opposite=past))
         return

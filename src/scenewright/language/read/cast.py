@@ -12,6 +12,7 @@ from typing import Any, NoReturn
 from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
 from scenewright.language.compile import DRIVEN, kind_of
+from scenewright.language.phrases import OTHERWISE
 from scenewright.language.read.chunks import Chunk, nearest_words, word_as
 from scenewright.program.types import EGO
 
@@ -114,12 +115,10 @@ class Cast:
         fitting = [each for each in self.heroes if self._fits(each, chunk, words)]
         fitting = [each for each in fitting if each.name == chunk.value] or fitting
         fitting = [each for each in fitting if words and words <= self.known_by[each.id]] or fitting
-        if chunk.is_new and fitting and not any(each.kind == "other" for each in chunk.traits):
-            asked = f"Is '{chunk.text}' the one that was told before?"
-            if self.ask(f"new {chunk.start}", asked, [SAME, NEW], None, chunk.quote) != SAME:
+        if chunk.is_new and fitting:
+            asked, another = f"Is '{chunk.text}' the one that was told before?", [e.kind for e in chunk.traits]
+            if "other" in another or self.ask(f"new {chunk.start}", asked, [SAME, NEW], None, chunk.quote) != SAME:
                 fitting = []
-        elif chunk.is_new:
-            fitting = []
         if len(fitting) > 1:
             names = [each.name for each in fitting]
             told = self.ask(f"who {chunk.start}", f"Who is '{chunk.text}'?", names, None, chunk.quote)
@@ -165,10 +164,12 @@ class Cast:
         return [actor for actor in self.actors if actor.id != EGO]
 
     def actor(self, number: int) -> st.Actor:
-        """Return somebody by number."""
-        return next(actor for actor in self.actors if actor.id == number)
+        """Return somebody by number; the ego may not have been named yet."""
+        found = [actor for actor in self.actors if actor.id == number]
+        if not found:
+            raise UnknownWordsError("the text does not say who is under test", fix="name the ego first")
+        return found[0]
 
-    # -- ways ---------------------------------------------------------------------------------------------------------
     def tell_way(self, number: int, facts: Mapping[str, str], quote: st.Quote, turns_then: bool = False) -> None:
         """Add facts of somebody's way; who went straight until then may turn at a moment."""
         actor = self.actor(number)
@@ -209,7 +210,6 @@ class Cast:
     def _change(self, changed: st.Actor) -> None:
         self.actors = [changed if each.id == changed.id else each for each in self.actors]
 
-    # -- asking -------------------------------------------------------------------------------------------------------
     def ask(self, slot: str, text: str, alternatives: list[str], default: int | None, quote: st.Quote) -> str:
         """Return the answer to a question; its default, or nothing, where it is noted as open."""
         answer = self.answers.get(slot, "")
@@ -238,4 +238,4 @@ class Cast:
 
     def refuse(self, message: str, quote: st.Quote, fix: str | None = None) -> NoReturn:
         """Raise the error that says what could not be read."""
-        raise UnknownWordsError(message, found=quote.text, fix=fix or "say it as `scenewright tell` would")
+        raise UnknownWordsError(message, found=quote.text, fix=fix or OTHERWISE)

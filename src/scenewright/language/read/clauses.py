@@ -17,9 +17,19 @@ from scenewright.program.types import EGO
 IT = -1  # the subject, in a measure of a clause that is still being read
 PEOPLE = ("actor", "name", "pronoun", "relative")
 _OPERATORS: dict[str, st.Operator] = {"==": "==", ">=": ">=", "<=": "<=", ">": ">", "<": "<"}
+# Verbs that may have an amount: "reaches a point 12 m before".
+_REACHES = ("reach", "get", "got", "come", "came", "arriv")
 _CONFLICTS = ("conflict_point", "intersection", "turn")
 _CONFLICT = st.Place("turn")  # where a driveway joins a road
 _SIDES = ("before", "behind", "from", "to", "ahead", "past")  # of a place that an amount is counted to
+
+
+_OF_AMOUNTS = ("amount", "bound", "quantity", "kept", "no unit")
+_AFTER = {  # what may stand behind a side that says no more than that it belongs there: "to pass it", "at a speed of"
+    "to": (*_OF_AMOUNTS, "event", "turn", "deed", "state", "phase", "mood"), "at": _OF_AMOUNTS, "of": _OF_AMOUNTS,
+    "for": _OF_AMOUNTS, "with": (*_OF_AMOUNTS, "turn", "deed"), "by": ("turn", "deed"),
+}  # fmt: skip
+_INITIAL = ("with", "link", "start")  # "with an initial speed of"
 
 
 @dataclass(slots=True)
@@ -58,14 +68,14 @@ class Taken(Facts):
         """Take the chunk at `at`, and those behind it that belong to it."""
         clause, value = self.clause, chunk.value
         match chunk.kind:
-            case "pronoun" if value == "it" and "pass" in self.states:
+            case "pronoun" if value == "it" and self.states & {"pass", "reach"}:
                 self.targets.append(Target(self.at, "at", chunk, self.people.where(chunk)))
-            case "pronoun" if value == "its":
+            case _ if self._says_no_more(chunk):
                 pass
+            case "relative" if "deed" in (self.peek()[0], self.peek(2)[0]):
+                raise self.left_over(chunk)  # "which was braking" is no deed of the moment
             case "relative" if clause.subject is not None:
                 clause.notes.add("relative")
-            case "pair" if clause.subject is not None and chunk.text.lower() == "both":
-                pass
             case "actor" if clause.subject is not None and chunk.is_new and self.peek(-1)[0] == "be":
                 self.people.same(clause.subject, chunk)
             case "actor" | "pronoun" | "name" | "relative" if clause.subject is None:
@@ -73,12 +83,19 @@ class Taken(Facts):
                 acts = "deed" in kinds or ("turn" in kinds and "mood" not in kinds)
                 clause.subject, self.subject_at = self.people.who(chunk, acts), self.at
                 clause.notes |= {"relative"} if chunk.kind == "relative" else set()
+            case "quality" if self.peek(-1)[0] != "be":  # "the truck is red", not "5 m heavy"
+                raise self.left_over(chunk)
             case "be" | "possessive" | "quality":
                 clause.notes |= {"has"} if value == "has" else set()
+            case "lets" if self.peek()[0] in PEOPLE and self.peek(2)[0] in ("order", "event", "state"):
+                self.at += 2  # "lets the ego go first"
+                clause.flags.add("lets")
+                if self.chunks[self.at - 1].kind == "pronoun":  # the other one of two
+                    self.people.pair(chunk)
+                else:
+                    self.yields_to = self.people.who(self.chunks[self.at - 1])
             case "mood":
                 clause.notes.add(value)
-            case "bound" if self.peek()[0] in ("amount", "bound", "link", "near") or self.peek()[1] == "as fast as":
-                pass
             case "amount" | "no unit":
                 self._amount(chunk)
             case "near":
@@ -87,15 +104,13 @@ class Taken(Facts):
                 self._target("before")
             case "side":
                 self._side(chunk)
-            case "place" if "pass" in self.states or self.peek()[0] in ("be", "event"):
+            case "place" if self.states & {"pass", "reach"} or self.peek()[0] in ("be", "event"):
                 self.at -= 1
                 self._target("at")
-            case "area" if "pass" in self.states and not self.targets and value == "driveway":
+            case "area" if self.states & {"pass", "reach"} and not self.targets and value == "driveway":
                 self.targets.append(Target(self.at, "at", chunk, _CONFLICT))
             case "area" if clause.subject is None and value == "driveway" and self.peek(2)[1] == "ahead":
                 self.targets.append(Target(self.at, "at", chunk, _CONFLICT))
-            case "place" if self.peek(-1)[0] == "state":  # "approaches the intersection"
-                pass
             case "deed" if clause.deed is None:
                 clause.deed = value
             case "deed" if (clause.deed, value) == (st.Verb.BRAKE, "stop"):  # "brakes so that it stops"
@@ -112,26 +127,40 @@ class Taken(Facts):
                 self.later.append((self.at, value, chunk))
             case "relation":
                 clause.relations.append(st.Relation(value, EGO, chunk.quote))
-            case "event" if value == "pass" and self.peek()[0] in ("amount", "bound"):  # "gets to 2 s behind the bus"
-                pass
             case "state" | "event":
                 what, _, self.turn = value.partition(" ")
-                self.states.add(what)
+                self.states.add("reach" if what == "pass" and chunk.text.lower().startswith(_REACHES) else what)
                 clause.notes |= {"event", value} if chunk.kind == "event" else {value}
             case "quantity" if self.quantity in (None, "rate", value):
                 self.quantity = value
             case "factor" if value == "as fast as" or self.peek() == ("side", "than"):
                 self._factor(chunk)
-            case "link" if value == "then" and self.peek(-1)[0] == self.peek()[0] == "heading":
-                pass
-            case "joint" if value == "and" and self.peek()[0] == "side":  # "across its path and into the driveway"
-                pass
-            case "joins" if all(each.value == "ego" for each in self.chunks[self.at :] if each.kind == "actor"):
+            case "joins" if self.targets and all(e.value == "ego" for e in self.chunks[self.at :] if e.kind == "actor"):
                 self.at = len(self.chunks)
             case "turn" | "heading" | "origin" | "then_headed" | "area" | "lanes":
                 self.way(chunk)
             case _:
                 raise self.left_over(chunk)
+
+    def _says_no_more(self, chunk: Chunk) -> bool:
+        """Whether a chunk is taken with its neighbours, or says here what they say."""
+        following, before = self.peek()[0], self.chunks[self.at - 1] if self.at else chunk
+        match chunk.kind:
+            case "pronoun":
+                return chunk.value == "its"
+            case "pair":  # "the ego and the hero both drive"
+                return self.clause.subject is not None and chunk.text.lower() == "both"
+            case "bound":
+                return following in ("amount", "no unit", "bound", "near") or self.peek()[1] == "as fast as"
+            case "place":  # "approaches the junction"
+                return before.text.lower().startswith("approach")
+            case "event":  # "gets to 2 s behind the bus": the amount says how near
+                amounts = [each.amount for each in self.chunks[self.at + 1 : self.at + 3] if each.amount]
+                near = following in ("amount", "bound") and amounts and amounts[0].dimension in ("length", "time")
+                return bool(near) and chunk.text.lower().startswith(_REACHES)
+            case "link":  # "north, then south"
+                return chunk.value == "then" and before.kind == following == "heading"
+        return (chunk.kind, chunk.value, following) == ("joint", "and", "side")  # "across it and into the driveway"
 
     def bound(self) -> st.Operator:
         """Return the bound in front of the amount at `at`; one that is only reached is told, a vague one is asked."""
@@ -196,9 +225,7 @@ class Taken(Facts):
         elif side == "through" and kind == "place":
             self._target("at")
             self.clause.notes.add("event")
-        elif (
-            side == "by" and kind in PEOPLE and self.clause.subject is None
-        ):  # "the conflict point is passed by the hero"
+        elif side == "by" and kind in PEOPLE and self.clause.subject is None:  # "is passed by the hero"
             self.at += 1
             self.clause.subject = self.people.who(self.chunks[self.at])
         elif side == "between":
@@ -223,14 +250,7 @@ class Taken(Facts):
             self.area(self.chunks[self.at], side)
         elif side == "to" and kind in ("amount", "bound", "no unit") and self.clause.deed is not None:
             self.clause.flags.add("to")
-        elif not (
-            (side == "to" and kind in ("event", "turn", "deed", "state", "phase", "mood", "kept"))  # "to pass it"
-            or (
-                side in ("at", "of", "for", "to", "with") and kind in ("amount", "bound", "quantity", "kept", "no unit")
-            )
-            or (side in ("by", "with") and kind in ("turn", "deed"))
-            or (side in ("at", "with") and (kind, value) == ("link", "start"))
-        ):
+        elif kind not in _AFTER.get(side, ()) and (side, kind, value) not in (("at", "link", "start"), _INITIAL):
             raise self.left_over(chunk)
 
     def _between(self, chunk: Chunk) -> None:
@@ -265,10 +285,10 @@ class Taken(Facts):
                 self.at += 2
                 place = replace(self._place(self.chunks[self.at]), of=who)
                 self.targets.append(Target(at, side, chunk, place))
-            elif self.peek()[0] == "possessive" and (
-                self.peek(2)[0] == "area" or (self.peek(2)[1], self.peek(3)[0]) == ("oncoming", "area")
-            ):  # "into the ego's lane"
-                self.at += 2 if self.peek(2)[0] == "area" else 3
+            elif self.peek()[0] == "possessive" and "area" in (self.peek(2)[0], self.peek(3)[0]):
+                if self.peek(2)[0] != "area" and self.peek(2)[1] != "oncoming":
+                    raise self.left_over(chunk)
+                self.at += 2 if self.peek(2)[0] == "area" else 3  # "into the ego's lane"
                 self.area(self.chunks[self.at], side)
             else:
                 self.targets.append(Target(at, side, chunk, other=who))
@@ -304,7 +324,6 @@ class Taken(Facts):
         slower = chunk.value == "slower" and amount is not None
         self.measure(chunk, st.Measure(IT, st.Quantity.SPEED, op, amount, other=other, opposite=slower))
 
-    # -- measures -----------------------------------------------------------------------------------------------------
     def measure(self, chunk: Chunk, measure: st.Measure) -> None:
         """Add a measure with the words that it came from."""
         self.clause.measures.append(replace(measure, quote=chunk.quote))

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, fields, replace
 from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
 from scenewright.language.compile import COMPASS
+from scenewright.language.phrases import OTHERWISE
 from scenewright.language.read.cast import Cast
 from scenewright.language.read.chunks import Chunk
 
@@ -20,17 +21,11 @@ class Clause:
 
     Attributes
     ----------
-    measures
-        What is so of the subject: places, speeds, gaps, events.
-    rate
-        How hard it brakes or speeds up, where it does so in this clause.
-    times
-        Amounts of time that say when, or for how long: ``for 3 s``, ``5 s after the start``.
-    facts
-        Of its way: ``heading``, ``turn``, ``origin``, ...
+    measures, rate, times
+        What is so of the subject, how hard it brakes or speeds up, and for how long or how long after the start.
     flags
-        What else it says: ``standstill``, ``while`` (the end is open), ``to`` a speed, ``first``, ``start``,
-        ``kept`` (its speed), ``way`` (it is open), ``falls`` (an amount that is reached), ``yields``, ``insists``.
+        ``standstill``, ``while`` (the end is open), ``to`` a speed, ``first``, ``start``, ``kept`` (its speed), ``way``
+        (it is open), ``falls`` (an amount that is reached), ``yields``, ``insists``, ``lets``.
     notes
         How it says it, which is no meaning of its own: ``event`` (something is passed), ``wanted`` (a wish).
     rival
@@ -92,13 +87,16 @@ class Facts:
             f"'{chunk.text}' could not be understood here",
             found=self.clause.quote.text,
             expected=expected,
-            fix="say it as `scenewright tell` would",
+            fix=OTHERWISE,
         )
 
     def way(self, chunk: Chunk) -> None:
         """Take a chunk that says how somebody drives, with what belongs to it."""
         facts, value = self.clause.facts, chunk.value
-        if chunk.kind == "heading" and self.peek(-2)[0] == "heading":  # "north, then south"
+        if chunk.kind == "heading" and (self.peek(-2)[0], self.peek(-1)[1]) == (
+            "heading",
+            "then",
+        ):  # "north, then south"
             facts["headings"] = facts.get("headings", facts.pop("heading", "")) + value
         elif chunk.kind == "heading":
             self.headed(chunk)
@@ -115,8 +113,10 @@ class Facts:
                 self.headed(following, back=True)
             else:
                 self.fact("origin", following)
-        elif chunk.kind == "origin":
+        elif chunk.kind == "origin" or (chunk.kind == "then_headed" and self.peek()[0] != "heading"):
             raise self.left_over(chunk)
+        elif chunk.text.lower().startswith("to ") and "origin" not in facts:
+            raise self.left_over(chunk)  # "leaves the road to the left", not "is to the left"
         else:
             if chunk.text.lower().split()[0] in ("turning", "making", "taking"):
                 self.clause.notes.add("wanted")

@@ -25,8 +25,9 @@ _PREDICATES = {
 }  # fmt: skip
 _BEGINS_A_CLAUSE = {
     *PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed", "kept", "pair",
-    "order", "yields", "insists", "open",
+    "order", "yields", "insists", "lets", "open",
 }  # fmt: skip
+_ACTS = ("deed", "order", "yields", "insists", "lets")
 _FRONTED = ("side", "turn", "state", "origin", "heading", "area")
 _JOINTS: dict[str, tuple[Literal["and", "or", "if"], str]] = {  # what a word makes of its parts, and what parts them
     "either": ("or", "or"),
@@ -99,7 +100,7 @@ def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
     if not commas:
         raise UnknownWordsError("it is not clear where the moment ends", fix="put a comma before what happens")
     acts = (start for start, end in zip(commas, [*commas[1:], len(chunks)], strict=True)
-            if any(chunk.kind in ("deed", "order", "yields", "insists") for chunk in chunks[start:end]))  # fmt: skip
+            if any(chunk.kind in _ACTS for chunk in chunks[start:end]))  # fmt: skip
     cut = next(acts, commas[-1])
     main = chunks[cut + 1 :]
     return chunks[:cut], main[1:] if main and main[0].value == "then" else main
@@ -111,7 +112,7 @@ def items_of(narrative: Narrative, chunks: Sequence[Chunk], subject: int | None 
     found: list[Item] = []
     starts: list[int] = []
     while parser.at < len(parser.chunks):
-        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and") or parser.is_joint("then"):
+        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and") or parser.is_then():
             parser.at += 1
         else:
             start, item = parser.at, parser.one(())
@@ -136,6 +137,10 @@ class _Items:
     turned: set[int | None] = field(default_factory=set)  # who turns, as was said
     both: list[Chunk] = field(default_factory=list)  # of whom a clause is said that is said of two
     others: list[Clause] = field(default_factory=list)  # what the last clause says of the others of them
+
+    def is_then(self) -> bool:
+        """Whether "then" stands here, or what means no more than that."""
+        return self.is_joint("then") and "turn" not in self.chunks[self.at].text
 
     def is_joint(self, value: str) -> bool:
         chunk = self.chunks[self.at] if self.at < len(self.chunks) else None
@@ -237,16 +242,13 @@ class _Items:
         """Whether "which" stands here for somebody who is not the subject of the clause that begins at `start`."""
         if self.chunks[self.at].kind != "relative" or self.at <= start:
             return False
-        return any(chunk.kind in PEOPLE for chunk in self.chunks[start : self.at - 1]) or (
-            self.chunks[self.at - 1].kind not in PEOPLE
-        )
+        named = any(chunk.kind in PEOPLE for chunk in self.chunks[start : self.at - 1])
+        return named or self.chunks[self.at - 1].kind not in PEOPLE
 
     def _begins(self, at: int) -> bool:
         """Whether a clause begins here."""
-        skipped = ("comma", ("joint", "and"), ("link", "then"))
-        while at < len(self.chunks) and (
-            {self.chunks[at].kind, (self.chunks[at].kind, self.chunks[at].value)} & {*skipped}
-        ):
+        skipped = (("joint", "and"), ("link", "then"), ("comma", ","))
+        while at < len(self.chunks) and (self.chunks[at].kind, self.chunks[at].value) in skipped:
             at += 1
         return at < len(self.chunks) and self.chunks[at].kind in _BEGINS_A_CLAUSE
 

@@ -63,6 +63,8 @@ class Moments:
                     item.deed, item.measures = None, [standstill(until), *item.measures]
         events = [item for item in items if isinstance(item, Clause) and item.deed is not None]
         conditions = self.conditions([item for item in items if item not in events], "times")
+        if not conditions and not any(each.deed or each.times for each in items if isinstance(each, Clause)):
+            self.refuse("it is not said what is so then")  # "when the ego does"
         known = {self.event(item) for item in events}
         if len(known) > 1:
             self.refuse("two moments are told as one")
@@ -158,7 +160,6 @@ class Moments:
             return st.Point(st.START, offset, earlier)
         return st.Point(self.event_of(chunks), offset, earlier)
 
-    # -- orders and holds ---------------------------------------------------------------------------------------------
     def orders(self, moment: int, rest: list[Segment], actor: int | None = None) -> None:
         """Take what comes before or after a moment, which is not a new event of the `actor` whose deed it is."""
         for segment in rest:

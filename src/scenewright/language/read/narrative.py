@@ -18,6 +18,7 @@ from scenewright.language.read.facts import Clause
 from scenewright.program.manner import USUAL, Manner
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 
+COURTESIES = {"yields", "insists", "lets"}
 MOVING = (st.Verb.DRIVE, st.Verb.SPEED_UP)
 
 
@@ -61,13 +62,7 @@ class Narrative(Cast):
         for actor, quote in self.kept:
             self._keep(actor, quote)
         for who, courtesy, quote in self.courtesies:
-            verbs = {doing.verb for doing in self.doings if who in (None, doing.actor)}
-            if (
-                not verbs
-                or (courtesy == "first" and not self.orders)
-                or (courtesy != "first" and bool(verbs & {st.Verb.BRAKE, st.Verb.STAND}) is not (courtesy == "yields"))
-            ):
-                self.refuse("it is not said what is done to yield, or instead", quote, "say where it stops or passes")
+            self._check(who, courtesy, quote)
         self.go_straight()
         for doing in self.doings:
             if doing.ends is None:
@@ -92,6 +87,21 @@ class Narrative(Cast):
             tuple(self.questions),
         )  # fmt: skip
 
+    def _check(self, who: int | None, courtesy: str, quote: st.Quote) -> None:
+        """Refuse a courtesy that no deed bears out; who lets the ego go first goes on after it has passed."""
+        own = [doing for doing in self.doings if who in (None, doing.actor)]
+        stops = [number for number, doing in enumerate(own) if doing.verb in (st.Verb.BRAKE, st.Verb.STAND)]
+        borne_out = bool(self.orders) if courtesy == "first" else bool(stops) is (courtesy != "insists")
+        if not own or not borne_out:
+            self.refuse("it is not said what is done to yield, or instead", quote, "say where it stops or passes")
+        if courtesy == "lets" and stops[-1] + 1 < len(own):
+            passes = st.Measure(EGO, st.Quantity.PLACE, "==", None, st.Place("conflict_point"), quote=quote)
+            moment = self.moment_with([passes])
+            if moment is None:
+                moment = self.moment([passes], quote)
+                self.ego.append(moment)
+            self.orders.append(st.Order(moment, own[stops[-1] + 1].begins, ">", None, quote))
+
     def _keep(self, actor: int, quote: st.Quote) -> None:
         """Let somebody keep its first speed until its first deed, throughout where it has none."""
         first = next((doing for doing in self.doings if doing.actor == actor), None)
@@ -104,7 +114,6 @@ class Narrative(Cast):
         steady = st.Measure(actor, st.Quantity.RATE, "==", st.Amount(Fraction(0), "m/s^2"), quote=quote)
         first.throughout.append(speeds[0] if len(speeds) == 1 else steady)
 
-    # -- moments ------------------------------------------------------------------------------------------------------
     def moment(self, conditions: Sequence[st.Condition] = (), quote: st.Quote | None = None) -> int:
         """Add a moment and return its number."""
         self.conditions.append(list(conditions))
@@ -156,7 +165,6 @@ class Narrative(Cast):
                 return True
         return False
 
-    # -- deeds --------------------------------------------------------------------------------------------------------
     def last(self, actor: int) -> Doing | None:
         """Return what somebody was told to do last."""
         return next((doing for doing in reversed(self.doings) if doing.actor == actor), None)
@@ -169,7 +177,10 @@ class Narrative(Cast):
         if before is None:
             moment = self.moment() if moment is None and "then" in leads else moment
             if moment is not None and moment != st.START:
-                self.doings.append(Doing(actor, st.Verb.DRIVE, st.START, moment, quote=quote))
+                waits = verb != st.Verb.BRAKE and standstill(actor) in self.conditions[st.START]
+                first = st.Verb.STAND if waits else st.Verb.DRIVE
+                self.doings.append(Doing(actor, first, st.START, moment, quote=quote))
+                self.assumptions += [f"{self.actor(actor).name} stands still until then"] * waits
             begins = st.START if moment is None else moment
         elif before.ends is None:
             begins = before.ends = self.moment() if moment is None else moment

@@ -19,7 +19,7 @@ from scenewright.language.read.facts import Clause
 from scenewright.language.read.items import Item, Segment, is_told_twice, items_of, parted, segments_of
 from scenewright.language.read.labels import take_labels
 from scenewright.language.read.moments import HOW, ORDERS, Moments
-from scenewright.language.read.narrative import Doing, Narrative, standstill
+from scenewright.language.read.narrative import COURTESIES, Doing, Narrative, standstill
 from scenewright.program.types import EGO
 
 _LEADS = ("then", "then left", "then right", "at once", "later", "meanwhile", "start")
@@ -110,6 +110,8 @@ class _Sentence(Moments):
     def _cut(self) -> None:
         """Cut the sentence into what happens, the moment at which it does, and the rest."""
         story, segments = self.narrative, segments_of(self.chunks, bool(self.leads))
+        if not segments[0].chunks and len(segments) > 1 and segments[1].link in ("before", "after"):
+            segments[1].chunks, segments[0].chunks = parted(segments[1].chunks)  # "2 s after ..., the hero brakes"
         if not segments[0].chunks and len(segments) > 1 and segments[1].link == "when":
             first, main = segments[1].chunks, list[Chunk]()
             if any(chunk.kind in ("comma", "deed") for chunk in first):
@@ -122,14 +124,16 @@ class _Sentence(Moments):
             when = items_of(story, later[0].chunks) if later else None
             self._main(items, when, [each for each in segments[1:] if each not in later[:1]])
 
-    # -- main clauses -------------------------------------------------------------------------------------------------
     def _main(self, items: list[Item], when: list[Item] | None, rest: list[Segment]) -> None:
         story = self.narrative
         items = [each for each in items if isinstance(each, st.Compound) or each.says_more_than()] or items[:1]
+        does = any(isinstance(each, Clause) and "shall" in each.notes and not each.says_more_than() for each in items)
         timed = any(isinstance(each, Clause) and each.times for each in when or ())
         is_told = when is not None or self.pending is not None or bool(self.leads & {"then", "at once"})
         items = self._acts(items, is_told and not timed)
         if not items and when is None:
+            if rest or does:  # "so does the hero"
+                self.refuse("it is not said what is done")
             return
         clause = next((each for each in items[:1] if isinstance(each, Clause)), None)
         is_deed = clause is not None and clause.deed is not None
@@ -175,9 +179,9 @@ class _Sentence(Moments):
             if not isinstance(item, Clause):
                 found.append(item)
                 continue
-            for courtesy in item.flags & {"yields", "insists"}:
+            for courtesy in item.flags & COURTESIES:
                 self.narrative.courtesies.append((item.subject, courtesy, item.quote))
-            item.flags -= {"yields", "insists"}
+            item.flags -= COURTESIES
             is_hero = happens and item.deed is None and item.subject not in (None, EGO)
             turn = item.facts.get("turn", "")
             acts = any(isinstance(each, Clause) and each.deed is not None for each in items)
@@ -265,7 +269,6 @@ class _Sentence(Moments):
         else:
             self.refuse("it is not clear when this is so", "begin it with 'At the start,' or 'Later,'")
 
-    # -- deeds --------------------------------------------------------------------------------------------------------
     def _deed(self, clause: Clause, when: list[Item] | None, rest: list[Segment]) -> None:
         story = self.narrative
         if clause.subject is not None and clause.subject != EGO:
@@ -283,7 +286,9 @@ class _Sentence(Moments):
         if clause.deed == "turn" and not self._is_somewhere(clause.subject, moment):
             begins.append(_at(clause, "turn_start"))
         drives_on = bool(begins) and clause.deed not in (st.Verb.STAND, "turn")  # "it brakes 15 m before the stop line"
-        follows = any(each.link == "after" for each in rest) and "event" not in clause.notes
+        follows = "event" not in clause.notes and any(
+            each.link == "after" or (each.link in ORDERS and each.margin is not None and not ends) for each in rest
+        )
         if drives_on or waited is not None or follows:
             self.leads.add("then")
         verb = {"stop": st.Verb.BRAKE, "turn": st.Verb.DRIVE}.get(clause.deed, clause.deed)
@@ -296,6 +301,8 @@ class _Sentence(Moments):
         doing.throughout += [*held, *([clause.rate] if clause.rate else [])]
         rests = clause.deed == "stop" or "standstill" in clause.flags
         doing.duration = None if rests else clause.times.get("for")
+        if "while" in clause.flags and ends:
+            self.refuse("it is not clear when this ends")
         if clause.rival is not None and ends:
             rest = [*rest, Segment(clause.rival[0], rival=clause.rival[1])]
         self._end(doing, clause, ends, next((each for each in rest if each.link == "until"), None))
@@ -303,6 +310,8 @@ class _Sentence(Moments):
             early = (each.link == "after" and "event" not in clause.notes) or not ends or doing.ends is None
             if each.link != "until":
                 self.orders(doing.begins if early else doing.ends or st.START, [each], doing.actor)
+        if rests and "for" in clause.times and clause.deed != "stop":
+            self.refuse("it is not clear what lasts so long")
         if rests and "for" in clause.times:  # "it stops at the stop line for 3 s"
             story.begin(doing.actor, st.Verb.STAND, None, {"then"}, self.quote).duration = clause.times["for"]
 
