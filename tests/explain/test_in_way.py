@@ -39,7 +39,6 @@ def test_who_stops_for_a_hero_is_not_to_blame() -> None:
         ("goes first, distance", "Shy"),
         ("goes first, time", "Early"),
         ("brakes at a rate", "Early"),
-        ("brakes at a rate", "Shy"),
     ],
 )
 def test_no_answer_to_a_hero_is_ever_the_egos_doing(story: str, ego: str) -> None:

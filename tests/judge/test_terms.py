@@ -10,7 +10,9 @@ import pytest
 from plays import BRAKES, GOES_AFTER, YIELDS, YIELDS_AT_S, Play
 
 from scenewright.judge.case import CannotJudge, Case, NotReached
+from scenewright.judge.judgement import judge
 from scenewright.judge.terms import Moments, divisor, mean_acceleration, piece_span, sides
+from scenewright.judge.tolerance import TIGHT
 from scenewright.program.evaluate import term_value
 from scenewright.program.expressions import Compare, Order, PieceRef
 from scenewright.program.resolve import resolve
@@ -141,6 +143,21 @@ def test_the_acceleration_of_a_piece_is_that_of_all_its_parts_and_its_mean(
     left, _ = sides(play.case(), formula, MOMENTS)
     every = np.atleast_1d(left)
     assert (every[0], every[-2 if len(every) > 1 else 0], every[-1]) == pytest.approx(rates, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("formula", "holds"),
+    [
+        ("A1a(dec) <= A1v(go) / -2", True),  # -4 and 8 m/s
+        ("A1a(dec) >= A1v(go) / -2.3", False),
+        ("A1a(dec) == A1a(go) - 4", True),
+        ("A1a(dec) == A1a(go) - 4.5", False),
+        ("always[A1(t1), A1(t2)](A1a(dec) <= -3.9)", True),
+    ],
+)
+def test_pieces_are_compared_with_each_other_all_through(formula: str, holds: bool) -> None:
+    verdict = judge(replace(BRAKES, text=BRAKES.text + f"extra: {formula}\n").case())
+    assert verdict.condition("extra").holds_at(TIGHT) == holds
 
 
 def test_the_mean_acceleration_of_speeds() -> None:

@@ -63,9 +63,9 @@ A2x(t1) == stop_line + 11.5
 @pytest.mark.parametrize(
     ("program", "count", "ego"),
     [
-        ("platoon", 3, "dawdler"),
+        ("platoon", 3, "idm"),
         ("crossing", 6, "noisy"),
-        ("mixed", 3, "stop-and-go"),
+        ("mixed", 3, "dawdler"),
         ("chain", 3, "idm"),
     ],
 )

@@ -67,7 +67,7 @@ def test_a_parameter_without_a_unit_has_none() -> None:
         _ = Parameter("speed").unit
 
 
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(program=programs())
 def test_what_is_looked_up_by_name_is_what_bears_it(program: Program) -> None:
     assert program.ego is program.actors[EGO]

@@ -52,7 +52,7 @@ def told_or_sound(text: str) -> None:
     assert print_program(again) == printed
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(spoilt())
 def test_spoilt_programs(text: str) -> None:
     told_or_sound(text)

@@ -50,7 +50,7 @@ def clear_conditions(case: Case, measured: Measured, facts: dict[str, Any]) -> l
     text = f"the ego collides with nobody before the trigger{room}"
     clear = [_clear("no_collision", text, first_s(True), _trigger_time_s(case, measured))]
     if len(case.program.heroes) > 1:
-        text = f"no orchestrated actor collides with another{room}"
+        text = f"orchestrated actors do not collide with each other{room}"
         clear.append(_clear("heroes_apart", text, first_s(False), case.end_s))
     return clear
 

@@ -139,7 +139,8 @@ class _Reader:
         ramp_s = float(self.case.program.manner.ramp_s)
         if end - start < 3.0 * ramp_s:
             return mean
-        parts = np.linspace(start + ramp_s, end - 2.0 * ramp_s, _PARTS)
+        instants = np.size(self.moments.now) if self.moments.now is not None else 1
+        parts = np.linspace(start + ramp_s, end - 2.0 * ramp_s, (instants if instants > 1 else _PARTS) - 1)
         return np.append((timeline.speed(parts + ramp_s) - timeline.speed(parts)) / ramp_s, mean)
 
     def _derived(self, term: ex.Derived) -> Values:
