@@ -68,7 +68,7 @@ _hints: Any = cache(get_type_hints)
 @cache
 def descriptions() -> dict[str, dict[str, str]]:
     """Return what each slot means, by form and name."""
-    return tomllib.loads(files("scenewright.language.model").joinpath("slots.toml").read_text(encoding="utf-8"))
+    return tomllib.loads(files(__package__ or "").joinpath("slots.toml").read_text(encoding="utf-8"))
 
 
 def _is_part(kind: Any) -> bool:
