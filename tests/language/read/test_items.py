@@ -56,3 +56,9 @@ def test_a_moment_ends_at_the_comma_before_a_deed() -> None:
     assert [chunk.value for chunk in parted(chunks)[1][:2]] == ["hero", "brake"]
     with pytest.raises(UnknownWordsError, match="where the moment ends"):
         parted(chunks[:2])
+
+
+def test_a_list_of_three_that_nothing_is_said_of_is_refused() -> None:
+    with pytest.raises(UnknownWordsError, match="nothing is said"):
+        shape("the ego, the bus and the van stand")
+    assert shape("the hero, travelling west, stands") == ["clause"] * 3

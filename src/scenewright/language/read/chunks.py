@@ -166,9 +166,9 @@ def _described(chunks: list[Chunk]) -> list[Chunk]:
         if chunk.kind == "name" and found and found[-1].kind == "actor":  # "the car 'blue'"
             chunk = replace(chunk, traits=(found.pop(),))
         found.append(chunk)
-    others = [each for each in found if each.kind == "det" and len(each.text) > 3]  # "another stop line" is not the one
-    found = [replace(each, kind="unknown") if each in others and each.value == "a" else each for each in found]
-    return [each for each in found if each.kind not in ("filler", "det")]
+    another = {each for each in found if (each.kind, each.value) == ("det", "a") and len(each.text) > 3}
+    kept = [each for each in found if each in another or each.kind not in ("filler", "det")]
+    return [replace(each, kind="unknown") if each in another else each for each in kept]  # "another stop line"
 
 
 def _chunks(text: str) -> Iterator[Chunk]:

@@ -121,7 +121,11 @@ def items_of(narrative: Narrative, chunks: Sequence[Chunk], subject: int | None 
             parser.others = []
     for index, item in enumerate(found[:-1]):  # "the ego is 35 m and the hero 20 m from the conflict point"
         following = found[index + 1]
-        if isinstance(item, Clause) and item.waiting and isinstance(following, Clause):
+        if not (isinstance(item, Clause) and isinstance(following, Clause)):
+            continue
+        if not item.says_more_than() and item.subject != following.subject:  # "the ego, a bus and a van drive west"
+            raise UnknownWordsError("nothing is said here", found=item.quote.text, fix="say it of each")
+        if item.waiting:
             parser.at, parser.before = starts[index], following
             found[index] = parser.one(())
     return found
