@@ -157,3 +157,60 @@ def test_corruptions_leave_the_right_reply_alone() -> None:
     kinds = {kind for kind, wrong in corruptions(reply) if wrong != before}
     assert reply == before
     assert {"number", "unit", "two amounts", "actor", "place", "operator", "deed", "doer", "heading", "turn"} <= kinds
+
+
+ORDERS = [  # who is first, the words of the ego's passing and of the hero's, the text
+    (1, "the ego", "The hero passes", "The hero passes the conflict point before the ego does."),
+    (0, "the ego has passed", "The hero passes", "The hero passes only after the ego has passed."),
+    (0, "the ego has gone through", "the hero proceeds", "After the ego has gone through, the hero proceeds."),
+    (
+        0,
+        "the ego has cleared",
+        "The hero waits",
+        "The hero waits until the ego has cleared the conflict point, then goes.",
+    ),
+    (0, "the ego is through", "the hero sets off", "Once the ego is through, the hero sets off."),
+    (1, "the ego after it", "The hero goes first", "The hero goes first, the ego after it."),
+    (0, "the ego go first", "The hero lets", "The hero lets the ego go first."),
+    (0, "the ego pass", "it proceeds", "The hero lets the ego pass before it proceeds."),
+    (0, "The ego must be through", "the hero", "The ego must be through ahead of the hero."),
+    (1, "the ego", "The hero crosses", "The hero crosses in front of the ego."),
+    (
+        0,
+        "the ego has left it",
+        "The hero does not enter",
+        "The hero does not enter the junction until the ego has left it.",
+    ),
+    (0, "the ego has passed", "the hero move", "Not before the ego has passed does the hero move."),
+    (1, "the ego", "The hero gets there", "The hero gets there no later than the ego."),
+    (1, "The ego follows", "the hero has crossed", "The ego follows once the hero has crossed."),
+]
+
+
+@pytest.mark.parametrize(("first", "ego", "hero", "text"), ORDERS, ids=range(len(ORDERS)))
+def test_order_in_many_words(first: int, ego: str, hero: str, text: str) -> None:
+    """The right order is in the words, and the other is not."""
+    there = {"quantity": "place", "op": "==", "place": {"name": "conflict_point"}}
+    known = "'At the conflict point' is where both of them, ego and hero, pass."
+    moments = [
+        {"name": "start"},
+        {"name": "ego there", "conditions": [{**there, "actor": "ego", "words": ego}]},
+        {"name": "hero there", "conditions": [{**there, "actor": "hero", "words": hero}]},
+    ]
+    names = ["ego there", "hero there"] if first == 0 else ["hero there", "ego there"]
+    for early, late in (names, names[::-1]):
+        story = {
+            "actors": [
+                {"name": "ego", "called": [text[at : at + 7] for at in (text.lower().index("the ego"),)], "way": {}},
+                {"name": "hero", "called": [text[at : at + 8] for at in (text.lower().index("the hero"),)], "way": {}},
+            ],
+            "moments": moments,
+            "ego": ["ego there"],
+            "deeds": [{"actor": "hero", "verb": "drive on", "begins": "start", "ends": "hero there", "words": hero}],
+            "orders": [{"first": early, "second": late, "words": text}],
+            "asides": [text],
+            "assumptions": [{"words": text, "says": known}],
+        }
+        fault = str(fault_of_words({"readings": [], "story": story}, text))
+        assert ("says it in the other order" in fault) is (early != names[0])
+        assert "which moment is first" not in fault

@@ -93,6 +93,7 @@ def timed(time: dict[str, Any]) -> list[dict[str, Any]]:
         ("asides", ["words of nobody"], "the words 'words of nobody' are not in the text"),
         ("questions", [{"slot": "s", "text": "?", "alternatives": ["a"], "default": "a"}], "two alternatives"),
         ("moments", timed({"value": "1/0", "unit": "s", "words": "12"}), "no number"),
+        ("moments", timed({"value": "1e999999999", "unit": "s", "words": "12"}), "no number"),
         ("moments", timed({"value": "9" * 60, "unit": "s", "words": "12"}), "no number"),
         ("moments", timed({"value": None, "unit": "s", "words": "12"}), "either a value"),
         ("moments", timed({"value": None, "unit": "m", "name": "x_s", "words": "12"}), "it is s"),

@@ -95,4 +95,4 @@ def fingerprint(road_map: RoadMap) -> str:
 
 @lru_cache(maxsize=8)
 def _file(name: str) -> str:
-    return files("scenewright.language.model").joinpath(name).read_text(encoding="utf-8")
+    return files(__package__ or "").joinpath(name).read_text(encoding="utf-8")

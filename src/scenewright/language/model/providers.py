@@ -105,25 +105,17 @@ class ServedModel:
             return await model_request(model, _history(call), model_settings=options, model_request_parameters=shape)
 
     def _library_model(self, key: str | None, client: AsyncClient) -> LibraryModel:
-        address: dict[str, Any] = {"base_url": self.base_url, "http_client": client}
-        if self.provider == "anthropic":
-            from pydantic_ai.models.anthropic import AnthropicModel
-            from pydantic_ai.providers.anthropic import AnthropicProvider
+        from pydantic_ai.models import infer_model
+        from pydantic_ai.providers import infer_provider_class
 
-            return AnthropicModel(self.model, provider=AnthropicProvider(api_key=key or "", **address))
-        if self.provider == "google":
-            from pydantic_ai.models.google import GoogleModel
-            from pydantic_ai.providers.google import GoogleProvider
+        access: Any = {"api_key": key or "none", "base_url": self.base_url, "http_client": client}
+        if self.provider == "openai-compatible":
+            from pydantic_ai.models.openai import OpenAIChatModel
+            from pydantic_ai.providers.openai_compatible import OpenAICompatibleProvider
 
-            return GoogleModel(self.model, provider=GoogleProvider(api_key=key or "", **address))
-        from pydantic_ai.models.openai import OpenAIChatModel
-        from pydantic_ai.providers.openai import OpenAIProvider
-        from pydantic_ai.providers.openai_compatible import OpenAICompatibleProvider
-
-        if self.provider == "openai":
-            return OpenAIChatModel(self.model, provider=OpenAIProvider(api_key=key, **address))
-        provider = OpenAICompatibleProvider(self.provider, api_key=key or "none", **address)
-        return OpenAIChatModel(self.model, provider=provider)
+            return OpenAIChatModel(self.model, provider=OpenAICompatibleProvider(self.provider, **access))
+        kind = "openai-chat" if self.provider == "openai" else self.provider
+        return infer_model(f"{kind}:{self.model}", lambda name: infer_provider_class(name)(**access))
 
     def _answer(self, call: Call, response: ModelResponse) -> Answer:
         text, used = without_known_keys(response.text or ""), response.usage

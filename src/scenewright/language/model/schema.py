@@ -68,7 +68,7 @@ _hints: Any = cache(get_type_hints)
 @cache
 def descriptions() -> dict[str, dict[str, str]]:
     """Return what each slot means, by form and name."""
-    return tomllib.loads(files("scenewright.language.model").joinpath("slots.toml").read_text(encoding="utf-8"))
+    return tomllib.loads(files(__package__ or "").joinpath("slots.toml").read_text(encoding="utf-8"))
 
 
 def _is_part(kind: Any) -> bool:
@@ -302,12 +302,11 @@ class _Reader:
         return self.build(hint, value, within) if is_dataclass(hint) else value
 
     def _fraction(self, digits: str) -> Fraction:
-        try:
-            value = Fraction(digits[:DIGITS])
-        except (ValueError, ZeroDivisionError):
-            digits, value = f"{digits} " * DIGITS, Fraction(0)
-        if len(digits) > DIGITS or not is_size_of_a_scenario(value):
-            self.faults.append(f"'{digits[:DIGITS].strip()}' is no number in digits of a size that a test has")
+        # No exponents: their exact value could fill the memory.
+        plain = len(digits) <= DIGITS and re.fullmatch(r"-?[0-9]+(\.[0-9]+|/0*[1-9][0-9]*)?", digits)
+        value = Fraction(digits) if plain else Fraction(0)
+        if not plain or not is_size_of_a_scenario(value):
+            self.faults.append(f"'{digits[:DIGITS]}' is no number in digits of a size that a test has")
         return value
 
     def _check_amount(self, form: Any) -> None:
