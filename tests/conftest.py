@@ -30,10 +30,16 @@ hypothesis.settings.register_profile("dev", deadline=None)
 hypothesis.settings.load_profile("ci" if os.environ.get("CI") else "dev")
 
 
+@pytest.fixture(scope="session")
+def no_settings(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a folder for settings that holds none of ours; other programs may write theirs there."""
+    return tmp_path_factory.mktemp("settings")
+
+
 @pytest.fixture(autouse=True)
-def no_model_of_the_users(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def no_model_of_the_users(monkeypatch: pytest.MonkeyPatch, no_settings: Path) -> None:
     """Let nobody be asked whom the user has configured: descriptions are read offline."""
-    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "no configuration"))
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(no_settings))
     monkeypatch.delenv("SCENEWRIGHT_TRANSLATOR", raising=False)
 
 
