@@ -58,7 +58,7 @@ def test_clashes_carry_the_words_of_the_description() -> None:
     )
     found = feasibility(ground(parse_program(text), T))
     assert {c.id: c.words for c in found.clashes}["fast"] == words
-    assert f'- the hero drives at 12 m/s when it begins to brake  ("{words}")' in found.explain()
+    assert f'- fast: the hero drives at 12 m/s when it begins to brake  ("{words}")' in found.explain()
     assert any(suggestion.what == f'12 in "{words}"' for suggestion in found.suggestions)
 
 
