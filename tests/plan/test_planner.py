@@ -262,7 +262,7 @@ def test_at_a_slower_pace_a_hero_comes_more_slowly_to_its_trigger(s_m: float, mp
     scene = YIELDS.scene()
     limits = {actor: own if actor == EGO else own.at_pace(0.43) for actor, own in limits_of(scene).items()}
     usual = planner_of(scene)
-    slow = Planner(scene, usual.structure, limits, usual.predictor, usual.conditions)
+    slow = Planner(scene, usual.structure, limits, usual._ego.predictor, usual.conditions)
     speeds = []
     for planner in (usual, slow):
         hero = planner.begin((0.0, s_m, mps, 0.0)).plan.profiles[HERO]

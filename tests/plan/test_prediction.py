@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -19,9 +20,9 @@ from scenewright.plan.prediction import (
     ConstantAcceleration,
     ConstantSpeed,
     EgoSample,
+    Foot,
     Predictor,
     RoadAware,
-    is_unsteady,
     predictor_called,
     since_jump,
 )
@@ -86,16 +87,15 @@ def test_what_was_before_a_jump_tells_nothing_of_what_comes() -> None:
     past = steadily(50.0, 8.0, 0.3)
     time_s, s_m, speed_mps, _ = past[-1]
     braking = [*past, (time_s + 0.02, s_m + 0.16, speed_mps - 0.06, -3.0)]
-    assert ConstantAcceleration().recent_acceleration(braking) == -3.0
-    assert ConstantAcceleration().recent_acceleration(past) == pytest.approx(0.3)
+    assert Foot.of(braking, 0.1).accel_mpss == -3.0
+    assert Foot.of(past, 0.1).accel_mpss == pytest.approx(0.3)
 
 
 def test_acceleration_is_averaged_and_jitter_left_out() -> None:
     past = [(0.02 * k, 0.16 * k, 8.0, 2.0 if k % 2 else -1.0) for k in range(20)]
-    even = ConstantAcceleration(average_s=0.1).recent_acceleration(past)
-    assert -1.0 < even < 2.0
-    assert ConstantAcceleration(average_s=0.0).recent_acceleration(past) == 2.0
-    assert ConstantAcceleration().recent_acceleration(steadily(0.0, 8.0, 0.01)) == 0.0
+    assert -1.0 < Foot.of(past, 0.1).accel_mpss < 2.0
+    assert Foot.of(past, 0.0).accel_mpss == 2.0
+    assert Foot.of(steadily(0.0, 8.0, 0.01), 0.1).accel_mpss == 0.0
 
 
 def past_of(accels_mpss: Sequence[float], speed_mps: float = 8.0) -> list[EgoSample]:
@@ -121,13 +121,40 @@ def jitter(mean_mpss: float, by_mpss: float, steps: int = 60) -> list[float]:
         (jitter(0.0, 0.002), False),
         ([0.4] * 60, False),
         ([0.3] * 50 + [-2.5] * 10, False),  # it changed its mind, once
-        ([-2.0 + 0.06 * k for k in range(60)], True),  # on its way to something else
+        ([-2.0 + 0.06 * k for k in range(60)], False),  # on its way to something else
         ([-1.0 + 0.01 * k for k in range(60)], False),
         (jitter(0.0, 0.3, steps=8), False),  # too short a past to tell
     ],
 )
-def test_an_acceleration_that_changes_at_every_step_is_unsteady(accels_mpss: list[float], unsteady: bool) -> None:
-    assert is_unsteady(past_of(accels_mpss)) is unsteady
+def test_a_foot_trembles_where_it_goes_to_and_fro_at_every_step(accels_mpss: list[float], unsteady: bool) -> None:
+    assert Foot.of(past_of(accels_mpss), 0.1).trembles is unsteady
+
+
+@pytest.mark.parametrize(
+    ("accels_mpss", "change_mpsss"),
+    [
+        ([0.0] * 40 + [-0.05 * k for k in range(1, 8)], -2.5),  # it has begun to brake
+        ([-2.0 + 0.02 * k for k in range(60)], 1.0),
+        ([0.4] * 60, 0.0),
+        ([0.3] * 40 + [-2.5] * 10, 0.0),  # there at once
+        (jitter(0.0, 0.3), 0.0),  # whatever the last steps of one that trembles are
+        ([*jitter(0.0, 0.3), 0.4, 0.8, 1.2, 1.6], 0.0),
+    ],
+)
+def test_a_foot_that_goes_one_way_is_on_its_way(accels_mpss: list[float], change_mpsss: float) -> None:
+    assert Foot.of(past_of(accels_mpss), 0.1).change_mpsss == pytest.approx(change_mpsss)
+
+
+@pytest.mark.parametrize("predictor", [ConstantAcceleration(), RoadAware(((500.0, 0.0),))])
+@pytest.mark.parametrize("seen", [5, 10, 20])
+def test_who_begins_to_brake_is_foreseen_to_brake_harder(predictor: Predictor, seen: int) -> None:
+    braking = [-2.0 * (1.0 - math.exp(-0.04 * k)) for k in range(100)]
+    whole = past_of([0.0] * 40 + braking, speed_mps=12.0)
+    past, after_s = whole[: 40 + seen], 0.6
+    then = whole[40 + seen - 1 + round(after_s / 0.02)]
+    held_mps = past[-1][2] + after_s * past[-1][3]
+    foreseen_mps = predictor.predict(past).state(past[-1][0] + after_s)[1]
+    assert abs(foreseen_mps - then[2]) < 0.4 * abs(held_mps - then[2])
 
 
 @pytest.mark.parametrize("predictor", [ConstantAcceleration(), RoadAware(((500.0, 0.0),))])
@@ -179,6 +206,29 @@ def test_road_aware_slows_down_for_its_turn() -> None:
     in_turn = profile.state(profile.time_at(0.5 * (start_m + end_m)) or 0.0)[1]
     assert in_turn < 9.0
     assert profile.time_at(start_m) > ConstantSpeed().predict([(4.0, start_m - 60.0, 13.0, 0.0)]).time_at(start_m)
+
+
+def test_road_aware_drives_no_bend_faster_than_people_do() -> None:
+    own = route("E", "N")
+    start_m, end_m = own.landmarks["turn_start"], own.landmarks["turn_end"]
+    profile = RoadAware.on(own).predict([(4.0, start_m - 60.0, 13.0, 0.0)])
+    for k in range(1, int(end_m - start_m)):
+        _, speed_mps, _ = profile.state(profile.time_at(start_m + k) or 0.0)
+        assert speed_mps**2 * abs(own.path.curvature(start_m + k)) < 2.5 * 1.2
+
+
+@pytest.mark.parametrize(("turn", "place"), [(("E", "N"), "turn_start"), (("S", "W"), "stop_line")])
+def test_when_road_aware_slows_down_does_not_depend_on_when_it_was_asked(turn: tuple[str, str], place: str) -> None:
+    own = route(*turn)
+    place_m, found = own.landmarks[place] - 3.0, []
+    for k in range(20):
+        asked_s = 0.02 * k
+        past = [(0.02 * j, place_m - 60.0 + 0.24 * j, 12.0, 0.0) for j in range(k + 1)]
+        arrives_s = RoadAware.on(own).predict(past).time_at(place_m)
+        assert arrives_s is not None
+        assert arrives_s > asked_s
+        found.append(arrives_s)
+    assert max(found) - min(found) < 0.03
 
 
 def test_road_aware_believes_one_that_does_not_brake_in_time() -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import InitVar, dataclass, field, replace
 from itertools import product
 
 from scenewright.motion.profile import Profile, chain
@@ -112,7 +112,7 @@ class Planner:
     scene: Scene
     structure: Structure
     limits: Mapping[int, Limits]
-    predictor: Predictor
+    predictor: InitVar[Predictor]
     conditions: tuple[LinearCondition, ...]
     plan: Plan = field(init=False)
     ego_knots_s: dict[str, float] = field(init=False, default_factory=dict)
@@ -125,11 +125,11 @@ class Planner:
     _meetings: tuple[Meeting, ...] = field(init=False, default=())
     _joint_s: dict[int, float] = field(init=False, default_factory=dict)  # first planned, where both decide when
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, predictor: Predictor) -> None:
         self._asked = Asked(self.scene, self.structure, self.limits)
         self._times = TriggerTimes(self.scene, self.structure, self.conditions)
         cruise_mps = self.limits[EGO].natural_approach_speed_mps
-        self._ego = Foresight(self.scene, self.structure, self.conditions, self.predictor, cruise_mps)
+        self._ego = Foresight(self.scene, self.structure, self.conditions, predictor, cruise_mps)
 
     # -- the first plan -----------------------------------------------------------------------------------------------
     def begin(self, ego: EgoSample) -> Attempt:
@@ -137,7 +137,7 @@ class Planner:
         started = time.perf_counter()
         self._ego.samples, self._times.ego_began = [ego], ego[1:3]
         self.ego_knots_s = {self.scene.program.ego.sketch.knots[0]: 0.0}
-        prediction = self.predictor.predict([ego])
+        prediction = self._ego.predictor.predict([ego])
         joint = any(self._trigger(hero) is not None and not self._ego_decides(hero) for hero in self._heroes)
         tries: list[_Found] = []
         for joint_s, pace in product(_JOINT_S if joint else (0.0,), _PACES):

@@ -15,7 +15,7 @@ from typing import Protocol
 from scenewright.errors import InputError
 from scenewright.motion.profile import Profile, chain
 from scenewright.roads.routes import Route
-from scenewright.solve.turns import TurnSpan, tightest_curvature
+from scenewright.solve.turns import TurnSpan
 
 # (time_s, s_m, speed_mps, accel_mpss) of one past step.
 EgoSample = tuple[float, float, float, float]
@@ -23,14 +23,19 @@ EgoSample = tuple[float, float, float, float]
 # A driver stops with the bumper at the line, and takes a turn at this lateral acceleration.
 _BUMPER_M = 2.6
 _LATERAL_MPSS = 2.5
+_BEND_STEP_M, _STRAIGHT = 2.0, 1e-3
 # An acceleration that changes by more than this from one step to the next is another intention, not a twitch.
 _JUMP_MPSS = 1.0
 # Who has gained this much a second over the last second is speeding up on purpose.
 _LATELY_S, _SPEEDS_UP_MPSS = 1.0, 0.6
 _STEP_S, _MOST_STEPS = 0.5, 20
+_SHORTEST_S = 1e-3
 # An acceleration that changes by this much (m/s^2) at every step is no sign of what comes; how it is forgotten (s).
 _UNSTEADY_MPSS, _UNSTEADY_FOR_S, _FORGETS_S, _FORGOTTEN_S = 0.03, 0.5, 1.0, 3.0
 _FEWEST_CHANGES, _FORGET_STEP_S = 10, 0.25
+# A foot that has hardly turned, and made so many steps to one side, is on its way; how many of them tell how fast, and
+# for how long that counts (s).
+_FEW_TURNS, _FEWEST_ONE_WAY, _RECENT, _MOVES_S = 2, 3, 5, 0.5
 # Below this share of what people drive there it crawls.
 _CRAWLS = 0.25
 
@@ -57,16 +62,59 @@ def lately(history: Sequence[EgoSample], for_s: float, most: int = 12) -> list[f
     return [sample[3] for sample in reversed(history[-most:]) if sample[0] >= last_s - for_s]
 
 
-def is_unsteady(history: Sequence[EgoSample]) -> bool:
-    """Whether the ego's acceleration changes at every step: its foot trembles, or is on its way to something else."""
-    values = lately(history, _UNSTEADY_FOR_S, 60)
-    changes = sorted(abs(after - before) for after, before in pairwise(values))
-    return len(changes) >= _FEWEST_CHANGES and changes[len(changes) // 2] > _UNSTEADY_MPSS
+@dataclass(frozen=True, slots=True)
+class Foot:
+    """What the ego's foot does: it holds, is on its way, or trembles.
 
+    Attributes
+    ----------
+    accel_mpss
+        Its mean acceleration of the last moments, since that last jumped.
+    change_mpsss
+        How that changes, where it is on its way: it goes on for a while, ever more slowly.
+    trembles
+        Whether it changes to and fro at every step: what it does now is ever less of a sign of what comes.
+    """
 
-def fading(after_s: float, for_s: float) -> float:
-    """Return the share of an unsteady acceleration that is left, on average, in a while that begins later."""
-    return math.exp(-(after_s + 0.5 * for_s) / _FORGETS_S)
+    accel_mpss: float
+    change_mpsss: float = 0.0
+    trembles: bool = False
+
+    @classmethod
+    def of(cls, history: Sequence[EgoSample], average_s: float) -> Foot:
+        """Read it from the ego's last moments."""
+        recent = lately(history, average_s)
+        recent = recent[: since_jump(recent)]
+        mean = sum(recent) / len(recent)
+        accel = 0.0 if abs(mean) < 0.02 else max(-9.0, min(5.0, mean))
+        values = lately(history, _UNSTEADY_FOR_S, 60)
+        changes = [after - before for after, before in pairwise(values[: since_jump(values)])]
+        sizes = sorted(abs(change) for change in changes)
+        if sum(1 for after, before in pairwise(changes) if after * before < 0.0) > _FEW_TURNS:
+            return cls(accel, trembles=len(sizes) >= _FEWEST_CHANGES and sizes[len(sizes) // 2] > _UNSTEADY_MPSS)
+        one_way = next((k for k, each in enumerate(changes) if each * changes[0] <= 0.0), len(changes))
+        if one_way < _FEWEST_ONE_WAY:
+            return cls(accel)
+        lasted = min(one_way, _RECENT)
+        change = (values[0] - values[lasted]) / (history[-1][0] - history[-1 - lasted][0])
+        return cls(values[0], change)
+
+    def goes_on(self, after_s: float, for_s: float, hold_s: float, other_mpss: float = 0.0) -> float:
+        """Return the acceleration, on average, in a while that begins later.
+
+        Parameters
+        ----------
+        hold_s
+            How long a foot that does not tremble goes on.
+        other_mpss
+            What it does then.
+        """
+        middle_s = after_s + 0.5 * for_s
+        if self.trembles:
+            return other_mpss + (self.accel_mpss - other_mpss) * math.exp(-middle_s / _FORGETS_S)
+        if after_s >= hold_s:
+            return other_mpss
+        return self.accel_mpss + self.change_mpsss * _MOVES_S * (1.0 - math.exp(-middle_s / _MOVES_S))
 
 
 class Predictor(Protocol):
@@ -116,9 +164,10 @@ class ConstantAcceleration:
     def predict(self, history: Sequence[EgoSample]) -> Profile:
         """Return motion with the recent acceleration for `hold_s`, then at constant speed."""
         time_s, s_m, speed_mps, _ = history[-1]
-        accel = self.recent_acceleration(history)
+        foot = Foot.of(history, self.average_s)
+        accel = foot.accel_mpss
         moves: list[tuple[float, float, int]] = []
-        held = self.held(history, accel)
+        held = self.held(foot, self.pull(history) > 0.0)
         end_speed = max(0.0, speed_mps + sum(duration_s * held_mpss for duration_s, held_mpss, _ in held))
         if end_speed > 0.3:
             moves += held
@@ -130,12 +179,16 @@ class ConstantAcceleration:
             moves.append((self.restart_speed_mps / self.restart_mpss, self.restart_mpss, 0))
         return Profile(chain(time_s, s_m, speed_mps if speed_mps > 0.05 else 0.0, moves))
 
-    def held(self, history: Sequence[EgoSample], accel_mpss: float) -> list[tuple[float, float, int]]:
-        """Return for how long an acceleration is kept: for a while, or ever less of it where the foot is unsteady."""
-        if not is_unsteady(history) or self.pull(history):
-            return [(self.hold_s, accel_mpss, 0)]
-        steps = round(_FORGOTTEN_S / _FORGET_STEP_S)
-        return [(_FORGET_STEP_S, accel_mpss * fading(k * _FORGET_STEP_S, _FORGET_STEP_S), 0) for k in range(steps)]
+    def held(self, foot: Foot, pulls: bool) -> list[tuple[float, float, int]]:
+        """Return how the ego goes on before it goes on evenly; one that speeds up on purpose does not forget that."""
+        step_s = _FORGET_STEP_S
+        if foot.trembles and not pulls:
+            lasts = round(_FORGOTTEN_S / step_s)
+        elif foot.change_mpsss:
+            lasts = round(self.hold_s / step_s)
+        else:
+            return [(self.hold_s, foot.accel_mpss, 0)]
+        return [(step_s, foot.goes_on(k * step_s, step_s, self.hold_s), 0) for k in range(lasts)]
 
     def speeding_up(self, history: Sequence[EgoSample], speed_mps: float) -> list[tuple[float, float, int]]:
         """Return how one that has been speeding up for a while goes on to `cruise_mps` from a speed below it."""
@@ -162,18 +215,11 @@ class ConstantAcceleration:
     def _from_a_crawl(self, history: Sequence[EgoSample]) -> float:
         """Return how one that crawls will pull: nobody crawls for ever, and a hero that believed so would stay away."""
         slow = self.cruise_mps is not None and history[-1][2] < _CRAWLS * self.cruise_mps
-        return self.restart_mpss if slow and self.recent_acceleration(history) > -_SPEEDS_UP_MPSS else 0.0
+        return self.restart_mpss if slow and Foot.of(history, self.average_s).accel_mpss > -_SPEEDS_UP_MPSS else 0.0
 
     def pulled(self, pull_mpss: float, speed_mps: float) -> float:
         """Return the acceleration (m/s^2) at a speed, of one that pulls like that from standstill."""
         return max(0.0, pull_mpss * (1.0 - (speed_mps / (self.cruise_mps or 1.0)) ** 4))
-
-    def recent_acceleration(self, history: Sequence[EgoSample]) -> float:
-        """Return the mean acceleration (m/s^2) of the last moments, since it last jumped."""
-        values = lately(history, self.average_s)
-        values = values[: since_jump(values)]
-        mean = sum(values) / len(values)
-        return 0.0 if abs(mean) < 0.02 else max(-9.0, min(5.0, mean))
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,14 +236,14 @@ class RoadAware:
     base
         What it does otherwise.
     gentle_mpss
-        How it slows down.
+        How it slows down: it begins to where it has to brake like that.
     disregard_mpss
         One that would have to brake harder than this, and does not brake at all, does not mean to.
     """
 
     places: tuple[tuple[float, float], ...]
     base: ConstantAcceleration = ConstantAcceleration()
-    gentle_mpss: float = 1.8
+    gentle_mpss: float = 1.7
     disregard_mpss: float = 2.8
     step_s: float = 0.2
     horizon_s: float = 20.0
@@ -208,9 +254,12 @@ class RoadAware:
         places: list[tuple[float, float]] = []
         if route.origin_kind == "driveway" and "stop_line" in route.landmarks:
             places.append((route.landmarks["stop_line"] - _BUMPER_M, 0.0))
-        turn, curvature = TurnSpan.of(route), tightest_curvature(route)
-        if turn is not None and curvature > 1e-3:
-            places.append((turn.start_m + 0.25 * (turn.end_m - turn.start_m), math.sqrt(_LATERAL_MPSS / curvature)))
+        turn = TurnSpan.of(route)
+        if turn is not None:
+            steps = int((turn.end_m - turn.start_m) / _BEND_STEP_M)
+            along = [turn.start_m + k * _BEND_STEP_M for k in range(steps + 1)]
+            bends = [(s_m, abs(route.path.curvature(s_m))) for s_m in along]
+            places += [(s_m, math.sqrt(_LATERAL_MPSS / bend)) for s_m, bend in bends if bend > _STRAIGHT]
         return cls(tuple(places), ConstantAcceleration(cruise_mps=cruise_mps))
 
     def predict(self, history: Sequence[EgoSample]) -> Profile:
@@ -221,25 +270,23 @@ class RoadAware:
         ahead = [place for place in self.places if self._means_to(place, s_m, speed, accel)]
         if not ahead:
             return self.base.predict(history)
-        first, pull = self.base.recent_acceleration(history), self.base.pull(history)
-        unsteady = is_unsteady(history)
+        foot, pull = Foot.of(history, self.base.average_s), self.base.pull(history)
         moves: list[tuple[float, float, int]] = []
         elapsed = 0.0
         while elapsed < self.horizon_s:
-            wanted = self.base.pulled(pull, speed)
-            if unsteady:
-                wanted += (first - wanted) * fading(elapsed, self.step_s)
-            elif elapsed < self.base.hold_s:
-                wanted = first
+            lasts = self.step_s
+            wanted = foot.goes_on(elapsed, lasts, self.base.hold_s, self.base.pulled(pull, speed))
             needed = max((self._needed(place, s_m, speed) for place in ahead), default=0.0)
-            if needed > 0.85 * self.gentle_mpss:
-                wanted = min(wanted, -needed) if elapsed < self.base.hold_s and first < 0 else -needed
-            if speed + wanted * self.step_s <= 0.05 or self._comes_to_stop(ahead, s_m, speed):
+            if needed > self.gentle_mpss:
+                wanted = min(wanted, -needed) if elapsed < self.base.hold_s and foot.accel_mpss < 0.0 else -needed
+            else:
+                lasts = min([lasts, *(self._until_needed(place, s_m, speed, wanted) for place in ahead)])
+            if speed + wanted * lasts <= 0.05 or self._comes_to_stop(ahead, s_m, speed):
                 return self._stopping(time_s, history[-1], moves, speed, min(wanted, -self.gentle_mpss))
-            moves.append((self.step_s, wanted, 0))
-            s_m += (speed + 0.5 * wanted * self.step_s) * self.step_s
-            speed += wanted * self.step_s
-            elapsed += self.step_s
+            moves.append((lasts, wanted, 0))
+            s_m += (speed + 0.5 * wanted * lasts) * lasts
+            speed += wanted * lasts
+            elapsed += lasts
             ahead = [place for place in ahead if place[0] > s_m]
         return Profile(chain(time_s, history[-1][1], history[-1][2], moves))
 
@@ -268,6 +315,16 @@ class RoadAware:
         if place[0] <= s_m or speed <= place[1]:
             return False
         return accel < -0.5 or self._needed(place, s_m, speed) < self.disregard_mpss
+
+    def _until_needed(self, place: tuple[float, float], s_m: float, speed: float, accel: float) -> float:
+        """Return how long it goes on with an acceleration until it begins to brake for a place (s)."""
+        room_m = 2.0 * self.gentle_mpss * (place[0] - s_m) - speed * speed + place[1] * place[1]
+        closing = self.gentle_mpss + accel
+        way_m = 0.5 * room_m / closing if closing > 0.0 else math.inf
+        root = speed * speed + 2.0 * accel * way_m
+        if way_m > speed * self.step_s + accel or root <= 0.0:
+            return self.step_s
+        return max(_SHORTEST_S, 2.0 * way_m / (speed + math.sqrt(root)))
 
     @staticmethod
     def _needed(place: tuple[float, float], s_m: float, speed: float) -> float:
