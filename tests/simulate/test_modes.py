@@ -23,8 +23,7 @@ PAPER = {
     "of the ego, it turns right into the driveway and gradually comes to a stop.",
     "oncoming turns": ROAD
     + "There is a car in the oncoming lane driving straight. When the ego is 3s from the conflict "
-    "point, the car should arrive at the mouth of the driveway and turn left across the ego's path "
-    "and into the driveway.",
+    "point, the car should turn left across the ego's path and into the driveway.",
     "turns into path": ROAD + "There is a car on the driveway that turns right into the ego's lane when the ego is "
     "about 4s away from the driveway. After turning right, the car starts lane-following straight at 8m/s.",
     "turns across path": ROAD + "There is a car on the driveway that turns left across the ego's path onto the ego's "
