@@ -2,14 +2,16 @@
 
 python tools/many_heroes.py                              the table of docs/many-heroes.md
 python tools/many_heroes.py platoon:8:idm chain:3:idm    these programs with so many heroes and these egos only
+python tools/many_heroes.py takes 8 1-3                  with 8 heroes, all programs and egos, these seeds, two takes
 """
 
 from __future__ import annotations
 
 import sys
 import time
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
-from itertools import combinations
+from itertools import combinations, product
 from typing import Any
 
 import numpy as np
@@ -18,7 +20,7 @@ from scenewright.judge.boxes import surely_apart_m
 from scenewright.judge.judgement import judge
 from scenewright.judge.tolerance import TIGHT
 from scenewright.judge.verdict import Verdict
-from scenewright.orchestrate import case_of
+from scenewright.orchestrate import Request, case_of, orchestrate
 from scenewright.plan.planner import Planner, Replan
 from scenewright.program.structure import actors_of
 from scenewright.program.text import parse_program
@@ -29,7 +31,7 @@ from scenewright.simulate.beginning import first_plan
 from scenewright.simulate.loop import Rates, Run, simulate
 from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
-from scenewright.trace.model import ActorTrace
+from scenewright.trace.model import ActorTrace, Trace
 
 COUNTS, EGOS = (1, 4, 8, 12, 20), ("constant", "idm", "dawdler", "noisy", "stop-and-go")
 
@@ -119,26 +121,36 @@ class Driven:
 
     @property
     def met(self) -> int:
-        """How many heroes everything holds of that the program says of them, at the tight tolerance."""
-        broken = {condition.id for condition in self.verdict.conditions if not condition.holds_at(TIGHT)}
-        of_broken = [actors_of(c.formula) for c in self.scene.program.constraints if c.id in broken]
-        return sum(not any(hero.id in actors for actors in of_broken) for hero in self.scene.program.heroes)
+        """Of how many heroes everything holds."""
+        return met(self.scene, self.verdict)
 
     def apart_m(self, *, of_ego: bool) -> float:
         """Return what heroes surely keep from each other, or each from the ego until its first moment."""
-        actors, knots = self.run.trace.actors, self.verdict.facts["knot_times_s"]
+        return apart_m(self.scene, self.run.trace, self.verdict, of_ego=of_ego)
 
-        def until_s(hero: str) -> float:
-            return float(knots[hero].get("t1", np.inf)) if of_ego else np.inf
 
-        return min(
-            (
-                surely_apart_m(*(_until(actors[each], until_s(b)) for each in (a, b)), (CAR, CAR))
-                for a, b in combinations(actors, 2)
-                if (a == self.scene.program.ego.name) == of_ego
-            ),
-            default=np.inf,
-        )
+def met(scene: Scene, verdict: Verdict) -> int:
+    """Return of how many heroes everything holds that the program says of them, at the tight tolerance."""
+    broken = {condition.id for condition in verdict.conditions if not condition.holds_at(TIGHT)}
+    of_broken = [actors_of(c.formula) for c in scene.program.constraints if c.id in broken]
+    return sum(not any(hero.id in actors for actors in of_broken) for hero in scene.program.heroes)
+
+
+def apart_m(scene: Scene, trace: Trace, verdict: Verdict, *, of_ego: bool) -> float:
+    """Return what heroes surely keep from each other, or each from the ego until its first moment."""
+    actors, knots = trace.actors, verdict.facts["knot_times_s"]
+
+    def until_s(hero: str) -> float:
+        return float(knots[hero].get("t1", np.inf)) if of_ego else np.inf
+
+    return min(
+        (
+            surely_apart_m(*(_until(actors[each], until_s(b)) for each in (a, b)), (CAR, CAR))
+            for a, b in combinations(actors, 2)
+            if (a == scene.program.ego.name) == of_ego
+        ),
+        default=np.inf,
+    )
 
 
 def _until(states: ActorTrace, until_s: float) -> ActorTrace:
@@ -181,8 +193,37 @@ def row(name: str, count: int, ego: str) -> str:
     return f"| {' | '.join(map(str, cells))} |"
 
 
+def takes(count: int, seeds: range) -> Iterator[str]:
+    """Yield lines: of how many heroes all holds in the first take and in the better of two, how near anybody came."""
+    first = best = heroes = ticks = clear = runs = 0
+    nearest_m = np.inf
+    for name, ego, seed in product(PROGRAMS, EGOS, seeds):
+        request = Request(PROGRAMS[name](count), ego=ego, seed=seed, takes=2, explain="nothing")
+        result = orchestrate(request)
+        if not result.takes:
+            yield f"{name} {ego} seed {seed}: {result.status}"
+            continue
+        mets = [met(result.scene, take.verdict) for take in result.takes]
+        seen = [(result.scene, take.trace, take.verdict) for take in result.takes]
+        to_ego_m = apart_m(*seen[0], of_ego=True)
+        first, best, heroes, runs = first + mets[0], best + max(mets), heroes + count, runs + 1
+        ticks += sum(len(next(iter(take.trace.actors.values())).time_s) - 1 for take in result.takes)
+        clear += to_ego_m > 0.0
+        own_m = min(apart_m(*each, of_ego=False) for each in seen)
+        nearest_m = min(nearest_m, own_m)
+        if mets[0] < count or to_ego_m <= 0.0:
+            yield f"{name} {ego} seed {seed}: met {mets}, apart {own_m:.2f} m, from the ego {to_ego_m:.2f} m"
+    yield f"{count} heroes, {runs} runs, {ticks} steps: first take {first} of {heroes}, better of two {best}"
+    yield f"no two heroes nearer than {nearest_m:.2f} m; clear of the ego before their moments in {clear} of {runs}"
+
+
 def main(wanted: list[str]) -> None:
     """Print the table."""
+    if len(wanted) == 3 and wanted[0] == "takes":
+        begin, _, end = wanted[2].partition("-")
+        for line in takes(int(wanted[1]), range(int(begin), int(end or begin) + 1)):
+            print(line, flush=True)
+        return
     if any(each.count(":") != 2 for each in wanted):
         raise SystemExit(
             "usage: many_heroes.py [PROGRAM:HEROES:EGO ...]\nfor instance platoon:8:idm; all of them without any"
