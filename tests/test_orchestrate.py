@@ -208,6 +208,19 @@ def test_plan_and_resolves_are_written(written: tuple[Result, Path]) -> None:
     assert {"time_s", "status", "backend", "wall_s", "tolerance", "reason"} <= set(rows[0])
 
 
+def test_who_drives_on_after_standing_moves_off() -> None:
+    text = (
+        "The ego drives westbound at 50 km/h. The hero is eastbound and turns left into the driveway. When the ego is "
+        "30 m and the hero is 15 m before the conflict point, the hero brakes to a stop 4 m before the conflict point, "
+        "waits for 2 s and drives on."
+    )
+    result = orchestrate(Request(text, takes=1))
+    assert result.status == "success"
+    assert result.run is not None
+    hero = result.run.trace.actors["hero"]
+    assert hero.speed_mps[-1] > 2.0, "it does not creep on"
+
+
 def test_tolerance_decides_the_status() -> None:
     # Open loop against an ego that drives otherwise than foreseen is off by some; what passes is the user's choice.
     statuses = set()

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -78,6 +80,22 @@ def test_parameter_that_is_proposed_would_do() -> None:
         assert (way.parameter, way.instead_of, way.unit) == ("ego_gap_m", 40.0, "m")
         again = Request(WITH_NAME, {"ego_gap_m": way.value}, ego="speeder")
         assert orchestrate(again).status == "success"
+
+
+def test_what_never_came_is_no_number_to_try() -> None:
+    """A time that was asked for and never came is measured as endless."""
+    world: World = set_up(Request(STORIES["goes first, distance"]), Stages(None))[0]
+    verdict = verdict_to_mend()
+    endless = replace(
+        verdict,
+        conditions=tuple(
+            replace(each, required=40.0, measured=math.inf, error=math.inf) for each in verdict.conditions
+        ),
+    )
+    said: list[str] = []
+    ways_out(world.scene, endless, TIGHT, lambda *_: False, said.append)
+    assert said
+    assert not any("inf" in each for each in said)
 
 
 def test_trying_ends_after_some_and_says_how_many() -> None:

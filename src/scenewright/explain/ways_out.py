@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import isfinite
 
 from scenewright.judge.tolerance import Tolerance
 from scenewright.judge.verdict import Verdict, WayOut
@@ -135,7 +136,7 @@ def _measured(scene: Scene, verdict: Verdict, failed: Sequence[str]) -> Iterator
     for name in sorted(conditions, key=lambda name: name != named.get("condition")):
         condition = conditions[name]
         for lever in levers(scene, [name]):
-            if condition.required is not None and condition.measured is not None:
+            if condition.required is not None and condition.measured is not None and isfinite(condition.measured):
                 for sign in (1, -1):  # a rate of slowing down is often written without its sign
                     if abs(sign * float(lever.value) - condition.required) < _SAME:
                         yield lever, Fraction(sign * condition.measured)

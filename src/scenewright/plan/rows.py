@@ -122,12 +122,13 @@ class HeroRows:
             change[cells, own[:-1]], change[cells, own[1:]] = -1.0, 1.0
             mean[cells, own[:-1]], mean[cells, own[1:]] = 0.5, 0.5
             self.costs.add_all(change @ shot.z, change, 1.0 / (roots * wanted.jerk_mpsss))
-            self.costs.add_all(mean @ shot.z - self._usual_rate(leg), mean, roots / wanted.accel_mpss)
+            self.costs.add_all(mean @ shot.z - self._usual_rate(number), mean, roots / wanted.accel_mpss)
 
-    def _usual_rate(self, leg: Leg) -> float:
-        """Return the rate of a piece that is no unpleasantness: what is usual, or what the program asks for."""
-        wanted, now = self.asked.wanted, self.shot.z
-        usual = {PieceKind.DEC: -wanted.braking_mpss, PieceKind.ACC: wanted.speeding_up_mpss}.get(leg.kind, 0.0)
+    def _usual_rate(self, number: int) -> float:
+        """Return the rate of a leg that is no unpleasantness: what is usual, or what the program asks for."""
+        wanted, now, leg = self.asked.wanted, self.shot.z, self.shot.legs[number]
+        kind = PieceKind.ACC if self._sets_off(number) else leg.kind
+        usual = {PieceKind.DEC: -wanted.braking_mpss, PieceKind.ACC: wanted.speeding_up_mpss}.get(kind, 0.0)
         for narrowing in self.asked.narrowings:
             if narrowing.actor == self.hero.id:
                 begin_s = max(self.moments[k].value(now) for k in narrowing.begins())
@@ -162,6 +163,8 @@ class HeroRows:
             if leg.kind is PieceKind.STOP:
                 _, v, _, d_v = self.shot.at_node(self.shot.first_node[number])
                 self.costs.add(v, d_v, price / _STILL_MPS)
+            if self._sets_off(number):
+                self._begins(number, 1.0)
             sense = _SENSE.get(leg.kind, 0.0)
             for accel in leg.accels if sense else ():
                 short = self.asked.wanted.least_rate_mpss - sense * float(self.shot.z[accel])
@@ -205,11 +208,7 @@ class HeroRows:
         sense = _SENSE.get(begins.kind)
         if sense is None:
             return
-        lasts = max(float(shot.time[node + 1] - shot.time[node]), 1e-3)
-        for k, accel in enumerate(begins.accels):
-            if (k - 1) * lasts < wanted.beginning_s:
-                short = wanted.beginning_mpss - sense * float(shot.z[accel])
-                self.bounds.add(short, self._unit((accel, -sense)), rate)
+        self._begins(number, sense)
         settled_s = shot.time[node] - wanted.settled_s - _ROUNDING_S
         for before, leg in enumerate(shot.legs[:number]):
             for k, accel in enumerate(leg.accels if leg.kind is PieceKind.GO else ()):
@@ -218,6 +217,20 @@ class HeroRows:
                     self.bounds.add(pull - wanted.settled_mpss, slope, rate)
                 else:  # what is to begin at the trigger is not plainly done before it
                     self.bounds.add(pull - wanted.early_mpss, slope, wanted.early_price)
+
+    def _begins(self, number: int, sense: float) -> None:
+        """Add that a leg is visibly begun: by speeding up (1) or slowing down (-1) from its first moment on."""
+        wanted, shot, node = self.asked.wanted, self.shot, self.shot.first_node[number]
+        lasts = max(float(shot.time[node + 1] - shot.time[node]), 1e-3)
+        for k, accel in enumerate(shot.legs[number].accels):
+            if (k - 1) * lasts < wanted.beginning_s:
+                short = wanted.beginning_mpss - sense * float(shot.z[accel])
+                self.bounds.add(short, self._unit((accel, -sense)), wanted.price / _TIGHT_RATE)
+
+    def _sets_off(self, number: int) -> bool:
+        """Whether somebody drives on from a standstill in a leg."""
+        kinds = [leg.kind for leg in self.shot.legs[max(0, number - 1) : number + 1]]
+        return kinds == [PieceKind.STOP, PieceKind.GO]
 
     def _trigger_leg(self) -> int | None:
         instant = self.asked.trigger(self.hero.id)
