@@ -86,12 +86,8 @@ def test_what_never_came_is_no_number_to_try() -> None:
     """A time that was asked for and never came is measured as endless."""
     world: World = set_up(Request(STORIES["goes first, distance"]), Stages(None))[0]
     verdict = verdict_to_mend()
-    endless = replace(
-        verdict,
-        conditions=tuple(
-            replace(each, required=40.0, measured=math.inf, error=math.inf) for each in verdict.conditions
-        ),
-    )
+    never = tuple(replace(each, required=40.0, measured=math.inf, miss=None) for each in verdict.conditions)
+    endless = replace(verdict, conditions=never, facts={**verdict.facts, "ego_never_met_condition": False})
     said: list[str] = []
     ways_out(world.scene, endless, TIGHT, lambda *_: False, said.append)
     assert said
