@@ -9,8 +9,8 @@ import pytest
 
 from scenewright.program.manner import USUAL, Manner
 from scenewright.roads import find_route, load_map
+from scenewright.roads.turns import tightest_curvature
 from scenewright.solve.limits import LATERAL_MAX_MPSS, SPEED_OVER_LIMIT, calm_mpss, limits_on
-from scenewright.solve.turns import tightest_curvature
 
 T = load_map("t_intersection")
 STRICT = Manner(

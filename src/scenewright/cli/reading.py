@@ -108,7 +108,7 @@ def solve(asked: Asked, out: PlanFile = None, as_json: AsJson = False) -> None:
             print_json({**data_without_a_run(request, result, status), "plan": data})
         elif plan is not None:
             rows = tables.parameters(result.scene, request.parameters)
-            stdout().print(tables.facts([*rows, ("style", plan.style)]))
+            stdout().print(tables.facts([*rows, ("tolerance missed", f"{plan.tolerance:.2f}")]))
             stdout().print(tables.knots(result.scene, plan))
         if not as_json:
             tell_no_plan(stderr(), result)

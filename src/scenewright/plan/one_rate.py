@@ -17,6 +17,7 @@ from scenewright.plan.situation import States
 from scenewright.program import expressions as ex
 from scenewright.program.types import EGO, Actor, Constraint, PieceKind
 from scenewright.roads.grounding import Scene
+from scenewright.roads.turns import TurnSpan
 from scenewright.solve.limits import MOVING_MPS, ROOM, Limits
 from scenewright.solve.proofs.events import EgoBounds, Events, State, Unknown
 from scenewright.solve.proofs.lowering import Lowered, Lowering
@@ -37,7 +38,6 @@ from scenewright.solve.proofs.polynomials import (
 )
 from scenewright.solve.proofs.relaxation import Named
 from scenewright.solve.tolerances import compared_dimension
-from scenewright.solve.turns import TurnSpan
 from scenewright.units import pin
 
 # What happened is told in 0.1 mm: an equality of that and of what comes may be off by so many tight tolerances.

@@ -414,7 +414,7 @@ class Planner:
         names = self.scene.program.ego.sketch.knots
         profiles[EGO] = Profile(prediction.segments, {name: times[self._asked.knot(EGO, name)] for name in names})
         parameters = {name: float(value) for name, value in self.scene.parameters.items()}
-        plan = Plan(profiles, solution.missed.by, _status(solution), parameters)
+        plan = Plan(profiles, solution.missed.by, parameters)
         return _Found(plan, solution, dict(enumerate(times)), problem.others(solution.z), problem)
 
     # -- what is known ------------------------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ from typing import Protocol
 from scenewright.errors import InputError
 from scenewright.motion.profile import Profile, chain
 from scenewright.roads.routes import Route
-from scenewright.solve.turns import TurnSpan
+from scenewright.roads.turns import TurnSpan
 
 # (time_s, s_m, speed_mps, accel_mpss) of one past step.
 EgoSample = tuple[float, float, float, float]

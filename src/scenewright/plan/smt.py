@@ -147,7 +147,7 @@ class SmtPlanner:
             profiles[actor.id] = self._motions.profile(actor, question, values, driven)
         self._moments_s = self._motions.moments_s(values)
         parameters = {name: float(value) for name, value in self.scene.parameters.items()}
-        self.plan = Plan(profiles, tolerance, "relaxed" if tolerance else "sat", parameters)
+        self.plan = Plan(profiles, tolerance, parameters)
 
     def _clash(self, question: Question) -> str:
         core = self._solver.ask(question.unknowns, question.formulas, LIMIT_S, want_core=True).core

@@ -177,7 +177,7 @@ def _manifest(scene: Scene, run: Run, limits: Mapping[int, Limits], circumstance
             "replan_hz": round(1 / circumstances.rates.replan_s, 6) if circumstances.rates.replan_s else 0,
         },
         "knots": _knots(scene, run),
-        "plan": {"style": run.first_plan.style, "tolerance": run.last_plan.tolerance},
+        "plan": {"tolerance": run.last_plan.tolerance},
         "timings": {name: round(seconds, 6) for name, seconds in circumstances.timings_s.items()},
         "packages": _packages(),
         "notes": [*notes, *scene.notes, *scene.road_map.notes],

@@ -38,7 +38,7 @@ def run_of_witness(scene: Scene, limits: Mapping[int, Limits], witness: Witness)
     until_s = _apart_until(scene, profiles, witness.end_s, max(min(until_s, *ends_s), witness.end_s))
     time_s = DEFAULT_STEP_S * np.arange(int(np.ceil(until_s / DEFAULT_STEP_S - 1e-9)) + 1, dtype=np.float64)
     actors = {actor.name: _trace(scene.routes[actor.id], profiles[actor.id], time_s) for actor in scene.program.actors}
-    plan = Plan(profiles, style="a witness", parameters=witness.parameters)
+    plan = Plan(profiles, parameters=witness.parameters)
     knots_s = dict(witness.profiles[scene.program.ego.id].knot_times_s)
     return Run(Trace(actors), plan, plan, [], "finished", ego_knots_s=knots_s)
 

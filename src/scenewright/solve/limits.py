@@ -13,7 +13,7 @@ from scenewright.motion.laws import Law
 from scenewright.program.manner import Manner
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route
-from scenewright.solve.turns import tightest_curvature
+from scenewright.roads.turns import tightest_curvature
 from scenewright.units import pin
 
 ACCEL_MAX_MPSS = 4.0

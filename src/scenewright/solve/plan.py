@@ -26,13 +26,10 @@ class Plan:
     ----------
     tolerance
         What is missed most of what is asked of heroes, in tight tolerances.
-    style
-        What that comes to: `sat`, or `relaxed` where it is more than a fifth of one.
     """
 
     profiles: Mapping[int, Profile]
     tolerance: float = 0.0
-    style: str = ""
     parameters: Mapping[str, float] = field(default_factory=dict)
 
     def as_dict(self, scene: Scene) -> dict[str, object]:
@@ -58,12 +55,7 @@ class Plan:
                 for segment in profile.segments
             ]
             actors[actor.name] = {"knots": knots, "segments": segments}
-        return {
-            "schema_version": SCHEMA_VERSION,
-            "style": self.style,
-            "tolerance": self.tolerance,
-            "actors": actors,
-        }
+        return {"schema_version": SCHEMA_VERSION, "tolerance": self.tolerance, "actors": actors}
 
 
 class PlanWorld:

@@ -17,9 +17,9 @@ from scenewright.plan.prediction import EgoSample
 from scenewright.program.types import EGO, Actor
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene
+from scenewright.roads.turns import TurnSpan
 from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan
-from scenewright.solve.turns import TurnSpan
 from scenewright.study.rivals.script import top_speed_mps
 from scenewright.study.rivals.waypoints import DriverStart, View, Waypoint, WaypointDriver
 

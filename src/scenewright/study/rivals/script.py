@@ -17,10 +17,10 @@ from scenewright.program.expressions import Compare, PieceRef, piece_of
 from scenewright.program.structure import Structure
 from scenewright.program.types import EGO, Actor, Program
 from scenewright.roads.grounding import Scene
+from scenewright.roads.turns import TurnSpan
 from scenewright.solve.arrival import LinearCondition
 from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan
-from scenewright.solve.turns import TurnSpan
 
 States = Mapping[int, tuple[float, float]]
 # What an engine compares is a float; a car that is where the author put it counts as being there.

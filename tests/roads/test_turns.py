@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from scenewright.roads import find_route, load_map
-from scenewright.solve.turns import TurnSpan, tightest_curvature
+from scenewright.roads.turns import TurnSpan, tightest_curvature
 
 T = load_map("t_intersection")
 
