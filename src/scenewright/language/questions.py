@@ -7,7 +7,7 @@ what must be answered first. A text with its answers is reproducible: both reade
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -67,6 +67,14 @@ class OpenQuestionsError(TranslationError):
     def as_dict(self) -> dict[str, object]:
         """Return the error as plain data, with the questions for a front end to ask."""
         return {**super().as_dict(), "questions": as_data(self.questions)}
+
+
+def check_asked(answers: Iterable[str], asked: Collection[str]) -> None:
+    """Raise InputError where one of `answers` is to none of the questions that were `asked`, by slot."""
+    for slot in answers:
+        if slot not in asked:
+            expected = "; ".join(asked) or "no answers: the text leaves nothing open"
+            raise InputError("an answer is to no question", found=slot, expected=expected, fix="correct its name")
 
 
 def settled(story: Story, answers: Mapping[str, str], strict: bool = False, place: Place | None = None) -> Story:

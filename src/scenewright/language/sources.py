@@ -7,11 +7,12 @@ description. Who reads a description follows from a name: ``auto``, ``offline``,
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from scenewright.errors import InputError, Place
 from scenewright.language.model.settings import TranslatorSettings
-from scenewright.language.understand import OFFLINE, Understanding, understand, understand_story
+from scenewright.language.understand import OFFLINE, Understanding, understand
 from scenewright.program.check import check_program
 from scenewright.program.limits import TEXT_CHARACTERS, check_description
 from scenewright.program.types import DEFAULT_MAP, Program
@@ -51,7 +52,6 @@ def read_scenario(
         program = parse_program(text, name)
         check_program(program, text, name)
         return program, None
-    check_description(text, name)
     understanding = _understanding(text, name, translator, map_name, settings or TranslatorSettings())
     return understanding.program, understanding
 
@@ -59,6 +59,8 @@ def read_scenario(
 def _understanding(
     text: str, name: str, translator: str, map_name: str | None, settings: TranslatorSettings
 ) -> Understanding:
+    check_description(text, name)
+    read = partial(understand, text, strict=settings.strict, name=name, ask=settings.ask)
     on = load_map(map_name) if map_name else None
     if translator != OFFLINE:
         from scenewright.language.model.choose import model_named
@@ -68,10 +70,11 @@ def _understanding(
 
             on = on or load_map(DEFAULT_MAP)
             told = story_by_model(text, on, name, model, settings)
-            given = {**settings.answers, **told.answers}
-            read = understand_story(lambda _: told.story, text, on, given, settings.strict, name, settings.ask)
-            return replace(read, translator=model.name, notes=told.notes)
-    return understand(text, on, settings.answers, settings.strict, name, settings.ask)
+            open_ones = {slot: answer for slot, answer in settings.answers.items() if slot not in told.answers}
+            found = read(on, open_ones, read_with=lambda _: told.story)
+            answers = {**told.answers, **found.answers}
+            return replace(found, translator=model.name, notes=told.notes, answers=answers)
+    return read(on, settings.answers)
 
 
 def is_program(text: str) -> bool:
