@@ -195,8 +195,7 @@ class Decompiled:
                 return [(None, self._held(formula, piece))]
             if (form := _of_times(formula)) is not None:
                 return [(None, self._order(formula, form))]
-        moments: set[int] = set()
-        condition = self._condition(formula, moments)
+        condition, moments = self._condition(formula), self._moments_in(formula)
         if len(moments) != 1:
             raise untold("a condition about more than one moment", "ask for each by itself", formula)
         (moment,) = moments
@@ -207,9 +206,10 @@ class Decompiled:
         assert isinstance(piece.at, ex.PieceRef)
         sketch = self.program.actor(piece.actor).sketch
         index = sketch.piece_index(piece.at.name)
-        measure = self._measure(ex.with_state(compare, piece, replace(piece, at=None)), set())
+        measure = measure_of(ex.with_state(compare, piece, replace(piece, at=None)), self.program)
         if piece.actor == EGO or measure is None or measure.other is not None:
             raise untold("this condition on a piece", "ask for it from one moment until another", compare)
+        measure = replace(measure, quote=self._quote)
         if sketch.pieces[index] is not pt.PieceKind.STOP or measure != st.standstill(piece.actor):
             self._throughout.setdefault((piece.actor, index), []).append(measure)
         return measure
@@ -229,11 +229,10 @@ class Decompiled:
 
     def _hold(self, temporal: ex.Temporal) -> st.Hold:
         how: st.How = "at some time" if temporal.operator == "eventually" else temporal.operator
-        inside: set[int] = set()
-        condition = self._condition(temporal.body, inside)
-        if inside:
+        if self._moments_in(temporal.body):
             raise untold("a moment inside an interval", "ask for it apart from the interval", temporal)
-        return st.Hold(how, self._point(temporal.start), self._point(temporal.end), condition, self._quote)
+        start, end = self._point(temporal.start), self._point(temporal.end)
+        return st.Hold(how, start, end, self._condition(temporal.body), self._quote)
 
     def _point(self, term: ex.Term) -> st.Point:
         form = linear(term)
@@ -246,30 +245,24 @@ class Decompiled:
         return st.Point(moment) if offset.value == 0 else st.Point(moment, offset, earlier)
 
     # -- conditions ---------------------------------------------------------------------------------------------------
-    def _condition(self, formula: ex.Formula, moments: set[int]) -> st.Condition:
+    def _condition(self, formula: ex.Formula) -> st.Condition:
         match formula:
             case ex.Compare():
-                measure = self._measure(formula, moments)
+                measure = measure_of(formula, self.program)
                 if measure is None:
                     raise untold("this comparison", "compare a place, a speed or a gap with an amount", formula)
-                return measure
+                return replace(measure, quote=self._quote)
             case ex.Logic(operator=operator, operands=operands):
-                parts = tuple(self._condition(operand, moments) for operand in operands)
                 joint: Literal["and", "or", "not", "if"] = "if" if operator == "implies" else operator
-                return st.Compound(joint, parts, self._quote)
+                return st.Compound(joint, tuple(self._condition(each) for each in operands), self._quote)
             case ex.Temporal():
                 raise untold("an interval inside another condition", "ask for it by itself", formula)
 
-    def _measure(self, compare: ex.Compare, moments: set[int]) -> st.Measure | None:
-        """Return the one measure that a comparison is, or None; adds the moment that it is about."""
-        measure, instants = measure_of(compare, self.program)
-        found = {self._moment(actor, at) for actor, at in instants}
-        if measure is None or len(found) > 1:
-            return None
-        moments |= found
-        return replace(measure, quote=self._quote)
-
     # -- moments and amounts ------------------------------------------------------------------------------------------
+    def _moments_in(self, formula: ex.Formula) -> set[int]:
+        states = (node for node in ex.walk(formula) if isinstance(node, ex.State | ex.Derived))
+        return {self._moment(state.actor, state.at) for state in states if state.at is not None}
+
     def _moment(self, actor: int, at: ex.At) -> int:
         match at:
             case ex.Knot(name=name):

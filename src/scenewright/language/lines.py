@@ -17,7 +17,7 @@ from scenewright.language import story as st
 from scenewright.language.decompile import Became, decompiled, parts_of, way_of
 from scenewright.language.phrases import DOES, Phrases, listed, sentence
 from scenewright.language.stretches import words_of
-from scenewright.language.tell import Teller, tell_with_quotes
+from scenewright.language.tell import Teller
 from scenewright.program.expressions import Formula
 from scenewright.program.printer import print_expression
 from scenewright.program.types import Constraint, Program
@@ -33,7 +33,7 @@ class Line:
 
 def lines_of_story(story: st.Story, text: str) -> tuple[Line, ...]:
     """Return `story` as lines with their words in `text`; raises as `tell` does."""
-    return tuple(Line(each.sentence, words_of(each.quotes, text)) for each in tell_with_quotes(story))
+    return tuple(Line(told, words_of(quotes, text)) for told, quotes in Teller(st.arranged(story)).lines())
 
 
 def lines_of_program(program: Program) -> tuple[Line, ...]:

@@ -27,24 +27,22 @@ _DIMENSIONS: dict[st.Quantity, Dimension] = {
     st.Quantity.RATE: "acceleration",
 }  # the others are times
 _DECIMALS = 2  # of a number in SI units that nobody would rather write in another unit
-Instant = tuple[int, ex.At]  # whose, and which
 
 
-def measure_of(compare: ex.Compare, program: pt.Program) -> tuple[st.Measure | None, set[Instant]]:
-    """Return the measure that `compare` is, or None, and the instants at which it is measured."""
+def measure_of(compare: ex.Compare, program: pt.Program) -> st.Measure | None:
+    """Return the measure that `compare` is, at whatever instant, or None."""
     form = difference(compare)
     states = [atom for atom in form.atoms if isinstance(atom, ex.State | ex.Derived)]
-    instants: set[Instant] = {(state.actor, state.at) for state in states if state.at is not None}
     if form.of(ex.Elapsed) or not states or len({state.at is None for state in states}) > 1:
-        return None, instants
+        return None
     state, *others = states
     factor = form.atoms[state]
     form, op = form.scaled(1 / factor), compare.operator if factor > 0 else st.FLIPPED[compare.operator]
     origins: list[Atom] = [*others, *form.of(ex.Landmark)]  # what the amount is counted from
     if len(origins) > 1 or any(form.atoms[each] != -1 for each in origins):
-        return None, instants
+        return None
     measure = _measure(state, origins[0] if origins else None, op, program)
-    return None if measure is None else _with_amount(measure, form), instants
+    return None if measure is None else _with_amount(measure, form)
 
 
 def _measure(

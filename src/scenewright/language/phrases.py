@@ -40,19 +40,12 @@ DOES: dict[str, tuple[str, str, str]] = {
 }
 NO_GAP = st.Amount(Fraction(0), "m")
 ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
-_WITHOUT_AMOUNT: dict[st.Operator, str] = {
-    "==": "is at",
-    ">=": "is at or past",
-    ">": "is past",
-    "<=": "is at or before",
-    "<": "is before",
-}
-_AS_FAST: dict[st.Operator, str] = {
-    "==": "as fast as",
-    ">=": "at least as fast as",
-    ">": "faster than",
-    "<=": "at most as fast as",
-    "<": "slower than",
+_WITHOUT_AMOUNT: dict[st.Operator, tuple[str, str]] = {  # of a place, and of a speed beside that of somebody else
+    "==": ("is at", "as fast as"),
+    ">=": ("is at or past", "at least as fast as"),
+    ">": ("is past", "faster than"),
+    "<=": ("is at or before", "at most as fast as"),
+    "<": ("is before", "slower than"),
 }
 
 
@@ -113,7 +106,7 @@ class Phrases:
         conditions = sorted(conditions, key=lambda each: not isinstance(each, st.Measure) or each.actor != it)
         places: dict[st.Condition, st.Measure] = {}  # where somebody stands, by the condition that it does
         for each in conditions:
-            if isinstance(each, st.Measure) and _stands(each):
+            if isinstance(each, st.Measure) and each == st.standstill(each.actor):
                 free = [where for where in conditions if _is_where(where, each.actor) and where not in places.values()]
                 places.update({each: free[0]} if free else {})
         found, spoken = [], set[int]()
@@ -165,10 +158,10 @@ class Phrases:
             case st.Quantity.SPEED if measure.other is not None:
                 whom = self.name(measure.other)
                 if measure.amount is None:
-                    return f"drives {_AS_FAST[measure.op]} {whom}"
+                    return f"drives {_WITHOUT_AMOUNT[measure.op][1]} {whom}"
                 return f"drives {bound} {'slower' if measure.opposite else 'faster'} than {whom}"
             case st.Quantity.SPEED:
-                if _stands(measure):
+                if measure == st.standstill(measure.actor):
                     return "stands"
                 return f"drives at {bound}" if measure.op == "==" else f"drives at a speed of {bound}"
             case st.Quantity.RATE:
@@ -189,7 +182,7 @@ class Phrases:
             return "begins to turn"
         if measure.op == "==" and place == st.Place("turn_end"):
             return "completes its turn"
-        return f"{'passes' if passing and measure.op == '==' else _WITHOUT_AMOUNT[measure.op]} {self.place(place)}"
+        return f"{'passes' if passing and measure.op == '==' else _WITHOUT_AMOUNT[measure.op][0]} {self.place(place)}"
 
     def way(self, way: st.Way) -> str:
         """Return how somebody drives."""
@@ -215,11 +208,6 @@ class Phrases:
 def speaks_of_ego(conditions: Sequence[st.Condition]) -> bool:
     """Whether something is asked of the ego."""
     return any(EGO in st.people_in(condition) for condition in conditions)
-
-
-def _stands(measure: st.Measure) -> bool:
-    zero = measure.amount == st.Amount(Fraction(0), "m/s") and measure.other is None
-    return zero and measure.quantity is st.Quantity.SPEED and measure.op == "=="
 
 
 def _is_where(condition: st.Condition, actor: int) -> TypeGuard[st.Measure]:

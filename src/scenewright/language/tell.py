@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
-from graphlib import CycleError, TopologicalSorter
 from itertools import pairwise
 
 from scenewright.language import story as st
@@ -32,12 +30,7 @@ from scenewright.units import SI_SYMBOL, format_fraction
 _RATES = {st.Verb.BRAKE: True, st.Verb.SPEED_UP: False}  # deeds told with their rate, and whether it is a slowing
 
 
-@dataclass(frozen=True, slots=True)
-class Told:
-    """A sentence, and the quotes of what it tells."""
-
-    sentence: str
-    quotes: tuple[st.Quote, ...] = ()
+Told = tuple[str, tuple[st.Quote, ...]]  # a sentence, and the quotes of what it tells
 
 
 def tell(story: st.Story) -> list[str]:
@@ -48,15 +41,7 @@ def tell(story: st.Story) -> list[str]:
     TranslationError
         Where it holds something that there are no words for.
     """
-    return [each.sentence for each in tell_with_quotes(story)]
-
-
-def tell_with_quotes(story: st.Story) -> list[Told]:
-    """Return the same sentences, each with the quotes of what it tells; raises as `tell` does."""
-    return Teller(st.arranged(story)).lines()
-
-
-Quoted = st.Actor | st.Relation | st.Condition | st.Deed | st.Order | st.Hold
+    return [text for text, _ in Teller(st.arranged(story)).lines()]
 
 
 @dataclass(slots=True)
@@ -85,7 +70,8 @@ class Teller:
             self._say(sentence(f"{self.phrases.name(each.id)} {self.phrases.way(each.way)}"), each)
         if any(actor.relations for actor in story.actors):
             raise untold("how one way lies to another: choose the ways first")
-        self.told += [Told(_parameter(parameter)) for parameter in story.parameters if _is_told(parameter, story)]
+        for parameter in story.parameters:
+            self._parameter(parameter)
         self._start()
         for moment in self._in_time():
             if not any(moment in (deed.begins, deed.ends) for deed in story.deeds):
@@ -105,9 +91,9 @@ class Teller:
             self._say(f"In the ego's order: {', then '.join(events)}.")
         return self.told
 
-    def _say(self, text: str, *told: Quoted) -> None:
-        quotes = [each.quote for thing in told for each in (thing, *_inside(thing)) if each.quote is not None]
-        self.told.append(Told(text, tuple(sorted(dict.fromkeys(quotes), key=lambda quote: quote.start))))
+    def _say(self, text: str, *told: object) -> None:
+        quotes = dict.fromkeys(st.within(told, st.Quote))
+        self.told.append((text, tuple(sorted(quotes, key=lambda quote: quote.start))))
 
     def _head(self) -> None:
         story = self.story
@@ -124,6 +110,23 @@ class Teller:
             if value != getattr(type(story.manner)(), name):
                 self._say(f"Manner: {name} is {format_fraction(value)} {SI_SYMBOL[unit_of(name).dimension]}.")
 
+    def _parameter(self, parameter: Parameter) -> None:
+        """Tell a parameter of which more is known than the amounts that go by its name."""
+        bounded_ = parameter.low is not None or parameter.high is not None
+        if (
+            parameter.value is None
+            and not bounded_
+            and parameter.name in {each.name for each in amounts_of(self.story)}
+        ):
+            return
+        unit = parameter.unit.symbol
+        text = f"{parameter.name} is "
+        text += "open" if parameter.value is None else f"{format_fraction(parameter.value)} {unit}"
+        if bounded_:
+            low, high = (format_fraction(bound) for bound in parameter.bounds())
+            text += f", from {low} {unit} to {high} {unit}"
+        self._say(f"Parameter {text}.")
+
     def _start(self) -> None:
         conditions = self.story.moments[st.START].conditions
         simple = [each for each in conditions if isinstance(each, st.Measure)]
@@ -137,23 +140,15 @@ class Teller:
 
     def _in_time(self) -> list[int]:
         """Return the moments in an order that agrees with everybody's own, the smallest number first."""
-        story, sorter = self.story, TopologicalSorter[int]()
-        for number in range(len(story.moments)):
-            sorter.add(number)
-        for actor in story.actors:
-            for earlier, later in pairwise(story.knots_of(actor.id)):
-                sorter.add(later, earlier)
+        before = [pair for actor in self.story.actors for pair in pairwise(self.story.knots_of(actor.id))]
         order: list[int] = []
-        ready: set[int] = set()
-        try:
-            sorter.prepare()
-        except CycleError:
-            raise untold("moments that come before each other") from None
-        while sorter.is_active():
-            ready |= set(sorter.get_ready())
-            order.append(min(ready))
-            ready.remove(order[-1])
-            sorter.done(order[-1])
+        left = [*range(len(self.story.moments))]
+        while left:
+            free = (each for each in left if not any(later == each and earlier in left for earlier, later in before))
+            if (found := next(free, None)) is None:
+                raise untold("moments that come before each other")
+            order.append(found)
+            left.remove(found)
         return order
 
     # -- moments ------------------------------------------------------------------------------------------------------
@@ -233,7 +228,7 @@ class Teller:
         duration = next((each for each in self.story.orders if (each.first, each.second) == (deed.begins, deed.ends)
                          and each.margin is not None and each not in self.durations), None)  # fmt: skip
         plain = waits and deed.verb == st.Verb.DRIVE and not held and duration is None
-        plain &= not any(_is_standstill(each, deed.actor) for each in self.story.moments[st.START].conditions)
+        plain &= st.standstill(deed.actor) not in self.story.moments[st.START].conditions
         if index == 0 and plain and self._items(deed.ends):
             return  # "When ..., the hero begins to brake" says it
         self.begun += [each for each in chain[: index + 1] if each not in self.begun]
@@ -270,7 +265,7 @@ class Teller:
             items = self._items(deed.begins)
             return (f"When {listed(items)}, ", True) if items else ("Then ", False)
         moving = deed.verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)
-        at_rest = any(_is_standstill(each, deed.actor) for each in self.story.moments[deed.begins].conditions)
+        at_rest = st.standstill(deed.actor) in self.story.moments[deed.begins].conditions
         return "Then at once " if moving and at_rest else "Then ", False
 
     # -- events, orders, holds ----------------------------------------------------------------------------------------
@@ -281,7 +276,7 @@ class Teller:
         for condition in found.conditions:
             shared = sum(condition in each.conditions for each in story.moments) > 1
             if isinstance(condition, st.Measure) and st.is_event(condition) and not shared:
-                stands = any(_is_standstill(each, condition.actor) for each in found.conditions)
+                stands = st.standstill(condition.actor) in found.conditions
                 return self.phrases.clause(condition, passing=not stands)
         for deed in self.begun:
             if deed.begins == moment and moment != st.START:
@@ -328,39 +323,9 @@ class Teller:
         return f"{amount(point.offset)} {'before' if point.earlier else 'after'} {event}"
 
 
-def _inside(thing: Quoted) -> tuple[Quoted, ...]:
-    """Return what is told together with a thing, and has quotes of its own."""
-    match thing:
-        case st.Actor(relations=relations):
-            return relations
-        case st.Deed(throughout=throughout):
-            return throughout
-        case st.Hold(condition=condition):
-            return (condition,)
-    return ()
-
-
 def _rate(deed: st.Deed) -> tuple[st.Measure | None, tuple[st.Measure, ...]]:
     """Return the rate that a deed is told with, and what else holds all the while."""
     slowing = _RATES.get(st.Verb(deed.verb))
     own = (each for each in deed.throughout if each.quantity is st.Quantity.RATE and each.opposite is slowing)
     rate = next(own, None)
     return rate, tuple(each for each in deed.throughout if each is not rate)
-
-
-def _is_standstill(condition: st.Condition, actor: int) -> bool:
-    return condition == st.Measure(actor, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s"))
-
-
-def _is_told(parameter: Parameter, story: st.Story) -> bool:
-    declared = parameter.value is not None or parameter.low is not None or parameter.high is not None
-    return declared or parameter.name not in {each.name for each in amounts_of(story)}
-
-
-def _parameter(parameter: Parameter) -> str:
-    unit = parameter.unit.symbol
-    text = f"{parameter.name} is {'open' if parameter.value is None else f'{format_fraction(parameter.value)} {unit}'}"
-    if parameter.low is not None or parameter.high is not None:
-        low, high = (format_fraction(bound) for bound in parameter.bounds())
-        text += f", from {low} {unit} to {high} {unit}"
-    return f"Parameter {text}."
