@@ -30,24 +30,12 @@ Taken = tuple[int | None, Became]  # and at which moment, where it is about one
 
 
 def decompile(program: pt.Program) -> st.Story:
-    """Return the story that `program` tells.
-
-    Raises
-    ------
-    TranslationError
-        For what a story cannot tell yet, with the constraint that says it.
-    """
+    """Return the story that `program` tells; raises `TranslationError` for what a story cannot tell yet."""
     return st.arranged(decompiled(program).story)
 
 
 def decompiled(program: pt.Program, leniently: bool = False) -> Decompiled:
-    """Return the story of `program`; `leniently` without the constraints that a story cannot tell yet.
-
-    Raises
-    ------
-    TranslationError
-        For what a story cannot tell yet.
-    """
+    """Return the same with what became of each constraint; `leniently` without those that a story cannot tell yet."""
     try:
         return Decompiled(program, leniently)
     except ProgramError as error:  # of a term that is no sum

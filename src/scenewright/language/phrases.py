@@ -29,6 +29,7 @@ PLACES = {
     "junction_end": "end of the junction",
     "route_end": "end of the route",
 }
+TURNING = {st.Place("turn_start"): "begins to turn", st.Place("turn_end"): "completes its turn"}
 PLAIN_NAMES = ("ego", "hero", "car", "truck", "van", "bus", "taxi")  # told as they are; other names in quotes
 COMPASS_WORDS = {"N": "north", "E": "east", "S": "south", "W": "west"}
 # Verb: as somebody does it, as it begins, as it ends.
@@ -124,7 +125,8 @@ class Phrases:
     def clause(self, condition: st.Condition, it: int | None = None, passing: bool = False) -> str:
         """Return one condition as a clause; `passing` says that it is an event: ``the ego passes the stop line``."""
         if isinstance(condition, st.Measure):
-            return f"{self._subject(condition.actor, it)} {self.predicate(condition, passing)}"
+            subject = "it" if condition.actor == it else self.name(condition.actor)
+            return f"{subject} {self.predicate(condition, passing)}"
         parts = [self._part(part, condition.joint, it) for part in condition.parts]
         if condition.joint == "not":
             return f"it is not so that {parts[0]}"
@@ -140,12 +142,7 @@ class Phrases:
             flat = all(each.joint == "not" and isinstance(each.parts[0], st.Measure) for each in inner)
             if joint not in fits[part.joint] or (inner and (part.joint == "not" or not flat)):
                 raise untold("conditions inside conditions of conditions")
-            if part.joint == "not" and isinstance(part.parts[0], st.Compound):
-                raise untold("conditions inside conditions of conditions")
         return self.clause(part, it)
-
-    def _subject(self, actor: int, it: int | None) -> str:
-        return "it" if actor == it else self.name(actor)
 
     def predicate(self, measure: st.Measure, passing: bool = False) -> str:
         """Return what a measure says of its actor."""
@@ -178,10 +175,8 @@ class Phrases:
     def _where(self, measure: st.Measure, place: st.Place, bound: str, passing: bool) -> str:
         if bound:
             return f"is {bound} {'past' if measure.opposite else 'before'} {self.place(place)}"
-        if measure.op == "==" and place == st.Place("turn_start"):
-            return "begins to turn"
-        if measure.op == "==" and place == st.Place("turn_end"):
-            return "completes its turn"
+        if measure.op == "==" and place in TURNING:
+            return TURNING[place]
         return f"{'passes' if passing and measure.op == '==' else _WITHOUT_AMOUNT[measure.op][0]} {self.place(place)}"
 
     def way(self, way: st.Way) -> str:
@@ -190,19 +185,15 @@ class Phrases:
             return f"follows the lanes {', '.join(way.lanes)}"
         if way.headings:
             return f"is headed {', then '.join(COMPASS_WORDS[each] for each in way.headings)}"
-        parts = []
-        if way.origin:
-            parts.append(f"comes from the {way.origin}")
-        if way.heading:
-            parts.append(f"is headed {COMPASS_WORDS[way.heading]}")
-        if way.turn or way.destination:
-            turn = (
-                "goes on" if way.turn is None else "goes straight on" if way.turn == "straight" else f"turns {way.turn}"
-            )
-            parts.append(turn + (f" into the {way.destination}" if way.destination else ""))
-        if way.destination_heading:
-            parts.append(f"is then headed {COMPASS_WORDS[way.destination_heading]}")
-        return listed(parts) if parts else "has an open way"
+        onward = {None: "goes on", "straight": "goes straight on"}.get(way.turn, f"turns {way.turn}")
+        into = f"{onward} into the {way.destination}" if way.destination else onward if way.turn else None
+        parts = (
+            way.origin and f"comes from the {way.origin}",
+            way.heading and f"is headed {COMPASS_WORDS[way.heading]}",
+            into,
+            way.destination_heading and f"is then headed {COMPASS_WORDS[way.destination_heading]}",
+        )
+        return listed([each for each in parts if each] or ["has an open way"])
 
 
 def speaks_of_ego(conditions: Sequence[st.Condition]) -> bool:
@@ -214,5 +205,4 @@ def _is_where(condition: st.Condition, actor: int) -> TypeGuard[st.Measure]:
     """Whether a condition puts somebody at one place, which is not an event of its turn."""
     if not isinstance(condition, st.Measure) or condition.quantity is not st.Quantity.PLACE or condition.op != "==":
         return False
-    turns = condition.amount is None and condition.place in (st.Place("turn_start"), st.Place("turn_end"))
-    return condition.actor == actor and not turns
+    return condition.actor == actor and not (condition.amount is None and condition.place in TURNING)

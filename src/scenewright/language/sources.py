@@ -6,6 +6,7 @@ description. Who reads a description follows from a name: ``auto``, ``offline``,
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -92,14 +93,10 @@ def text_of(source: str) -> tuple[str, str]:
         Where it names a file that is not there or is no text.
     """
     path = Path(source)
-    looks_like_file = path.suffix in (".txt", ".scene", ".md") and " " not in source.strip()
-    try:
-        is_file = bool(source.strip()) and path.is_file()
-    except (OSError, ValueError):  # too long or too odd for a file name: a description
-        is_file = False
-    if is_file:
-        return _read_text(path), path.name
-    if looks_like_file:
+    with suppress(OSError, ValueError):  # too long or too odd for a file name: a description
+        if source.strip() and path.is_file():
+            return _read_text(path), path.name
+    if path.suffix in (".txt", ".scene", ".md") and " " not in source.strip():
         fix = "give the path of a file, or the description itself in quotes"
         raise InputError("there is no such file", place=Place(source), fix=fix)
     return source, "description"
@@ -107,17 +104,15 @@ def text_of(source: str) -> tuple[str, str]:
 
 def _read_text(path: Path) -> str:
     """Read a file of text, whatever it is: no more of it than a text may hold."""
-    most = 4 * TEXT_CHARACTERS  # a character takes up to four bytes
+    most, place = 4 * TEXT_CHARACTERS, Place(str(path))  # a character takes up to four bytes
     try:
         with path.open("rb") as file:
             read = file.read(most + 1)
         if len(read) > most:
             found, expected = f"more than {most:,} bytes", f"a text of at most {TEXT_CHARACTERS:,} characters"
             message, fix = "the file is too large for a description or a program", "give the file that holds the text"
-            raise InputError(message, place=Place(str(path)), found=found, expected=expected, fix=fix)
+            raise InputError(message, place=place, found=found, expected=expected, fix=fix)
         return read.decode("utf-8-sig")  # some editors begin a file with a mark of their own
     except (OSError, UnicodeDecodeError) as error:
-        expected, fix = "a text in UTF-8", "save the file as text in UTF-8"
-        raise InputError(
-            "the file cannot be read as text", place=Place(str(path)), found=str(error), expected=expected, fix=fix
-        ) from None
+        message, expected, fix = "the file cannot be read as text", "a text in UTF-8", "save the file as text in UTF-8"
+        raise InputError(message, place=place, found=str(error), expected=expected, fix=fix) from None

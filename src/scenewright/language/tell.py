@@ -27,6 +27,7 @@ from scenewright.program.manner import NUMBERS, unit_of
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.units import SI_SYMBOL, format_fraction
 
+_LASTING = (st.Verb.DRIVE, st.Verb.STAND)  # deeds that need no end to be told
 _RATES = {st.Verb.BRAKE: True, st.Verb.SPEED_UP: False}  # deeds told with their rate, and whether it is a slowing
 
 
@@ -74,7 +75,7 @@ class Teller:
             self._parameter(parameter)
         self._start()
         for moment in self._in_time():
-            if not any(moment in (deed.begins, deed.ends) for deed in story.deeds):
+            if not self._is_of_deeds(moment):
                 self._pure(moment)
             for deed in story.deeds:
                 if deed.begins == moment:
@@ -112,17 +113,12 @@ class Teller:
 
     def _parameter(self, parameter: Parameter) -> None:
         """Tell a parameter of which more is known than the amounts that go by its name."""
-        bounded_ = parameter.low is not None or parameter.high is not None
-        if (
-            parameter.value is None
-            and not bounded_
-            and parameter.name in {each.name for each in amounts_of(self.story)}
-        ):
+        if parameter == Parameter(parameter.name) and parameter.name in {each.name for each in amounts_of(self.story)}:
             return
         unit = parameter.unit.symbol
         text = f"{parameter.name} is "
         text += "open" if parameter.value is None else f"{format_fraction(parameter.value)} {unit}"
-        if bounded_:
+        if parameter.low is not None or parameter.high is not None:
             low, high = (format_fraction(bound) for bound in parameter.bounds())
             text += f", from {low} {unit} to {high} {unit}"
         self._say(f"Parameter {text}.")
@@ -150,6 +146,9 @@ class Teller:
             order.append(found)
             left.remove(found)
         return order
+
+    def _is_of_deeds(self, moment: int) -> bool:
+        return any(moment in (deed.begins, deed.ends) for deed in self.story.deeds)
 
     # -- moments ------------------------------------------------------------------------------------------------------
     def _pure(self, moment: int) -> None:
@@ -181,11 +180,10 @@ class Teller:
             if any(st.is_event(each) for each in same) or (conditions and same == set(conditions)):
                 raise untold("two moments at which the same is so")
         self.known.add(moment)
-        owned = any(moment in (deed.begins, deed.ends) for deed in self.story.deeds)
-        if not owned and self.story.moments[moment].time is None:
-            self.ego.append(moment)
-        elif owned:
+        if self._is_of_deeds(moment):
             self._ego_comes(moment, [each for each in conditions if isinstance(each, st.Measure)])
+        elif self.story.moments[moment].time is None:
+            self.ego.append(moment)
 
     def _ego_comes(self, moment: int, conditions: Sequence[st.Condition]) -> None:
         if moment in self.ego or not speaks_of_ego(conditions):
@@ -221,7 +219,7 @@ class Teller:
     def _deed(self, deed: st.Deed) -> None:
         chain = self.story.deeds_of(deed.actor)
         index = chain.index(deed)
-        waits = deed.verb in (st.Verb.DRIVE, st.Verb.STAND) and deed != chain[-1]  # its end is told with what follows
+        waits = deed.verb in _LASTING and deed != chain[-1]  # its end is told with what follows
         fresh = deed.begins not in self.known
         lead, begins = self._begin(deed, chain, index)
         rate, held = _rate(deed)
@@ -241,17 +239,16 @@ class Teller:
         if duration is not None and duration.margin is not None:
             self.durations.add(duration)
             text += f" for {bounded(duration.op, duration.margin)}"
-        until = [] if waits else self._items(deed.ends, deed.actor)
-        if not waits and not until and any(each.ends == deed.ends for each in self.begun if each.actor != deed.actor):
-            until = [self.event(deed.ends)]
-        if until:
-            text += f" until {listed(until)}"
+        told = [*self.story.moments[deed.begins].conditions] if begins else []
+        if not waits:
+            until = self._items(deed.ends, deed.actor)
+            if not until and any(each.ends == deed.ends for each in self.begun if each.actor != deed.actor):
+                until = [self.event(deed.ends)]
+            lasts = duration is not None or deed.verb in _LASTING
+            text += f" until {listed(until)}" if until else "" if lasts else " for a while"
             self._introduce(deed.ends)
-        elif not waits:
-            text += "" if duration is not None or deed.verb in (st.Verb.DRIVE, st.Verb.STAND) else " for a while"
-            self._introduce(deed.ends)
-        ended = () if waits else self.story.moments[deed.ends].conditions
-        self._say(sentence(text), deed, *(self.story.moments[deed.begins].conditions if begins else ()), *ended)
+            told += self.story.moments[deed.ends].conditions
+        self._say(sentence(text), deed, *told)
         for each in held:
             self._say(f"Meanwhile, {self.phrases.clause(each)}.", each)
         for moment in ([deed.begins] if fresh else []) + ([] if waits else [deed.ends]):
@@ -261,7 +258,7 @@ class Teller:
         """Return the words before the subject, and whether the deed is told as one that begins: ``When ..., ``."""
         if index == 0:
             return "", False
-        if chain[index - 1].verb in (st.Verb.DRIVE, st.Verb.STAND):
+        if chain[index - 1].verb in _LASTING:
             items = self._items(deed.begins)
             return (f"When {listed(items)}, ", True) if items else ("Then ", False)
         moving = deed.verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)

@@ -12,14 +12,13 @@ from dataclasses import replace
 from scenewright.errors import TranslationError
 from scenewright.language import story as st
 from scenewright.language.compile import COMPASS, route_of
-from scenewright.language.phrases import NO_GAP, Phrases
+from scenewright.language.phrases import NO_GAP, TURNING, Phrases
 from scenewright.program.types import HeadingsRoute, LanesRoute
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route, all_routes, find_routes
 
-# How somebody's way begins against another's, in quarters of the compass to the right of it.
-_OF_A_TURN = (st.Place("turn_start"), st.Place("turn_end"))
 _INSTEAD = "it passes the conflict point"
+# How somebody's way begins against another's, in quarters of the compass to the right of it.
 BEARINGS = {"oncoming": 2, "from the left": 1, "from the right": 3, "ahead": 0, "behind": 0, "same way": 0}
 
 
@@ -69,26 +68,26 @@ def _fits_ways(story: st.Story, answers: Mapping[str, str]) -> st.Story:
         Where a time to collision is asked for of ways that have no lane in common.
     """
     ways = {actor.id: actor.way for actor in story.actors}
-    phrases, questions, moments = Phrases(story), list(story.questions), []
-    for moment in story.moments:
-        conditions = list(moment.conditions)
-        for number, each in enumerate(conditions):
-            if not isinstance(each, st.Measure):
-                continue
-            if each.quantity is st.Quantity.COLLISION and _cross(ways[each.actor], ways[each.other or 0]):
-                found = each.quote.text if each.quote else phrases.clause(each)
-                fix = "say the time to arrival of each: 'the ego is 3 s from the conflict point'"
-                raise TranslationError("a time to collision needs a lane that both drive in", found=found, fix=fix)
-            if each.place in _OF_A_TURN and ways[each.actor].turn == "straight":
-                name = phrases.name(each.actor)
-                asked = f"{name} does not turn. What is meant by: {phrases.clause(each, passing=True)}?"
-                slot = f"turn of {name.removeprefix('the ')}"
-                if answers.get(slot) == _INSTEAD:
-                    conditions[number] = replace(each, place=st.Place("conflict_point"))
-                elif all(question.slot != slot for question in questions):
-                    questions.append(st.Question(slot, asked[0].upper() + asked[1:], (_INSTEAD,), None, each.quote))
-        moments.append(replace(moment, conditions=tuple(conditions)))
-    return replace(story, moments=tuple(moments), questions=tuple(questions))
+    phrases, questions = Phrases(story), {each.slot: each for each in story.questions}
+
+    def fitted(each: st.Condition) -> st.Condition:
+        if not isinstance(each, st.Measure):
+            return each
+        if each.quantity is st.Quantity.COLLISION and _cross(ways[each.actor], ways[each.other or 0]):
+            found = each.quote.text if each.quote else phrases.clause(each)
+            fix = "say the time to arrival of each: 'the ego is 3 s from the conflict point'"
+            raise TranslationError("a time to collision needs a lane that both drive in", found=found, fix=fix)
+        if each.place in TURNING and ways[each.actor].turn == "straight":
+            name = phrases.name(each.actor)
+            slot = f"turn of {name.removeprefix('the ')}"
+            if answers.get(slot) == _INSTEAD:
+                return replace(each, place=st.Place("conflict_point"))
+            asked = f"T{name[1:]} does not turn. What is meant by: {phrases.clause(each, passing=True)}?"
+            questions.setdefault(slot, st.Question(slot, asked, (_INSTEAD,), None, each.quote))
+        return each
+
+    moments = tuple(replace(moment, conditions=tuple(map(fitted, moment.conditions))) for moment in story.moments)
+    return replace(story, moments=moments, questions=tuple(questions.values()))
 
 
 def _cross(one: st.Way, other: st.Way) -> bool:
