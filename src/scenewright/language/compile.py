@@ -212,22 +212,17 @@ class _Compiler:
         actor, quantity, other = measure.actor, measure.quantity, measure.other
         amount = None if measure.amount is None else _term(measure.amount)
         place = None if measure.place is None else _landmark(measure.place, actor)
-        if quantity in DERIVED:
-            target = place if quantity is st.Quantity.ARRIVAL else other
-            if target is None or amount is None:
-                raise refused(f"a {quantity} to nothing", "say of whom, to what, and how much", measure.quote)
+        target = place if quantity is st.Quantity.ARRIVAL else other
+        if quantity in DERIVED and target is not None and amount is not None:
             return ex.Compare(measure.op, ex.Derived(DERIVED[quantity], actor, target, at), amount)
-        left, op = ex.State(actor, ORDERS[quantity], at), measure.op
-        origin: ex.Term | None = None  # what the amount is counted from
-        if quantity is st.Quantity.PLACE:
-            origin = place
-            if origin is None:
-                raise refused("a distance to nothing", "say to which place", measure.quote)
-        elif quantity is st.Quantity.SPEED and other is not None:
+        origin: ex.Term | None = place if quantity is st.Quantity.PLACE else None  # what the amount is counted from
+        if quantity is st.Quantity.SPEED and other is not None:
             origin = ex.State(other, 1, self._at(other, moment))
+        if quantity in DERIVED or (origin is None and (amount is None or quantity is st.Quantity.PLACE)):
+            raise refused(f"half of a {quantity}", "say of whom, to what, and how much", measure.quote)
+        left, op = ex.State(actor, ORDERS[quantity], at), measure.op
         if amount is None:
-            if origin is None:
-                raise refused(f"a {quantity} without an amount", "say how much", measure.quote)
+            assert origin is not None
             return ex.Compare(op, left, origin)
         if not counted_down(quantity, measure.opposite):
             return ex.Compare(op, left, amount if origin is None else combine("+", origin, amount))

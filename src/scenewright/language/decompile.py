@@ -20,7 +20,7 @@ from scenewright.language.measures import difference, measure_of, right_side, un
 from scenewright.program import expressions as ex
 from scenewright.program import types as pt
 from scenewright.program.linear import Linear, linear
-from scenewright.program.structure import knots_of, synchronised
+from scenewright.program.structure import knots_of, read_structure, synchronised
 from scenewright.program.types import EGO
 
 _VERBS = {piece: verb for verb, piece in PIECES.items()}
@@ -131,22 +131,15 @@ class Decompiled:
     def _name_moments(self, formulas: list[ex.Formula]) -> None:
         """Give a number to every instant: the start, what the program merges, and every other knot that matters."""
         spoken = {key for formula in formulas for key in knots_of(formula)}
-        merged: dict[Key, Key] = {}
-
-        def root(key: Key) -> Key:
-            while merged.get(key, key) != key:
-                key = merged[key]
-            return key
-
-        first = (EGO, self.program.ego.sketch.knots[0])
-        for actor in self.program.actors:
-            merged[root((actor.id, actor.sketch.knots[0]))] = first
-        for formula in formulas:
-            for one, other in synchronised(formula):
-                merged[root(one)] = root(other)
-        numbers = {root(first): st.START}
+        structure = read_structure(self.program)
+        starts = frozenset(structure.starts.items())
+        merged = [group for group in structure.instants if not group & starts]
+        start = starts.union(*(group for group in structure.instants if group & starts))
+        instant_of = {key: group for group in (start, *merged) for key in group}
+        numbers = {start: st.START}
         for actor in (*self.program.heroes, self.program.ego):
-            own = {(actor.id, knot): root((actor.id, knot)) for knot in actor.sketch.knots}
+            keys = [(actor.id, knot) for knot in actor.sketch.knots]
+            own = {key: instant_of.get(key, frozenset({key})) for key in keys}
             if len(set(own.values())) != len(own):
                 raise untold(f"two knots of {actor.name} at one moment", "leave one of them out")
             for key, instant in own.items():

@@ -268,13 +268,13 @@ class Teller:
     # -- events, orders, holds ----------------------------------------------------------------------------------------
     def event(self, moment: int) -> str:
         """Return the words that a moment is known by."""
-        story = self.story
-        found = story.moments[moment]
-        for condition in found.conditions:
-            shared = sum(condition in each.conditions for each in story.moments) > 1
-            if isinstance(condition, st.Measure) and st.is_event(condition) and not shared:
-                stands = st.standstill(condition.actor) in found.conditions
-                return self.phrases.clause(condition, passing=not stands)
+        conditions = self.story.moments[moment].conditions
+        elsewhere = {each for number, other in enumerate(self.story.moments) if number != moment
+                     for each in other.conditions}  # fmt: skip
+        own = [each for each in conditions if isinstance(each, st.Measure) and each not in elsewhere]
+        for measure in own:
+            if st.is_event(measure):
+                return self.phrases.clause(measure, passing=st.standstill(measure.actor) not in conditions)
         for deed in self.begun:
             if deed.begins == moment and moment != st.START:
                 return f"{self.phrases.name(deed.actor)} begins to {DOES[deed.verb][1]}{self._time(deed)}"
@@ -282,11 +282,9 @@ class Teller:
             if deed.ends == moment and (deed in self.ended or moment not in self.known):
                 self.ended.append(deed)
                 return f"{self.phrases.name(deed.actor)} finishes {DOES[deed.verb][2]}{self._time(deed)}"
-        for condition in found.conditions:
-            if isinstance(condition, st.Measure) and not any(condition in each.conditions for each in story.moments
-                                                          if each is not found):  # fmt: skip
-                return self.phrases.clause(condition)
-        raise untold("a moment that nothing tells from others")
+        if not own:
+            raise untold("a moment that nothing tells from others")
+        return self.phrases.clause(own[0])
 
     def _time(self, deed: st.Deed) -> str:
         """Return which time somebody does a deed, where it is not the first."""

@@ -130,7 +130,11 @@ def understand(
     check_description(text, name)
     known, given, asked = answers or {}, dict[str, str](), dict[str, Question]()
     while True:
-        story = _on_map(read(text, given, name) if read_with is None else read_with(given), road_map, given)
+        story = read(text, given, name) if read_with is None else read_with(given)
+        on = load_map(story.map_name) if road_map is None else road_map
+        if story.map_name == DEFAULT_MAP:
+            story = replace(story, map_name=on.name)
+        story = put_on_map(story, on, given)
         asked |= {each.slot: each for each in story.questions}
         waiting = [each for each in story.questions if each.slot not in given]
         found = {each.slot: known[each.slot] for each in waiting if each.slot in known}
@@ -150,11 +154,3 @@ def understand(
 def translate(text: str, road_map: RoadMap | None = None, answers: Answers | None = None) -> Program:
     """Return the program of `text`, read without a model; raises as `understand` does."""
     return understand(text, road_map, answers).program
-
-
-def _on_map(story: Story, road_map: RoadMap | None, answers: Answers) -> Story:
-    if road_map is None:
-        road_map = load_map(story.map_name)
-    elif story.map_name == DEFAULT_MAP:
-        story = replace(story, map_name=road_map.name)
-    return put_on_map(story, road_map, answers)

@@ -12,7 +12,7 @@ from dataclasses import replace
 from scenewright.errors import TranslationError
 from scenewright.language import story as st
 from scenewright.language.compile import COMPASS, route_of
-from scenewright.language.phrases import NO_GAP, TURNING, Phrases
+from scenewright.language.phrases import NO_GAP, TURNING, Phrases, sentence
 from scenewright.program.types import HeadingsRoute, LanesRoute
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route, all_routes, find_routes
@@ -82,7 +82,7 @@ def _fits_ways(story: st.Story, answers: Mapping[str, str]) -> st.Story:
             slot = f"turn of {name.removeprefix('the ')}"
             if answers.get(slot) == _INSTEAD:
                 return replace(each, place=st.Place("conflict_point"))
-            asked = f"T{name[1:]} does not turn. What is meant by: {phrases.clause(each, passing=True)}?"
+            asked = f"{sentence(f'{name} does not turn')} What is meant by: {phrases.clause(each, passing=True)}?"
             questions.setdefault(slot, st.Question(slot, asked, (_INSTEAD,), None, each.quote))
         return each
 
