@@ -54,7 +54,7 @@ def compile_story(story: st.Story, description: str | None = None) -> pt.Program
         Where the story contradicts itself, such as a speed in metres.
     """
     _check_known(story)
-    compiler = _Compiler(story, description)
+    compiler = _Compiler(story, description, {actor.id: _sketch(story, actor.id) for actor in story.actors})
     compiler.constrain()
     parameters = {each.name: each for each in story.parameters}
     for amount in amounts_of(story):
@@ -136,11 +136,8 @@ class _Compiler:
 
     story: st.Story
     text: str | None
-    sketches: dict[int, pt.Sketch] = field(init=False)
+    sketches: dict[int, pt.Sketch]
     formulas: list[tuple[ex.Formula, Span | None]] = field(default_factory=list)
-
-    def __post_init__(self) -> None:
-        self.sketches = {actor.id: _sketch(self.story, actor.id) for actor in self.story.actors}
 
     def constrain(self) -> None:
         for number, moment in enumerate(self.story.moments):

@@ -14,15 +14,12 @@ from typing import TypeGuard
 from scenewright.errors import TranslationError
 from scenewright.language import story as st
 from scenewright.language.compile import PIECES
+from scenewright.program.expressions import LANDMARKS
 from scenewright.program.types import EGO, PieceKind
 from scenewright.units import format_fraction
 
 BOUNDS: dict[st.Operator, str] = {"==": "", ">=": "at least ", "<=": "at most ", ">": "more than ", "<": "less than "}
-PLACES = {
-    "stop_line": "stop line",
-    "conflict_point": "conflict point",
-    "intersection": "intersection",
-    "turn": "turn",
+PLACES = {name: name.replace("_", " ") for name in LANDMARKS} | {
     "turn_start": "start of the turn",
     "turn_end": "end of the turn",
     "junction_start": "start of the junction",

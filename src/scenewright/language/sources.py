@@ -85,13 +85,7 @@ def is_program(text: str) -> bool:
 
 
 def text_of(source: str) -> tuple[str, str]:
-    """Return the text that `source` is or names, and what to call it in messages.
-
-    Raises
-    ------
-    InputError
-        Where it names a file that is not there or is no text.
-    """
+    """Return the text that `source` is or names, and what to call it in messages; raises `InputError`."""
     path = Path(source)
     with suppress(OSError, ValueError):  # too long or too odd for a file name: a description
         if source.strip() and path.is_file():

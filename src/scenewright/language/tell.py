@@ -28,7 +28,10 @@ from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.units import SI_SYMBOL, format_fraction
 
 _LASTING = (st.Verb.DRIVE, st.Verb.STAND)  # deeds that need no end to be told
-_RATES = {st.Verb.BRAKE: True, st.Verb.SPEED_UP: False}  # deeds told with their rate, and whether it is a slowing
+_RATES: dict[str, bool] = {
+    st.Verb.BRAKE: True,
+    st.Verb.SPEED_UP: False,
+}  # deeds told with their rate, and whether it is a slowing
 
 
 Told = tuple[str, tuple[st.Quote, ...]]  # a sentence, and the quotes of what it tells
@@ -56,7 +59,7 @@ class Teller:
     ego: list[int] = field(default_factory=list)  # its moments as a reader finds them
     open_order: bool = False  # a reader would have to ask how the ego's moments follow each other
     durations: set[st.Order] = field(default_factory=set)
-    joined: set[tuple[int, st.Compound]] = field(default_factory=set)
+    fresh: list[int] = field(default_factory=list)  # moments of which the joined conditions have not been told
     begun: list[st.Deed] = field(default_factory=list)  # deeds that have been told
     ended: list[st.Deed] = field(default_factory=list)  # those of which a reader knows when they end
 
@@ -180,6 +183,7 @@ class Teller:
             if any(st.is_event(each) for each in same) or (conditions and same == set(conditions)):
                 raise untold("two moments at which the same is so")
         self.known.add(moment)
+        self.fresh.append(moment)
         if self._is_of_deeds(moment):
             self._ego_comes(moment, [each for each in conditions if isinstance(each, st.Measure)])
         elif self.story.moments[moment].time is None:
@@ -207,22 +211,25 @@ class Teller:
         time = [] if found.time is None else [f"it is {amount(found.time)} after the start"]
         return time + self.phrases.clauses(simple, it)
 
-    def _compounds(self, moment: int) -> None:
-        conditions = self.story.moments[moment].conditions
-        for each in conditions:
-            if isinstance(each, st.Compound) and (moment, each) not in self.joined:
-                self.joined.add((moment, each))
-                self._say(f"When {self.event(moment)}, {self.phrases.clause(each)}.", each)
-                self._ego_comes(moment, conditions)
+    def _compounds(self) -> None:
+        for moment in self.fresh:
+            conditions = self.story.moments[moment].conditions
+            for each in conditions:
+                if isinstance(each, st.Compound):
+                    self._say(f"When {self.event(moment)}, {self.phrases.clause(each)}.", each)
+                    self._ego_comes(moment, conditions)
+        self.fresh.clear()
 
     # -- deeds --------------------------------------------------------------------------------------------------------
     def _deed(self, deed: st.Deed) -> None:
         chain = self.story.deeds_of(deed.actor)
         index = chain.index(deed)
         waits = deed.verb in _LASTING and deed != chain[-1]  # its end is told with what follows
-        fresh = deed.begins not in self.known
         lead, begins = self._begin(deed, chain, index)
-        rate, held = _rate(deed)
+        slowing = _RATES.get(deed.verb)
+        rates = (each for each in deed.throughout if each.quantity is st.Quantity.RATE and each.opposite is slowing)
+        rate = next(rates, None)
+        held = [each for each in deed.throughout if each is not rate]
         duration = next((each for each in self.story.orders if (each.first, each.second) == (deed.begins, deed.ends)
                          and each.margin is not None and each not in self.durations), None)  # fmt: skip
         plain = waits and deed.verb == st.Verb.DRIVE and not held and duration is None
@@ -251,8 +258,7 @@ class Teller:
         self._say(sentence(text), deed, *told)
         for each in held:
             self._say(f"Meanwhile, {self.phrases.clause(each)}.", each)
-        for moment in ([deed.begins] if fresh else []) + ([] if waits else [deed.ends]):
-            self._compounds(moment)
+        self._compounds()
 
     def _begin(self, deed: st.Deed, chain: tuple[st.Deed, ...], index: int) -> tuple[str, bool]:
         """Return the words before the subject, and whether the deed is told as one that begins: ``When ..., ``."""
@@ -316,11 +322,3 @@ class Teller:
         if point.offset is None:
             return event if is_end or point.moment == st.START else f"when {event}"
         return f"{amount(point.offset)} {'before' if point.earlier else 'after'} {event}"
-
-
-def _rate(deed: st.Deed) -> tuple[st.Measure | None, tuple[st.Measure, ...]]:
-    """Return the rate that a deed is told with, and what else holds all the while."""
-    slowing = _RATES.get(st.Verb(deed.verb))
-    own = (each for each in deed.throughout if each.quantity is st.Quantity.RATE and each.opposite is slowing)
-    rate = next(own, None)
-    return rate, tuple(each for each in deed.throughout if each is not rate)

@@ -149,8 +149,3 @@ def understand(
         if error.place is None and error.found and (at := text.find(error.found)) >= 0:
             error.place = Place(name, text, Span(at, at + len(error.found)))
         raise
-
-
-def translate(text: str, road_map: RoadMap | None = None, answers: Answers | None = None) -> Program:
-    """Return the program of `text`, read without a model; raises as `understand` does."""
-    return understand(text, road_map, answers).program

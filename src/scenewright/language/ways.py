@@ -35,7 +35,7 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
         for actor in story.actors:
             for relation in actor.relations:
                 _keep_related(fitting, actor.id, relation)
-    phrases, questions = Phrases(story), list(story.questions)
+    phrases, questions, settled = Phrases(story), [*story.questions], list[st.Actor]()
     for actor in story.actors:
         found = list(dict.fromkeys(_way(route, road_map) for route in fitting[actor.id]))
         if not found:
@@ -53,20 +53,13 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
                 told = question.alternatives[question.default or 0]
             found = [found[question.alternatives.index(told)]]
         relations = tuple(each for each in actor.relations if each.kind not in BEARINGS)
-        settled = replace(actor, way=found[0], relations=relations)
-        others = tuple(settled if each.id == actor.id else each for each in story.actors)
-        story = _in_line(replace(story, actors=others), actor)
-    return _fits_ways(replace(story, questions=tuple(questions)), answers or {})
+        settled.append(replace(actor, way=found[0], relations=relations))
+    placed = replace(_in_line(story), actors=tuple(settled), questions=tuple(questions))
+    return _fits_ways(placed, answers or {})
 
 
 def _fits_ways(story: st.Story, answers: Mapping[str, str]) -> st.Story:
-    """Ask what an event of a turn means of somebody who does not turn, and refuse a collision of ways that cross.
-
-    Raises
-    ------
-    TranslationError
-        Where a time to collision is asked for of ways that have no lane in common.
-    """
+    """Ask what an event of a turn means of somebody who does not turn, and refuse a collision of ways that cross."""
     ways = {actor.id: actor.way for actor in story.actors}
     phrases, questions = Phrases(story), {each.slot: each for each in story.questions}
 
@@ -138,15 +131,14 @@ def _which(actor: st.Actor, found: list[st.Way], phrases: Phrases) -> st.Questio
     return st.Question(f"way of {actor.name}", asked, alternatives, straight, actor.quote)
 
 
-def _in_line(story: st.Story, actor: st.Actor) -> st.Story:
+def _in_line(story: st.Story) -> st.Story:
     """Let who is said to be ahead or behind be so at the start."""
-    start = story.moments[st.START]
+    start, *others = story.moments
+    told = {(each.actor, each.other) for each in start.conditions
+            if isinstance(each, st.Measure) and each.quantity is st.Quantity.GAP}  # fmt: skip
     added = []
-    for relation in actor.relations:
-        if relation.kind in ("ahead", "behind"):
-            rear, front = (relation.of, actor.id) if relation.kind == "ahead" else (actor.id, relation.of)
-            told = [each for each in start.conditions if isinstance(each, st.Measure) and each.other == front]
-            if all((each.actor, each.quantity) != (rear, st.Quantity.GAP) for each in told):
-                added.append(st.Measure(rear, st.Quantity.GAP, ">", NO_GAP, other=front, quote=relation.quote))
-    moments = (replace(start, conditions=(*start.conditions, *added)), *story.moments[1:])
-    return replace(story, moments=moments)
+    for who, relation in ((actor.id, each) for actor in story.actors for each in actor.relations):
+        pair = (who, relation.of) if relation.kind == "behind" else (relation.of, who)  # the rear one first
+        if relation.kind in ("ahead", "behind") and pair not in told:
+            added.append(st.Measure(pair[0], st.Quantity.GAP, ">", NO_GAP, other=pair[1], quote=relation.quote))
+    return replace(story, moments=(replace(start, conditions=(*start.conditions, *added)), *others))
