@@ -82,6 +82,11 @@ def sentence(text: str) -> str:
     return f"{text[0].upper()}{text[1:]}."
 
 
+def called(name: str, kind: str = "car") -> str:
+    """Return what somebody of a name is called: ``the ego``, or with the name in quotes ``the car 'blue'``."""
+    return f"the {name}" if name in PLAIN_NAMES else f"the {kind} '{name}'"
+
+
 @dataclass(frozen=True, slots=True)
 class Phrases:
     """The phrases for one story, whose actors have names."""
@@ -89,9 +94,9 @@ class Phrases:
     story: st.Story
 
     def name(self, actor: int) -> str:
-        """Return what somebody is called: ``the ego``, or with the name in quotes ``the car 'blue'``."""
+        """Return what somebody is called."""
         found = next(each for each in self.story.actors if each.id == actor)
-        return f"the {found.name}" if found.name in PLAIN_NAMES else f"the {found.kind} '{found.name}'"
+        return called(found.name, found.kind)
 
     def place(self, place: st.Place) -> str:
         """Return a place; whose it is where that is somebody else, with whom where that is not the usual one."""

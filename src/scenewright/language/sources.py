@@ -19,13 +19,10 @@ from scenewright.program.limits import TEXT_CHARACTERS, check_description
 from scenewright.program.types import DEFAULT_MAP, Program
 from scenewright.roads.load import load_map
 
-AUTO = "auto"
-TRANSLATORS = "auto, offline, openai:NAME, anthropic:NAME, google:NAME, openai-compatible:NAME or files:DIR"
-
 
 def read_scenario(
     source: str,
-    translator: str = AUTO,
+    translator: str = "auto",
     map_name: str | None = None,
     settings: TranslatorSettings | None = None,
 ) -> tuple[Program, Understanding | None]:
