@@ -131,7 +131,7 @@ def test_a_collision_is_told_beside_the_success_and_can_fail_the_run(
     words = ("run", EXAMPLES / "brakes_ahead.txt", "--ego", ego, "--out", "here")
     result = command(*words)
     assert result.exit_code == 0, result.stderr
-    success, came = result.stdout.index("Success"), result.stdout.index("What came of it: the ego hit hero at ")
+    success, came = result.stdout.index("Success"), result.stdout.index("What came of it: the ego hit the hero at ")
     assert success < came
     assert "until then the ego did not brake." in result.stdout
     assert "no collision" not in result.stdout

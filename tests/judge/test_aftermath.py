@@ -47,7 +47,7 @@ def test_the_ego_hits_a_standing_hero_and_it_happened_as_described() -> None:
     assert came.collision.speeds_mps == pytest.approx((10.0, 0.0), abs=1e-9)
     assert came.collision.relative_speed_mps == pytest.approx(10.0)
     assert (came.closest_m, came.min_ttc_s, came.post_encroachment_s) == (0.0, 0.0, None)
-    assert came.in_words() == "the ego hit hero at 9.9 s, 10.0 m/s against 0.0 m/s; until then the ego did not brake"
+    assert came.in_words() == "the ego hit the hero at 9.9 s, 10.0 m/s against 0.0 m/s; until then the ego did not brake"
 
 
 def test_who_drives_into_whom_comes_first() -> None:
@@ -57,7 +57,7 @@ def test_who_drives_into_whom_comes_first() -> None:
     assert hit.time_s == pytest.approx(14.0, abs=0.005)
     assert hit.actors == ("hero", "ego")
     assert hit.speeds_mps == pytest.approx((12.0, 0.0), abs=1e-9)
-    assert hit.in_words().startswith("hero hit the ego at 14.0 s, 12.0 m/s against 0.0 m/s")
+    assert hit.in_words().startswith("the hero hit the ego at 14.0 s, 12.0 m/s against 0.0 m/s")
     assert came_of(stands).ego_hardest_braking_mps2 == pytest.approx(1.0)
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,9 +12,13 @@ import pytest
 from scenewright.errors import InputError, TranslationError
 from scenewright.language.questions import OpenQuestionsError, as_data, defaults_of, read_answers
 from scenewright.language.read.sentences import read
+from scenewright.language.story import Question, Story
 from scenewright.language.understand import understand
 
 TEXT = "The ego is headed west. The hero is headed east and turns left. The hero brakes at 3 m/s^2."
+PLAIN = (
+    "The ego is headed west and goes straight on. The hero is headed east and turns left. The hero brakes to a stop."
+)
 UNKNOWN = "The ego is headed west and goes straight on. The hero turns left. The hero zonks and brakes to a stop."
 
 
@@ -70,6 +76,31 @@ def test_who_it_is_may_be_asked() -> None:
 def test_an_answer_that_is_none_is_refused() -> None:
     with pytest.raises(InputError, match="this is no answer"):
         understand(TEXT, answers={"way of ego": "upwards"})
+
+
+def test_an_answer_to_no_question_is_refused_with_the_questions_that_there_are() -> None:
+    with pytest.raises(InputError, match="to no question") as caught:
+        understand(TEXT, answers={"way of ergo": "is headed west and turns right"})
+    assert (caught.value.found, caught.value.expected) == ("way of ergo", "way of ego")
+
+
+@pytest.mark.parametrize(
+    ("open_by", "answers"),
+    [
+        ({(): ("one", "two")}, {"one": "yes", "two": "yes"}),  # the first closes the second as well
+        ({(): ("one",), ("one",): ("two",)}, {"two": "yes", "one": "yes"}),  # the first opens the second
+    ],
+)
+def test_answers_that_open_and_close_other_questions_are_all_to_something(
+    open_by: dict[tuple[str, ...], tuple[str, ...]], answers: dict[str, str]
+) -> None:
+    def read_with(given: Mapping[str, str]) -> Story:
+        open_ones = (Question(slot, "Is it so?", ("no", "yes")) for slot in open_by.get(tuple(given), ()))
+        return replace(read(PLAIN), questions=tuple(open_ones))
+
+    assert understand(PLAIN, answers=answers, strict=True, read_with=read_with).answers == answers
+    with pytest.raises(InputError, match="to no question"):
+        understand(PLAIN, answers={**answers, "three": "yes"}, read_with=read_with)
 
 
 def test_answers_from_a_file(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ import pytest
 
 from scenewright.errors import MapError, TranslationError
 from scenewright.language.story import Question
-from scenewright.language.understand import translate, understand
+from scenewright.language.understand import understand
 from scenewright.roads.grounding import ground
 from scenewright.roads.load import load_map
 
@@ -17,7 +17,7 @@ TEXT = (
 
 
 def test_a_text_becomes_a_program_that_fits_its_map() -> None:
-    program = translate(TEXT)
+    program = understand(TEXT).program
     assert ground(program, load_map(program.map_name)).routes[1].headings == ("E", "N")
     assert program.description == TEXT
     assert program.words_of(program.constraints[1]) == "the ego is 25 m before the conflict point"

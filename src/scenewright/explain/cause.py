@@ -22,6 +22,7 @@ from scenewright.explain.in_way import hero_in_way
 from scenewright.judge.tolerance import Tolerance
 from scenewright.judge.verdict import Cause, CauseKind, Condition, Verdict
 from scenewright.language.lines import in_words
+from scenewright.language.phrases import called
 from scenewright.program.structure import Role, actors_of
 from scenewright.program.types import EGO, Actor, Constraint, Program
 from scenewright.simulate.loop import Run
@@ -118,11 +119,11 @@ def _planned_so(run: Run, hero: Actor, until_s: float) -> Finding:
     acts_s, end_s = max(run.last_plan.profiles[hero.id].knot_times_s.values()), run.trace.duration_s
     if acts_s > end_s:
         return Finding(
-            f"the run ended at {end_s:.1f} s, before {hero.name} was to have done all of it at {acts_s:.1f} s",
+            f"the run ended at {end_s:.1f} s, before {called(hero.name)} was to have done all of it at {acts_s:.1f} s",
             {"hero": hero.name, "end_s": end_s, "planned_s": acts_s},
         )
     return Finding(
-        f"no plan was found that does all that was asked of {hero.name}, though it was at no limit of its motion: the "
-        f"last one, of {last.time_s:.1f} s, missed by {last.tolerance:.1f} tight tolerances",
+        f"no plan was found that does all that was asked of {called(hero.name)}, though it was at no limit of its "
+        f"motion: the last one, of {last.time_s:.1f} s, missed by {last.tolerance:.1f} tight tolerances",
         {"hero": hero.name, "time_s": last.time_s, "missed": last.tolerance},
     )

@@ -15,6 +15,7 @@ import numpy as np
 from scenewright.judge.tolerance import TIGHT
 from scenewright.judge.verdict import Verdict
 from scenewright.language.lines import in_words, told_constraints
+from scenewright.language.phrases import called
 from scenewright.plan.planner import GOOD, Replan
 from scenewright.program.expressions import Compare, Elapsed
 from scenewright.program.types import EGO, Actor, Constraint
@@ -149,7 +150,9 @@ def limit_reached(world: World, run: Run, hero: Actor, from_s: float, to_s: floa
     values, most, unit = reached[name]
     worst = int(found[name][np.argmax(values[found[name]])])
     at_s = float(states.time_s[worst])
-    text = f"{hero.name} could do no more: at {at_s:.1f} s it was at the limit of its {name} ({most:.3g} {unit})"
+    text = (
+        f"{called(hero.name)} could do no more: at {at_s:.1f} s it was at the limit of its {name} ({most:.3g} {unit})"
+    )
     evidence = {"hero": hero.name, "limit": name, "most": most, "unit": unit, "time_s": at_s, "for_s": for_s}
     return Finding(text, {**evidence, "reached": float(values[worst])})
 
@@ -187,7 +190,7 @@ def came_too_late(world: World, run: Run, verdict: Verdict, constraint: Constrai
         late = f"came {hero_s - ego_s:.1f} s after the ego: {came}at full acceleration it could {until}"
     words = in_words(program, constraint)
     return Finding(
-        f'{hero.name} was to be first ("{words}") and {late}',
+        f'{called(hero.name)} was to be first ("{words}") and {late}',
         {
             "hero": hero.name, "hero_s": hero_s, "ego_s": ego_s, "late_s": None if hero_s is None else hero_s - ego_s,
             "latest_safe_s": safe_s, "trigger_s": trigger_s,

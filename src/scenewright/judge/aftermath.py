@@ -15,6 +15,7 @@ import numpy as np
 
 from scenewright.judge.boxes import moving_box
 from scenewright.judge.case import Case
+from scenewright.language.phrases import called
 from scenewright.program.types import EGO
 
 _NEAR_M = 0.1
@@ -36,7 +37,7 @@ class Collision:
 
     def in_words(self) -> str:
         """Return who hit whom, when and how fast."""
-        first, second = ("the ego" if name == "ego" else name for name in self.actors)
+        first, second = (called(name) for name in self.actors)
         own, other = self.speeds_mps
         return f"{first} hit {second} at {self.time_s:.1f} s, {own:.1f} m/s against {other:.1f} m/s"
 

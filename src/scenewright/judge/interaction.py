@@ -15,7 +15,7 @@ from scenewright.judge.case import Case
 from scenewright.judge.knots import SIGN_OF, Measured, demands_standstill
 from scenewright.judge.phases import move_off_after, rest_after
 from scenewright.judge.verdict import Condition, bounded, unjudged
-from scenewright.language.phrases import does
+from scenewright.language.phrases import called, does
 from scenewright.program.types import Actor, PieceKind
 
 _VERBS = {PieceKind.DEC: "brake", PieceKind.ACC: "speed up"}
@@ -66,9 +66,9 @@ def _beginning(case: Case, measured: Measured, hero: Actor, kind: PieceKind) -> 
     manner = case.program.manner
     settled_mpss, settled_s = float(manner.settled_mpss), float(manner.settled_s)
     seen = f"by {float(manner.begins_mpss):g} m/s^2 or half of its most, for {float(manner.begins_s):g} s"
-    begins = f"{hero.name} begins to {verb} at the trigger ({seen})"
+    begins = f"{called(hero.name)} begins to {verb} at the trigger ({seen})"
     if phase is None or not np.isfinite(moment):
-        reason = f"{hero.name} never began to {verb}" if np.isfinite(moment) else "there was no trigger"
+        reason = f"{called(hero.name)} never began to {verb}" if np.isfinite(moment) else "there was no trigger"
         yield unjudged(f"{hero.name}_onset", "interaction", begins, reason)
         return
     yield bounded(
@@ -83,7 +83,7 @@ def _beginning(case: Case, measured: Measured, hero: Actor, kind: PieceKind) -> 
     worst = max(0.0, float(np.max(pull, initial=0.0)))
     yield bounded(
         f"{hero.name}_settled", "interaction",
-        f"in the {settled_s:g} s before, {hero.name} does not {verb} by more than {settled_mpss:g} m/s^2",
+        f"in the {settled_s:g} s before, {called(hero.name)} does not {verb} by more than {settled_mpss:g} m/s^2",
         required=settled_mpss, measured=worst, error=max(0.0, worst - settled_mpss), dimension="acceleration",
     )  # fmt: skip
 
@@ -93,7 +93,7 @@ def _piece(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[
     name, doing = hero.sketch.piece_names()[index], does(kind, hero.sketch.pieces[:index].count(kind))
     span = measured.moments.spans.get((hero.id, index))
     if span is None:
-        yield unjudged(f"{hero.name}_{name}", "interaction", f"{hero.name} {doing}", "it never came to it")
+        yield unjudged(f"{hero.name}_{name}", "interaction", f"{called(hero.name)} {doing}", "it never came to it")
         return
     timeline = case.timelines[hero.id]
     if kind in SIGN_OF:
@@ -103,13 +103,13 @@ def _piece(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[
         against = float(np.max(np.abs(speeds - best)))
         verb = "speeds up" if kind is PieceKind.DEC else "slows down"
         yield bounded(
-            f"{hero.name}_{name}", "interaction", f"{hero.name} never {verb} while it {doing}",
+            f"{hero.name}_{name}", "interaction", f"{called(hero.name)} never {verb} while it {doing}",
             required=0.0, measured=against, error=against, dimension="speed",
         )  # fmt: skip
     if kind is PieceKind.STOP:
         top = float(np.max(np.abs(timeline.speed(timeline.instants(*span)))))
         yield bounded(
-            f"{hero.name}_{name}", "interaction", f"{hero.name} does not move while it {doing}",
+            f"{hero.name}_{name}", "interaction", f"{called(hero.name)} does not move while it {doing}",
             required=0.0, measured=top, error=top, dimension="speed",
         )  # fmt: skip
         if index + 1 < len(hero.sketch.pieces):
@@ -128,10 +128,11 @@ def _ends_standing(case: Case, measured: Measured, hero: Actor, index: int) -> b
 def _stands(case: Case, hero: Actor, since_s: float) -> Condition:
     manner = case.program.manner
     stands_s = float(manner.stands_s)
-    text = f"{hero.name} comes to a standstill (slower than {float(manner.stands_mps):g} m/s) that lasts {stands_s:g} s"
+    who = called(hero.name)
+    text = f"{who} comes to a standstill (slower than {float(manner.stands_mps):g} m/s) that lasts {stands_s:g} s"
     rest = rest_after(case.timelines[hero.id], since_s, manner)
     if rest is None:
-        return unjudged(f"{hero.name}_standstill", "interaction", text, f"{hero.name} never stood still")
+        return unjudged(f"{hero.name}_standstill", "interaction", text, f"{who} never stood still")
     lasted = rest.end_s - rest.start_s
     to_the_end = rest.end_s >= case.end_s - 1e-9
     return bounded(
@@ -141,10 +142,11 @@ def _stands(case: Case, hero: Actor, since_s: float) -> Condition:
 
 
 def _goes_again(case: Case, hero: Actor, since_s: float) -> Condition:
-    text = f"{hero.name} moves off again after standing (faster than {float(case.program.manner.stands_mps):g} m/s)"
-    moved = move_off_after(case.timelines[hero.id], since_s, case.program.manner)
+    who, manner = called(hero.name), case.program.manner
+    text = f"{who} moves off again after standing (faster than {float(manner.stands_mps):g} m/s)"
+    moved = move_off_after(case.timelines[hero.id], since_s, manner)
     if moved is None:
-        return unjudged(f"{hero.name}_goes_again", "interaction", text, f"{hero.name} stood to the end of the run")
+        return unjudged(f"{hero.name}_goes_again", "interaction", text, f"{who} stood to the end of the run")
     return bounded(
         f"{hero.name}_goes_again", "interaction", text, required=None, measured=moved, error=0.0, dimension="time"
     )

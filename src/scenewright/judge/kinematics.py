@@ -13,6 +13,7 @@ import numpy as np
 from scenewright.judge.case import Case
 from scenewright.judge.tolerance import FloatArray
 from scenewright.judge.verdict import Condition, bounded
+from scenewright.language.phrases import called
 from scenewright.trace.model import ActorTrace
 from scenewright.units import Dimension
 
@@ -55,7 +56,7 @@ def kinematic_conditions(case: Case) -> list[Condition]:
     """Judge every orchestrated actor."""
     return [
         bounded(
-            f"kin_{hero.name}_{finding.name}", "safety", f"{hero.name}: {finding.text}",
+            f"kin_{hero.name}_{finding.name}", "safety", f"{called(hero.name)}: {finding.text}",
             required=finding.required, measured=finding.measured, error=finding.error, dimension=finding.dimension,
         )
         for hero in case.program.heroes

@@ -12,6 +12,7 @@ import numpy as np
 from scenewright.judge.case import CannotJudge, Case
 from scenewright.judge.tolerance import FloatArray, Leaf
 from scenewright.judge.verdict import Condition
+from scenewright.language.phrases import called
 from scenewright.program.types import Actor
 from scenewright.trace.model import ActorTrace
 
@@ -66,7 +67,7 @@ def _headings(case: Case, actor: Actor, expected: tuple[str, ...]) -> Condition:
     Without the map the first direction is compared at the start and, once the turn is behind the actor, the last one.
     """
     states = case.timelines[actor.id].states
-    text, limit = f"{actor.name} is headed {', then '.join(expected)}", float(MAX_HEADING_RAD)
+    text, limit = f"{called(actor.name)} is headed {', then '.join(expected)}", float(MAX_HEADING_RAD)
     if actor.name in case.paths:
         line = case.paths[actor.name].poses(states.s_m)[:, 2]
         worst = float(np.max(np.abs(_wrapped(states.heading_rad - line))))

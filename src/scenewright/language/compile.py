@@ -29,8 +29,8 @@ COMPASS = "NESW"
 TURNS = {"straight": 0, "right": 1, "left": 3}  # quarters of the compass
 DRIVEN = ("car", "truck", "van", "bus", "taxi")  # the kinds that the program language can drive, all of them as cars
 UNNAMED = ("description", "program")  # what programs are called that nobody gave a name
-_ORDERS: dict[st.Quantity, ex.Order] = {st.Quantity.PLACE: 0, st.Quantity.SPEED: 1, st.Quantity.RATE: 2}
-_DERIVED: dict[st.Quantity, ex.DerivedKind] = {
+ORDERS: dict[st.Quantity, ex.Order] = {st.Quantity.PLACE: 0, st.Quantity.SPEED: 1, st.Quantity.RATE: 2}
+DERIVED: dict[st.Quantity, ex.DerivedKind] = {
     st.Quantity.GAP: "gap",
     st.Quantity.HEADWAY: "headway",
     st.Quantity.COLLISION: "ttc",
@@ -54,18 +54,17 @@ def compile_story(story: st.Story, description: str | None = None) -> pt.Program
         Where the story contradicts itself, such as a speed in metres.
     """
     _check_known(story)
-    compiler = _Compiler(story, description)
+    compiler = _Compiler(story, description, {actor.id: _sketch(story, actor.id) for actor in story.actors})
     compiler.constrain()
+    parameters = {each.name: each for each in story.parameters}
+    for amount in amounts_of(story):
+        if amount.name is not None:
+            parameters.setdefault(amount.name, pt.Parameter(amount.name))
     program = pt.Program(
         story.title or UNNAMED[0],
-        tuple(
-            pt.Actor(actor.id, actor.name, route_of(actor.way), compiler.sketches[actor.id]) for actor in story.actors
-        ),
-        tuple(
-            pt.Constraint(f"c{number}", formula, source)
-            for number, (formula, source) in enumerate(compiler.formulas, start=1)
-        ),
-        _parameters(story),
+        tuple(pt.Actor(each.id, each.name, route_of(each.way), compiler.sketches[each.id]) for each in story.actors),
+        tuple(pt.Constraint(f"c{number}", *each) for number, each in enumerate(compiler.formulas, start=1)),
+        tuple(parameters.values()),
         story.map_name,
         description,
         story.manner,
@@ -115,27 +114,9 @@ def _check_known(story: st.Story) -> None:
             raise refused(f"two deeds of {hero.name} at one time", fix, own[-1].quote)
 
 
-def _parameters(story: st.Story) -> tuple[pt.Parameter, ...]:
-    known = {parameter.name: parameter for parameter in story.parameters}
-    for amount in amounts_of(story):
-        if amount.name is not None:
-            known.setdefault(amount.name, pt.Parameter(amount.name))
-    return tuple(known.values())
-
-
 def amounts_of(story: st.Story) -> list[st.Amount]:
-    """Return every amount that a story speaks of, in the order of the story."""
-    conditions: list[st.Condition] = []
-    found: list[st.Amount | None] = []
-    for moment in story.moments:
-        found.append(moment.time)
-        conditions += moment.conditions
-    conditions += [measure for deed in story.deeds for measure in deed.throughout]
-    conditions += [hold.condition for hold in story.holds]
-    found += [atom.amount for condition in conditions for atom in st.atoms(condition)]
-    found += [order.margin for order in story.orders]
-    found += [point.offset for hold in story.holds for point in (hold.start, hold.end)]
-    return [amount for amount in found if amount is not None]
+    """Return every amount that a story speaks of."""
+    return list(st.within(story, st.Amount))
 
 
 def _sketch(story: st.Story, actor: int) -> pt.Sketch:
@@ -155,11 +136,8 @@ class _Compiler:
 
     story: st.Story
     text: str | None
-    sketches: dict[int, pt.Sketch] = field(init=False)
+    sketches: dict[int, pt.Sketch]
     formulas: list[tuple[ex.Formula, Span | None]] = field(default_factory=list)
-
-    def __post_init__(self) -> None:
-        self.sketches = {actor.id: _sketch(self.story, actor.id) for actor in self.story.actors}
 
     def constrain(self) -> None:
         for number, moment in enumerate(self.story.moments):
@@ -198,7 +176,7 @@ class _Compiler:
         if deed.verb == st.Verb.STAND:
             self._add(ex.Compare("==", ex.State(deed.actor, 1, piece), ex.Number(Fraction(0))), deed.quote)
         for measure in deed.throughout:
-            if measure.quantity in _ORDERS and measure.other is None and measure.actor == deed.actor:
+            if measure.quantity in ORDERS and measure.other is None and measure.actor == deed.actor:
                 self._add(self._measure(measure, piece), measure.quote)
             else:  # a piece is asked for nothing but its own place, speed and acceleration
                 start, end = (self._point(st.Point(moment)) for moment in (deed.begins, deed.ends))
@@ -228,36 +206,24 @@ class _Compiler:
         return ex.Number(time.si)
 
     def _measure(self, measure: st.Measure, at: ex.At, moment: int | None = None) -> ex.Compare:
+        actor, quantity, other = measure.actor, measure.quantity, measure.other
         amount = None if measure.amount is None else _term(measure.amount)
-        op = measure.op
-        left: ex.Term
-        right: ex.Term
-        if measure.quantity in _DERIVED:
-            target: int | ex.Landmark | None = measure.other
-            if measure.quantity is st.Quantity.ARRIVAL and measure.place is not None:
-                target = _landmark(measure.place, measure.actor)
-            if target is None or amount is None:
-                raise refused(f"a {measure.quantity} to nothing", "say of whom, to what, and how much", measure.quote)
-            return ex.Compare(op, ex.Derived(_DERIVED[measure.quantity], measure.actor, target, at), amount)
-        left = ex.State(measure.actor, _ORDERS[measure.quantity], at)
-        if measure.quantity is st.Quantity.PLACE:
-            if measure.place is None:
-                raise refused("a distance to nothing", "say to which place", measure.quote)
-            right = _landmark(measure.place, measure.actor)
-            if amount is not None:
-                op = op if measure.opposite else st.FLIPPED[op]
-                right = combine("+" if measure.opposite else "-", right, amount)
-        elif measure.quantity is st.Quantity.SPEED and measure.other is not None:
-            right = ex.State(measure.other, 1, self._at(measure.other, moment))
-            if amount is not None:
-                op = st.FLIPPED[op] if measure.opposite else op
-                right = combine("-" if measure.opposite else "+", right, amount)
-        else:
-            if amount is None:
-                raise refused(f"a {measure.quantity} without an amount", "say how much", measure.quote)
-            right = negate(amount) if measure.opposite else amount
-            op = st.FLIPPED[op] if measure.opposite else op
-        return ex.Compare(op, left, right)
+        place = None if measure.place is None else _landmark(measure.place, actor)
+        target = place if quantity is st.Quantity.ARRIVAL else other
+        if quantity in DERIVED and target is not None and amount is not None:
+            return ex.Compare(measure.op, ex.Derived(DERIVED[quantity], actor, target, at), amount)
+        origin: ex.Term | None = place if quantity is st.Quantity.PLACE else None  # what the amount is counted from
+        if quantity is st.Quantity.SPEED and other is not None:
+            origin = ex.State(other, 1, self._at(other, moment))
+        if quantity in DERIVED or (origin is None and (amount is None or quantity is st.Quantity.PLACE)):
+            raise refused(f"half of a {quantity}", "say of whom, to what, and how much", measure.quote)
+        left, op = ex.State(actor, ORDERS[quantity], at), measure.op
+        if amount is None:
+            assert origin is not None
+            return ex.Compare(op, left, origin)
+        if not counted_down(quantity, measure.opposite):
+            return ex.Compare(op, left, amount if origin is None else combine("+", origin, amount))
+        return ex.Compare(st.FLIPPED[op], left, negate(amount) if origin is None else combine("-", origin, amount))
 
     def _order(self, order: st.Order) -> ex.Formula:
         if order.first == st.START and order.margin is not None:
@@ -273,6 +239,14 @@ class _Compiler:
         if point.moment == st.START and not point.earlier:
             return _term(point.offset)
         return combine("-" if point.earlier else "+", self._instant(point.moment), _term(point.offset))
+
+
+def counted_down(quantity: st.Quantity, opposite: bool) -> bool:
+    """Whether an amount is taken away: the way to a place, unless past it; slower than somebody; slowing.
+
+    The same tells from whether it is taken away whether it is counted the `opposite` way.
+    """
+    return opposite is not (quantity is st.Quantity.PLACE)
 
 
 def _landmark(place: st.Place, actor: int) -> ex.Landmark:

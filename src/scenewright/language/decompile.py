@@ -7,7 +7,7 @@ What a program says of where it came from in a text becomes the story's quotes.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -16,62 +16,28 @@ from typing import Literal
 from scenewright.errors import ProgramError, TranslationError
 from scenewright.language import story as st
 from scenewright.language.compile import COMPASS, PIECES, TURNS, UNNAMED, amounts_of, kind_of
-from scenewright.language.measures import difference, measure_of, plain_amount, right_side, untold
+from scenewright.language.measures import difference, measure_of, right_side, untold
 from scenewright.program import expressions as ex
 from scenewright.program import types as pt
 from scenewright.program.linear import Linear, linear
-from scenewright.program.structure import knots_of, synchronised
+from scenewright.program.structure import knots_of, read_structure, synchronised
 from scenewright.program.types import EGO
 
 _VERBS = {piece: verb for verb, piece in PIECES.items()}
 Key = tuple[int, str]
-
-
 Became = st.Measure | st.Compound | st.Order | st.Hold | None  # what a constraint is; None: it makes moments one
 Taken = tuple[int | None, Became]  # and at which moment, where it is about one
 
 
 def decompile(program: pt.Program) -> st.Story:
-    """Return the story that `program` tells.
-
-    Raises
-    ------
-    TranslationError
-        For what a story cannot tell yet, with the constraint that says it.
-    """
+    """Return the story that `program` tells; raises `TranslationError` for what a story cannot tell yet."""
     return st.arranged(decompiled(program).story)
 
 
-@dataclass(frozen=True, slots=True)
-class Decompiled:
-    """The story of a program as its moments come, and what became of each constraint.
-
-    Attributes
-    ----------
-    taken
-        What each formula became, of those that stand side by side in a constraint.
-    moment_of
-        The moment that each knot is, of those that matter.
-    untold
-        Constraints that no story tells yet, which the story is without.
-    """
-
-    story: st.Story
-    taken: Mapping[ex.Formula, tuple[Taken, ...]] = field(default_factory=dict)
-    moment_of: Mapping[Key, int] = field(default_factory=dict)
-    untold: tuple[pt.Constraint, ...] = ()
-
-
 def decompiled(program: pt.Program, leniently: bool = False) -> Decompiled:
-    """Return the story of `program`; `leniently` without the constraints that a story cannot tell yet.
-
-    Raises
-    ------
-    TranslationError
-        For what a story cannot tell yet.
-    """
+    """Return the same with what became of each constraint; `leniently` without those that a story cannot tell yet."""
     try:
-        return _Decompiler(program, leniently).decompiled()
+        return Decompiled(program, leniently)
     except ProgramError as error:  # of a term that is no sum
         raise TranslationError(f"{error.message}, and cannot be told in words yet", found=error.found) from None
 
@@ -94,174 +60,160 @@ def way_of(route: pt.RouteSpec) -> st.Way:
 
 
 @dataclass(slots=True)
-class _Decompiler:
+class Decompiled:
+    """The story of a program as its moments come, and what became of each constraint.
+
+    Attributes
+    ----------
+    taken
+        What each formula became, of those that stand side by side in a constraint.
+    moment_of
+        The moment that each knot is, of those that matter.
+    untold
+        Constraints that no story tells yet, which the story is without.
+    """
+
     program: pt.Program
     leniently: bool = False
-    moment_of: dict[Key, int] = field(default_factory=dict)
-    conditions: list[list[st.Condition]] = field(default_factory=list)
-    times: dict[int, st.Amount] = field(default_factory=dict)
-    throughout: dict[tuple[int, int], list[st.Measure]] = field(default_factory=dict)  # by actor and piece
-    orders: list[st.Order] = field(default_factory=list)
-    holds: list[st.Hold] = field(default_factory=list)
-    quote: st.Quote | None = None  # of the constraint that is being taken
+    story: st.Story = field(init=False)
     taken: dict[ex.Formula, tuple[Taken, ...]] = field(default_factory=dict)
-    own: list[Taken] = field(default_factory=list)  # what the formula that is being taken became
+    moment_of: dict[Key, int] = field(default_factory=dict)
+    untold: list[pt.Constraint] = field(default_factory=list)
+    _conditions: list[list[st.Condition]] = field(default_factory=list)
+    _times: dict[int, st.Amount] = field(default_factory=dict)
+    _throughout: dict[tuple[int, int], list[st.Measure]] = field(default_factory=dict)  # by actor and piece
+    _quote: st.Quote | None = None  # of the constraint that is being taken
 
-    def decompiled(self) -> Decompiled:
+    def __post_init__(self) -> None:
         parts = {each.id: list(parts_of(each.formula)) for each in self.program.constraints}
         formulas = [formula for own in parts.values() for formula in own]
         self._name_moments(formulas)
         for formula in formulas:
-            if isinstance(formula, ex.Compare):
-                with suppress(*((TranslationError, ProgramError) if self.leniently else ())):
-                    self._fix_time(formula)
-        untold = []
+            with suppress(TranslationError, ProgramError):  # raised when it is taken
+                self._fix_time(formula)
         for constraint in self.program.constraints:
-            source = constraint.source
-            words = self.program.words_of(constraint)
-            self.quote = None if source is None or words is None else st.Quote(source.start, source.end, words)
+            source, words = constraint.source, self.program.words_of(constraint)
+            self._quote = None if source is None or words is None else st.Quote(source.start, source.end, words)
             try:
                 for formula in parts[constraint.id]:
-                    self.own = []
-                    self._take(formula)
-                    self.taken[formula] = tuple(self.own)
+                    self.taken[formula] = tuple(self._take(formula))
             except (TranslationError, ProgramError, LookupError):  # of a piece that there is not
                 if not self.leniently:
                     raise
-                untold.append(constraint)
-        return Decompiled(self._story(), self.taken, self.moment_of, tuple(untold))
+                self.untold.append(constraint)
+        self.story = self._story()
 
     def _story(self) -> st.Story:
         program = self.program
         if set(program.ego.sketch.pieces) != {pt.PieceKind.GO}:
             raise untold("a deed of the ego", "let its pieces be 'go': the policy under test drives it")
-        ego = [self.moment_of[EGO, knot] for knot in program.ego.sketch.knots[1:] if (EGO, knot) in self.moment_of]
         if [actor.id for actor in program.actors] != [*range(len(program.actors))]:
             raise untold("actors that are not numbered one after the other", "number them 0, 1, 2")
+        taken = dict.fromkeys(each for own in self.taken.values() for _, each in own)
         story = st.Story(
             tuple(st.Actor(each.id, "ego" if each.is_ego else each.name, way_of(each.route), kind_of(each.name))
                   for each in program.actors),
-            tuple(st.Moment(tuple(dict.fromkeys(own)), self.times.get(number))
-                  for number, own in enumerate(self.conditions)),
-            tuple(ego),
+            tuple(st.Moment(tuple(dict.fromkeys(own)), self._times.get(number))
+                  for number, own in enumerate(self._conditions)),
+            tuple(self.moment_of[EGO, knot] for knot in program.ego.sketch.knots[1:] if (EGO, knot) in self.moment_of),
             tuple(self._deeds()),
-            tuple(dict.fromkeys(self.orders)),
-            tuple(dict.fromkeys(self.holds)),
+            tuple(each for each in taken if isinstance(each, st.Order) and each != self._fixed(each.second)),
+            tuple(each for each in taken if isinstance(each, st.Hold)),
             (),
             program.manner,
             program.map_name,
             None if program.name in UNNAMED else program.name,
         )  # fmt: skip
         used = {amount.name for amount in amounts_of(story)}
-        declared = [each for each in program.parameters if each.name not in used or each != pt.Parameter(each.name)]
+        declared = (each for each in program.parameters if each.name not in used or each != pt.Parameter(each.name))
         return replace(story, parameters=tuple(declared))
 
     def _name_moments(self, formulas: list[ex.Formula]) -> None:
         """Give a number to every instant: the start, what the program merges, and every other knot that matters."""
         spoken = {key for formula in formulas for key in knots_of(formula)}
-        merged: dict[Key, Key] = {}
-
-        def root(key: Key) -> Key:
-            while merged.get(key, key) != key:
-                key = merged[key]
-            return key
-
-        first = (EGO, self.program.ego.sketch.knots[0])
-        for actor in self.program.actors:
-            merged[root((actor.id, actor.sketch.knots[0]))] = first
-        for formula in formulas:
-            for one, other in synchronised(formula):
-                merged[root(one)] = root(other)
-        numbers = {root(first): st.START}
+        structure = read_structure(self.program)
+        starts = frozenset(structure.starts.items())
+        merged = [group for group in structure.instants if not group & starts]
+        start = starts.union(*(group for group in structure.instants if group & starts))
+        instant_of = {key: group for group in (start, *merged) for key in group}
+        numbers = {start: st.START}
         for actor in (*self.program.heroes, self.program.ego):
-            own = [root((actor.id, knot)) for knot in actor.sketch.knots]
-            if len(set(own)) != len(own):
+            keys = [(actor.id, knot) for knot in actor.sketch.knots]
+            own = {key: instant_of.get(key, frozenset({key})) for key in keys}
+            if len(set(own.values())) != len(own):
                 raise untold(f"two knots of {actor.name} at one moment", "leave one of them out")
-            for knot in actor.sketch.knots:
-                key = (actor.id, knot)
-                if actor.is_ego and root(key) not in numbers and key not in spoken:
-                    continue  # an end of its sketch of which nothing is asked
-                self.moment_of[key] = numbers.setdefault(root(key), len(numbers))
-        self.conditions = [[] for _ in numbers]
+            for key, instant in own.items():
+                if not actor.is_ego or instant in numbers or key in spoken:  # else an end that nothing is asked of
+                    self.moment_of[key] = numbers.setdefault(instant, len(numbers))
+        self._conditions = [[] for _ in numbers]
 
-    def _fix_time(self, compare: ex.Compare) -> None:
+    def _fix_time(self, formula: ex.Formula) -> None:
         """Take ``A1(t1) == 5 s``."""
-        form = difference(compare)
-        instants = self._instants(form)
-        if compare.operator == "==" and _is_of_times(form) and list(instants.values()) == [1]:
-            (moment,) = instants
-            self.times.setdefault(moment, plain_amount(form, "time"))
+        if isinstance(formula, ex.Compare) and formula.operator == "==" and (form := _of_times(formula)) is not None:
+            below_zero, amount = right_side(form, "time")
+            match list(self._instants(form).items()):
+                case [(moment, factor)] if factor == 1 and not below_zero:
+                    self._times.setdefault(moment, amount)
+
+    def _fixed(self, moment: int) -> st.Order:
+        """Return the order that a moment's time is."""
+        return st.Order(st.START, moment, "==", self._times.get(moment))
 
     def _deeds(self) -> Iterator[st.Deed]:
         for actor in self.program.heroes:
+            moments = [self.moment_of[actor.id, knot] for knot in actor.sketch.knots]
             for index, piece in enumerate(actor.sketch.pieces):
-                ends = [self.moment_of[actor.id, knot] for knot in actor.sketch.knots[index : index + 2]]
-                held = tuple(dict.fromkeys(self.throughout.get((actor.id, index), ())))
-                yield st.Deed(actor.id, _VERBS[piece], ends[0], ends[1], held)
+                held = tuple(dict.fromkeys(self._throughout.get((actor.id, index), ())))
+                yield st.Deed(actor.id, _VERBS[piece], moments[index], moments[index + 1], held)
 
-    def _take(self, formula: ex.Formula) -> None:
+    def _take(self, formula: ex.Formula) -> list[Taken]:
         if merged := list(synchronised(formula)):
-            self.own += [(self.moment_of[one], None) for one, _ in merged]
-            return
+            return [(self.moment_of[one], None) for one, _ in merged]
         if isinstance(formula, ex.Temporal):
-            self.holds.append(self._hold(formula))
-            self.own.append((None, self.holds[-1]))
-            return
+            return [(None, self._hold(formula))]
         if isinstance(formula, ex.Compare):
-            piece = ex.piece_of(formula)
-            if piece is not None:
-                self._take_piece(formula, piece)
-                return
-            if self._take_order(formula):
-                return
-        moments: set[int] = set()
-        condition = self._condition(formula, moments)
+            if (piece := ex.piece_of(formula)) is not None:
+                return [(None, self._held(formula, piece))]
+            if (form := _of_times(formula)) is not None:
+                return [(None, self._order(formula, form))]
+        condition, moments = self._condition(formula), self._moments_in(formula)
         if len(moments) != 1:
             raise untold("a condition about more than one moment", "ask for each by itself", formula)
-        moment = moments.pop()
-        self.conditions[moment].append(condition)
-        self.own.append((moment, condition))
+        (moment,) = moments
+        self._conditions[moment].append(condition)
+        return [(moment, condition)]
 
-    def _take_piece(self, compare: ex.Compare, piece: ex.State) -> None:
+    def _held(self, compare: ex.Compare, piece: ex.State) -> st.Measure:
         assert isinstance(piece.at, ex.PieceRef)
         sketch = self.program.actor(piece.actor).sketch
         index = sketch.piece_index(piece.at.name)
-        bare = ex.with_state(compare, piece, replace(piece, at=None))
-        measure = self._measure(bare, set())
+        measure = measure_of(ex.with_state(compare, piece, replace(piece, at=None)), self.program)
         if piece.actor == EGO or measure is None or measure.other is not None:
             raise untold("this condition on a piece", "ask for it from one moment until another", compare)
-        self.own.append((None, measure))
-        standstill = st.Measure(piece.actor, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s"))
-        if sketch.pieces[index] is not pt.PieceKind.STOP or measure != standstill:
-            self.throughout.setdefault((piece.actor, index), []).append(measure)
+        measure = replace(measure, quote=self._quote)
+        if sketch.pieces[index] is not pt.PieceKind.STOP or measure != st.standstill(piece.actor):
+            self._throughout.setdefault((piece.actor, index), []).append(measure)
+        return measure
 
-    def _take_order(self, compare: ex.Compare) -> bool:
-        form = difference(compare)
-        if not _is_of_times(form):
-            return False
+    def _order(self, compare: ex.Compare, form: Linear) -> st.Order:
         instants, op = self._instants(form), compare.operator
-        negative, amount = right_side(form, "time")
-        if op == "==" and list(instants.values()) == [1] and self.times.get(*instants) == amount:
-            self.own.append((None, st.Order(st.START, next(iter(instants)), op, amount, self.quote)))
-            return True
-        first = next((moment for moment, factor in instants.items() if factor == -1), st.START)
-        second = next((moment for moment, factor in instants.items() if factor == 1), st.START)
         if sorted(instants.values()) not in ([-1], [1], [-1, 1]):
             raise untold("a sum of times", "ask for the time from one moment to another", compare)
+        first, second = (
+            next((moment for moment, own in instants.items() if own == factor), st.START) for factor in (-1, 1)
+        )
+        below_zero, amount = right_side(form, "time")
         margin = None if amount.value == 0 else amount
-        if negative or (margin is None and op in ("<", "<=")):
+        if below_zero or (margin is None and op in ("<", "<=")):
             first, second, op = second, first, st.FLIPPED[op]
-        self.orders.append(st.Order(first, second, op, margin, self.quote))
-        self.own.append((None, self.orders[-1]))
-        return True
+        return st.Order(first, second, op, margin, self._quote)
 
     def _hold(self, temporal: ex.Temporal) -> st.Hold:
         how: st.How = "at some time" if temporal.operator == "eventually" else temporal.operator
-        inside: set[int] = set()
-        condition = self._condition(temporal.body, inside)
-        if inside:
+        if self._moments_in(temporal.body):
             raise untold("a moment inside an interval", "ask for it apart from the interval", temporal)
-        return st.Hold(how, self._point(temporal.start), self._point(temporal.end), condition, self.quote)
+        start, end = self._point(temporal.start), self._point(temporal.end)
+        return st.Hold(how, start, end, self._condition(temporal.body), self._quote)
 
     def _point(self, term: ex.Term) -> st.Point:
         form = linear(term)
@@ -274,30 +226,24 @@ class _Decompiler:
         return st.Point(moment) if offset.value == 0 else st.Point(moment, offset, earlier)
 
     # -- conditions ---------------------------------------------------------------------------------------------------
-    def _condition(self, formula: ex.Formula, moments: set[int]) -> st.Condition:
+    def _condition(self, formula: ex.Formula) -> st.Condition:
         match formula:
             case ex.Compare():
-                measure = self._measure(formula, moments)
+                measure = measure_of(formula, self.program)
                 if measure is None:
                     raise untold("this comparison", "compare a place, a speed or a gap with an amount", formula)
-                return measure
+                return replace(measure, quote=self._quote)
             case ex.Logic(operator=operator, operands=operands):
-                parts = tuple(self._condition(operand, moments) for operand in operands)
                 joint: Literal["and", "or", "not", "if"] = "if" if operator == "implies" else operator
-                return st.Compound(joint, parts, self.quote)
+                return st.Compound(joint, tuple(self._condition(each) for each in operands), self._quote)
             case ex.Temporal():
                 raise untold("an interval inside another condition", "ask for it by itself", formula)
 
-    def _measure(self, compare: ex.Compare, moments: set[int]) -> st.Measure | None:
-        """Return the one measure that a comparison is, or None; adds the moment that it is about."""
-        measure, instants = measure_of(compare, self.program)
-        found = {self._moment(actor, at) for actor, at in instants}
-        if measure is None or len(found) > 1:
-            return None
-        moments |= found
-        return replace(measure, quote=self.quote)
-
     # -- moments and amounts ------------------------------------------------------------------------------------------
+    def _moments_in(self, formula: ex.Formula) -> set[int]:
+        states = (node for node in ex.walk(formula) if isinstance(node, ex.State | ex.Derived))
+        return {self._moment(state.actor, state.at) for state in states if state.at is not None}
+
     def _moment(self, actor: int, at: ex.At) -> int:
         match at:
             case ex.Knot(name=name):
@@ -306,26 +252,28 @@ class _Decompiler:
                 return self.moment_of[owner, knot]
             case ex.Number(value=value):
                 time = st.Amount(value, "s")
-                known = next((number for number, own in self.times.items() if own == time), len(self.conditions))
-                if known == len(self.conditions):
-                    self.conditions.append([])
-                    self.times[known] = time
-                return known
+                if time not in self._times.values():
+                    self._times[len(self._conditions)] = time
+                    self._conditions.append([])
+                return next(number for number, own in self._times.items() if own == time)
             case _:
                 raise untold("this moment", "name a knot or a time")
 
     def _instants(self, form: Linear) -> dict[int, Fraction]:
         found: dict[int, Fraction] = {}
-        for atom, factor in form.atoms.items():
-            if isinstance(atom, ex.Elapsed):
-                moment = self.moment_of[atom.actor, atom.knot]
-                if moment != st.START:
-                    found[moment] = found.get(moment, Fraction(0)) + factor
+        for atom, factor in form.of(ex.Elapsed).items():
+            assert isinstance(atom, ex.Elapsed)
+            moment = self.moment_of[atom.actor, atom.knot]
+            if moment != st.START:
+                found[moment] = found.get(moment, Fraction(0)) + factor
         return found
 
 
-def _is_of_times(form: Linear) -> bool:
-    return bool(form.of(ex.Elapsed)) and len(form.atoms) == len(form.of(ex.Elapsed, ex.ParameterRef))
+def _of_times(compare: ex.Compare) -> Linear | None:
+    """Return what a comparison of times holds against zero; None for other comparisons."""
+    form = difference(compare)
+    only = len(form.atoms) == len(form.of(ex.Elapsed, ex.ParameterRef))
+    return form if only and form.of(ex.Elapsed) else None
 
 
 def parts_of(formula: ex.Formula) -> Iterator[ex.Formula]:

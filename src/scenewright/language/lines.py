@@ -14,10 +14,10 @@ from functools import lru_cache
 
 from scenewright.errors import TranslationError
 from scenewright.language import story as st
-from scenewright.language.decompile import Became, Decompiled, decompiled, parts_of, way_of
+from scenewright.language.decompile import Became, decompiled, parts_of, way_of
 from scenewright.language.phrases import DOES, Phrases, listed, sentence
 from scenewright.language.stretches import words_of
-from scenewright.language.tell import Teller, tell_with_quotes
+from scenewright.language.tell import Teller
 from scenewright.program.expressions import Formula
 from scenewright.program.printer import print_expression
 from scenewright.program.types import Constraint, Program
@@ -33,7 +33,7 @@ class Line:
 
 def lines_of_story(story: st.Story, text: str) -> tuple[Line, ...]:
     """Return `story` as lines with their words in `text`; raises as `tell` does."""
-    return tuple(Line(each.sentence, words_of(each.quotes, text)) for each in tell_with_quotes(story))
+    return tuple(Line(told, words_of(quotes, text)) for told, quotes in Teller(st.arranged(story)).lines())
 
 
 def lines_of_program(program: Program) -> tuple[Line, ...]:
@@ -41,7 +41,8 @@ def lines_of_program(program: Program) -> tuple[Line, ...]:
     text = program.description or ""
     try:
         found = decompiled(program, leniently=True)
-        lines, rest = lines_of_story(replace(found.story, title=None), text), found.untold  # a program has its name
+        lines = lines_of_story(replace(found.story, title=None), text)  # a program has its name
+        rest = tuple(found.untold)
     except TranslationError:
         ways = ((actor.name, Phrases(st.Story(())).way(way_of(actor.route))) for actor in program.actors)
         lines, rest = tuple(Line(sentence(f"the {name} {way}")) for name, way in ways), program.constraints
@@ -60,26 +61,23 @@ def told_knots(program: Program) -> dict[tuple[int, str], str]:
     told: dict[tuple[int, str], str] = {}
     with suppress(TranslationError):
         found = decompiled(program, leniently=True)
-        clauses = _Clauses(found.story)
+        teller = _knowing_all(found.story)
         for key, moment in found.moment_of.items():
             with suppress(TranslationError):
-                told[key] = "start" if moment == st.START else clauses.event(moment)
+                told[key] = "start" if moment == st.START else teller.event(moment)
     return told
 
 
 @lru_cache(maxsize=4)  # one program is asked about constraint by constraint
 def told_formulas(program: Program) -> Mapping[Formula, str]:
     """Return the same for each formula of those that stand side by side in a constraint."""
-    try:
+    told = {part: print_expression(part) for each in program.constraints for part in parts_of(each.formula)}
+    with suppress(TranslationError):
         found = decompiled(program, leniently=True)
-    except TranslationError:
-        found = Decompiled(st.Story(()))
-    clauses, told = _Clauses(found.story), {}
-    for formula in (part for constraint in program.constraints for part in parts_of(constraint.formula)):
-        try:
-            told[formula] = listed([clauses.clause(*each) for each in found.taken[formula]])
-        except (TranslationError, LookupError):
-            told[formula] = print_expression(formula)
+        teller = _knowing_all(found.story)
+        for formula, became in found.taken.items():
+            with suppress(TranslationError):
+                told[formula] = listed([_clause(teller, *each) for each in became])
     return told
 
 
@@ -94,42 +92,31 @@ def in_words(program: Program, constraint: Constraint) -> str:
     return program.words_of(constraint) or told_constraints(program)[constraint.id]
 
 
-class _Clauses:
-    """Tells parts of a story by themselves: every moment is known, by what begins or ends at it."""
+def _knowing_all(story: st.Story) -> Teller:
+    """Return what tells parts of a story by themselves: every moment is known, by what begins or ends at it."""
+    return Teller(story, begun=list(story.deeds), ended=list(story.deeds))
 
-    def __init__(self, story: st.Story) -> None:
-        self._story = story
-        self._teller = Teller(story, begun=list(story.deeds), ended=list(story.deeds))
 
-    def event(self, moment: int) -> str:
-        """Return what a moment is known by."""
-        return self._teller.event(moment)
-
-    def clause(self, moment: int | None, told: Became) -> str:
-        """Return what a constraint became as a clause."""
-        phrases = self._teller.phrases
-        match told:
-            case st.Order():
-                return self._teller.order(told)
-            case st.Hold():
-                return self._teller.hold(told)
-            case None if moment is not None:
-                return f"all of this is at one moment, when {self.event(moment)}"
-            case st.Measure() if moment is None:
-                own = (DOES[each.verb][0] for each in self._story.deeds_of(told.actor) if told in each.throughout)
-                return f"{phrases.clause(told)} while it {next(own, DOES[st.Verb.STAND][0])}"
-            case st.Measure() | st.Compound() if moment is not None:
-                return self._at(moment, told)
-        raise LookupError(told)
-
-    def _at(self, moment: int, condition: st.Condition) -> str:
-        if moment == st.START:
-            return f"{self._teller.phrases.clause(condition)} at the start"
-        clause = self._teller.phrases.clause(condition, passing=st.is_event(condition))
-        event = self.event(moment)
-        if isinstance(condition, st.Measure):
-            name = self._teller.phrases.name(condition.actor)
-            event = re.sub(f"^{re.escape(name)} ", "it ", event)
-            if event == clause.replace(name, "it", 1):
-                return clause
-        return f"{clause} when {event}"
+def _clause(teller: Teller, moment: int | None, told: Became) -> str:
+    """Return what a constraint became as a clause."""
+    clause = teller.phrases.clause
+    match told:
+        case st.Order():
+            return teller.order(told)
+        case st.Hold():
+            return teller.hold(told)
+        case st.Measure() if moment is None:
+            own = (deed.verb for deed in teller.story.deeds_of(told.actor) if told in deed.throughout)
+            return f"{clause(told)} while it {DOES[next(own, st.Verb.STAND)][0]}"
+    assert moment is not None
+    if told is None:
+        return f"all of this is at one moment, when {teller.event(moment)}"
+    if moment == st.START:
+        return f"{clause(told)} at the start"
+    text, event = clause(told, passing=st.is_event(told)), teller.event(moment)
+    if isinstance(told, st.Measure):
+        name = teller.phrases.name(told.actor)
+        event = re.sub(f"^{re.escape(name)} ", "it ", event)
+        if event == text.replace(name, "it", 1):
+            return text
+    return f"{text} when {event}"

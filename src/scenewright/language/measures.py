@@ -6,12 +6,12 @@ for what is no such thing.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 
 from scenewright.errors import TranslationError
 from scenewright.language import story as st
+from scenewright.language.compile import DERIVED, counted_down
 from scenewright.program import expressions as ex
 from scenewright.program import types as pt
 from scenewright.program.linear import Atom, Linear, linear
@@ -19,89 +19,70 @@ from scenewright.program.printer import print_expression
 from scenewright.program.resolve import usual_partner
 from scenewright.units import SI_SYMBOL, UNITS, Dimension, format_fraction, unit_of_name
 
-_QUANTITIES = {
-    "gap": st.Quantity.GAP,
-    "headway": st.Quantity.HEADWAY,
-    "ttc": st.Quantity.COLLISION,
-    "tta": st.Quantity.ARRIVAL,
-}
+_QUANTITIES = {kind: quantity for quantity, kind in DERIVED.items()}
 _DIMENSIONS: dict[st.Quantity, Dimension] = {
     st.Quantity.PLACE: "length",
     st.Quantity.GAP: "length",
     st.Quantity.SPEED: "speed",
     st.Quantity.RATE: "acceleration",
-    st.Quantity.ARRIVAL: "time",
-    st.Quantity.HEADWAY: "time",
-    st.Quantity.COLLISION: "time",
-}
+}  # the others are times
 _DECIMALS = 2  # of a number in SI units that nobody would rather write in another unit
-Instant = tuple[int, ex.At]  # whose, and which
 
 
-def measure_of(compare: ex.Compare, program: pt.Program) -> tuple[st.Measure | None, set[Instant]]:
-    """Return the measure that `compare` is, or None, and the instants at which it is measured."""
+def measure_of(compare: ex.Compare, program: pt.Program) -> st.Measure | None:
+    """Return the measure that `compare` is, at whatever instant, or None."""
     form = difference(compare)
-    states, landmarks = form.of(ex.State, ex.Derived), form.of(ex.Landmark)
-    atoms = [atom for atom in states if isinstance(atom, ex.State | ex.Derived)]
-    instants: set[Instant] = {(atom.actor, atom.at) for atom in atoms if atom.at is not None}
-    if form.of(ex.Elapsed) or not states or len({atom.at is None for atom in atoms}) > 1:
-        return None, instants
-    if len(states) > 1:
-        return None if landmarks else _of_two(states, compare.operator, form), instants
-    ((state, factor),) = states.items()
-    assert isinstance(state, ex.State | ex.Derived)
+    states = [atom for atom in form.atoms if isinstance(atom, ex.State | ex.Derived)]
+    if form.of(ex.Elapsed) or not states or len({state.at is None for state in states}) > 1:
+        return None
+    state, *others = states
+    factor = form.atoms[state]
     form, op = form.scaled(1 / factor), compare.operator if factor > 0 else st.FLIPPED[compare.operator]
-    return _of_one(state, op, form, program), instants
-
-
-def _of_one(state: ex.State | ex.Derived, op: st.Operator, form: Linear, program: pt.Program) -> st.Measure | None:
-    actor, landmarks = state.actor, form.of(ex.Landmark)
-    if isinstance(state, ex.State) and state.order == 0:
-        (place, factor), *more = landmarks.items() or [(None, Fraction(0))]
-        if more or factor != -1 or not isinstance(place, ex.Landmark):
-            return None
-        where = _place(place, actor, program)
-        before, amount = right_side(form, "length")
-        if amount.value == 0:
-            return st.Measure(actor, st.Quantity.PLACE, op, None, where)
-        op = st.FLIPPED[op] if before else op
-        return st.Measure(actor, st.Quantity.PLACE, op, amount, where, opposite=not before)
-    if landmarks:
+    origins: list[Atom] = [*others, *form.of(ex.Landmark)]  # what the amount is counted from
+    if len(origins) > 1 or any(form.atoms[each] != -1 for each in origins):
         return None
-    if isinstance(state, ex.State):
-        quantity = st.Quantity.SPEED if state.order == 1 else st.Quantity.RATE
-        slowing, amount = right_side(form, _DIMENSIONS[quantity])
-        if quantity is st.Quantity.RATE and slowing:
-            return st.Measure(actor, quantity, st.FLIPPED[op], amount, opposite=True)
-        return st.Measure(actor, quantity, op, plain_amount(form, _DIMENSIONS[quantity]))
-    quantity = _QUANTITIES[state.kind]
-    if isinstance(state.target, int):
-        return _to(actor, quantity, op, state.target, form)
-    return st.Measure(actor, quantity, op, plain_amount(form, "time"), _place(state.target, actor, program))
+    measure = _measure(state, origins[0] if origins else None, op, program)
+    return None if measure is None else _with_amount(measure, form)
 
 
-def _to(actor: int, quantity: st.Quantity, op: st.Operator, other: int, form: Linear) -> st.Measure:
-    negative, amount = right_side(form, _DIMENSIONS[quantity])
-    if quantity is st.Quantity.GAP and negative:
-        return st.Measure(other, quantity, st.FLIPPED[op], amount, other=actor)
-    return st.Measure(actor, quantity, op, plain_amount(form, _DIMENSIONS[quantity]), other=other)
+def _measure(
+    state: ex.State | ex.Derived, origin: Atom | None, op: st.Operator, program: pt.Program
+) -> st.Measure | None:
+    """Return the measure without its amount."""
+    actor = state.actor
+    match state, origin:
+        case ex.Derived(kind=kind, target=int(other)), None:
+            return st.Measure(actor, _QUANTITIES[kind], op, other=other)
+        case ex.Derived(kind=kind, target=ex.Landmark() as target), None:
+            return st.Measure(actor, _QUANTITIES[kind], op, place=_place(target, actor, program))
+        case ex.State(order=0), ex.Landmark():
+            return st.Measure(actor, st.Quantity.PLACE, op, place=_place(origin, actor, program))
+        case ex.State(order=0), ex.State(order=0, actor=rear) if rear != actor:
+            return st.Measure(rear, st.Quantity.GAP, op, other=actor)
+        case ex.State(order=1), ex.State(order=1, actor=other) if other != actor:
+            return st.Measure(actor, st.Quantity.SPEED, op, other=other)
+        case ex.State(order=1), None:
+            return st.Measure(actor, st.Quantity.SPEED, op)
+        case ex.State(order=2), None:
+            return st.Measure(actor, st.Quantity.RATE, op)
+    return None
 
 
-def _of_two(states: Mapping[Atom, Fraction], op: st.Operator, form: Linear) -> st.Measure | None:
-    if len(states) != 2:
-        return None
-    (one, factor), (other, against) = states.items()
-    if not isinstance(one, ex.State) or not isinstance(other, ex.State) or factor != -against:
-        return None
-    if one.order != other.order or one.actor == other.actor or one.order == 2:
-        return None
-    form, op = form.scaled(1 / factor), op if factor > 0 else st.FLIPPED[op]
-    if one.order == 0:  # `one` is ahead
-        return _to(other.actor, st.Quantity.GAP, op, one.actor, form)
-    slower, amount = right_side(form, "speed")
-    op = st.FLIPPED[op] if slower else op
-    faster_by = None if amount.value == 0 else amount
-    return st.Measure(one.actor, st.Quantity.SPEED, op, faster_by, other=other.actor, opposite=slower)
+def _with_amount(measure: st.Measure, form: Linear) -> st.Measure:
+    """Return a measure with what stands on the other side of its comparison, which some measures count downwards."""
+    quantity, other = measure.quantity, measure.other
+    down, amount = right_side(form, _DIMENSIONS.get(quantity, "time"))
+    has_origin = quantity is st.Quantity.PLACE or (quantity is st.Quantity.SPEED and other is not None)
+    if has_origin and amount.value == 0:
+        return measure
+    op = st.FLIPPED[measure.op] if down else measure.op
+    if has_origin or quantity is st.Quantity.RATE:
+        return replace(measure, op=op, amount=amount, opposite=counted_down(quantity, down))
+    if quantity is st.Quantity.GAP and other is not None and down:
+        return replace(measure, actor=other, other=measure.actor, op=op, amount=amount)
+    if down and amount.value is None:
+        raise untold(f"the negative of {amount.name}", "turn its sign where it gets its value")
+    return replace(measure, amount=replace(amount, value=-amount.value) if down and amount.value else amount)
 
 
 def _place(landmark: ex.Landmark, actor: int, program: pt.Program) -> st.Place:
@@ -127,14 +108,6 @@ def right_side(form: Linear, dimension: Dimension) -> tuple[bool, st.Amount]:
     if more or form.constant or abs(factor) != 1 or unit is None:
         raise untold("a sum of amounts", "give the sum a parameter of its own")
     return factor > 0, st.Amount(None, unit.symbol, reference.name)
-
-
-def plain_amount(form: Linear, dimension: Dimension) -> st.Amount:
-    """Return the same where only a number may be below zero."""
-    negative, amount = right_side(form, dimension)
-    if negative and amount.value is None:
-        raise untold(f"the negative of {amount.name}", "turn its sign where it gets its value")
-    return replace(amount, value=-amount.value) if negative and amount.value is not None else amount
 
 
 def _in_a_unit(value: Fraction, dimension: Dimension) -> st.Amount:

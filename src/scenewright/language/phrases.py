@@ -14,21 +14,19 @@ from typing import TypeGuard
 from scenewright.errors import TranslationError
 from scenewright.language import story as st
 from scenewright.language.compile import PIECES
+from scenewright.program.expressions import LANDMARKS
 from scenewright.program.types import EGO, PieceKind
 from scenewright.units import format_fraction
 
 BOUNDS: dict[st.Operator, str] = {"==": "", ">=": "at least ", "<=": "at most ", ">": "more than ", "<": "less than "}
-PLACES = {
-    "stop_line": "stop line",
-    "conflict_point": "conflict point",
-    "intersection": "intersection",
-    "turn": "turn",
+PLACES = {name: name.replace("_", " ") for name in LANDMARKS} | {
     "turn_start": "start of the turn",
     "turn_end": "end of the turn",
     "junction_start": "start of the junction",
     "junction_end": "end of the junction",
     "route_end": "end of the route",
 }
+TURNING = {st.Place("turn_start"): "begins to turn", st.Place("turn_end"): "completes its turn"}
 PLAIN_NAMES = ("ego", "hero", "car", "truck", "van", "bus", "taxi")  # told as they are; other names in quotes
 COMPASS_WORDS = {"N": "north", "E": "east", "S": "south", "W": "west"}
 # Verb: as somebody does it, as it begins, as it ends.
@@ -40,19 +38,12 @@ DOES: dict[str, tuple[str, str, str]] = {
 }
 NO_GAP = st.Amount(Fraction(0), "m")
 ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
-_WITHOUT_AMOUNT: dict[st.Operator, str] = {
-    "==": "is at",
-    ">=": "is at or past",
-    ">": "is past",
-    "<=": "is at or before",
-    "<": "is before",
-}
-_AS_FAST: dict[st.Operator, str] = {
-    "==": "as fast as",
-    ">=": "at least as fast as",
-    ">": "faster than",
-    "<=": "at most as fast as",
-    "<": "slower than",
+_WITHOUT_AMOUNT: dict[st.Operator, tuple[str, str]] = {  # of a place, and of a speed beside that of somebody else
+    "==": ("is at", "as fast as"),
+    ">=": ("is at or past", "at least as fast as"),
+    ">": ("is past", "faster than"),
+    "<=": ("is at or before", "at most as fast as"),
+    "<": ("is before", "slower than"),
 }
 
 
@@ -91,6 +82,11 @@ def sentence(text: str) -> str:
     return f"{text[0].upper()}{text[1:]}."
 
 
+def called(name: str, kind: str = "car") -> str:
+    """Return what somebody of a name is called: ``the ego``, or with the name in quotes ``the car 'blue'``."""
+    return f"the {name}" if name in PLAIN_NAMES else f"the {kind} '{name}'"
+
+
 @dataclass(frozen=True, slots=True)
 class Phrases:
     """The phrases for one story, whose actors have names."""
@@ -98,9 +94,9 @@ class Phrases:
     story: st.Story
 
     def name(self, actor: int) -> str:
-        """Return what somebody is called: ``the ego``, or with the name in quotes ``the car 'blue'``."""
+        """Return what somebody is called."""
         found = next(each for each in self.story.actors if each.id == actor)
-        return f"the {found.name}" if found.name in PLAIN_NAMES else f"the {found.kind} '{found.name}'"
+        return called(found.name, found.kind)
 
     def place(self, place: st.Place) -> str:
         """Return a place; whose it is where that is somebody else, with whom where that is not the usual one."""
@@ -113,7 +109,7 @@ class Phrases:
         conditions = sorted(conditions, key=lambda each: not isinstance(each, st.Measure) or each.actor != it)
         places: dict[st.Condition, st.Measure] = {}  # where somebody stands, by the condition that it does
         for each in conditions:
-            if isinstance(each, st.Measure) and _stands(each):
+            if isinstance(each, st.Measure) and each == st.standstill(each.actor):
                 free = [where for where in conditions if _is_where(where, each.actor) and where not in places.values()]
                 places.update({each: free[0]} if free else {})
         found, spoken = [], set[int]()
@@ -131,7 +127,8 @@ class Phrases:
     def clause(self, condition: st.Condition, it: int | None = None, passing: bool = False) -> str:
         """Return one condition as a clause; `passing` says that it is an event: ``the ego passes the stop line``."""
         if isinstance(condition, st.Measure):
-            return f"{self._subject(condition.actor, it)} {self.predicate(condition, passing)}"
+            subject = "it" if condition.actor == it else self.name(condition.actor)
+            return f"{subject} {self.predicate(condition, passing)}"
         parts = [self._part(part, condition.joint, it) for part in condition.parts]
         if condition.joint == "not":
             return f"it is not so that {parts[0]}"
@@ -147,12 +144,7 @@ class Phrases:
             flat = all(each.joint == "not" and isinstance(each.parts[0], st.Measure) for each in inner)
             if joint not in fits[part.joint] or (inner and (part.joint == "not" or not flat)):
                 raise untold("conditions inside conditions of conditions")
-            if part.joint == "not" and isinstance(part.parts[0], st.Compound):
-                raise untold("conditions inside conditions of conditions")
         return self.clause(part, it)
-
-    def _subject(self, actor: int, it: int | None) -> str:
-        return "it" if actor == it else self.name(actor)
 
     def predicate(self, measure: st.Measure, passing: bool = False) -> str:
         """Return what a measure says of its actor."""
@@ -165,10 +157,10 @@ class Phrases:
             case st.Quantity.SPEED if measure.other is not None:
                 whom = self.name(measure.other)
                 if measure.amount is None:
-                    return f"drives {_AS_FAST[measure.op]} {whom}"
+                    return f"drives {_WITHOUT_AMOUNT[measure.op][1]} {whom}"
                 return f"drives {bound} {'slower' if measure.opposite else 'faster'} than {whom}"
             case st.Quantity.SPEED:
-                if _stands(measure):
+                if measure == st.standstill(measure.actor):
                     return "stands"
                 return f"drives at {bound}" if measure.op == "==" else f"drives at a speed of {bound}"
             case st.Quantity.RATE:
@@ -185,11 +177,9 @@ class Phrases:
     def _where(self, measure: st.Measure, place: st.Place, bound: str, passing: bool) -> str:
         if bound:
             return f"is {bound} {'past' if measure.opposite else 'before'} {self.place(place)}"
-        if measure.op == "==" and place == st.Place("turn_start"):
-            return "begins to turn"
-        if measure.op == "==" and place == st.Place("turn_end"):
-            return "completes its turn"
-        return f"{'passes' if passing and measure.op == '==' else _WITHOUT_AMOUNT[measure.op]} {self.place(place)}"
+        if measure.op == "==" and place in TURNING:
+            return TURNING[place]
+        return f"{'passes' if passing and measure.op == '==' else _WITHOUT_AMOUNT[measure.op][0]} {self.place(place)}"
 
     def way(self, way: st.Way) -> str:
         """Return how somebody drives."""
@@ -197,19 +187,15 @@ class Phrases:
             return f"follows the lanes {', '.join(way.lanes)}"
         if way.headings:
             return f"is headed {', then '.join(COMPASS_WORDS[each] for each in way.headings)}"
-        parts = []
-        if way.origin:
-            parts.append(f"comes from the {way.origin}")
-        if way.heading:
-            parts.append(f"is headed {COMPASS_WORDS[way.heading]}")
-        if way.turn or way.destination:
-            turn = (
-                "goes on" if way.turn is None else "goes straight on" if way.turn == "straight" else f"turns {way.turn}"
-            )
-            parts.append(turn + (f" into the {way.destination}" if way.destination else ""))
-        if way.destination_heading:
-            parts.append(f"is then headed {COMPASS_WORDS[way.destination_heading]}")
-        return listed(parts) if parts else "has an open way"
+        onward = {None: "goes on", "straight": "goes straight on"}.get(way.turn, f"turns {way.turn}")
+        into = f"{onward} into the {way.destination}" if way.destination else onward if way.turn else None
+        parts = (
+            way.origin and f"comes from the {way.origin}",
+            way.heading and f"is headed {COMPASS_WORDS[way.heading]}",
+            into,
+            way.destination_heading and f"is then headed {COMPASS_WORDS[way.destination_heading]}",
+        )
+        return listed([each for each in parts if each] or ["has an open way"])
 
 
 def speaks_of_ego(conditions: Sequence[st.Condition]) -> bool:
@@ -217,14 +203,8 @@ def speaks_of_ego(conditions: Sequence[st.Condition]) -> bool:
     return any(EGO in st.people_in(condition) for condition in conditions)
 
 
-def _stands(measure: st.Measure) -> bool:
-    zero = measure.amount == st.Amount(Fraction(0), "m/s") and measure.other is None
-    return zero and measure.quantity is st.Quantity.SPEED and measure.op == "=="
-
-
 def _is_where(condition: st.Condition, actor: int) -> TypeGuard[st.Measure]:
     """Whether a condition puts somebody at one place, which is not an event of its turn."""
     if not isinstance(condition, st.Measure) or condition.quantity is not st.Quantity.PLACE or condition.op != "==":
         return False
-    turns = condition.amount is None and condition.place in (st.Place("turn_start"), st.Place("turn_end"))
-    return condition.actor == actor and not turns
+    return condition.actor == actor and not (condition.amount is None and condition.place in TURNING)

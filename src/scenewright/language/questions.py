@@ -7,7 +7,7 @@ what must be answered first. A text with its answers is reproducible: both reade
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -31,19 +31,14 @@ def as_data(questions: Iterable[Question]) -> list[dict[str, Any]]:
 
 
 def read_answers(path: Path) -> dict[str, str]:
-    """Return the answers that a file holds: a JSON object, an alternative for each slot.
-
-    Raises
-    ------
-    InputError
-        Where there is no such file, or it holds something else.
-    """
+    """Return the answers that a file holds: a JSON object, an alternative for each slot; raises `InputError`."""
+    expected = '{"way of hero": "..."}'
     try:
         answers = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        raise InputError("the answers cannot be read", found=str(error), expected='{"way of hero": "..."}') from None
+        raise InputError("the answers cannot be read", found=str(error), expected=expected) from None
     if not isinstance(answers, dict) or not all(isinstance(each, str) for each in answers.values()):
-        raise InputError("the answers are no object of texts", found=str(path), expected='{"way of hero": "..."}')
+        raise InputError("the answers are no object of texts", found=str(path), expected=expected)
     return answers
 
 
@@ -69,15 +64,18 @@ class OpenQuestionsError(TranslationError):
         return {**super().as_dict(), "questions": as_data(self.questions)}
 
 
+def check_asked(answers: Iterable[str], asked: Collection[str]) -> None:
+    """Raise InputError where one of `answers` is to none of the questions that were `asked`, by slot."""
+    for slot in answers:
+        if slot not in asked:
+            expected = "; ".join(asked) or "no answers: the text leaves nothing open"
+            raise InputError("an answer is to no question", found=slot, expected=expected, fix="correct its name")
+
+
 def settled(story: Story, answers: Mapping[str, str], strict: bool = False, place: Place | None = None) -> Story:
     """Return `story` where it may be compiled: what is left open has a default, which `strict` does not allow.
 
-    Raises
-    ------
-    OpenQuestionsError
-        Where a question must be answered first.
-    InputError
-        Where an answer is not among the alternatives of its question.
+    Raises `OpenQuestionsError` where a question must be answered first, `InputError` where an answer is none to it.
     """
     for each in story.questions:
         if each.slot in answers:  # else it would not be open

@@ -6,24 +6,23 @@ description. Who reads a description follows from a name: ``auto``, ``offline``,
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from scenewright.errors import InputError, Place
 from scenewright.language.model.settings import TranslatorSettings
-from scenewright.language.understand import OFFLINE, Understanding, understand, understand_story
+from scenewright.language.understand import OFFLINE, Understanding, understand
 from scenewright.program.check import check_program
 from scenewright.program.limits import TEXT_CHARACTERS, check_description
 from scenewright.program.types import DEFAULT_MAP, Program
 from scenewright.roads.load import load_map
 
-AUTO = "auto"
-TRANSLATORS = "auto, offline, openai:NAME, anthropic:NAME, google:NAME, openai-compatible:NAME or files:DIR"
-
 
 def read_scenario(
     source: str,
-    translator: str = AUTO,
+    translator: str = "auto",
     map_name: str | None = None,
     settings: TranslatorSettings | None = None,
 ) -> tuple[Program, Understanding | None]:
@@ -51,7 +50,6 @@ def read_scenario(
         program = parse_program(text, name)
         check_program(program, text, name)
         return program, None
-    check_description(text, name)
     understanding = _understanding(text, name, translator, map_name, settings or TranslatorSettings())
     return understanding.program, understanding
 
@@ -59,6 +57,8 @@ def read_scenario(
 def _understanding(
     text: str, name: str, translator: str, map_name: str | None, settings: TranslatorSettings
 ) -> Understanding:
+    check_description(text, name)
+    read = partial(understand, text, strict=settings.strict, name=name, ask=settings.ask)
     on = load_map(map_name) if map_name else None
     if translator != OFFLINE:
         from scenewright.language.model.choose import model_named
@@ -68,10 +68,11 @@ def _understanding(
 
             on = on or load_map(DEFAULT_MAP)
             told = story_by_model(text, on, name, model, settings)
-            given = {**settings.answers, **told.answers}
-            read = understand_story(lambda _: told.story, text, on, given, settings.strict, name, settings.ask)
-            return replace(read, translator=model.name, notes=told.notes)
-    return understand(text, on, settings.answers, settings.strict, name, settings.ask)
+            open_ones = {slot: answer for slot, answer in settings.answers.items() if slot not in told.answers}
+            found = read(on, open_ones, read_with=lambda _: told.story)
+            answers = {**told.answers, **found.answers}
+            return replace(found, translator=model.name, notes=told.notes, answers=answers)
+    return read(on, settings.answers)
 
 
 def is_program(text: str) -> bool:
@@ -81,22 +82,12 @@ def is_program(text: str) -> bool:
 
 
 def text_of(source: str) -> tuple[str, str]:
-    """Return the text that `source` is or names, and what to call it in messages.
-
-    Raises
-    ------
-    InputError
-        Where it names a file that is not there or is no text.
-    """
+    """Return the text that `source` is or names, and what to call it in messages; raises `InputError`."""
     path = Path(source)
-    looks_like_file = path.suffix in (".txt", ".scene", ".md") and " " not in source.strip()
-    try:
-        is_file = bool(source.strip()) and path.is_file()
-    except (OSError, ValueError):  # too long or too odd for a file name: a description
-        is_file = False
-    if is_file:
-        return _read_text(path), path.name
-    if looks_like_file:
+    with suppress(OSError, ValueError):  # too long or too odd for a file name: a description
+        if source.strip() and path.is_file():
+            return _read_text(path), path.name
+    if path.suffix in (".txt", ".scene", ".md") and " " not in source.strip():
         fix = "give the path of a file, or the description itself in quotes"
         raise InputError("there is no such file", place=Place(source), fix=fix)
     return source, "description"
@@ -104,17 +95,15 @@ def text_of(source: str) -> tuple[str, str]:
 
 def _read_text(path: Path) -> str:
     """Read a file of text, whatever it is: no more of it than a text may hold."""
-    most = 4 * TEXT_CHARACTERS  # a character takes up to four bytes
+    most, place = 4 * TEXT_CHARACTERS, Place(str(path))  # a character takes up to four bytes
     try:
         with path.open("rb") as file:
             read = file.read(most + 1)
         if len(read) > most:
             found, expected = f"more than {most:,} bytes", f"a text of at most {TEXT_CHARACTERS:,} characters"
             message, fix = "the file is too large for a description or a program", "give the file that holds the text"
-            raise InputError(message, place=Place(str(path)), found=found, expected=expected, fix=fix)
+            raise InputError(message, place=place, found=found, expected=expected, fix=fix)
         return read.decode("utf-8-sig")  # some editors begin a file with a mark of their own
     except (OSError, UnicodeDecodeError) as error:
-        expected, fix = "a text in UTF-8", "save the file as text in UTF-8"
-        raise InputError(
-            "the file cannot be read as text", place=Place(str(path)), found=str(error), expected=expected, fix=fix
-        ) from None
+        message, expected, fix = "the file cannot be read as text", "a text in UTF-8", "save the file as text in UTF-8"
+        raise InputError(message, place=place, found=str(error), expected=expected, fix=fix) from None

@@ -7,17 +7,18 @@ does not know (a kind of road user, a deed) may stand in it and is refused by na
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
-from typing import Literal, TypeGuard
+from typing import Literal, TypeGuard, TypeVar
 
 from scenewright.errors import Span
 from scenewright.program.manner import USUAL, Manner
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.units import UNITS, Dimension
 
+T = TypeVar("T")
 Operator = Literal["==", "<=", ">=", "<", ">"]
 How = Literal["always", "never", "at some time"]
 FLIPPED: dict[str, Operator] = {"==": "==", "<=": ">=", ">=": "<=", "<": ">", ">": "<"}
@@ -299,13 +300,24 @@ class Story:
         return tuple(actor.id for actor in self.actors if moment in self.knots_of(actor.id))
 
 
+def within(thing: object, kind: type[T]) -> Iterator[T]:
+    """Yield what of a kind there is in a part of a story, as it stands there: measures, amounts, quotes."""
+    if isinstance(thing, kind):
+        yield thing
+        return
+    inside = thing if isinstance(thing, tuple) else ()
+    for each in (getattr(thing, own.name) for own in fields(thing)) if is_dataclass(thing) else inside:
+        yield from within(each, kind)
+
+
 def atoms(condition: Condition) -> Iterator[Measure]:
     """Yield the measures that a condition is made of."""
-    if isinstance(condition, Measure):
-        yield condition
-    else:
-        for part in condition.parts:
-            yield from atoms(part)
+    return within(condition, Measure)
+
+
+def standstill(actor: int) -> Measure:
+    """Return that somebody stands."""
+    return Measure(actor, Quantity.SPEED, "==", Amount(Fraction(0), "m/s"))
 
 
 def is_event(condition: Condition) -> TypeGuard[Measure]:
@@ -317,10 +329,9 @@ def is_event(condition: Condition) -> TypeGuard[Measure]:
 
 def people_in(condition: Condition) -> set[int]:
     """Return whom a condition speaks of."""
-    found: set[int | None] = set()
-    for each in atoms(condition):
-        found |= {each.actor, each.other} | ({each.place.of, each.place.partner} if each.place else set())
-    return {actor for actor in found if actor is not None}
+    places = {who for place in within(condition, Place) for who in (place.of, place.partner)}
+    measured = {who for each in atoms(condition) for who in (each.actor, each.other)}
+    return {who for who in places | measured if who is not None}
 
 
 def arranged(story: Story) -> Story:
@@ -334,37 +345,29 @@ def arranged(story: Story) -> Story:
         seen += [moment for moment in story.knots_of(actor) if moment not in seen]
     seen += [number for number in range(len(story.moments)) if number not in seen]
     new = {old: number for number, old in enumerate(seen)}
+    moments = [story.moments[old] for old in seen]
+    orders = [replace(order, first=new[order.first], second=new[order.second]) for order in story.orders]
+    for order in tuple(orders):  # "It begins 5 s after the start" gives the moment its time
+        if order.first == START and order.op == "==" and moments[order.second].time is None:
+            moments[order.second] = replace(moments[order.second], time=order.margin)
+            orders.remove(order)
 
     def point(each: Point) -> Point:
         return replace(each, moment=new[each.moment])
 
-    # "It begins 5 s after the start" gives the moment its time.
-    fixed = {
-        order.second: order
-        for order in story.orders
-        if order.first == START and order.op == "==" and story.moments[order.second].time is None
-    }
-    moments = tuple(
-        replace(
-            story.moments[old],
-            conditions=tuple(sorted(story.moments[old].conditions, key=repr)),
-            time=fixed[old].margin if old in fixed else story.moments[old].time,
-        )
-        for old in seen
-    )
-    deeds = [
-        replace(deed, begins=new[deed.begins], ends=new[deed.ends], throughout=tuple(sorted(deed.throughout, key=repr)))
+    def in_order(parts: Iterable[T]) -> tuple[T, ...]:
+        return tuple(sorted(parts, key=repr))
+
+    deeds = (
+        replace(deed, begins=new[deed.begins], ends=new[deed.ends], throughout=in_order(deed.throughout))
         for deed in story.deeds
-    ]
-    orders = [replace(order, first=new[order.first], second=new[order.second])
-              for order in story.orders if order not in fixed.values()]  # fmt: skip
-    holds = [replace(hold, start=point(hold.start), end=point(hold.end)) for hold in story.holds]
+    )
     return replace(
         story,
-        moments=moments,
+        moments=tuple(replace(each, conditions=in_order(each.conditions)) for each in moments),
         ego=tuple(new[old] for old in story.ego),
         deeds=tuple(sorted(deeds, key=lambda deed: (deed.actor, deed.begins))),
-        orders=tuple(sorted(orders, key=repr)),
-        holds=tuple(sorted(holds, key=repr)),
+        orders=in_order(orders),
+        holds=in_order(replace(hold, start=point(hold.start), end=point(hold.end)) for hold in story.holds),
         parameters=tuple(sorted(story.parameters, key=lambda each: each.name)),
     )

@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
-from graphlib import CycleError, TopologicalSorter
 from itertools import pairwise
 
 from scenewright.language import story as st
@@ -29,15 +27,14 @@ from scenewright.program.manner import NUMBERS, unit_of
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.units import SI_SYMBOL, format_fraction
 
-_RATES = {st.Verb.BRAKE: True, st.Verb.SPEED_UP: False}  # deeds told with their rate, and whether it is a slowing
+_LASTING = (st.Verb.DRIVE, st.Verb.STAND)  # deeds that need no end to be told
+_RATES: dict[str, bool] = {
+    st.Verb.BRAKE: True,
+    st.Verb.SPEED_UP: False,
+}  # deeds told with their rate, and whether it is a slowing
 
 
-@dataclass(frozen=True, slots=True)
-class Told:
-    """A sentence, and the quotes of what it tells."""
-
-    sentence: str
-    quotes: tuple[st.Quote, ...] = ()
+Told = tuple[str, tuple[st.Quote, ...]]  # a sentence, and the quotes of what it tells
 
 
 def tell(story: st.Story) -> list[str]:
@@ -48,15 +45,7 @@ def tell(story: st.Story) -> list[str]:
     TranslationError
         Where it holds something that there are no words for.
     """
-    return [each.sentence for each in tell_with_quotes(story)]
-
-
-def tell_with_quotes(story: st.Story) -> list[Told]:
-    """Return the same sentences, each with the quotes of what it tells; raises as `tell` does."""
-    return Teller(st.arranged(story)).lines()
-
-
-Quoted = st.Actor | st.Relation | st.Condition | st.Deed | st.Order | st.Hold
+    return [text for text, _ in Teller(st.arranged(story)).lines()]
 
 
 @dataclass(slots=True)
@@ -70,7 +59,7 @@ class Teller:
     ego: list[int] = field(default_factory=list)  # its moments as a reader finds them
     open_order: bool = False  # a reader would have to ask how the ego's moments follow each other
     durations: set[st.Order] = field(default_factory=set)
-    joined: set[tuple[int, st.Compound]] = field(default_factory=set)
+    fresh: list[int] = field(default_factory=list)  # moments of which the joined conditions have not been told
     begun: list[st.Deed] = field(default_factory=list)  # deeds that have been told
     ended: list[st.Deed] = field(default_factory=list)  # those of which a reader knows when they end
 
@@ -85,10 +74,11 @@ class Teller:
             self._say(sentence(f"{self.phrases.name(each.id)} {self.phrases.way(each.way)}"), each)
         if any(actor.relations for actor in story.actors):
             raise untold("how one way lies to another: choose the ways first")
-        self.told += [Told(_parameter(parameter)) for parameter in story.parameters if _is_told(parameter, story)]
+        for parameter in story.parameters:
+            self._parameter(parameter)
         self._start()
         for moment in self._in_time():
-            if not any(moment in (deed.begins, deed.ends) for deed in story.deeds):
+            if not self._is_of_deeds(moment):
                 self._pure(moment)
             for deed in story.deeds:
                 if deed.begins == moment:
@@ -105,9 +95,9 @@ class Teller:
             self._say(f"In the ego's order: {', then '.join(events)}.")
         return self.told
 
-    def _say(self, text: str, *told: Quoted) -> None:
-        quotes = [each.quote for thing in told for each in (thing, *_inside(thing)) if each.quote is not None]
-        self.told.append(Told(text, tuple(sorted(dict.fromkeys(quotes), key=lambda quote: quote.start))))
+    def _say(self, text: str, *told: object) -> None:
+        quotes = dict.fromkeys(st.within(told, st.Quote))
+        self.told.append((text, tuple(sorted(quotes, key=lambda quote: quote.start))))
 
     def _head(self) -> None:
         story = self.story
@@ -124,6 +114,18 @@ class Teller:
             if value != getattr(type(story.manner)(), name):
                 self._say(f"Manner: {name} is {format_fraction(value)} {SI_SYMBOL[unit_of(name).dimension]}.")
 
+    def _parameter(self, parameter: Parameter) -> None:
+        """Tell a parameter of which more is known than the amounts that go by its name."""
+        if parameter == Parameter(parameter.name) and parameter.name in {each.name for each in amounts_of(self.story)}:
+            return
+        unit = parameter.unit.symbol
+        text = f"{parameter.name} is "
+        text += "open" if parameter.value is None else f"{format_fraction(parameter.value)} {unit}"
+        if parameter.low is not None or parameter.high is not None:
+            low, high = (format_fraction(bound) for bound in parameter.bounds())
+            text += f", from {low} {unit} to {high} {unit}"
+        self._say(f"Parameter {text}.")
+
     def _start(self) -> None:
         conditions = self.story.moments[st.START].conditions
         simple = [each for each in conditions if isinstance(each, st.Measure)]
@@ -137,24 +139,19 @@ class Teller:
 
     def _in_time(self) -> list[int]:
         """Return the moments in an order that agrees with everybody's own, the smallest number first."""
-        story, sorter = self.story, TopologicalSorter[int]()
-        for number in range(len(story.moments)):
-            sorter.add(number)
-        for actor in story.actors:
-            for earlier, later in pairwise(story.knots_of(actor.id)):
-                sorter.add(later, earlier)
+        before = [pair for actor in self.story.actors for pair in pairwise(self.story.knots_of(actor.id))]
         order: list[int] = []
-        ready: set[int] = set()
-        try:
-            sorter.prepare()
-        except CycleError:
-            raise untold("moments that come before each other") from None
-        while sorter.is_active():
-            ready |= set(sorter.get_ready())
-            order.append(min(ready))
-            ready.remove(order[-1])
-            sorter.done(order[-1])
+        left = [*range(len(self.story.moments))]
+        while left:
+            free = (each for each in left if not any(later == each and earlier in left for earlier, later in before))
+            if (found := next(free, None)) is None:
+                raise untold("moments that come before each other")
+            order.append(found)
+            left.remove(found)
         return order
+
+    def _is_of_deeds(self, moment: int) -> bool:
+        return any(moment in (deed.begins, deed.ends) for deed in self.story.deeds)
 
     # -- moments ------------------------------------------------------------------------------------------------------
     def _pure(self, moment: int) -> None:
@@ -186,11 +183,11 @@ class Teller:
             if any(st.is_event(each) for each in same) or (conditions and same == set(conditions)):
                 raise untold("two moments at which the same is so")
         self.known.add(moment)
-        owned = any(moment in (deed.begins, deed.ends) for deed in self.story.deeds)
-        if not owned and self.story.moments[moment].time is None:
-            self.ego.append(moment)
-        elif owned:
+        self.fresh.append(moment)
+        if self._is_of_deeds(moment):
             self._ego_comes(moment, [each for each in conditions if isinstance(each, st.Measure)])
+        elif self.story.moments[moment].time is None:
+            self.ego.append(moment)
 
     def _ego_comes(self, moment: int, conditions: Sequence[st.Condition]) -> None:
         if moment in self.ego or not speaks_of_ego(conditions):
@@ -214,26 +211,29 @@ class Teller:
         time = [] if found.time is None else [f"it is {amount(found.time)} after the start"]
         return time + self.phrases.clauses(simple, it)
 
-    def _compounds(self, moment: int) -> None:
-        conditions = self.story.moments[moment].conditions
-        for each in conditions:
-            if isinstance(each, st.Compound) and (moment, each) not in self.joined:
-                self.joined.add((moment, each))
-                self._say(f"When {self.event(moment)}, {self.phrases.clause(each)}.", each)
-                self._ego_comes(moment, conditions)
+    def _compounds(self) -> None:
+        for moment in self.fresh:
+            conditions = self.story.moments[moment].conditions
+            for each in conditions:
+                if isinstance(each, st.Compound):
+                    self._say(f"When {self.event(moment)}, {self.phrases.clause(each)}.", each)
+                    self._ego_comes(moment, conditions)
+        self.fresh.clear()
 
     # -- deeds --------------------------------------------------------------------------------------------------------
     def _deed(self, deed: st.Deed) -> None:
         chain = self.story.deeds_of(deed.actor)
         index = chain.index(deed)
-        waits = deed.verb in (st.Verb.DRIVE, st.Verb.STAND) and deed != chain[-1]  # its end is told with what follows
-        fresh = deed.begins not in self.known
+        waits = deed.verb in _LASTING and deed != chain[-1]  # its end is told with what follows
         lead, begins = self._begin(deed, chain, index)
-        rate, held = _rate(deed)
+        slowing = _RATES.get(deed.verb)
+        rates = (each for each in deed.throughout if each.quantity is st.Quantity.RATE and each.opposite is slowing)
+        rate = next(rates, None)
+        held = [each for each in deed.throughout if each is not rate]
         duration = next((each for each in self.story.orders if (each.first, each.second) == (deed.begins, deed.ends)
                          and each.margin is not None and each not in self.durations), None)  # fmt: skip
         plain = waits and deed.verb == st.Verb.DRIVE and not held and duration is None
-        plain &= not any(_is_standstill(each, deed.actor) for each in self.story.moments[st.START].conditions)
+        plain &= st.standstill(deed.actor) not in self.story.moments[st.START].conditions
         if index == 0 and plain and self._items(deed.ends):
             return  # "When ..., the hero begins to brake" says it
         self.begun += [each for each in chain[: index + 1] if each not in self.begun]
@@ -246,43 +246,41 @@ class Teller:
         if duration is not None and duration.margin is not None:
             self.durations.add(duration)
             text += f" for {bounded(duration.op, duration.margin)}"
-        until = [] if waits else self._items(deed.ends, deed.actor)
-        if not waits and not until and any(each.ends == deed.ends for each in self.begun if each.actor != deed.actor):
-            until = [self.event(deed.ends)]
-        if until:
-            text += f" until {listed(until)}"
+        told = [*self.story.moments[deed.begins].conditions] if begins else []
+        if not waits:
+            until = self._items(deed.ends, deed.actor)
+            if not until and any(each.ends == deed.ends for each in self.begun if each.actor != deed.actor):
+                until = [self.event(deed.ends)]
+            lasts = duration is not None or deed.verb in _LASTING
+            text += f" until {listed(until)}" if until else "" if lasts else " for a while"
             self._introduce(deed.ends)
-        elif not waits:
-            text += "" if duration is not None or deed.verb in (st.Verb.DRIVE, st.Verb.STAND) else " for a while"
-            self._introduce(deed.ends)
-        ended = () if waits else self.story.moments[deed.ends].conditions
-        self._say(sentence(text), deed, *(self.story.moments[deed.begins].conditions if begins else ()), *ended)
+            told += self.story.moments[deed.ends].conditions
+        self._say(sentence(text), deed, *told)
         for each in held:
             self._say(f"Meanwhile, {self.phrases.clause(each)}.", each)
-        for moment in ([deed.begins] if fresh else []) + ([] if waits else [deed.ends]):
-            self._compounds(moment)
+        self._compounds()
 
     def _begin(self, deed: st.Deed, chain: tuple[st.Deed, ...], index: int) -> tuple[str, bool]:
         """Return the words before the subject, and whether the deed is told as one that begins: ``When ..., ``."""
         if index == 0:
             return "", False
-        if chain[index - 1].verb in (st.Verb.DRIVE, st.Verb.STAND):
+        if chain[index - 1].verb in _LASTING:
             items = self._items(deed.begins)
             return (f"When {listed(items)}, ", True) if items else ("Then ", False)
         moving = deed.verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)
-        at_rest = any(_is_standstill(each, deed.actor) for each in self.story.moments[deed.begins].conditions)
+        at_rest = st.standstill(deed.actor) in self.story.moments[deed.begins].conditions
         return "Then at once " if moving and at_rest else "Then ", False
 
     # -- events, orders, holds ----------------------------------------------------------------------------------------
     def event(self, moment: int) -> str:
         """Return the words that a moment is known by."""
-        story = self.story
-        found = story.moments[moment]
-        for condition in found.conditions:
-            shared = sum(condition in each.conditions for each in story.moments) > 1
-            if isinstance(condition, st.Measure) and st.is_event(condition) and not shared:
-                stands = any(_is_standstill(each, condition.actor) for each in found.conditions)
-                return self.phrases.clause(condition, passing=not stands)
+        conditions = self.story.moments[moment].conditions
+        elsewhere = {each for number, other in enumerate(self.story.moments) if number != moment
+                     for each in other.conditions}  # fmt: skip
+        own = [each for each in conditions if isinstance(each, st.Measure) and each not in elsewhere]
+        for measure in own:
+            if st.is_event(measure):
+                return self.phrases.clause(measure, passing=st.standstill(measure.actor) not in conditions)
         for deed in self.begun:
             if deed.begins == moment and moment != st.START:
                 return f"{self.phrases.name(deed.actor)} begins to {DOES[deed.verb][1]}{self._time(deed)}"
@@ -290,11 +288,9 @@ class Teller:
             if deed.ends == moment and (deed in self.ended or moment not in self.known):
                 self.ended.append(deed)
                 return f"{self.phrases.name(deed.actor)} finishes {DOES[deed.verb][2]}{self._time(deed)}"
-        for condition in found.conditions:
-            if isinstance(condition, st.Measure) and not any(condition in each.conditions for each in story.moments
-                                                          if each is not found):  # fmt: skip
-                return self.phrases.clause(condition)
-        raise untold("a moment that nothing tells from others")
+        if not own:
+            raise untold("a moment that nothing tells from others")
+        return self.phrases.clause(own[0])
 
     def _time(self, deed: st.Deed) -> str:
         """Return which time somebody does a deed, where it is not the first."""
@@ -326,41 +322,3 @@ class Teller:
         if point.offset is None:
             return event if is_end or point.moment == st.START else f"when {event}"
         return f"{amount(point.offset)} {'before' if point.earlier else 'after'} {event}"
-
-
-def _inside(thing: Quoted) -> tuple[Quoted, ...]:
-    """Return what is told together with a thing, and has quotes of its own."""
-    match thing:
-        case st.Actor(relations=relations):
-            return relations
-        case st.Deed(throughout=throughout):
-            return throughout
-        case st.Hold(condition=condition):
-            return (condition,)
-    return ()
-
-
-def _rate(deed: st.Deed) -> tuple[st.Measure | None, tuple[st.Measure, ...]]:
-    """Return the rate that a deed is told with, and what else holds all the while."""
-    slowing = _RATES.get(st.Verb(deed.verb))
-    own = (each for each in deed.throughout if each.quantity is st.Quantity.RATE and each.opposite is slowing)
-    rate = next(own, None)
-    return rate, tuple(each for each in deed.throughout if each is not rate)
-
-
-def _is_standstill(condition: st.Condition, actor: int) -> bool:
-    return condition == st.Measure(actor, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s"))
-
-
-def _is_told(parameter: Parameter, story: st.Story) -> bool:
-    declared = parameter.value is not None or parameter.low is not None or parameter.high is not None
-    return declared or parameter.name not in {each.name for each in amounts_of(story)}
-
-
-def _parameter(parameter: Parameter) -> str:
-    unit = parameter.unit.symbol
-    text = f"{parameter.name} is {'open' if parameter.value is None else f'{format_fraction(parameter.value)} {unit}'}"
-    if parameter.low is not None or parameter.high is not None:
-        low, high = (format_fraction(bound) for bound in parameter.bounds())
-        text += f", from {low} {unit} to {high} {unit}"
-    return f"Parameter {text}."

@@ -13,7 +13,7 @@ from typing import Any
 from scenewright.errors import Place, Span, TranslationError
 from scenewright.language.compile import compile_story
 from scenewright.language.lines import Line, lines_of_program, lines_of_story
-from scenewright.language.questions import as_data, defaults_of, settled
+from scenewright.language.questions import as_data, check_asked, defaults_of, settled
 from scenewright.language.read.sentences import read
 from scenewright.language.story import Question, Story
 from scenewright.language.ways import put_on_map
@@ -96,13 +96,30 @@ def understand(
     strict: bool = False,
     name: str = "description",
     ask: Ask | None = None,
+    read_with: Callable[[Answers], Story] | None = None,
 ) -> Understanding:
-    """Return what `text` says, read without a model, on a map: the one that it names itself where it does.
+    """Return what `text` says on a map: the one that it names itself where it does.
+
+    Parameters
+    ----------
+    answers
+        What is answered already, by slot.
+    strict
+        Refuse what is left open even where there is a default.
+    name
+        What to call the text in messages.
+    ask
+        Asked about one open question after another; None where nobody can be asked.
+    read_with
+        Makes the story, with the answers that are known: after every answer again, which may open or close other
+        questions. The offline reader where None.
 
     Raises
     ------
     TranslationError
         Where it cannot be read, fits no way on the map, or leaves open what has no default (with `strict`: anything).
+    InputError
+        Where an answer is none to its question, or to no question that the text asks.
 
     Examples
     --------
@@ -111,44 +128,20 @@ def understand(
     'The ego is headed west and goes straight on.'
     """
     check_description(text, name)
-    return understand_story(lambda given: read(text, given, name), text, road_map, answers, strict, name, ask)
-
-
-def understand_story(
-    read_with: Callable[[Answers], Story],
-    text: str,
-    road_map: RoadMap | None = None,
-    answers: Answers | None = None,
-    strict: bool = False,
-    name: str = "description",
-    ask: Ask | None = None,
-) -> Understanding:
-    """Return what a story says on a map, whoever made it of `text`.
-
-    Parameters
-    ----------
-    read_with
-        Makes the story, with the answers that are known; called again after every answer, which may open or close
-        other questions.
-    answers
-        What is answered already, by slot.
-    strict
-        Refuse what is left open even where there is a default.
-    ask
-        Asked about one open question after another; None where nobody can be asked.
-
-    Raises
-    ------
-    TranslationError
-        As `understand` does.
-    """
-    given = dict(answers or {})
+    known, given, asked = answers or {}, dict[str, str](), dict[str, Question]()
     while True:
-        story = _on_map(read_with(given), road_map, given)
+        story = read(text, given, name) if read_with is None else read_with(given)
+        on = load_map(story.map_name) if road_map is None else road_map
+        if story.map_name == DEFAULT_MAP:
+            story = replace(story, map_name=on.name)
+        story = put_on_map(story, on, given)
+        asked |= {each.slot: each for each in story.questions}
         waiting = [each for each in story.questions if each.slot not in given]
-        if ask is None or not waiting:
+        found = {each.slot: known[each.slot] for each in waiting if each.slot in known}
+        if not found and (ask is None or not waiting):
             break
-        given[waiting[0].slot] = ask(waiting[0])
+        given |= found or ({waiting[0].slot: ask(waiting[0])} if ask else {})
+    check_asked(known, asked)
     story = settled(story, given, strict, Place(name, text))
     try:
         return Understanding(text, story, compile_story(story, text), answers=given)
@@ -156,16 +149,3 @@ def understand_story(
         if error.place is None and error.found and (at := text.find(error.found)) >= 0:
             error.place = Place(name, text, Span(at, at + len(error.found)))
         raise
-
-
-def translate(text: str, road_map: RoadMap | None = None, answers: Answers | None = None) -> Program:
-    """Return the program of `text`, read without a model; raises as `understand` does."""
-    return understand(text, road_map, answers).program
-
-
-def _on_map(story: Story, road_map: RoadMap | None, answers: Answers) -> Story:
-    if road_map is None:
-        road_map = load_map(story.map_name)
-    elif story.map_name == DEFAULT_MAP:
-        story = replace(story, map_name=road_map.name)
-    return put_on_map(story, road_map, answers)

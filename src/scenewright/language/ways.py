@@ -12,14 +12,13 @@ from dataclasses import replace
 from scenewright.errors import TranslationError
 from scenewright.language import story as st
 from scenewright.language.compile import COMPASS, route_of
-from scenewright.language.phrases import NO_GAP, Phrases
+from scenewright.language.phrases import NO_GAP, TURNING, Phrases, sentence
 from scenewright.program.types import HeadingsRoute, LanesRoute
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route, all_routes, find_routes
 
-# How somebody's way begins against another's, in quarters of the compass to the right of it.
-_OF_A_TURN = (st.Place("turn_start"), st.Place("turn_end"))
 _INSTEAD = "it passes the conflict point"
+# How somebody's way begins against another's, in quarters of the compass to the right of it.
 BEARINGS = {"oncoming": 2, "from the left": 1, "from the right": 3, "ahead": 0, "behind": 0, "same way": 0}
 
 
@@ -36,7 +35,7 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
         for actor in story.actors:
             for relation in actor.relations:
                 _keep_related(fitting, actor.id, relation)
-    phrases, questions = Phrases(story), list(story.questions)
+    phrases, questions, settled = Phrases(story), [*story.questions], list[st.Actor]()
     for actor in story.actors:
         found = list(dict.fromkeys(_way(route, road_map) for route in fitting[actor.id]))
         if not found:
@@ -54,41 +53,34 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
                 told = question.alternatives[question.default or 0]
             found = [found[question.alternatives.index(told)]]
         relations = tuple(each for each in actor.relations if each.kind not in BEARINGS)
-        settled = replace(actor, way=found[0], relations=relations)
-        others = tuple(settled if each.id == actor.id else each for each in story.actors)
-        story = _in_line(replace(story, actors=others), actor)
-    return _fits_ways(replace(story, questions=tuple(questions)), answers or {})
+        settled.append(replace(actor, way=found[0], relations=relations))
+    placed = replace(_in_line(story), actors=tuple(settled), questions=tuple(questions))
+    return _fits_ways(placed, answers or {})
 
 
 def _fits_ways(story: st.Story, answers: Mapping[str, str]) -> st.Story:
-    """Ask what an event of a turn means of somebody who does not turn, and refuse a collision of ways that cross.
-
-    Raises
-    ------
-    TranslationError
-        Where a time to collision is asked for of ways that have no lane in common.
-    """
+    """Ask what an event of a turn means of somebody who does not turn, and refuse a collision of ways that cross."""
     ways = {actor.id: actor.way for actor in story.actors}
-    phrases, questions, moments = Phrases(story), list(story.questions), []
-    for moment in story.moments:
-        conditions = list(moment.conditions)
-        for number, each in enumerate(conditions):
-            if not isinstance(each, st.Measure):
-                continue
-            if each.quantity is st.Quantity.COLLISION and _cross(ways[each.actor], ways[each.other or 0]):
-                found = each.quote.text if each.quote else phrases.clause(each)
-                fix = "say the time to arrival of each: 'the ego is 3 s from the conflict point'"
-                raise TranslationError("a time to collision needs a lane that both drive in", found=found, fix=fix)
-            if each.place in _OF_A_TURN and ways[each.actor].turn == "straight":
-                name = phrases.name(each.actor)
-                asked = f"{name} does not turn. What is meant by: {phrases.clause(each, passing=True)}?"
-                slot = f"turn of {name.removeprefix('the ')}"
-                if answers.get(slot) == _INSTEAD:
-                    conditions[number] = replace(each, place=st.Place("conflict_point"))
-                elif all(question.slot != slot for question in questions):
-                    questions.append(st.Question(slot, asked[0].upper() + asked[1:], (_INSTEAD,), None, each.quote))
-        moments.append(replace(moment, conditions=tuple(conditions)))
-    return replace(story, moments=tuple(moments), questions=tuple(questions))
+    phrases, questions = Phrases(story), {each.slot: each for each in story.questions}
+
+    def fitted(each: st.Condition) -> st.Condition:
+        if not isinstance(each, st.Measure):
+            return each
+        if each.quantity is st.Quantity.COLLISION and _cross(ways[each.actor], ways[each.other or 0]):
+            found = each.quote.text if each.quote else phrases.clause(each)
+            fix = "say the time to arrival of each: 'the ego is 3 s from the conflict point'"
+            raise TranslationError("a time to collision needs a lane that both drive in", found=found, fix=fix)
+        if each.place in TURNING and ways[each.actor].turn == "straight":
+            name = phrases.name(each.actor)
+            slot = f"turn of {name.removeprefix('the ')}"
+            if answers.get(slot) == _INSTEAD:
+                return replace(each, place=st.Place("conflict_point"))
+            asked = f"{sentence(f'{name} does not turn')} What is meant by: {phrases.clause(each, passing=True)}?"
+            questions.setdefault(slot, st.Question(slot, asked, (_INSTEAD,), None, each.quote))
+        return each
+
+    moments = tuple(replace(moment, conditions=tuple(map(fitted, moment.conditions))) for moment in story.moments)
+    return replace(story, moments=moments, questions=tuple(questions.values()))
 
 
 def _cross(one: st.Way, other: st.Way) -> bool:
@@ -139,15 +131,14 @@ def _which(actor: st.Actor, found: list[st.Way], phrases: Phrases) -> st.Questio
     return st.Question(f"way of {actor.name}", asked, alternatives, straight, actor.quote)
 
 
-def _in_line(story: st.Story, actor: st.Actor) -> st.Story:
+def _in_line(story: st.Story) -> st.Story:
     """Let who is said to be ahead or behind be so at the start."""
-    start = story.moments[st.START]
+    start, *others = story.moments
+    told = {(each.actor, each.other) for each in start.conditions
+            if isinstance(each, st.Measure) and each.quantity is st.Quantity.GAP}  # fmt: skip
     added = []
-    for relation in actor.relations:
-        if relation.kind in ("ahead", "behind"):
-            rear, front = (relation.of, actor.id) if relation.kind == "ahead" else (actor.id, relation.of)
-            told = [each for each in start.conditions if isinstance(each, st.Measure) and each.other == front]
-            if all((each.actor, each.quantity) != (rear, st.Quantity.GAP) for each in told):
-                added.append(st.Measure(rear, st.Quantity.GAP, ">", NO_GAP, other=front, quote=relation.quote))
-    moments = (replace(start, conditions=(*start.conditions, *added)), *story.moments[1:])
-    return replace(story, moments=moments)
+    for who, relation in ((actor.id, each) for actor in story.actors for each in actor.relations):
+        pair = (who, relation.of) if relation.kind == "behind" else (relation.of, who)  # the rear one first
+        if relation.kind in ("ahead", "behind") and pair not in told:
+            added.append(st.Measure(pair[0], st.Quantity.GAP, ">", NO_GAP, other=pair[1], quote=relation.quote))
+    return replace(story, moments=(replace(start, conditions=(*start.conditions, *added)), *others))
