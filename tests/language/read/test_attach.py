@@ -52,12 +52,3 @@ def test_one_measure_said_in_several_ways(texts: tuple[str, ...]) -> None:
 def test_what_is_left_over_is_named(text: str) -> None:
     with pytest.raises(UnknownWordsError, match="could not be understood here"):
         clause(text)
-
-
-def test_an_amount_may_wait_for_the_place_of_its_neighbour() -> None:
-    waiting = clause("the hero is 12 m")
-    assert waiting.waiting
-    assert waiting.says_more_than("measures")
-    (chunks,) = sentences("the hero is 12 m")
-    told = read_clause(chunks, Narrative(""), clause("the ego is 5 m before the stop line"))
-    assert told.measures[0].place == st.Place("stop_line")

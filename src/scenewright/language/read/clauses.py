@@ -9,14 +9,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from scenewright.language import story as st
-from scenewright.language.read.chunks import Chunk
+from scenewright.language.read.chunks import SUFFIX, Chunk
 from scenewright.language.read.facts import Facts
 from scenewright.program.arithmetic import JUST_BEFORE_M
 from scenewright.program.types import EGO
 
 IT = -1  # the subject, in a measure of a clause that is still being read
 PEOPLE = ("actor", "name", "pronoun", "relative")
-_OPERATORS: dict[str, st.Operator] = {"==": "==", ">=": ">=", "<=": "<=", ">": ">", "<": "<"}
+OPERATORS: dict[str, st.Operator] = {"==": "==", ">=": ">=", "<=": "<=", ">": ">", "<": "<"}
 # Verbs that may have an amount: "reaches a point 12 m before".
 _REACHES = ("reach", "get", "got", "come", "came", "arriv")
 _CONFLICTS = ("conflict_point", "intersection", "turn")
@@ -34,7 +34,7 @@ _INITIAL = ("with", "link", "start")  # "with an initial speed of"
 
 @dataclass(slots=True)
 class Target:
-    """What an amount may be counted to: a place or somebody, with the side that it lies on."""
+    """What an amount may be counted to: a place or somebody, with the side that it lies on; "it" is neither yet."""
 
     at: int
     side: str
@@ -53,10 +53,7 @@ class Taken(Facts):
     states: set[str] = field(default_factory=set)
     quantity: str | None = None
     subject_at: int = 0
-    turn: str = ""  # "completes its left turn"
-    yields_to: int | None = None
     pair: tuple[int, int] | None = None  # between whom a gap is
-    later: list[tuple[int, str, Chunk]] = field(default_factory=list)  # whom "it" means after a side
 
     def take_all(self) -> None:
         """Take every chunk, in order."""
@@ -76,8 +73,6 @@ class Taken(Facts):
                 raise self.left_over(chunk)  # "which was braking" is no deed of the moment
             case "relative" if clause.subject is not None:
                 clause.notes.add("relative")
-            case "actor" if clause.subject is not None and chunk.is_new and self.peek(-1)[0] == "be":
-                self.people.same(clause.subject, chunk)
             case "actor" | "pronoun" | "name" | "relative" if clause.subject is None:
                 kinds = {each.kind for each in self.chunks}
                 acts = "deed" in kinds or ("turn" in kinds and "mood" not in kinds)
@@ -87,13 +82,6 @@ class Taken(Facts):
                 raise self.left_over(chunk)
             case "be" | "possessive" | "quality":
                 clause.notes |= {"has"} if value == "has" else set()
-            case "lets" if self.peek()[0] in PEOPLE and self.peek(2)[0] in ("order", "event", "state"):
-                self.at += 2  # "lets the ego go first"
-                clause.flags.add("lets")
-                if self.chunks[self.at - 1].kind == "pronoun":  # the other one of two
-                    self.people.pair(chunk)
-                else:
-                    self.yields_to = self.people.who(self.chunks[self.at - 1])
             case "mood":
                 clause.notes.add(value)
             case "amount" | "no unit":
@@ -124,12 +112,11 @@ class Taken(Facts):
             case "link" if value == "start":
                 clause.flags.add("start")
             case "relation" if value in ("ahead", "behind") and self.peek(-1)[0] == "amount":
-                self.later.append((self.at, value, chunk))
+                self.targets.append(Target(self.at, value, chunk))
             case "relation":
                 clause.relations.append(st.Relation(value, EGO, chunk.quote))
             case "state" | "event":
-                what, _, self.turn = value.partition(" ")
-                self.states.add("reach" if what == "pass" and chunk.text.lower().startswith(_REACHES) else what)
+                self.states.add("reach" if value == "pass" and chunk.text.lower().startswith(_REACHES) else value)
                 clause.notes |= {"event", value} if chunk.kind == "event" else {value}
             case "quantity" if self.quantity in (None, "rate", value):
                 self.quantity = value
@@ -175,7 +162,7 @@ class Taken(Facts):
             exact: dict[str, st.Operator] = {f"exactly {amount.text}": "==", f"at most {amount.text}": "<=",
                                              f"at least {amount.text}": ">="}  # fmt: skip
             return exact[self.people.ask(f"vague {amount.start}", f"How much is '{told}'?", [*exact], 0, amount.quote)]
-        return _OPERATORS.get(value, "==")
+        return OPERATORS.get(value, "==")
 
     def _amount(self, chunk: Chunk) -> None:
         op = self.bound()
@@ -197,21 +184,18 @@ class Taken(Facts):
             return chunk
         if not chunk.value.isidentifier() or chunk.text.strip("{}") != chunk.value:
             raise self.left_over(chunk)
-        unit, asked = "", self.quantity or ""
-        if asked in ("rate", "acceleration", "deceleration") or (self.clause.deed and lead == "at"):
-            unit = "m/s^2"
-        elif asked == "speed" or (self.states & {"drives"} and lead == "at") or "to" in self.clause.flags:
-            unit = "m/s"
-        elif asked in ("headway", "time to collision", "time to arrival") or lead == "for":
-            unit = "s"
-        elif asked == "gap" or self.peek()[1] in ("past", "ahead"):
-            unit = "m"
-        if not unit:
-            alternatives = ["in metres", "in seconds"]
-            told = self.people.ask(f"unit of {chunk.value}", f"What is {chunk.value}?", alternatives, None, chunk.quote)
-            unit = "s" if told == alternatives[1] else "m"
-        suffix = {"m": "_m", "s": "_s", "m/s": "_mps", "m/s^2": "_mpss"}[unit]
-        return replace(chunk, kind="amount", amount=st.Amount(None, unit, chunk.value + suffix, chunk.quote))
+        asked = self.quantity
+        uses = {
+            "m/s^2": asked in ("rate", "acceleration", "deceleration") or (self.clause.deed and lead == "at"),
+            "m/s": asked == "speed" or (self.states & {"drives"} and lead == "at") or "to" in self.clause.flags,
+            "s": asked in ("headway", "time to collision", "time to arrival") or lead == "for",
+            "m": asked == "gap" or self.peek()[1] in ("past", "ahead"),
+        }
+        unit = next((unit for unit, is_used in uses.items() if is_used), None)
+        if unit is None:
+            known, said = {"in metres": "m", "in seconds": "s"}, f"What is {chunk.value}?"
+            unit = known.get(self.people.ask(f"unit of {chunk.value}", said, [*known], None, chunk.quote), "m")
+        return replace(chunk, kind="amount", amount=st.Amount(None, unit, chunk.value + SUFFIX[unit], chunk.quote))
 
     def _side(self, chunk: Chunk) -> None:
         side, (kind, value) = chunk.value, self.peek()
@@ -220,21 +204,14 @@ class Taken(Facts):
             raise self.left_over(chunk)  # "12 m/s before the stop line"
         if side in ("across", "to") and kind in PEOPLE and (side == "across" or "yields" in self.clause.flags):
             self.at += 1  # "turns left across the ego's path", "yields to the ego"
-            self.yields_to = self.people.who(self.chunks[self.at])
+            own = self.subject if self.clause.subject is None else self.clause.subject
+            if self.people.who(self.chunks[self.at]) == own:
+                raise self.left_over(chunk)
             self.at += 2 if (self.peek()[0], self.peek(2)[0]) == ("possessive", "thing") else 0
-        elif side == "through" and kind == "place":
-            self._target("at")
-            self.clause.notes.add("event")
-        elif side == "by" and kind in PEOPLE and self.clause.subject is None:  # "is passed by the hero"
-            self.at += 1
-            self.clause.subject = self.people.who(self.chunks[self.at])
         elif side == "between":
             self._between(chunk)
         elif kind in ("place", *PEOPLE):
             self._target(side)
-        elif kind == "pair" and side in ("with", "of", "to"):
-            self.at += 1
-            self.pair = self.people.pair(self.chunks[self.at])
         elif side in ("from", "into", "to", "at") and self.is_lane():
             self.at += 2
             self.fact("destination_heading" if side == "into" else "heading", self.chunks[self.at - 1])
@@ -273,10 +250,8 @@ class Taken(Facts):
             raise self.left_over(self.chunks[at])
         chunk = self.chunks[self.at]
         if chunk.kind == "pronoun":  # who somebody is ahead of or behind, else the place that was spoken of last
-            if side in ("ahead", "behind"):
-                self.later.append((at, side, chunk))
-            else:
-                self.targets.append(Target(at, side, chunk, self.people.where(chunk)))
+            place = None if side in ("ahead", "behind") else self.people.where(chunk)
+            self.targets.append(Target(at, side, chunk, place))
         elif chunk.kind == "place":
             self.targets.append(Target(at, side, chunk, self._place(chunk)))
         else:
@@ -295,9 +270,6 @@ class Taken(Facts):
 
     def _place(self, chunk: Chunk) -> st.Place:
         place = st.Place(chunk.value)
-        if self.peek() == ("side", "of") and self.peek(2)[0] == "area":  # "the stop line of the driveway"
-            self.at += 2
-            self.fact("origin", self.chunks[self.at])
         for side in ("of", "with"):
             if self.peek()[1] != side or self.peek(2)[0] not in ("actor", "name"):
                 continue

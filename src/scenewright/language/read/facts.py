@@ -23,15 +23,13 @@ class Clause:
     ----------
     measures, rate, times
         What is so of the subject, how hard it brakes or speeds up, and for how long or how long after the start.
+    joined
+        Conditions that "either", "both", "if" and "it is not so that" join, of whomever they are.
     flags
         ``standstill``, ``while`` (the end is open), ``to`` a speed, ``first``, ``start``, ``kept`` (its speed), ``way``
-        (it is open), ``falls`` (an amount that is reached), ``yields``, ``insists``, ``lets``.
+        (it is open), ``falls`` (an amount that is reached), ``yields``, ``insists``.
     notes
         How it says it, which is no meaning of its own: ``event`` (something is passed), ``wanted`` (a wish).
-    rival
-        Before or after whom an event comes: ``passes the conflict point before the ego``.
-    waiting, target
-        Amounts without a place, and the last place that an amount was counted to, for a neighbour.
     """
 
     quote: st.Quote
@@ -40,25 +38,28 @@ class Clause:
     phase: str | None = None
     ordinal: int = 0
     measures: list[st.Measure] = field(default_factory=list)
+    joined: list[st.Compound] = field(default_factory=list)
     rate: st.Measure | None = None
     times: dict[str, tuple[st.Operator, st.Amount]] = field(default_factory=dict)
     facts: dict[str, str] = field(default_factory=dict)
     flags: set[str] = field(default_factory=set)
     relations: list[st.Relation] = field(default_factory=list)
-    rival: tuple[str, int] | None = None
-    waiting: list[Chunk] = field(default_factory=list)
     notes: set[str] = field(default_factory=set)
-    target: tuple[str, st.Place] | None = None
 
     def says_more_than(self, *expected: str) -> bool:
         """Whether anything but these attributes is filled: what carries meaning must be used up."""
-        known = {*expected, "quote", "subject", "notes", "target"}
+        known = {*expected, "quote", "subject", "notes"}
         return any(getattr(self, each.name) for each in fields(self) if each.name not in known)
+
+    @property
+    def conditions(self) -> list[st.Condition]:
+        """All that it says is so."""
+        return [*self.measures, *self.joined]
 
     @property
     def is_event(self) -> bool:
         """Whether it says that its subject comes to a place, and nothing else."""
-        told = self.says_more_than("measures", "rival") or not self.measures or "event" not in self.notes
+        told = self.says_more_than("measures") or not self.measures or "event" not in self.notes
         return not told and all(st.is_event(each) for each in self.measures)
 
 
@@ -68,6 +69,7 @@ class Facts:
 
     chunks: list[Chunk]
     people: Cast
+    subject: int | None = None  # of whom it is where it names nobody
     at: int = 0
     clause: Clause = field(init=False)
 

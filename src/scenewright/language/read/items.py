@@ -8,26 +8,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import Literal
 
 from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
 from scenewright.language.read.attach import read_clause
+from scenewright.language.read.cast import Cast
 from scenewright.language.read.chunks import Chunk
-from scenewright.language.read.clauses import PEOPLE
+from scenewright.language.read.clauses import OPERATORS, PEOPLE
 from scenewright.language.read.facts import Clause
-from scenewright.language.read.narrative import Narrative
 
-Item = Clause | st.Compound
 LINKS = ("when", "until", "no later than", "from")
 _PREDICATES = {
     "be", "state", "event", "phase", "deed", "turn", "mood", "heading", "origin", "quantity", "amount", "lanes",
 }  # fmt: skip
 _BEGINS_A_CLAUSE = {
     *PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed", "kept", "pair",
-    "order", "yields", "insists", "lets", "open",
+    "order", "yields", "insists", "open",
 }  # fmt: skip
-_ACTS = ("deed", "order", "yields", "insists", "lets")
+_ACTS = ("deed", "order", "yields", "insists")
 _FRONTED = ("side", "turn", "state", "origin", "heading", "area")
 _JOINTS: dict[str, tuple[Literal["and", "or", "if"], str]] = {  # what a word makes of its parts, and what parts them
     "either": ("or", "or"),
@@ -43,7 +43,6 @@ class Segment:
     link: str
     chunks: list[Chunk] = field(default_factory=list)
     margin: tuple[st.Operator, st.Amount] | None = None
-    rival: int | None = None  # who does the same then: "before the ego"
 
 
 def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
@@ -88,10 +87,8 @@ def _margin(chunks: list[Chunk]) -> tuple[st.Operator, st.Amount] | None:
     if amount is None or amount.dimension != "time":
         return None
     chunks.pop()
-    op: st.Operator = "=="
-    if chunks and chunks[-1].kind == "bound" and chunks[-1].value in st.FLIPPED:
-        op = st.FLIPPED[st.FLIPPED[chunks.pop().value]]
-    return op, amount
+    is_bound = bool(chunks) and chunks[-1].kind == "bound" and chunks[-1].value in OPERATORS
+    return OPERATORS[chunks.pop().value] if is_bound else "==", amount
 
 
 def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
@@ -106,34 +103,26 @@ def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
     return chunks[:cut], main[1:] if main and main[0].value == "then" else main
 
 
-def items_of(narrative: Narrative, chunks: Sequence[Chunk], subject: int | None = None) -> list[Item]:
+def items_of(people: Cast, chunks: Sequence[Chunk], subject: int | None = None) -> list[Clause]:
     """Return the clauses of a list, and its joined conditions; `subject` is that of a clause that names none."""
-    parser = _Items(narrative, list(chunks), subject)
-    found: list[Item] = []
-    starts: list[int] = []
+    parser = _Items(people, list(chunks), subject)
+    found: list[Clause] = []
     while parser.at < len(parser.chunks):
         if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and") or parser.is_then():
             parser.at += 1
         else:
-            start, item = parser.at, parser.one(())
-            starts += [start] * (1 + len(parser.others))
+            item = parser.one(())
             found += [*parser.others, item]
             parser.others = []
-    for index, item in enumerate(found[:-1]):  # "the ego is 35 m and the hero 20 m from the conflict point"
-        following = found[index + 1]
-        if not (isinstance(item, Clause) and isinstance(following, Clause)):
-            continue
-        if not item.says_more_than() and item.subject != following.subject:  # "the ego, a bus and a van drive west"
-            raise UnknownWordsError("nothing is said here", found=item.quote.text, fix="say it of each")
-        if item.waiting:
-            parser.at, parser.before = starts[index], following
-            found[index] = parser.one(())
+    for item, following in pairwise(found):  # "the ego, a bus and a van drive west"
+        if item.subject != following.subject and not item.says_more_than():
+            people.refuse("nothing is said here", item.quote, "say it of each")
     return found
 
 
 @dataclass(slots=True)
 class _Items:
-    narrative: Narrative
+    people: Cast
     chunks: list[Chunk]
     subject: int | None
     at: int = 0
@@ -150,10 +139,10 @@ class _Items:
         chunk = self.chunks[self.at] if self.at < len(self.chunks) else None
         return chunk is not None and chunk.value == value and chunk.kind in ("joint", "link")
 
-    def one(self, inside: tuple[str, ...]) -> Item:
+    def one(self, inside: tuple[str, ...]) -> Clause:
         """Return the item that begins here; `inside` are the words that end it."""
         if self.at >= len(self.chunks):
-            raise UnknownWordsError("a condition is missing", fix="say what is so")
+            self.people.refuse("a condition is missing", fix="say what is so")
         chunk = self.chunks[self.at]
         kinds = [each.kind for each in self.chunks[self.at + 1 : self.at + 4]] + [""] * 3
         joins = chunk.value == "both" and kinds[0] in PEOPLE
@@ -163,29 +152,27 @@ class _Items:
             return self._joined(chunk, inside)
         return self._clause(inside)
 
-    def _joined(self, chunk: Chunk, inside: tuple[str, ...]) -> Item:
+    def _joined(self, chunk: Chunk, inside: tuple[str, ...]) -> Clause:
         self.at += 1
         if chunk.value == "not so":
-            return st.Compound("not", (self._part(inside),), chunk.quote)
+            return Clause(chunk.quote, joined=[st.Compound("not", (self._part(inside),), chunk.quote)])
         joint, link = _JOINTS[chunk.value]
         parts = [self._part((*inside, link))]
         while self.is_joint(link):
             self.at += 1
             parts.append(self._part((*inside, link)))
         if len(parts) < 2 or (joint == "if" and len(parts) > 2):
-            raise UnknownWordsError(f"'{chunk.text}' needs '{link}'", found=chunk.text, fix="say what it joins")
-        return st.Compound(joint, tuple(parts), chunk.quote)
+            self.people.refuse(f"'{chunk.text}' needs '{link}'", chunk.quote, "say what it joins")
+        return Clause(chunk.quote, joined=[st.Compound(joint, tuple(parts), chunk.quote)])
 
     def _part(self, inside: tuple[str, ...]) -> st.Condition:
         item = self.one(inside)
-        if isinstance(item, st.Compound):
-            return item
         if self.others:
-            raise UnknownWordsError("this is said of two at once", found=item.quote.text, fix="say it of each")
-        if not item.measures or item.says_more_than("measures"):
-            raise UnknownWordsError("this is no condition", found=item.quote.text, fix="say what is so")
-        measures = tuple(item.measures)
-        return measures[0] if len(measures) == 1 else st.Compound("and", measures, item.quote)
+            self.people.refuse("this is said of two at once", item.quote, "say it of each")
+        if not item.conditions or item.says_more_than("measures", "joined"):
+            self.people.refuse("this is no condition", item.quote, "say what is so")
+        one, several = item.conditions[0], tuple(item.conditions)
+        return one if len(several) == 1 else st.Compound("and", several, item.quote)
 
     def _clause(self, inside: tuple[str, ...]) -> Clause:
         subjects = self._subjects()
@@ -208,12 +195,11 @@ class _Items:
             self.others.append(self._read([each, *own]))
         self.before = self._read([*self.both[-1:], *own])
         if any(each.subject == self.before.subject for each in self.others):
-            raise UnknownWordsError("one and the same is named twice", found=self.before.quote.text)
+            self.people.refuse("one and the same is named twice", self.before.quote)
         return self.before
 
     def _read(self, own: list[Chunk]) -> Clause:
-        before = self.before
-        clause = read_clause(own, self.narrative, before, self.subject if before is None else before.subject)
+        clause = read_clause(own, self.people, self.subject if self.before is None else self.before.subject)
         if clause.facts.get("turn", "straight") != "straight":
             self.turned.add(clause.subject)
         elif clause.subject in self.turned and "heading" in clause.facts and "headed" not in clause.flags:
@@ -231,12 +217,9 @@ class _Items:
         chunks = self.chunks[self.at : self.at + 4]
         if chunks[0].kind == "pair":
             self.at += 1
-            return [replace(chunks[0], kind="name", value=self.narrative.actor(each).name, traits=())
-                    for each in self.narrative.pair(chunks[0])]  # fmt: skip
+            return [replace(chunks[0], kind="name", value=self.people.actor(each).name, traits=())
+                    for each in self.people.pair(chunks[0])]  # fmt: skip
         kinds = [chunk.kind for chunk in chunks]
-        if kinds == ["actor", "comma", "actor", "comma"] and chunks[2].is_new:  # "the hero, a truck, ..."
-            self.narrative.same(self.narrative.who(chunks[0]), chunks[2])
-            del self.chunks[self.at + 1 : self.at + 4]
         if len(chunks) == 4 and kinds[0] in PEOPLE and kinds[2] in PEOPLE and chunks[1].value == "and":
             self.at += 3
             return [chunks[0], chunks[2]]
@@ -255,12 +238,3 @@ class _Items:
         while at < len(self.chunks) and (self.chunks[at].kind, self.chunks[at].value) in skipped:
             at += 1
         return at < len(self.chunks) and self.chunks[at].kind in _BEGINS_A_CLAUSE
-
-
-def is_told_twice(item: Item, following: Item | None) -> bool:
-    """Whether two clauses tell one deed: "it brakes at 3 m/s^2 and stops at the stop line"."""
-    if not (isinstance(item, Clause) and isinstance(following, Clause)):
-        return False
-    if item.says_more_than("deed", "phase", "rate", "measures", "times"):
-        return False
-    return (item.subject, item.deed, following.deed) == (following.subject, st.Verb.BRAKE, "stop")

@@ -17,11 +17,8 @@ from scenewright.units import UNITS, Dimension, unit_of_name
 _LINE = re.compile(r"^(Title|Map): (.*)$", re.MULTILINE)
 _NUMBER = r"(-?\d+(?:[./]\d+)?)(?: ?([A-Za-z][A-Za-z/^0-9]*))?"
 _MANNER = re.compile(rf"^Manner: (\w+) is {_NUMBER}\.$", re.MULTILINE)
-_VALUE = re.compile(  # "Parameter gap_m is 12 m, from 10 m to 20 m", "gap_m = 12 m", "gap_m in [10, 20]"
-    r"(?:Parameter (\w+)|\{?\b([A-Za-z]\w*_\w+)\}?)(?: (?:is set to|is|equals|lies|ranges|varies|in)| ?[:=])? ?"
-    rf"(?:(open)|{_NUMBER})?(?:,? ?(?:between|from|\[) ?{_NUMBER}(?: and| to|,) {_NUMBER}\]?)?"
-    r"(?=\s*(?:[,;)\n]|and |\.(?:\s|$)|$))"
-)
+_RANGE = rf",? ?from {_NUMBER} to {_NUMBER}"
+_PARAMETER = re.compile(rf"^Parameter (\w+) is (?:open|{_NUMBER})?(?:{_RANGE})?\.$", re.MULTILINE)
 
 
 def take_labels(text: str, narrative: Narrative) -> str:
@@ -39,23 +36,18 @@ def take_labels(text: str, narrative: Narrative) -> str:
         manner.append((match[1], _in(unit_of(match[1]).dimension, match[2], match[3]), None))
         return " " * len(match[0])
 
-    def value(match: re.Match[str]) -> str:
-        name, unit = match[1] or match[2], unit_of_name(match[1] or match[2])
-        if not (match[3] or match[4] or match[6]) or (unit is None and not match[1]):
-            return match[0]
+    def parameter(match: re.Match[str]) -> str:
+        unit = unit_of_name(match[1])
         if unit is None:
-            raise UnknownWordsError(f"parameter {name} has no unit", fix="end its name in _m, _s, _mps or _mpss")
-        symbol = match[5] or match[9] or unit.symbol
-        told, low, high = (
-            None if match[at] is None else _in(unit.dimension, match[at], match[at + 1] or symbol) / unit.si_factor
-            for at in (4, 6, 8)
+            raise UnknownWordsError(f"parameter {match[1]} has no unit", fix="end its name in _m, _s, _mps or _mpss")
+        value, low, high = (
+            None if match[at] is None else _in(unit.dimension, match[at], match[at + 1] or unit.symbol) / unit.si_factor
+            for at in (2, 4, 6)
         )
-        if any(each.name == name for each in narrative.parameters):
-            raise UnknownWordsError(f"two values are told of {name}", found=match[0], fix="leave one out")
-        narrative.parameters.append(Parameter(name, told, low, high))
+        narrative.parameters.append(Parameter(match[1], value, low, high))
         return " " * len(match[0])
 
-    for pattern, taken in ((_LINE, line), (_MANNER, of_manner), (_VALUE, value)):
+    for pattern, taken in ((_LINE, line), (_MANNER, of_manner), (_PARAMETER, parameter)):
         text = pattern.sub(taken, text)
     if manner:
         narrative.manner = manner_of(manner)
