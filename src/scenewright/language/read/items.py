@@ -93,7 +93,13 @@ def _margin(chunks: list[Chunk]) -> tuple[st.Operator, st.Amount] | None:
 
 def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
     """Part a moment from what happens at it: at the first comma before a deed, else at the last."""
-    commas = [index for index, chunk in enumerate(chunks) if chunk.kind == "comma"]
+    commas, is_aside = list[int](), False
+    for index, chunk in enumerate(chunks[:-1]):
+        if chunk.kind == "comma":
+            following, was_aside = chunks[index + 1].kind, is_aside
+            is_aside = following == "relative"
+            if not is_aside and (not was_aside or following in PEOPLE):  # "the ego, which turns left, is 10 m ..."
+                commas.append(index)
     if not commas:
         raise UnknownWordsError("it is not clear where the moment ends", fix="put a comma before what happens")
     acts = (start for start, end in zip(commas, [*commas[1:], len(chunks)], strict=True)

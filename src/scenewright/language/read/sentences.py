@@ -282,8 +282,16 @@ class _Sentence:
             if fast and "to" not in clause.flags and clause.deed != st.Verb.DRIVE:
                 self.story.refuse("it is not clear when it is so fast")
             stays = clause.deed == st.Verb.STAND or not (rests or fast or st.is_event(measure))
+            if rests and measure.quote and self._is_set_off(measure.quote, clause.quote):
+                asked, here = f"What is '{measure.quote.text}'?", ("where it begins to brake", "where it stands")
+                stays = self.story.ask(f"where {measure.quote.start}", asked, [*here], None, measure.quote) == here[0]
             (held if fast and "to" not in clause.flags else begins if stays else ends).append(measure)
         return begins, held, ends
+
+    def _is_set_off(self, amount: st.Quote, clause: st.Quote) -> bool:
+        """Whether an amount stands between commas: "brakes, 8 m before its stop line, to standstill"."""
+        text = self.story.text
+        return text[: amount.start].rstrip().endswith(",") and "," in text[amount.end : clause.end]
 
     def _end(self, doing: Doing, clause: Clause, ends: Sequence[st.Condition], until: Segment | None) -> None:
         story = self.story
