@@ -5,10 +5,9 @@ from __future__ import annotations
 import pytest
 
 from scenewright.errors import UnknownWordsError
-from scenewright.language import story as st
 from scenewright.language.read.attach import read_clause
 from scenewright.language.read.chunks import sentences
-from scenewright.language.read.facts import Clause
+from scenewright.language.read.clauses import Clause
 from scenewright.language.read.narrative import Narrative
 
 

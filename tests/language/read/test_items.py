@@ -7,7 +7,7 @@ import pytest
 from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
 from scenewright.language.read.chunks import sentences
-from scenewright.language.read.facts import Clause
+from scenewright.language.read.clauses import Clause
 from scenewright.language.read.items import items_of, parted, segments_of
 from scenewright.language.read.narrative import Narrative
 

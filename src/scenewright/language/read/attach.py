@@ -13,8 +13,7 @@ from fractions import Fraction
 from scenewright.language import story as st
 from scenewright.language.read.cast import Cast
 from scenewright.language.read.chunks import Chunk
-from scenewright.language.read.clauses import IT, Taken, Target
-from scenewright.language.read.facts import Clause
+from scenewright.language.read.clauses import IT, Clause, Taken, Target
 from scenewright.program.types import EGO
 
 _BARE: dict[str, st.Operator] = {  # a side and a place, without an amount
@@ -60,13 +59,8 @@ def _attach(taken: Taken) -> None:
     for target in taken.targets:
         if not target.used:
             _stand_alone(taken, target)
-    if taken.quantity and not (taken.amounts or "kept" in clause.flags):
+    if taken.quantity and not taken.amounts:
         raise taken.left_over(last)
-    fast = taken.quantity == "speed" or any(each.quantity is st.Quantity.SPEED for each in clause.measures)
-    if "kept" in clause.flags and clause.rate is not None:  # "brakes at a constant rate of 3 m/s^2"
-        clause.flags.discard("kept")
-    elif "kept" in clause.flags and not fast:
-        raise taken.left_over(last)  # "keeps a gap of 20 m"
     places = [each for each in clause.measures if each.quantity is st.Quantity.PLACE]
     passed = [each for each in places if each.amount is None]
     if ("pass" in taken.states and not passed) or ("reach" in taken.states and not places):

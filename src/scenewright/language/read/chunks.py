@@ -39,7 +39,7 @@ _QUOTES = '"“”'
 _TRAITS = ("heading", "relation", "quality", "other", "turn")
 _LONG = 8  # letters; of shorter words too many differ from another word by one letter
 _LIKE = 0.86  # of two words of so many letters, one slip apart, 7 letters in 8 agree
-SUFFIX = {"m": "_m", "s": "_s", "m/s": "_mps", "m/s^2": "_mpss", "km/h": "_kmph", "mph": "_mph", "ft": "_ft"}
+_SUFFIX = {"m": "_m", "s": "_s", "m/s": "_mps", "m/s^2": "_mpss", "km/h": "_kmph", "mph": "_mph", "ft": "_ft"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -213,8 +213,8 @@ def _amount(text: str, match: re.Match[str]) -> Chunk | None:
     quote = Quote(start, end, text[start:end])
     if name:
         own = unit_of_name(name)
-        if own is None and symbol in SUFFIX:
-            name, own = name + SUFFIX[symbol], UNITS[symbol]
+        if own is None and symbol in _SUFFIX:
+            name, own = name + _SUFFIX[symbol], UNITS[symbol]
         if own is None or (symbol is not None and UNITS[symbol].dimension != own.dimension):
             return Chunk("no unit", name, start, end, quote.text)
         return Chunk("amount", quote.text, start, end, quote.text, Amount(None, own.symbol, name, quote))

@@ -6,11 +6,14 @@ or an `UnknownWordsError` with the words that nothing could be made of. Order de
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 
+from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
-from scenewright.language.read.chunks import SUFFIX, Chunk
-from scenewright.language.read.facts import Facts
+from scenewright.language.compile import COMPASS
+from scenewright.language.phrases import OTHERWISE
+from scenewright.language.read.cast import Cast
+from scenewright.language.read.chunks import Chunk
 from scenewright.program.arithmetic import JUST_BEFORE_M
 from scenewright.program.types import EGO
 
@@ -24,12 +27,60 @@ _CONFLICT = st.Place("turn")  # where a driveway joins a road
 _SIDES = ("before", "behind", "from", "to", "ahead", "past")  # of a place that an amount is counted to
 
 
-_OF_AMOUNTS = ("amount", "bound", "quantity", "kept", "no unit")
+_OF_AMOUNTS = ("amount", "bound", "quantity", "no unit")
 _AFTER = {  # what may stand behind a side that says no more than that it belongs there: "to pass it", "at a speed of"
     "to": (*_OF_AMOUNTS, "event", "turn", "deed", "state", "phase", "mood"), "at": _OF_AMOUNTS, "of": _OF_AMOUNTS,
     "for": _OF_AMOUNTS, "with": (*_OF_AMOUNTS, "turn", "deed"), "by": ("turn", "deed"),
 }  # fmt: skip
-_INITIAL = ("with", "link", "start")  # "with an initial speed of"
+_INITIAL = (("at", "link", "start"), ("with", "link", "start"))  # "with an initial speed of"
+
+
+@dataclass(slots=True)
+class Clause:
+    """What one clause says.
+
+    Attributes
+    ----------
+    measures, rate, times
+        What is so of the subject, how hard it brakes or speeds up, and for how long or how long after the start.
+    joined
+        Conditions that "either", "both", "if" and "it is not so that" join, of whomever they are.
+    flags
+        ``standstill``, ``while`` (the end is open), ``to`` a speed, ``first``, ``start``, ``way``
+        (it is open), ``falls`` (an amount that is reached), ``yields``, ``insists``.
+    notes
+        How it says it, which is no meaning of its own: ``event`` (something is passed), ``wanted`` (a wish).
+    """
+
+    quote: st.Quote
+    subject: int | None = None
+    deed: str | None = None
+    phase: str | None = None
+    ordinal: int = 0
+    measures: list[st.Measure] = field(default_factory=list)
+    joined: list[st.Compound] = field(default_factory=list)
+    rate: st.Measure | None = None
+    times: dict[str, tuple[st.Operator, st.Amount]] = field(default_factory=dict)
+    facts: dict[str, str] = field(default_factory=dict)
+    flags: set[str] = field(default_factory=set)
+    relations: list[st.Relation] = field(default_factory=list)
+    notes: set[str] = field(default_factory=set)
+
+    def says_more_than(self, *expected: str) -> bool:
+        """Whether anything but these attributes is filled: what carries meaning must be used up."""
+        known = {*expected, "quote", "subject", "notes"}
+        return any(getattr(self, each.name) for each in fields(self) if each.name not in known)
+
+    @property
+    def conditions(self) -> list[st.Condition]:
+        """All that it says is so."""
+        return [*self.measures, *self.joined]
+
+    @property
+    def is_event(self) -> bool:
+        """Whether it says that its subject comes to a place, and nothing else."""
+        told = self.says_more_than("measures") or not self.measures or "event" not in self.notes
+        return not told and all(st.is_event(each) for each in self.measures)
 
 
 @dataclass(slots=True)
@@ -45,15 +96,24 @@ class Target:
 
 
 @dataclass(slots=True)
-class Taken(Facts):
-    """A clause while it is read: what was found in it, in order."""
+class Taken:
+    """A clause while it is read: what was found in it, in order; `at` is the last chunk that was taken."""
 
+    chunks: list[Chunk]
+    people: Cast
+    subject: int | None = None  # of whom it is where it names nobody
+    at: int = 0
+    clause: Clause = field(init=False)
     amounts: list[tuple[int, st.Operator, Chunk]] = field(default_factory=list)
     targets: list[Target] = field(default_factory=list)
     states: set[str] = field(default_factory=set)
     quantity: str | None = None
     subject_at: int = 0
     pair: tuple[int, int] | None = None  # between whom a gap is
+
+    def __post_init__(self) -> None:
+        start, end = self.chunks[0].start, self.chunks[-1].end
+        self.clause = Clause(st.Quote(start, end, self.people.text[start:end]))
 
     def take_all(self) -> None:
         """Take every chunk, in order."""
@@ -71,7 +131,7 @@ class Taken(Facts):
                 pass
             case "relative" if "deed" in (self.peek()[0], self.peek(2)[0]):
                 raise self.left_over(chunk)  # "which was braking" is no deed of the moment
-            case "relative" if clause.subject is not None:
+            case "relative" if clause.subject is not None and self.at == self.subject_at + 1:
                 clause.notes.add("relative")
             case "actor" | "pronoun" | "name" | "relative" if clause.subject is None:
                 kinds = {each.kind for each in self.chunks}
@@ -95,19 +155,17 @@ class Taken(Facts):
             case "place" if self.states & {"pass", "reach"} or self.peek()[0] in ("be", "event"):
                 self.at -= 1
                 self._target("at")
-            case "area" if self.states & {"pass", "reach"} and not self.targets and value == "driveway":
-                self.targets.append(Target(self.at, "at", chunk, _CONFLICT))
-            case "area" if clause.subject is None and value == "driveway" and self.peek(2)[1] == "ahead":
+            case "area" if value == "driveway" and (
+                self.states & {"pass", "reach"} or (clause.subject is None and self.peek(2)[1] == "ahead")
+            ):
                 self.targets.append(Target(self.at, "at", chunk, _CONFLICT))
             case "deed" if clause.deed is None:
-                clause.deed = value
-            case "deed" if (clause.deed, value) == (st.Verb.BRAKE, "stop"):  # "brakes so that it stops"
-                clause.flags.add("standstill")
+                clause.deed = value or chunk.text.lower()
             case "phase" if clause.phase is None:
                 clause.phase = value
             case "ordinal":
                 clause.ordinal = int(value)
-            case "standstill" | "open" | "kept" | "order" | "yields" | "insists":
+            case "standstill" | "open" | "order" | "yields" | "insists":
                 clause.flags.add("standstill" if chunk.kind == "standstill" else value)
             case "link" if value == "start":
                 clause.flags.add("start")
@@ -167,9 +225,9 @@ class Taken(Facts):
     def _amount(self, chunk: Chunk) -> None:
         op = self.bound()
         lead = self.peek(-2 if self.peek(-1)[0] == "bound" else -1)
-        chunk = self._with_unit(chunk, lead[1])
         amount = chunk.amount
-        assert amount is not None
+        if amount is None:
+            raise self.left_over(chunk)
         if amount.dimension == "time" and lead == ("side", "for"):
             self.clause.times["for"] = (op, amount)
         elif (self.peek(1)[1], self.peek(2)[1]) == ("after", "the start"):
@@ -177,25 +235,6 @@ class Taken(Facts):
             self.at += 2
         else:
             self.amounts.append((self.at, op, chunk))
-
-    def _with_unit(self, chunk: Chunk, lead: str) -> Chunk:
-        """Return an amount; the use of a parameter without a unit tells it, or a question does."""
-        if chunk.amount is not None:
-            return chunk
-        if not chunk.value.isidentifier() or chunk.text.strip("{}") != chunk.value:
-            raise self.left_over(chunk)
-        asked = self.quantity
-        uses = {
-            "m/s^2": asked in ("rate", "acceleration", "deceleration") or (self.clause.deed and lead == "at"),
-            "m/s": asked == "speed" or (self.states & {"drives"} and lead == "at") or "to" in self.clause.flags,
-            "s": asked in ("headway", "time to collision", "time to arrival") or lead == "for",
-            "m": asked == "gap" or self.peek()[1] in ("past", "ahead"),
-        }
-        unit = next((unit for unit, is_used in uses.items() if is_used), None)
-        if unit is None:
-            known, said = {"in metres": "m", "in seconds": "s"}, f"What is {chunk.value}?"
-            unit = known.get(self.people.ask(f"unit of {chunk.value}", said, [*known], None, chunk.quote), "m")
-        return replace(chunk, kind="amount", amount=st.Amount(None, unit, chunk.value + SUFFIX[unit], chunk.quote))
 
     def _side(self, chunk: Chunk) -> None:
         side, (kind, value) = chunk.value, self.peek()
@@ -212,22 +251,12 @@ class Taken(Facts):
             self._between(chunk)
         elif kind in ("place", *PEOPLE):
             self._target(side)
-        elif side in ("from", "into", "to", "at") and self.is_lane():
-            self.at += 2
-            self.fact("destination_heading" if side == "into" else "heading", self.chunks[self.at - 1])
-            self.area(self.chunks[self.at], side)
-        elif kind == "heading" and side in ("to", "from"):
-            self.at += 1
-            self.headed(self.chunks[self.at], back=side == "from")
         elif (kind, value) == ("area", "driveway") and side in _SIDES and self.peek(-1)[0] == "amount":
             self.at += 1
             self.targets.append(Target(self.at - 1, side, self.chunks[self.at], _CONFLICT))
-        elif kind == "area" and side in ("at", "into", "from"):
-            self.at += 1
-            self.area(self.chunks[self.at], side)
         elif side == "to" and kind in ("amount", "bound", "no unit") and self.clause.deed is not None:
             self.clause.flags.add("to")
-        elif kind not in _AFTER.get(side, ()) and (side, kind, value) not in (("at", "link", "start"), _INITIAL):
+        elif not (self.road(side) or kind in _AFTER.get(side, ()) or (side, kind, value) in _INITIAL):
             raise self.left_over(chunk)
 
     def _between(self, chunk: Chunk) -> None:
@@ -299,3 +328,73 @@ class Taken(Facts):
     def measure(self, chunk: Chunk, measure: st.Measure) -> None:
         """Add a measure with the words that it came from."""
         self.clause.measures.append(replace(measure, quote=chunk.quote))
+
+    def peek(self, ahead: int = 1) -> tuple[str, str]:
+        """Return kind and value of a chunk from here; nothing where there is none."""
+        at = self.at + ahead
+        return (self.chunks[at].kind, self.chunks[at].value) if 0 <= at < len(self.chunks) else ("", "")
+
+    def left_over(self, chunk: Chunk) -> UnknownWordsError:
+        """Return the error that names a chunk that nothing was made of."""
+        expected = "a number with a unit, such as 12 m" if chunk.kind == "no unit" else None
+        message, found = f"'{chunk.text}' could not be understood here", self.clause.quote.text
+        return UnknownWordsError(message, found=found, expected=expected, fix=OTHERWISE)
+
+    def way(self, chunk: Chunk) -> None:
+        """Take a chunk that says how somebody drives, with what belongs to it."""
+        facts = self.clause.facts
+        if chunk.kind == "heading" and self.peek(-1)[1] == "then" and self.peek(-2)[0] == "heading":
+            facts["headings"] = facts.get("headings", facts.pop("heading", "")) + chunk.value  # "north, then south"
+        elif chunk.kind == "heading":
+            self.headed(chunk)
+        elif chunk.kind == "area":
+            self.area(chunk)
+        elif chunk.kind == "origin" and self.road("from"):
+            pass
+        elif chunk.kind == "origin" or (chunk.kind == "then_headed" and self.peek()[0] != "heading"):
+            raise self.left_over(chunk)
+        elif chunk.text.lower().startswith("to ") and "origin" not in facts:
+            raise self.left_over(chunk)  # "leaves the road to the left", not "is to the left"
+        else:
+            if chunk.text.lower().split()[0] in ("turning", "making", "taking"):
+                self.clause.notes.add("wanted")
+            self.fact("then" if chunk.kind == "then_headed" else chunk.kind, chunk)
+
+    def road(self, side: str) -> bool:
+        """Take the road, the lane or the direction behind a side, where one is: "from the east", "into the road"."""
+        kind = self.peek()[0]
+        if side in ("from", "into", "to", "at") and self.is_lane():
+            self.at += 2
+            self.fact("destination_heading" if side == "into" else "heading", self.chunks[self.at - 1])
+            self.area(self.chunks[self.at], side)
+        elif kind == "heading" and side in ("to", "from"):  # who comes from the east is headed west
+            self.at += 1
+            self.headed(self.chunks[self.at], back=side == "from")
+        elif kind == "area" and side in ("at", "into", "from"):
+            self.at += 1
+            self.area(self.chunks[self.at], side)
+        else:
+            return False
+        return True
+
+    def is_lane(self) -> bool:
+        """Whether "the westbound lane" follows, which is no direction to come from."""
+        lane = (self.peek()[0], self.peek(2)[0]) == ("heading", "area")
+        return lane and self.chunks[self.at + 1].text.lower().endswith("bound")
+
+    def headed(self, chunk: Chunk, back: bool = False) -> None:
+        """Take a heading, of the way before or after its turn; `back` is where somebody comes from."""
+        later = "then" in self.clause.facts or self.clause.facts.get("turn", "straight") != "straight"
+        if back:
+            chunk = replace(chunk, value=COMPASS[(COMPASS.index(chunk.value) + 2) % 4])
+        self.fact("destination_heading" if later and not back else "heading", chunk)
+
+    def area(self, chunk: Chunk, side: str = "") -> None:
+        """Take a road, from which or into which somebody drives."""
+        turned = self.clause.facts.get("turn", "straight") != "straight" and side != "from"
+        self.fact("destination" if side == "into" or turned else "origin", chunk)
+
+    def fact(self, name: str, chunk: Chunk) -> None:
+        """Take one fact of a way; two that differ are left over."""
+        if self.clause.facts.setdefault(name, chunk.value) != chunk.value:
+            raise self.left_over(chunk)

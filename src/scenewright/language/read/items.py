@@ -16,15 +16,14 @@ from scenewright.language import story as st
 from scenewright.language.read.attach import read_clause
 from scenewright.language.read.cast import Cast
 from scenewright.language.read.chunks import Chunk
-from scenewright.language.read.clauses import OPERATORS, PEOPLE
-from scenewright.language.read.facts import Clause
+from scenewright.language.read.clauses import OPERATORS, PEOPLE, Clause
 
 LINKS = ("when", "until", "no later than", "from")
 _PREDICATES = {
     "be", "state", "event", "phase", "deed", "turn", "mood", "heading", "origin", "quantity", "amount", "lanes",
 }  # fmt: skip
 _BEGINS_A_CLAUSE = {
-    *PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed", "kept", "pair",
+    *PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed", "pair",
     "order", "yields", "insists", "open",
 }  # fmt: skip
 _ACTS = ("deed", "order", "yields", "insists")
@@ -187,7 +186,7 @@ class _Items:
             chunk = self.chunks[self.at]
             parts = chunk.kind == "comma" or (chunk.kind == "joint" and chunk.value in ("and", "or"))
             between = self.at > 1 and self.chunks[self.at - 2].value == "between"
-            closes = any(self.is_joint(link) for link in inside) or self._turns_to_another(start)
+            closes = any(self.is_joint(link) for link in inside)
             fronted = self._is_fronted(start)
             if self.at > start and (closes or (parts and not (between or fronted) and self._begins(self.at + 1))):
                 break
@@ -230,13 +229,6 @@ class _Items:
             self.at += 3
             return [chunks[0], chunks[2]]
         return []
-
-    def _turns_to_another(self, start: int) -> bool:
-        """Whether "which" stands here for somebody who is not the subject of the clause that begins at `start`."""
-        if self.chunks[self.at].kind != "relative" or self.at <= start:
-            return False
-        named = any(chunk.kind in PEOPLE for chunk in self.chunks[start : self.at - 1])
-        return named or self.chunks[self.at - 1].kind not in PEOPLE
 
     def _begins(self, at: int) -> bool:
         """Whether a clause begins here."""

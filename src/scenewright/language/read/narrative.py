@@ -14,7 +14,7 @@ from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
 from scenewright.language.phrases import speaks_of_ego
 from scenewright.language.read.cast import Cast
-from scenewright.language.read.facts import Clause
+from scenewright.language.read.clauses import Clause
 from scenewright.program.manner import USUAL, Manner
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 
@@ -47,7 +47,6 @@ class Narrative(Cast):
     orders: list[st.Order] = field(default_factory=list)
     holds: list[st.Hold] = field(default_factory=list)
     pending: int | None = None  # a moment that the last sentence told, at which nobody does anything yet
-    kept: list[tuple[int, st.Quote]] = field(default_factory=list)  # who keeps the speed that it has at the start
     courtesies: list[tuple[int | None, str, st.Quote]] = field(default_factory=list)  # who yields, or does not
     parameters: list[Parameter] = field(default_factory=list)
     manner: Manner = USUAL
@@ -59,9 +58,6 @@ class Narrative(Cast):
         """Return the story; deeds that are still open end at moments of their own."""
         if not any(actor.id == EGO for actor in self.actors):
             raise UnknownWordsError("the text does not say who is under test", fix="call it the ego")
-        for actor, quote in self.kept:
-            self.quote = quote
-            self._keep(actor)
         for who, courtesy, quote in self.courtesies:
             self.quote = quote
             self._check(who, courtesy)
@@ -95,18 +91,6 @@ class Narrative(Cast):
         stops = any(doing.verb in (st.Verb.BRAKE, st.Verb.STAND) for doing in own)
         if not own or not (self.orders if courtesy == "first" else stops is (courtesy == "yields")):
             self.refuse("it is not said what is done to yield, or instead", fix="say where it stops or passes")
-
-    def _keep(self, actor: int) -> None:
-        """Let somebody keep its first speed until its first deed, throughout where it has none."""
-        first = next((doing for doing in self.doings if doing.actor == actor), None)
-        if first is None or first.verb != st.Verb.DRIVE or first.begins != st.START:
-            if actor == EGO or first is not None:
-                self.refuse("it is not clear until when a speed is kept")
-            first = self.begin(actor, st.Verb.DRIVE, None, set())
-        speeds = [each for each in self.conditions_at[st.START] if isinstance(each, st.Measure) and each.actor == actor
-                  and (each.quantity, each.op, each.other) == (st.Quantity.SPEED, "==", None)]  # fmt: skip
-        steady = st.Measure(actor, st.Quantity.RATE, "==", st.Amount(Fraction(0), "m/s^2"), quote=self.quote)
-        first.throughout.append(speeds[0] if len(speeds) == 1 else steady)
 
     def new_moment(self, conditions: Sequence[st.Condition] = ()) -> int:
         """Add a moment and return its number."""

@@ -14,8 +14,7 @@ from scenewright.errors import Place as Where
 from scenewright.errors import TranslationError
 from scenewright.language import story as st
 from scenewright.language.read.chunks import Chunk, sentences
-from scenewright.language.read.clauses import PEOPLE
-from scenewright.language.read.facts import Clause
+from scenewright.language.read.clauses import PEOPLE, Clause
 from scenewright.language.read.items import Segment, items_of, parted, segments_of
 from scenewright.language.read.labels import take_labels
 from scenewright.language.read.narrative import COURTESIES, Doing, Narrative, standstill
@@ -207,9 +206,8 @@ class _Sentence:
             story.tell(item)
             if item.subject is not None:
                 story.subject = item.subject
-                story.kept += [(item.subject, item.quote)] * ("kept" in item.flags)
             begins = "start" in item.flags
-            item.flags -= {"kept", "start"}
+            item.flags -= {"start"}
             if begins:
                 story.add(st.START, story.conditions([item]))
                 item.measures = []
