@@ -132,10 +132,6 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk) -> None:
     if target is None:
         raise taken.left_over(chunk)
     target.used = True
-    _to_target(taken, target, op, amount, chunk)
-
-
-def _to_target(taken: Taken, target: Target, op: st.Operator, amount: st.Amount, chunk: Chunk) -> None:
     is_time, side, place = amount.dimension == "time", target.side, target.place
     past = side in ("past", "after") and not is_time
     if place is not None:
@@ -150,6 +146,6 @@ def _to_target(taken: Taken, target: Target, op: st.Operator, amount: st.Amount,
         raise taken.left_over(target.chunk)
     behind = side == "ahead"  # it is the other one that is behind
     if asked is st.Quantity.GAP and side == "to":
-        behind = taken.people.rear(taken.clause.subject or EGO, target.other, chunk.quote) == target.other
+        behind = taken.people.rear(clause.subject or EGO, target.other, chunk.quote) == target.other
     one, other = (target.other, IT) if behind else (IT, target.other)
     taken.measure(chunk, st.Measure(one, asked, op, amount, other=other))

@@ -43,16 +43,13 @@ class Cast:
             return self.mentioned[-1]
         actor = self._it(chunk, acts) if chunk.kind in ("pronoun", "relative") else self._named(chunk)
         self.mentioned.append(actor)
-        self._describe(actor, chunk)
-        return actor
-
-    def _describe(self, actor: int, chunk: Chunk) -> None:
         for trait in chunk.traits:
             if trait.kind == "relation":
                 self.relate(actor, st.Relation(trait.value, EGO, trait.quote))
             elif trait.kind in ("heading", "turn"):
                 self.tell_way(actor, {trait.kind: trait.value})
                 self.driving.add(actor)
+        return actor
 
     def whom(self, chunk: Chunk, subject: int | None) -> int:
         """Return the one that "it" means who is not the subject."""

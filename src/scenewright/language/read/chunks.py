@@ -252,13 +252,7 @@ def _plain(token: re.Match[str]) -> Chunk:
 
 
 def corrected(word: str) -> str | None:
-    """Return the long word of the domain that an unknown one is taken for; None where it may be a word of its own.
-
-    Examples
-    --------
-    >>> corrected("intersecton")
-    'intersection'
-    """
+    """Return the long word of the domain that an unknown one is taken for; None where it may be a word of its own."""
     known = vocabulary()
     close = [] if word in known.words or len(word) < _LONG - 1 else get_close_matches(word, known.long, 1, _LIKE)
     return close[0] if close else None

@@ -22,7 +22,6 @@ PEOPLE = ("actor", "name", "pronoun", "relative")
 OPERATORS: dict[str, st.Operator] = {"==": "==", ">=": ">=", "<=": "<=", ">": ">", "<": "<"}
 # Verbs that may have an amount: "reaches a point 12 m before".
 _REACHES = ("reach", "get", "got", "come", "came", "arriv")
-_CONFLICTS = ("conflict_point", "intersection", "turn")
 _CONFLICT = st.Place("turn")  # where a driveway joins a road
 _SIDES = ("before", "behind", "from", "to", "ahead", "past")  # of a place that an amount is counted to
 
@@ -193,16 +192,8 @@ class Taken:
         match chunk.kind:
             case "pronoun":
                 return chunk.value == "its"
-            case "pair":  # "the ego and the hero both drive"
-                return self.clause.subject is not None and chunk.text.lower() == "both"
             case "bound":
                 return following in ("amount", "no unit", "bound", "near") or self.peek()[1] == "as fast as"
-            case "place":  # "approaches the junction"
-                return before.text.lower().startswith("approach")
-            case "event":  # "gets to 2 s behind the bus": the amount says how near
-                amounts = [each.amount for each in self.chunks[self.at + 1 : self.at + 3] if each.amount]
-                near = following in ("amount", "bound") and amounts and amounts[0].dimension in ("length", "time")
-                return bool(near) and chunk.text.lower().startswith(_REACHES)
             case "link":  # "north, then south"
                 return chunk.value == "then" and before.kind == following == "heading"
         return (chunk.kind, chunk.value, following) == ("joint", "and", "side")  # "across it and into the driveway"
@@ -302,7 +293,7 @@ class Taken:
         for side in ("of", "with"):
             if self.peek()[1] != side or self.peek(2)[0] not in ("actor", "name"):
                 continue
-            if side == "of" or chunk.value in _CONFLICTS:
+            if side == "of" or chunk.value in ("conflict_point", "intersection", "turn"):
                 self.at += 2
                 person = self.people.who(self.chunks[self.at])
                 place = replace(place, of=person) if side == "of" else replace(place, partner=person)

@@ -113,7 +113,7 @@ def items_of(people: Cast, chunks: Sequence[Chunk], subject: int | None = None) 
     parser = _Items(people, list(chunks), subject)
     found: list[Clause] = []
     while parser.at < len(parser.chunks):
-        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and") or parser.is_then():
+        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and") or parser.is_joint("then"):
             parser.at += 1
         else:
             item = parser.one(())
@@ -136,13 +136,10 @@ class _Items:
     both: list[Chunk] = field(default_factory=list)  # of whom a clause is said that is said of two
     others: list[Clause] = field(default_factory=list)  # what the last clause says of the others of them
 
-    def is_then(self) -> bool:
-        """Whether "then" stands here, or what means no more than that."""
-        return self.is_joint("then") and "turn" not in self.chunks[self.at].text
-
     def is_joint(self, value: str) -> bool:
         chunk = self.chunks[self.at] if self.at < len(self.chunks) else None
-        return chunk is not None and chunk.value == value and chunk.kind in ("joint", "link")
+        is_it = chunk is not None and chunk.value == value and chunk.kind in ("joint", "link")
+        return is_it and "turn" not in self.chunks[self.at].text  # "after turning" says more than "then"
 
     def one(self, inside: tuple[str, ...]) -> Clause:
         """Return the item that begins here; `inside` are the words that end it."""

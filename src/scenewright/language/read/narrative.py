@@ -19,7 +19,6 @@ from scenewright.program.manner import USUAL, Manner
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 
 COURTESIES = {"yields", "insists", "first"}
-MOVING = (st.Verb.DRIVE, st.Verb.SPEED_UP)
 
 
 @dataclass(slots=True)
@@ -74,15 +73,8 @@ class Narrative(Cast):
             tuple(self.ego),
             tuple(st.Deed(each.actor, each.verb, each.begins, each.ends or st.START, tuple(each.throughout), each.quote)
                   for each in self.doings),
-            tuple(self.orders),
-            tuple(self.holds),
-            tuple(self.parameters),
-            self.manner,
-            self.map_name,
-            self.title,
-            tuple(self.asides),
-            tuple(self.assumptions),
-            tuple(self.questions),
+            tuple(self.orders), tuple(self.holds), tuple(self.parameters), self.manner, self.map_name, self.title,
+            tuple(self.asides), tuple(self.assumptions), tuple(self.questions),
         )  # fmt: skip
 
     def _check(self, who: int | None, courtesy: str) -> None:
@@ -214,15 +206,11 @@ class Narrative(Cast):
         self.ego = moments
         self.questions = [each for each in self.questions if not each.slot.startswith("ego ")]
 
-    def last(self, actor: int) -> Doing | None:
-        """Return what somebody was told to do last."""
-        return next((doing for doing in reversed(self.doings) if doing.actor == actor), None)
-
     def begin(self, actor: int, verb: str, moment: int | None, leads: set[str]) -> Doing:
         """Let somebody begin a deed at a moment, or where the last one ended."""
         if actor == EGO:
             self.refuse("the ego is driven by the policy under test: say what the others do")
-        before = self.last(actor)
+        before = next((doing for doing in reversed(self.doings) if doing.actor == actor), None)
         if before is None:
             moment = self.new_moment() if moment is None and "then" in leads else moment
             if moment is not None and moment != st.START:
@@ -242,18 +230,19 @@ class Narrative(Cast):
         """Return where a deed begins after one whose end is known; what lies between is standing or driving on."""
         assert before.ends is not None
         stands = standstill(before.actor) in self.conditions_at[before.ends]
-        if moment is None and not (
-            stands and verb in MOVING and "at once" not in leads and before.verb != st.Verb.STAND
-        ):
+        waits = (
+            stands
+            and verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)
+            and "at once" not in leads
+            and before.verb != st.Verb.STAND
+        )
+        if moment == before.ends or (moment is None and not waits):
             return before.ends
-        if moment == before.ends:
-            return moment
         between = Doing(before.actor, st.Verb.STAND if stands else st.Verb.DRIVE, before.ends, quote=before.quote)
         between.ends = self.new_moment() if moment is None else moment
         self.doings.append(between)
-        self.assumptions.append(
-            f"{self.actor(before.actor).name} {'stands still' if stands else 'drives on'} in between"
-        )
+        does = "stands still" if stands else "drives on"
+        self.assumptions.append(f"{self.actor(before.actor).name} {does} in between")
         return between.ends
 
     def doing_of(self, clause: Clause) -> Doing | None:

@@ -264,10 +264,8 @@ class _Sentence:
             early = (each.link == "after" and not is_event) or not ends or doing.ends is None
             if each.link != "until":
                 self._orders(doing.begins if early else doing.ends or st.START, [each])
-        if rests and "for" in clause.times:  # "it stops at the stop line for 3 s"
-            if clause.deed != "stop":
-                story.refuse("it is not clear what lasts so long")
-            story.begin(doing.actor, st.Verb.STAND, None, {"then"}).duration = clause.times["for"]
+        if rests and "for" in clause.times:
+            story.refuse("it is not clear what lasts so long")
 
     def _shares(self, clause: Clause) -> tuple[list[st.Measure], list[st.Measure], list[st.Measure]]:
         """Return what a deed's own clause says of its beginning, of the deed throughout, and of its end."""
@@ -280,16 +278,15 @@ class _Sentence:
             if fast and "to" not in clause.flags and clause.deed != st.Verb.DRIVE:
                 self.story.refuse("it is not clear when it is so fast")
             stays = clause.deed == st.Verb.STAND or not (rests or fast or st.is_event(measure))
-            if rests and measure.quote and self._is_set_off(measure.quote, clause.quote):
-                asked, here = f"What is '{measure.quote.text}'?", ("where it begins to brake", "where it stands")
-                stays = self.story.ask(f"where {measure.quote.start}", asked, [*here], None, measure.quote) == here[0]
+            text, at = self.story.text, measure.quote or clause.quote
+            if rests and text[: at.start].rstrip().endswith(",") and "," in text[at.end : clause.quote.end]:
+                here = [
+                    "where it begins to brake",
+                    "where it stands",
+                ]  # "brakes, 8 m before its stop line, to standstill"
+                stays = self.story.ask(f"where {at.start}", f"What is '{at.text}'?", here, None, at) == here[0]
             (held if fast and "to" not in clause.flags else begins if stays else ends).append(measure)
         return begins, held, ends
-
-    def _is_set_off(self, amount: st.Quote, clause: st.Quote) -> bool:
-        """Whether an amount stands between commas: "brakes, 8 m before its stop line, to standstill"."""
-        text = self.story.text
-        return text[: amount.start].rstrip().endswith(",") and "," in text[amount.end : clause.end]
 
     def _end(self, doing: Doing, clause: Clause, ends: Sequence[st.Condition], until: Segment | None) -> None:
         story = self.story
