@@ -51,19 +51,16 @@ def _attach(taken: Taken) -> None:
             target.other = taken.people.whom(target.chunk, clause.subject)
     if "stands" in taken.states:
         taken.measure(last, st.Measure(IT, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s")))
-    for name in ("turn_start", "turn_end"):
-        if name in taken.states:
-            taken.measure(last, st.Measure(IT, st.Quantity.PLACE, "==", None, st.Place(name)))
+    for name in sorted(taken.states & {"turn_start", "turn_end"}):
+        taken.measure(last, st.Measure(IT, st.Quantity.PLACE, "==", None, st.Place(name)))
     for at, op, chunk in taken.amounts:
         _give(taken, at, op, chunk)
     for target in taken.targets:
         if not target.used:
             _stand_alone(taken, target)
-    if taken.quantity and not taken.amounts:
-        raise taken.left_over(last)
     places = [each for each in clause.measures if each.quantity is st.Quantity.PLACE]
-    passed = [each for each in places if each.amount is None]
-    if ("pass" in taken.states and not passed) or ("reach" in taken.states and not places):
+    passes_nothing = "pass" in taken.states and all(each.amount is not None for each in places)
+    if passes_nothing or ("reach" in taken.states and not places) or (taken.quantity and not taken.amounts):
         raise taken.left_over(last)
     if "goes" in taken.states and clause.deed is None and not (clause.facts or clause.measures or clause.flags):
         clause.deed = st.Verb.DRIVE

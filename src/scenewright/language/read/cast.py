@@ -154,7 +154,7 @@ class Cast:
         """Return somebody by number; the ego may not have been named yet."""
         found = [actor for actor in self.actors if actor.id == number]
         if not found:
-            raise UnknownWordsError("the text does not say who is under test", fix="name the ego first")
+            raise UnknownWordsError("the text does not say who is under test", fix="call it the ego")
         return found[0]
 
     def tell_way(self, number: int, facts: Mapping[str, str], turns_then: bool = False) -> None:
@@ -214,8 +214,8 @@ class Cast:
                 known.append(chunk)
                 continue
             meant = {f"it means '{word}'": word for word in nearest_words(chunk.text)}
-            asked = f"What is '{chunk.text}'?"
-            answer = self.ask(f"word {chunk.text.lower()}", asked, [*meant, CAR, ASIDE], None, chunk.quote)
+            slot, asked = f"word {chunk.text.lower()}", f"What is '{chunk.text}'?"
+            answer = self.ask(slot, asked, [*meant, CAR, ASIDE], None, chunk.quote)
             is_open |= not answer
             if answer in meant:
                 known.append(word_as(chunk, meant[answer]))

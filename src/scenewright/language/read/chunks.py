@@ -244,11 +244,9 @@ def _plain(token: re.Match[str]) -> Chunk:
     (start, end), said = token.span(), token.group()
     if token["quoted"]:
         return Chunk("name", said[1:-1], start, end, said)
-    if token["layout"]:
-        return Chunk("end", said, start, end, said)
-    if token["mark"]:
-        return Chunk("end" if said in _ENDS else "filler" if said in _QUOTES else "comma", said, start, end, said)
-    return Chunk("possessive" if token["possessive"] else "unknown", said, start, end, said)
+    mark = "end" if token["layout"] or said in _ENDS else "filler" if said in _QUOTES else "comma"
+    other = "possessive" if token["possessive"] else "unknown"
+    return Chunk(mark if token["mark"] or token["layout"] else other, said, start, end, said)
 
 
 def corrected(word: str) -> str | None:

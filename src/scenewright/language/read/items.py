@@ -53,8 +53,7 @@ def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
     opens = [(chunk.kind, chunk.value) for chunk in chunks[:2]] + [("", "")] * 2
     fronted = opens[0] == ("side", "with") and opens[1][0] in PEOPLE  # "With the ego 12 m from ...", "At a gap of 12 m"
     fronted |= opens[0] in (("side", "with"), ("side", "at")) and opens[1][0] == "quantity"
-    tells_moment = fronted or opens[0] == ("joint", "if")
-    if tells_moment and not is_led:
+    if (fronted or opens[0] == ("joint", "if")) and not is_led:
         found, chunks = [*found, Segment("when")], chunks[1:]
     for index, chunk in enumerate(chunks):
         orders = chunk.kind == "side" and chunk.value in ("before", "after")

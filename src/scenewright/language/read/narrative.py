@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
-from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
 from scenewright.language.phrases import speaks_of_ego
 from scenewright.language.read.cast import Cast
@@ -55,11 +54,9 @@ class Narrative(Cast):
 
     def story(self) -> st.Story:
         """Return the story; deeds that are still open end at moments of their own."""
-        if not any(actor.id == EGO for actor in self.actors):
-            raise UnknownWordsError("the text does not say who is under test", fix="call it the ego")
+        self.actor(EGO)  # refuses a text that does not name it
         for who, courtesy, quote in self.courtesies:
-            self.quote = quote
-            self._check(who, courtesy)
+            self._check(who, courtesy, quote)
         self.go_straight()
         for doing in self.doings:
             if doing.ends is None:
@@ -77,12 +74,12 @@ class Narrative(Cast):
             tuple(self.asides), tuple(self.assumptions), tuple(self.questions),
         )  # fmt: skip
 
-    def _check(self, who: int | None, courtesy: str) -> None:
+    def _check(self, who: int | None, courtesy: str, quote: st.Quote) -> None:
         """Refuse a courtesy that no deed bears out."""
         own = [doing for doing in self.doings if who in (None, doing.actor)]
         stops = any(doing.verb in (st.Verb.BRAKE, st.Verb.STAND) for doing in own)
         if not own or not (self.orders if courtesy == "first" else stops is (courtesy == "yields")):
-            self.refuse("it is not said what is done to yield, or instead", fix="say where it stops or passes")
+            self.refuse("it is not said what is done to yield, or instead", quote, "say where it stops or passes")
 
     def new_moment(self, conditions: Sequence[st.Condition] = ()) -> int:
         """Add a moment and return its number."""

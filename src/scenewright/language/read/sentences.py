@@ -30,10 +30,7 @@ _COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "yields", "insists",
 def read(text: str, answers: Mapping[str, str] | None = None, name: str = "description") -> st.Story:
     """Return the story that `text` tells; what `answers` does not answer, by slot, takes its default and is noted.
 
-    Raises
-    ------
-    TranslationError
-        Where words of the domain are left over, or what they say cannot be.
+    Raises `TranslationError` where words of the domain are left over, or what they say cannot be.
     """
     narrative = Narrative(text, answers or {})
     for chunks in sentences(take_labels(text, narrative)):
@@ -204,11 +201,9 @@ class _Sentence:
         story = self.story
         for item in items:
             story.tell(item)
-            if item.subject is not None:
-                story.subject = item.subject
-            begins = "start" in item.flags
-            item.flags -= {"start"}
-            if begins:
+            story.subject = story.subject if item.subject is None else item.subject
+            if "start" in item.flags:
+                item.flags -= {"start"}
                 story.add(st.START, story.conditions([item]))
                 item.measures = []
         conditions = story.conditions(items)
@@ -280,10 +275,7 @@ class _Sentence:
             stays = clause.deed == st.Verb.STAND or not (rests or fast or st.is_event(measure))
             text, at = self.story.text, measure.quote or clause.quote
             if rests and text[: at.start].rstrip().endswith(",") and "," in text[at.end : clause.quote.end]:
-                here = [
-                    "where it begins to brake",
-                    "where it stands",
-                ]  # "brakes, 8 m before its stop line, to standstill"
+                here = ["where it begins to brake", "where it stands"]  # "brakes, 8 m before it, to standstill"
                 stays = self.story.ask(f"where {at.start}", f"What is '{at.text}'?", here, None, at) == here[0]
             (held if fast and "to" not in clause.flags else begins if stays else ends).append(measure)
         return begins, held, ends
