@@ -5,10 +5,9 @@ from __future__ import annotations
 import pytest
 
 from scenewright.errors import UnknownWordsError
-from scenewright.language import story as st
 from scenewright.language.read.attach import read_clause
 from scenewright.language.read.chunks import sentences
-from scenewright.language.read.facts import Clause
+from scenewright.language.read.clauses import Clause
 from scenewright.language.read.narrative import Narrative
 
 
@@ -52,12 +51,3 @@ def test_one_measure_said_in_several_ways(texts: tuple[str, ...]) -> None:
 def test_what_is_left_over_is_named(text: str) -> None:
     with pytest.raises(UnknownWordsError, match="could not be understood here"):
         clause(text)
-
-
-def test_an_amount_may_wait_for_the_place_of_its_neighbour() -> None:
-    waiting = clause("the hero is 12 m")
-    assert waiting.waiting
-    assert waiting.says_more_than("measures")
-    (chunks,) = sentences("the hero is 12 m")
-    told = read_clause(chunks, Narrative(""), clause("the ego is 5 m before the stop line"))
-    assert told.measures[0].place == st.Place("stop_line")

@@ -22,19 +22,11 @@ def pieces(reading: Reading) -> str:
     return " ".join(reading.program.actors[1].sketch.pieces)
 
 
-def test_who_goes_first_passes_before_the_other_and_it_is_never_lost() -> None:
-    first = reading_of(FILLED["DL"] + "When the ego is 12 m from the stop line, the hero goes first.")
-    assert {"A1x(t2) == conflict_point", "A0x(t2) == conflict_point", "A0(t2) > A1(t2)"} <= formulas(first)
-    assert reading_of(MEETS + "the ego goes first.").kind == "refused"
-    assert reading_of(ONCOMING + "The ego passes the conflict point first.").program is None
-
-
-def test_who_lets_the_ego_go_first_goes_on_after_it() -> None:
-    stops = "the hero stops 5 m before the conflict point, lets the ego go first"
-    goes_on = formulas(reading_of(f"{MEETS}{stops} and then drives on."))
-    assert {"A0x(t2) == conflict_point", "A1(t3) > A0(t2)"} <= goes_on
-    assert not any("A0x(t2)" in each for each in formulas(reading_of(f"{MEETS}{stops}.")))
-    assert reading_of(f"{MEETS}the hero lets the ego go first and accelerates.").program is None
+def test_who_goes_first_is_refused_where_nothing_bears_it_out() -> None:
+    for text in (FILLED["DL"] + "When the ego is 12 m from the stop line, the hero goes first.",
+                 MEETS + "the ego goes first.", ONCOMING + "The ego passes the conflict point first.",
+                 MEETS + "the hero stops, lets the ego go first and then drives on."):  # fmt: skip
+        assert reading_of(text).program is None
 
 
 def test_who_brakes_comes_to_a_standstill() -> None:
@@ -49,14 +41,13 @@ def test_only_who_speeds_up_accelerates() -> None:
         assert pieces(reading_of(f"{MEETS}the hero {said}.")) == "go acc", said
 
 
-def test_a_speed_is_that_of_the_start_and_a_kept_one_is_kept() -> None:
+def test_a_speed_is_that_of_the_start_and_one_that_is_kept_is_asked_about() -> None:
     start = "The ego turns left out of the driveway. A truck approaches from the east at 60 km/h"
     end = " When the ego is 10 m from the stop line, the truck brakes at 3 m/s^2."
-    assert "A1v(go) == 50/3" not in formulas(reading_of(f"{start}.{end}"))
-    kept = formulas(reading_of(f"{start} and keeps its speed.{end}"))
-    assert {"A1v(t0) == 50/3", "A1v(go) == 50/3"} <= kept
-    then = formulas(reading_of(f"{MEETS}the hero keeps its speed and passes the conflict point before the ego."))
-    assert {"A1a(go2) == 0", "A1x(t2) == conflict_point", "A0(t2) > A1(t2)"} <= then
+    found = formulas(reading_of(f"{start}.{end}"))
+    assert "A1v(t0) == 50/3" in found
+    assert "A1v(go) == 50/3" not in found
+    assert reading_of(f"{start} and keeps its speed.{end}").kind == "asked"
     assert "A1v(t1) == 8" in formulas(reading_of(MEETS.replace("hero is 20 m", "hero drives at 8 m/s and is 20 m") +
                                                  "the hero brakes."))  # fmt: skip
 
@@ -93,14 +84,14 @@ def test_places_of_braking_and_of_standing() -> None:
 
 
 def test_a_time_to_collision_needs_one_lane() -> None:
-    ahead = "When the time to collision is 2.5 s, the hero brakes."
+    ahead = "When the time to collision between them is 2.5 s, the hero brakes."
     assert "ttc(A0, A1, t1) == 2.5" in formulas(reading_of(ALONG + ahead))
     crossing = reading_of(ONCOMING + ahead)
     assert (crossing.kind, "time to collision" in crossing.told[0]) == ("refused", True)
 
 
 def test_ahead_is_so_at_the_start() -> None:
-    reading = reading_of(ALONG + "When the gap is 12 m, the hero brakes.")
+    reading = reading_of(ALONG + "When the gap between them is 12 m, the hero brakes.")
     assert reading.program is not None
     told = [print_expression(each.formula) for each in reading.program.constraints]
     assert {"gap(A0, A1, t0) > 0", "gap(A0, A1, t1) == 12"} <= set(told)
@@ -120,13 +111,8 @@ def test_who_both_are_where_there_are_three_must_be_said(who: str) -> None:
     assert three.program is None
 
 
-@pytest.mark.parametrize(
-    ("said", "name"),
-    [("brakes at {rate}", "rate_mpss"), ("brakes for {time}", "time_s"), ("speeds up to {v}", "v_mps"),
-     ("stops hero_place past the stop line", "hero_place_m")],
-)  # fmt: skip
-def test_any_identifier_may_be_a_parameter_and_its_use_tells_its_unit(said: str, name: str) -> None:
-    reading = reading_of(f"{MEETS}the hero {said}.")
+def test_a_parameter_tells_its_unit() -> None:
+    reading = reading_of(MEETS + "the hero stops {place} m before the conflict point at {rate_mpss}.")
     assert reading.program is not None
-    assert [each.name for each in reading.program.parameters] == [name]
-    assert reading_of(MEETS + "the hero stops {x} before the conflict point.").kind == "asked"  # metres, or seconds?
+    assert {each.name for each in reading.program.parameters} == {"place_m", "rate_mpss"}
+    assert "a number with a unit" in " ".join(reading_of(MEETS + "the hero stops {x} before the conflict point.").told)

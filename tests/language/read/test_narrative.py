@@ -5,8 +5,12 @@ from __future__ import annotations
 import pytest
 
 from scenewright.errors import UnknownWordsError
+from scenewright.language import story as st
 from scenewright.language.read.sentences import read
 from scenewright.language.story import Verb
+
+WAYS = "The ego turns left out of the driveway. The hero drives west along the road. "
+STOPS = WAYS + "When the ego is 12 m before the stop line, the hero stops 5 m before the conflict point. "
 
 
 def test_actors_are_numbered_as_they_come_and_the_ego_is_0() -> None:
@@ -52,12 +56,11 @@ def test_a_deed_after_an_event_begins_after_it() -> None:
         read("The ego has an open way. The hero brakes to a stop after it passes the stop line.")
 
 
-def test_where_a_deed_begins_and_how_long_a_stop_lasts() -> None:
+def test_where_a_deed_begins() -> None:
     story = read("The ego has an open way. The hero brakes 15 m before the stop line.")
     assert [deed.verb for deed in story.deeds] == [Verb.DRIVE, Verb.BRAKE]
-    story = read("The ego has an open way. The hero stops at the stop line for 3 s and drives on.")
-    assert [deed.verb for deed in story.deeds] == [Verb.BRAKE, Verb.STAND, Verb.DRIVE]
-    assert (story.orders[0].first, story.orders[0].second) == (story.deeds[1].begins, story.deeds[1].ends)
+    with pytest.raises(UnknownWordsError, match="lasts so long"):
+        read("The ego has an open way. The hero stops at the stop line for 3 s and drives on.")
 
 
 def test_who_stands_at_the_start_stands_until_it_does_something() -> None:
@@ -65,3 +68,34 @@ def test_who_stands_at_the_start_stands_until_it_does_something() -> None:
     story = read(f"{start}the truck sets off.")
     assert [deed.verb for deed in story.deeds] == [Verb.STAND, Verb.DRIVE]
     assert story.assumptions == ("truck stands still until then",)
+
+
+def test_the_same_is_one_moment_and_a_deed_may_end_at_a_stop() -> None:
+    twice = "When the ego is 12 m before the stop line, the truck brakes until it comes to a stop."
+    story = read(f"{STOPS}{twice}")
+    assert len({deed.begins for deed in story.deeds if deed.verb == "brake"}) == 1
+    (stands,) = story.moments[story.deeds[-1].ends].conditions
+    assert (stands.actor, stands.amount and stands.amount.value) == (2, 0)  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "It waits until the ego has passed the conflict point. Then it drives on.",
+        "Once the ego has passed the conflict point, it drives on.",
+    ],
+)
+def test_who_waits_goes_on_after_what_it_waits_for(text: str) -> None:
+    story = read(STOPS + text)
+    (passed,) = (each for each in story.moments[story.deeds[-1].begins].conditions if isinstance(each, st.Measure))
+    assert (passed.actor, passed.place, passed.op) == (0, st.Place("conflict_point"), ">=")
+    assert story.ego[-1] == story.deeds[-1].begins
+    assert [deed.verb for deed in story.deeds] == ["drive on", "brake", "stand still", "drive on"]
+
+
+@pytest.mark.parametrize(
+    "text", ["When the hero turns left, the truck brakes.", "When the bus brakes, the hero stops."]
+)
+def test_what_is_no_condition_or_was_not_told_is_refused(text: str) -> None:
+    with pytest.raises(UnknownWordsError):
+        read(WAYS + text)

@@ -16,7 +16,7 @@ from scenewright.language.phrases import OTHERWISE
 from scenewright.language.read.chunks import Chunk, nearest_words, word_as
 from scenewright.program.types import EGO
 
-SAME, NEW = "the one that was told before", "somebody new"
+NEW = "somebody new"
 ASIDE, CAR = "set it aside", "a car of that name"
 
 
@@ -35,6 +35,7 @@ class Cast:
     place: st.Place | None = None  # that was spoken of last
     driving: set[int] = field(default_factory=set)  # who goes straight on where nothing else is said
     doer: int | None = None  # whose deed it is, while what ends it is read
+    quote: st.Quote = field(default_factory=lambda: st.Quote(0, 0, ""))  # the sentence that is being read
 
     def who(self, chunk: Chunk, acts: bool = False) -> int:
         """Return the number of whoever is mentioned; somebody new is added. Who `acts` is not the ego."""
@@ -42,26 +43,13 @@ class Cast:
             return self.mentioned[-1]
         actor = self._it(chunk, acts) if chunk.kind in ("pronoun", "relative") else self._named(chunk)
         self.mentioned.append(actor)
-        self._describe(actor, chunk)
-        return actor
-
-    def _describe(self, actor: int, chunk: Chunk) -> None:
         for trait in chunk.traits:
             if trait.kind == "relation":
                 self.relate(actor, st.Relation(trait.value, EGO, trait.quote))
             elif trait.kind in ("heading", "turn"):
-                self.tell_way(actor, {trait.kind: trait.value}, trait.quote)
+                self.tell_way(actor, {trait.kind: trait.value})
                 self.driving.add(actor)
-
-    def same(self, number: int, chunk: Chunk) -> None:
-        """Take "the hero is an oncoming truck", "the hero, a truck, ...": one and the same."""
-        actor = self.actor(number)
-        if (number == EGO) is not (chunk.value == "ego") and (chunk.value in ("ego", "hero")):
-            self.refuse(f"{actor.name} is somebody else", chunk.quote)
-        self.known_by.setdefault(number, set()).update((chunk.value, chunk.text.lower()))
-        if actor.kind == "car" and number != EGO and chunk.value not in ("hero", "ego"):
-            self._change(replace(actor, kind=chunk.value))
-        self._describe(number, chunk)
+        return actor
 
     def whom(self, chunk: Chunk, subject: int | None) -> int:
         """Return the one that "it" means who is not the subject."""
@@ -82,13 +70,15 @@ class Cast:
             self.refuse(f"it is not clear who '{chunk.text}' are", chunk.quote, "name them")
         return EGO, self.heroes[0].id
 
-    def rear(self, one: int, other: int) -> int | None:
-        """Return who of two is said to drive behind the other, if that was said."""
+    def rear(self, one: int, other: int, quote: st.Quote) -> int:
+        """Return who of two drives behind the other: as was said, else the first, which is a question."""
+        if one == other:
+            self.refuse("one and the same is named twice", quote)
         for actor in self.actors:
             for relation in actor.relations:
                 if {actor.id, relation.of} == {one, other} and relation.kind in ("ahead", "behind"):
                     return actor.id if relation.kind == "behind" else relation.of
-        return None
+        return self._one_of([one, other], "Who drives behind?", 0, quote) or 0
 
     def _it(self, chunk: Chunk, acts: bool) -> int:
         if self.doer is not None:
@@ -99,11 +89,13 @@ class Cast:
             found = [each for each in named if each != EGO] or [each for each in last if each != EGO] or found
         if not found:
             self.refuse("it is not clear who is meant", chunk.quote)
-        if len(found) == 1:
-            return found[0]
-        names = [self.actor(actor).name for actor in found]
-        chosen = self.ask(f"who {chunk.start}", "Who is 'it'?", names, len(found) - 1, chunk.quote)
-        return found[names.index(chosen)]
+        return self._one_of([*found], "Who is 'it'?", len(found) - 1, chunk.quote) or 0
+
+    def _one_of(self, people: list[int | None], asked: str, default: int | None, quote: st.Quote) -> int | None:
+        """Return the one of some people, None for somebody new; several are asked about."""
+        names = [NEW if each is None else self.actor(each).name for each in people]
+        told = self.ask(f"who {quote.start}", asked, names, default, quote) if len(people) > 1 else ""
+        return people[names.index(told)] if told else [None, *people][-1]
 
     def _named(self, chunk: Chunk) -> int:
         if chunk.kind != "actor":
@@ -115,19 +107,14 @@ class Cast:
         fitting = [each for each in self.heroes if self._fits(each, chunk, words)]
         fitting = [each for each in fitting if each.name == chunk.value] or fitting
         fitting = [each for each in fitting if words and words <= self.known_by[each.id]] or fitting
-        if chunk.is_new and fitting:
-            asked, another = f"Is '{chunk.text}' the one that was told before?", [e.kind for e in chunk.traits]
-            if "other" in another or self.ask(f"new {chunk.start}", asked, [SAME, NEW], None, chunk.quote) != SAME:
-                fitting = []
-        if len(fitting) > 1:
-            names = [each.name for each in fitting]
-            told = self.ask(f"who {chunk.start}", f"Who is '{chunk.text}'?", names, None, chunk.quote)
-            fitting = [each for each in fitting if each.name == told] or fitting
-        if not fitting and not chunk.is_new and chunk.text.lower() in self.known_by.get(EGO, ()):
-            asked = f"Who is '{chunk.text}'?"  # "our car": the ego, or another one?
-            if self.ask(f"who {chunk.start}", asked, ["the ego", NEW], None, chunk.quote) == "the ego":
-                return EGO
-        number = fitting[0].id if fitting else self._called(chunk, self._free_name(chunk.value, words), chunk.value)
+        another = chunk.is_new and any(each.kind == "other" for each in chunk.traits)
+        some: list[int | None] = [] if another else [each.id for each in fitting]
+        if not some and not chunk.is_new and chunk.text.lower() in self.known_by.get(EGO, ()):
+            some = [EGO, None]  # "our car ... the car": the ego, or another one?
+        some += [None] * (chunk.is_new and bool(some))  # "a car ... a car"
+        number = self._one_of(some, f"Who is '{chunk.text}'?", None, chunk.quote)
+        if number is None:
+            number = self._called(chunk, self._free_name(chunk.value, words), chunk.value)
         self.known_by.setdefault(number, set()).update(words)
         return number
 
@@ -167,10 +154,10 @@ class Cast:
         """Return somebody by number; the ego may not have been named yet."""
         found = [actor for actor in self.actors if actor.id == number]
         if not found:
-            raise UnknownWordsError("the text does not say who is under test", fix="name the ego first")
+            raise UnknownWordsError("the text does not say who is under test", fix="call it the ego")
         return found[0]
 
-    def tell_way(self, number: int, facts: Mapping[str, str], quote: st.Quote, turns_then: bool = False) -> None:
+    def tell_way(self, number: int, facts: Mapping[str, str], turns_then: bool = False) -> None:
         """Add facts of somebody's way; who went straight until then may turn at a moment."""
         actor = self.actor(number)
         way = replace(actor.way, turn=None) if turns_then and actor.way.turn == "straight" else actor.way
@@ -180,7 +167,7 @@ class Cast:
             many = {"headings": tuple(value), "lanes": tuple(value.split(", "))}
             whole = many.get(name, value)
             if getattr(way, name) not in (None, (), whole):
-                self.refuse(f"two things are said of the way of {actor.name}", quote)
+                self.refuse(f"two things are said of the way of {actor.name}")
             fact: dict[str, Any] = {name: whole}
             way = replace(way, **fact)
         self._change(replace(actor, way=way))
@@ -204,7 +191,7 @@ class Cast:
         if number == EGO and len(self.heroes) == 1:  # "the ego is ahead": of the only other one
             relations = tuple(replace(each, of=self.heroes[0].id) for each in relations)
         if any(each.of == number for each in relations):
-            self.refuse("it is not clear whose way this is", relations[0].quote or st.Quote(0, 0, ""))
+            self.refuse("it is not clear whose way this is", relations[0].quote)
         self._change(replace(actor, relations=tuple(dict.fromkeys((*actor.relations, *relations)))))
 
     def _change(self, changed: st.Actor) -> None:
@@ -227,8 +214,8 @@ class Cast:
                 known.append(chunk)
                 continue
             meant = {f"it means '{word}'": word for word in nearest_words(chunk.text)}
-            asked = f"What is '{chunk.text}'?"
-            answer = self.ask(f"word {chunk.text.lower()}", asked, [*meant, CAR, ASIDE], None, chunk.quote)
+            slot, asked = f"word {chunk.text.lower()}", f"What is '{chunk.text}'?"
+            answer = self.ask(slot, asked, [*meant, CAR, ASIDE], None, chunk.quote)
             is_open |= not answer
             if answer in meant:
                 known.append(word_as(chunk, meant[answer]))
@@ -236,6 +223,6 @@ class Cast:
                 known.append(replace(chunk, kind="name"))
         return known, is_open
 
-    def refuse(self, message: str, quote: st.Quote, fix: str | None = None) -> NoReturn:
-        """Raise the error that says what could not be read."""
-        raise UnknownWordsError(message, found=quote.text, fix=fix or OTHERWISE)
+    def refuse(self, message: str, quote: st.Quote | None = None, fix: str = OTHERWISE) -> NoReturn:
+        """Raise the error that says what could not be read, of the sentence where nothing nearer is known."""
+        raise UnknownWordsError(message, found=(quote or self.quote).text, fix=fix)

@@ -10,12 +10,12 @@ import re
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from difflib import get_close_matches
 from fractions import Fraction
 from functools import lru_cache
 from importlib.resources import files
 
 from scenewright.language.phrases import ORDINALS
-from scenewright.language.read.spelling import corrected, nearest
 from scenewright.language.story import Amount, Quote
 from scenewright.units import UNITS, unit_of_name
 
@@ -37,6 +37,8 @@ _TENS = "twenty thirty forty fifty sixty"
 _ENDS = ".;!?"
 _QUOTES = '"“”'
 _TRAITS = ("heading", "relation", "quality", "other", "turn")
+_LONG = 8  # letters; of shorter words too many differ from another word by one letter
+_LIKE = 0.86  # of two words of so many letters, one slip apart, 7 letters in 8 agree
 _SUFFIX = {"m": "_m", "s": "_s", "m/s": "_mps", "m/s^2": "_mpss", "km/h": "_kmph", "mph": "_mph", "ft": "_ft"}
 
 
@@ -52,7 +54,7 @@ class Chunk:
     amount: Amount | None = None
     traits: tuple[Chunk, ...] = ()  # of somebody: which one, how its way lies
     is_new: bool = False  # "a car", "another car"
-    slips: tuple[str, ...] = ()  # the words that were meant where the text has a slip of the pen
+    slips: tuple[str, ...] = ()  # the words that it was read with where the text seems to have a slip of the pen
 
     @property
     def quote(self) -> Quote:
@@ -69,7 +71,7 @@ class Vocabulary:
     numbers: dict[str, Fraction]
     labels: dict[str, str]
     words: frozenset[str]  # all that stand in phrases
-    lookalikes: frozenset[str]
+    long: tuple[str, ...]
     unit_pattern: re.Pattern[str]
 
 
@@ -81,7 +83,6 @@ def vocabulary() -> Vocabulary:
     numbers = {word: Fraction(number) for number, word in enumerate(_NUMBERS.split())}
     numbers |= {word: Fraction(10 * tens) for tens, word in enumerate(_TENS.split(), start=2)}
     labels = {word: kind for kind, said in table.pop("label").items() for word in said.split(" | ")}
-    lookalikes = frozenset(table.pop("lookalike")["words"].split())
     table["ordinal"] = {str(number): f"for the {word} time" for number, word in enumerate(ORDINALS)}
     phrases: dict[str, list[tuple[tuple[str, ...], str, str]]] = {}
     for kind, values in table.items():
@@ -95,7 +96,7 @@ def vocabulary() -> Vocabulary:
     longest = "|".join(map(re.escape, sorted(units, key=len, reverse=True)))
     pattern = re.compile(rf"[\s-]?({longest})(?![\w/^²])", re.IGNORECASE)
     single = frozenset(word for same in phrases.values() for said, _, _ in same for word in said)
-    return Vocabulary(phrases, units, numbers, labels, single, lookalikes, pattern)
+    return Vocabulary(phrases, units, numbers, labels, single, tuple(w for w in single if len(w) >= _LONG), pattern)
 
 
 _IRREGULAR = {
@@ -113,8 +114,9 @@ def _forms(phrase: str) -> list[str]:
     verb, _, rest = phrase[1:].partition(" ")
     doubled = verb + verb[-1] if verb in _DOUBLED else verb
     stem = verb.removesuffix("e")
-    third = f"{verb}es" if verb.endswith(("s", "sh", "ch", "x", "o")) else f"{verb}s"
-    past = _IRREGULAR.get(verb, f"{stem}ed" if verb.endswith("e") else f"{doubled}ed").split()
+    carried = f"{verb[:-1]}ie" if verb.endswith("y") and verb[-2] not in "aeiou" else verb  # "carry", "carries"
+    third = f"{verb}es" if verb.endswith(("s", "sh", "ch", "x", "o")) else f"{carried}s"
+    past = _IRREGULAR.get(verb, f"{carried}d" if carried.endswith("e") else f"{doubled}ed").split()
     forms = [verb, third, f"{stem if verb.endswith('e') else doubled}ing", *past]
     return [f"{form} {rest}".strip() for form in forms]
 
@@ -173,10 +175,8 @@ def _described(chunks: list[Chunk]) -> list[Chunk]:
 
 def _chunks(text: str) -> Iterator[Chunk]:
     tokens = list(_TOKEN.finditer(text))
-    known = vocabulary()
     words = [token.group().lower() for token in tokens]
-    slips = {at: right for at, word in enumerate(words)
-             if tokens[at]["word"] and (right := corrected(word, known.words, known.lookalikes))}  # fmt: skip
+    slips = {at: right for at, token in enumerate(tokens) if token["word"] and (right := corrected(words[at]))}
     words = [slips.get(at, word) for at, word in enumerate(words)]
     end = 0
     for index, token in enumerate(tokens):
@@ -244,17 +244,22 @@ def _plain(token: re.Match[str]) -> Chunk:
     (start, end), said = token.span(), token.group()
     if token["quoted"]:
         return Chunk("name", said[1:-1], start, end, said)
-    if token["layout"]:
-        return Chunk("end", said, start, end, said)
-    if token["mark"]:
-        return Chunk("end" if said in _ENDS else "filler" if said in _QUOTES else "comma", said, start, end, said)
-    return Chunk("possessive" if token["possessive"] else "unknown", said, start, end, said)
+    mark = "end" if token["layout"] or said in _ENDS else "filler" if said in _QUOTES else "comma"
+    other = "possessive" if token["possessive"] else "unknown"
+    return Chunk(mark if token["mark"] or token["layout"] else other, said, start, end, said)
+
+
+def corrected(word: str) -> str | None:
+    """Return the long word of the domain that an unknown one is taken for; None where it may be a word of its own."""
+    known = vocabulary()
+    close = [] if word in known.words or len(word) < _LONG - 1 else get_close_matches(word, known.long, 1, _LIKE)
+    return close[0] if close else None
 
 
 def nearest_words(word: str) -> list[str]:
     """Return the words of the domain that are spelled most like `word`."""
     single = {words[0] for known in vocabulary().phrases.values() for words, _, _ in known if len(words) == 1}
-    return nearest(word, frozenset(single))
+    return get_close_matches(word.lower(), sorted(single), n=2, cutoff=0.7)
 
 
 def word_as(chunk: Chunk, word: str) -> Chunk:

@@ -6,35 +6,85 @@ or an `UnknownWordsError` with the words that nothing could be made of. Order de
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 
+from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
+from scenewright.language.compile import COMPASS
+from scenewright.language.phrases import OTHERWISE
+from scenewright.language.read.cast import Cast
 from scenewright.language.read.chunks import Chunk
-from scenewright.language.read.facts import Facts
 from scenewright.program.arithmetic import JUST_BEFORE_M
 from scenewright.program.types import EGO
 
 IT = -1  # the subject, in a measure of a clause that is still being read
 PEOPLE = ("actor", "name", "pronoun", "relative")
-_OPERATORS: dict[str, st.Operator] = {"==": "==", ">=": ">=", "<=": "<=", ">": ">", "<": "<"}
+OPERATORS: dict[str, st.Operator] = {"==": "==", ">=": ">=", "<=": "<=", ">": ">", "<": "<"}
 # Verbs that may have an amount: "reaches a point 12 m before".
 _REACHES = ("reach", "get", "got", "come", "came", "arriv")
-_CONFLICTS = ("conflict_point", "intersection", "turn")
 _CONFLICT = st.Place("turn")  # where a driveway joins a road
 _SIDES = ("before", "behind", "from", "to", "ahead", "past")  # of a place that an amount is counted to
 
 
-_OF_AMOUNTS = ("amount", "bound", "quantity", "kept", "no unit")
+_OF_AMOUNTS = ("amount", "bound", "quantity", "no unit")
 _AFTER = {  # what may stand behind a side that says no more than that it belongs there: "to pass it", "at a speed of"
     "to": (*_OF_AMOUNTS, "event", "turn", "deed", "state", "phase", "mood"), "at": _OF_AMOUNTS, "of": _OF_AMOUNTS,
     "for": _OF_AMOUNTS, "with": (*_OF_AMOUNTS, "turn", "deed"), "by": ("turn", "deed"),
 }  # fmt: skip
-_INITIAL = ("with", "link", "start")  # "with an initial speed of"
+_INITIAL = (("at", "link", "start"), ("with", "link", "start"))  # "with an initial speed of"
+
+
+@dataclass(slots=True)
+class Clause:
+    """What one clause says.
+
+    Attributes
+    ----------
+    measures, rate, times
+        What is so of the subject, how hard it brakes or speeds up, and for how long or how long after the start.
+    joined
+        Conditions that "either", "both", "if" and "it is not so that" join, of whomever they are.
+    flags
+        ``standstill``, ``while`` (the end is open), ``to`` a speed, ``first``, ``start``, ``way``
+        (it is open), ``falls`` (an amount that is reached), ``yields``, ``insists``.
+    notes
+        How it says it, which is no meaning of its own: ``event`` (something is passed), ``wanted`` (a wish).
+    """
+
+    quote: st.Quote
+    subject: int | None = None
+    deed: str | None = None
+    phase: str | None = None
+    ordinal: int = 0
+    measures: list[st.Measure] = field(default_factory=list)
+    joined: list[st.Compound] = field(default_factory=list)
+    rate: st.Measure | None = None
+    times: dict[str, tuple[st.Operator, st.Amount]] = field(default_factory=dict)
+    facts: dict[str, str] = field(default_factory=dict)
+    flags: set[str] = field(default_factory=set)
+    relations: list[st.Relation] = field(default_factory=list)
+    notes: set[str] = field(default_factory=set)
+
+    def says_more_than(self, *expected: str) -> bool:
+        """Whether anything but these attributes is filled: what carries meaning must be used up."""
+        known = {*expected, "quote", "subject", "notes"}
+        return any(getattr(self, each.name) for each in fields(self) if each.name not in known)
+
+    @property
+    def conditions(self) -> list[st.Condition]:
+        """All that it says is so."""
+        return [*self.measures, *self.joined]
+
+    @property
+    def is_event(self) -> bool:
+        """Whether it says that its subject comes to a place, and nothing else."""
+        told = self.says_more_than("measures") or not self.measures or "event" not in self.notes
+        return not told and all(st.is_event(each) for each in self.measures)
 
 
 @dataclass(slots=True)
 class Target:
-    """What an amount may be counted to: a place or somebody, with the side that it lies on."""
+    """What an amount may be counted to: a place or somebody, with the side that it lies on; "it" is neither yet."""
 
     at: int
     side: str
@@ -45,18 +95,24 @@ class Target:
 
 
 @dataclass(slots=True)
-class Taken(Facts):
-    """A clause while it is read: what was found in it, in order."""
+class Taken:
+    """A clause while it is read: what was found in it, in order; `at` is the last chunk that was taken."""
 
+    chunks: list[Chunk]
+    people: Cast
+    subject: int | None = None  # of whom it is where it names nobody
+    at: int = 0
+    clause: Clause = field(init=False)
     amounts: list[tuple[int, st.Operator, Chunk]] = field(default_factory=list)
     targets: list[Target] = field(default_factory=list)
     states: set[str] = field(default_factory=set)
     quantity: str | None = None
     subject_at: int = 0
-    turn: str = ""  # "completes its left turn"
-    yields_to: int | None = None
     pair: tuple[int, int] | None = None  # between whom a gap is
-    later: list[tuple[int, str, Chunk]] = field(default_factory=list)  # whom "it" means after a side
+
+    def __post_init__(self) -> None:
+        start, end = self.chunks[0].start, self.chunks[-1].end
+        self.clause = Clause(st.Quote(start, end, self.people.text[start:end]))
 
     def take_all(self) -> None:
         """Take every chunk, in order."""
@@ -74,10 +130,8 @@ class Taken(Facts):
                 pass
             case "relative" if "deed" in (self.peek()[0], self.peek(2)[0]):
                 raise self.left_over(chunk)  # "which was braking" is no deed of the moment
-            case "relative" if clause.subject is not None:
+            case "relative" if clause.subject is not None and self.at == self.subject_at + 1:
                 clause.notes.add("relative")
-            case "actor" if clause.subject is not None and chunk.is_new and self.peek(-1)[0] == "be":
-                self.people.same(clause.subject, chunk)
             case "actor" | "pronoun" | "name" | "relative" if clause.subject is None:
                 kinds = {each.kind for each in self.chunks}
                 acts = "deed" in kinds or ("turn" in kinds and "mood" not in kinds)
@@ -87,13 +141,6 @@ class Taken(Facts):
                 raise self.left_over(chunk)
             case "be" | "possessive" | "quality":
                 clause.notes |= {"has"} if value == "has" else set()
-            case "lets" if self.peek()[0] in PEOPLE and self.peek(2)[0] in ("order", "event", "state"):
-                self.at += 2  # "lets the ego go first"
-                clause.flags.add("lets")
-                if self.chunks[self.at - 1].kind == "pronoun":  # the other one of two
-                    self.people.pair(chunk)
-                else:
-                    self.yields_to = self.people.who(self.chunks[self.at - 1])
             case "mood":
                 clause.notes.add(value)
             case "amount" | "no unit":
@@ -107,29 +154,26 @@ class Taken(Facts):
             case "place" if self.states & {"pass", "reach"} or self.peek()[0] in ("be", "event"):
                 self.at -= 1
                 self._target("at")
-            case "area" if self.states & {"pass", "reach"} and not self.targets and value == "driveway":
-                self.targets.append(Target(self.at, "at", chunk, _CONFLICT))
-            case "area" if clause.subject is None and value == "driveway" and self.peek(2)[1] == "ahead":
+            case "area" if value == "driveway" and (
+                self.states & {"pass", "reach"} or (clause.subject is None and self.peek(2)[1] == "ahead")
+            ):
                 self.targets.append(Target(self.at, "at", chunk, _CONFLICT))
             case "deed" if clause.deed is None:
-                clause.deed = value
-            case "deed" if (clause.deed, value) == (st.Verb.BRAKE, "stop"):  # "brakes so that it stops"
-                clause.flags.add("standstill")
+                clause.deed = value or chunk.text.lower()
             case "phase" if clause.phase is None:
                 clause.phase = value
             case "ordinal":
                 clause.ordinal = int(value)
-            case "standstill" | "open" | "kept" | "order" | "yields" | "insists":
+            case "standstill" | "open" | "order" | "yields" | "insists":
                 clause.flags.add("standstill" if chunk.kind == "standstill" else value)
             case "link" if value == "start":
                 clause.flags.add("start")
             case "relation" if value in ("ahead", "behind") and self.peek(-1)[0] == "amount":
-                self.later.append((self.at, value, chunk))
+                self.targets.append(Target(self.at, value, chunk))
             case "relation":
                 clause.relations.append(st.Relation(value, EGO, chunk.quote))
             case "state" | "event":
-                what, _, self.turn = value.partition(" ")
-                self.states.add("reach" if what == "pass" and chunk.text.lower().startswith(_REACHES) else what)
+                self.states.add("reach" if value == "pass" and chunk.text.lower().startswith(_REACHES) else value)
                 clause.notes |= {"event", value} if chunk.kind == "event" else {value}
             case "quantity" if self.quantity in (None, "rate", value):
                 self.quantity = value
@@ -148,16 +192,8 @@ class Taken(Facts):
         match chunk.kind:
             case "pronoun":
                 return chunk.value == "its"
-            case "pair":  # "the ego and the hero both drive"
-                return self.clause.subject is not None and chunk.text.lower() == "both"
             case "bound":
                 return following in ("amount", "no unit", "bound", "near") or self.peek()[1] == "as fast as"
-            case "place":  # "approaches the junction"
-                return before.text.lower().startswith("approach")
-            case "event":  # "gets to 2 s behind the bus": the amount says how near
-                amounts = [each.amount for each in self.chunks[self.at + 1 : self.at + 3] if each.amount]
-                near = following in ("amount", "bound") and amounts and amounts[0].dimension in ("length", "time")
-                return bool(near) and chunk.text.lower().startswith(_REACHES)
             case "link":  # "north, then south"
                 return chunk.value == "then" and before.kind == following == "heading"
         return (chunk.kind, chunk.value, following) == ("joint", "and", "side")  # "across it and into the driveway"
@@ -175,14 +211,14 @@ class Taken(Facts):
             exact: dict[str, st.Operator] = {f"exactly {amount.text}": "==", f"at most {amount.text}": "<=",
                                              f"at least {amount.text}": ">="}  # fmt: skip
             return exact[self.people.ask(f"vague {amount.start}", f"How much is '{told}'?", [*exact], 0, amount.quote)]
-        return _OPERATORS.get(value, "==")
+        return OPERATORS.get(value, "==")
 
     def _amount(self, chunk: Chunk) -> None:
         op = self.bound()
         lead = self.peek(-2 if self.peek(-1)[0] == "bound" else -1)
-        chunk = self._with_unit(chunk, lead[1])
         amount = chunk.amount
-        assert amount is not None
+        if amount is None:
+            raise self.left_over(chunk)
         if amount.dimension == "time" and lead == ("side", "for"):
             self.clause.times["for"] = (op, amount)
         elif (self.peek(1)[1], self.peek(2)[1]) == ("after", "the start"):
@@ -191,28 +227,6 @@ class Taken(Facts):
         else:
             self.amounts.append((self.at, op, chunk))
 
-    def _with_unit(self, chunk: Chunk, lead: str) -> Chunk:
-        """Return an amount; the use of a parameter without a unit tells it, or a question does."""
-        if chunk.amount is not None:
-            return chunk
-        if not chunk.value.isidentifier() or chunk.text.strip("{}") != chunk.value:
-            raise self.left_over(chunk)
-        unit, asked = "", self.quantity or ""
-        if asked in ("rate", "acceleration", "deceleration") or (self.clause.deed and lead == "at"):
-            unit = "m/s^2"
-        elif asked == "speed" or (self.states & {"drives"} and lead == "at") or "to" in self.clause.flags:
-            unit = "m/s"
-        elif asked in ("headway", "time to collision", "time to arrival") or lead == "for":
-            unit = "s"
-        elif asked == "gap" or self.peek()[1] in ("past", "ahead"):
-            unit = "m"
-        if not unit:
-            alternatives = ["in metres", "in seconds"]
-            told = self.people.ask(f"unit of {chunk.value}", f"What is {chunk.value}?", alternatives, None, chunk.quote)
-            unit = "s" if told == alternatives[1] else "m"
-        suffix = {"m": "_m", "s": "_s", "m/s": "_mps", "m/s^2": "_mpss"}[unit]
-        return replace(chunk, kind="amount", amount=st.Amount(None, unit, chunk.value + suffix, chunk.quote))
-
     def _side(self, chunk: Chunk) -> None:
         side, (kind, value) = chunk.value, self.peek()
         before = self.chunks[self.at - 1].amount if self.at else None
@@ -220,37 +234,20 @@ class Taken(Facts):
             raise self.left_over(chunk)  # "12 m/s before the stop line"
         if side in ("across", "to") and kind in PEOPLE and (side == "across" or "yields" in self.clause.flags):
             self.at += 1  # "turns left across the ego's path", "yields to the ego"
-            self.yields_to = self.people.who(self.chunks[self.at])
+            own = self.subject if self.clause.subject is None else self.clause.subject
+            if self.people.who(self.chunks[self.at]) == own:
+                raise self.left_over(chunk)
             self.at += 2 if (self.peek()[0], self.peek(2)[0]) == ("possessive", "thing") else 0
-        elif side == "through" and kind == "place":
-            self._target("at")
-            self.clause.notes.add("event")
-        elif side == "by" and kind in PEOPLE and self.clause.subject is None:  # "is passed by the hero"
-            self.at += 1
-            self.clause.subject = self.people.who(self.chunks[self.at])
         elif side == "between":
             self._between(chunk)
         elif kind in ("place", *PEOPLE):
             self._target(side)
-        elif kind == "pair" and side in ("with", "of", "to"):
-            self.at += 1
-            self.pair = self.people.pair(self.chunks[self.at])
-        elif side in ("from", "into", "to", "at") and self.is_lane():
-            self.at += 2
-            self.fact("destination_heading" if side == "into" else "heading", self.chunks[self.at - 1])
-            self.area(self.chunks[self.at], side)
-        elif kind == "heading" and side in ("to", "from"):
-            self.at += 1
-            self.headed(self.chunks[self.at], back=side == "from")
         elif (kind, value) == ("area", "driveway") and side in _SIDES and self.peek(-1)[0] == "amount":
             self.at += 1
             self.targets.append(Target(self.at - 1, side, self.chunks[self.at], _CONFLICT))
-        elif kind == "area" and side in ("at", "into", "from"):
-            self.at += 1
-            self.area(self.chunks[self.at], side)
         elif side == "to" and kind in ("amount", "bound", "no unit") and self.clause.deed is not None:
             self.clause.flags.add("to")
-        elif kind not in _AFTER.get(side, ()) and (side, kind, value) not in (("at", "link", "start"), _INITIAL):
+        elif not (self.road(side) or kind in _AFTER.get(side, ()) or (side, kind, value) in _INITIAL):
             raise self.left_over(chunk)
 
     def _between(self, chunk: Chunk) -> None:
@@ -273,10 +270,8 @@ class Taken(Facts):
             raise self.left_over(self.chunks[at])
         chunk = self.chunks[self.at]
         if chunk.kind == "pronoun":  # who somebody is ahead of or behind, else the place that was spoken of last
-            if side in ("ahead", "behind"):
-                self.later.append((at, side, chunk))
-            else:
-                self.targets.append(Target(at, side, chunk, self.people.where(chunk)))
+            place = None if side in ("ahead", "behind") else self.people.where(chunk)
+            self.targets.append(Target(at, side, chunk, place))
         elif chunk.kind == "place":
             self.targets.append(Target(at, side, chunk, self._place(chunk)))
         else:
@@ -295,13 +290,10 @@ class Taken(Facts):
 
     def _place(self, chunk: Chunk) -> st.Place:
         place = st.Place(chunk.value)
-        if self.peek() == ("side", "of") and self.peek(2)[0] == "area":  # "the stop line of the driveway"
-            self.at += 2
-            self.fact("origin", self.chunks[self.at])
         for side in ("of", "with"):
             if self.peek()[1] != side or self.peek(2)[0] not in ("actor", "name"):
                 continue
-            if side == "of" or chunk.value in _CONFLICTS:
+            if side == "of" or chunk.value in ("conflict_point", "intersection", "turn"):
                 self.at += 2
                 person = self.people.who(self.chunks[self.at])
                 place = replace(place, of=person) if side == "of" else replace(place, partner=person)
@@ -327,3 +319,73 @@ class Taken(Facts):
     def measure(self, chunk: Chunk, measure: st.Measure) -> None:
         """Add a measure with the words that it came from."""
         self.clause.measures.append(replace(measure, quote=chunk.quote))
+
+    def peek(self, ahead: int = 1) -> tuple[str, str]:
+        """Return kind and value of a chunk from here; nothing where there is none."""
+        at = self.at + ahead
+        return (self.chunks[at].kind, self.chunks[at].value) if 0 <= at < len(self.chunks) else ("", "")
+
+    def left_over(self, chunk: Chunk) -> UnknownWordsError:
+        """Return the error that names a chunk that nothing was made of."""
+        expected = "a number with a unit, such as 12 m" if chunk.kind == "no unit" else None
+        message, found = f"'{chunk.text}' could not be understood here", self.clause.quote.text
+        return UnknownWordsError(message, found=found, expected=expected, fix=OTHERWISE)
+
+    def way(self, chunk: Chunk) -> None:
+        """Take a chunk that says how somebody drives, with what belongs to it."""
+        facts = self.clause.facts
+        if chunk.kind == "heading" and self.peek(-1)[1] == "then" and self.peek(-2)[0] == "heading":
+            facts["headings"] = facts.get("headings", facts.pop("heading", "")) + chunk.value  # "north, then south"
+        elif chunk.kind == "heading":
+            self.headed(chunk)
+        elif chunk.kind == "area":
+            self.area(chunk)
+        elif chunk.kind == "origin" and self.road("from"):
+            pass
+        elif chunk.kind == "origin" or (chunk.kind == "then_headed" and self.peek()[0] != "heading"):
+            raise self.left_over(chunk)
+        elif chunk.text.lower().startswith("to ") and "origin" not in facts:
+            raise self.left_over(chunk)  # "leaves the road to the left", not "is to the left"
+        else:
+            if chunk.text.lower().split()[0] in ("turning", "making", "taking"):
+                self.clause.notes.add("wanted")
+            self.fact("then" if chunk.kind == "then_headed" else chunk.kind, chunk)
+
+    def road(self, side: str) -> bool:
+        """Take the road, the lane or the direction behind a side, where one is: "from the east", "into the road"."""
+        kind = self.peek()[0]
+        if side in ("from", "into", "to", "at") and self.is_lane():
+            self.at += 2
+            self.fact("destination_heading" if side == "into" else "heading", self.chunks[self.at - 1])
+            self.area(self.chunks[self.at], side)
+        elif kind == "heading" and side in ("to", "from"):  # who comes from the east is headed west
+            self.at += 1
+            self.headed(self.chunks[self.at], back=side == "from")
+        elif kind == "area" and side in ("at", "into", "from"):
+            self.at += 1
+            self.area(self.chunks[self.at], side)
+        else:
+            return False
+        return True
+
+    def is_lane(self) -> bool:
+        """Whether "the westbound lane" follows, which is no direction to come from."""
+        lane = (self.peek()[0], self.peek(2)[0]) == ("heading", "area")
+        return lane and self.chunks[self.at + 1].text.lower().endswith("bound")
+
+    def headed(self, chunk: Chunk, back: bool = False) -> None:
+        """Take a heading, of the way before or after its turn; `back` is where somebody comes from."""
+        later = "then" in self.clause.facts or self.clause.facts.get("turn", "straight") != "straight"
+        if back:
+            chunk = replace(chunk, value=COMPASS[(COMPASS.index(chunk.value) + 2) % 4])
+        self.fact("destination_heading" if later and not back else "heading", chunk)
+
+    def area(self, chunk: Chunk, side: str = "") -> None:
+        """Take a road, from which or into which somebody drives."""
+        turned = self.clause.facts.get("turn", "straight") != "straight" and side != "from"
+        self.fact("destination" if side == "into" or turned else "origin", chunk)
+
+    def fact(self, name: str, chunk: Chunk) -> None:
+        """Take one fact of a way; two that differ are left over."""
+        if self.clause.facts.setdefault(name, chunk.value) != chunk.value:
+            raise self.left_over(chunk)

@@ -8,26 +8,25 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import Literal
 
 from scenewright.errors import UnknownWordsError
 from scenewright.language import story as st
 from scenewright.language.read.attach import read_clause
+from scenewright.language.read.cast import Cast
 from scenewright.language.read.chunks import Chunk
-from scenewright.language.read.clauses import PEOPLE
-from scenewright.language.read.facts import Clause
-from scenewright.language.read.narrative import Narrative
+from scenewright.language.read.clauses import OPERATORS, PEOPLE, Clause
 
-Item = Clause | st.Compound
 LINKS = ("when", "until", "no later than", "from")
 _PREDICATES = {
     "be", "state", "event", "phase", "deed", "turn", "mood", "heading", "origin", "quantity", "amount", "lanes",
 }  # fmt: skip
 _BEGINS_A_CLAUSE = {
-    *PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed", "kept", "pair",
-    "order", "yields", "insists", "lets", "open",
+    *PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed", "pair",
+    "order", "yields", "insists", "open",
 }  # fmt: skip
-_ACTS = ("deed", "order", "yields", "insists", "lets")
+_ACTS = ("deed", "order", "yields", "insists")
 _FRONTED = ("side", "turn", "state", "origin", "heading", "area")
 _JOINTS: dict[str, tuple[Literal["and", "or", "if"], str]] = {  # what a word makes of its parts, and what parts them
     "either": ("or", "or"),
@@ -43,7 +42,6 @@ class Segment:
     link: str
     chunks: list[Chunk] = field(default_factory=list)
     margin: tuple[st.Operator, st.Amount] | None = None
-    rival: int | None = None  # who does the same then: "before the ego"
 
 
 def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
@@ -55,8 +53,7 @@ def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
     opens = [(chunk.kind, chunk.value) for chunk in chunks[:2]] + [("", "")] * 2
     fronted = opens[0] == ("side", "with") and opens[1][0] in PEOPLE  # "With the ego 12 m from ...", "At a gap of 12 m"
     fronted |= opens[0] in (("side", "with"), ("side", "at")) and opens[1][0] == "quantity"
-    tells_moment = fronted or opens[0] == ("joint", "if")
-    if tells_moment and not is_led:
+    if (fronted or opens[0] == ("joint", "if")) and not is_led:
         found, chunks = [*found, Segment("when")], chunks[1:]
     for index, chunk in enumerate(chunks):
         orders = chunk.kind == "side" and chunk.value in ("before", "after")
@@ -88,15 +85,19 @@ def _margin(chunks: list[Chunk]) -> tuple[st.Operator, st.Amount] | None:
     if amount is None or amount.dimension != "time":
         return None
     chunks.pop()
-    op: st.Operator = "=="
-    if chunks and chunks[-1].kind == "bound" and chunks[-1].value in st.FLIPPED:
-        op = st.FLIPPED[st.FLIPPED[chunks.pop().value]]
-    return op, amount
+    is_bound = bool(chunks) and chunks[-1].kind == "bound" and chunks[-1].value in OPERATORS
+    return OPERATORS[chunks.pop().value] if is_bound else "==", amount
 
 
 def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
     """Part a moment from what happens at it: at the first comma before a deed, else at the last."""
-    commas = [index for index, chunk in enumerate(chunks) if chunk.kind == "comma"]
+    commas, is_aside = list[int](), False
+    for index, chunk in enumerate(chunks[:-1]):
+        if chunk.kind == "comma":
+            following, was_aside = chunks[index + 1].kind, is_aside
+            is_aside = following == "relative"
+            if not is_aside and (not was_aside or following in PEOPLE):  # "the ego, which turns left, is 10 m ..."
+                commas.append(index)
     if not commas:
         raise UnknownWordsError("it is not clear where the moment ends", fix="put a comma before what happens")
     acts = (start for start, end in zip(commas, [*commas[1:], len(chunks)], strict=True)
@@ -106,34 +107,26 @@ def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
     return chunks[:cut], main[1:] if main and main[0].value == "then" else main
 
 
-def items_of(narrative: Narrative, chunks: Sequence[Chunk], subject: int | None = None) -> list[Item]:
+def items_of(people: Cast, chunks: Sequence[Chunk], subject: int | None = None) -> list[Clause]:
     """Return the clauses of a list, and its joined conditions; `subject` is that of a clause that names none."""
-    parser = _Items(narrative, list(chunks), subject)
-    found: list[Item] = []
-    starts: list[int] = []
+    parser = _Items(people, list(chunks), subject)
+    found: list[Clause] = []
     while parser.at < len(parser.chunks):
-        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and") or parser.is_then():
+        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and") or parser.is_joint("then"):
             parser.at += 1
         else:
-            start, item = parser.at, parser.one(())
-            starts += [start] * (1 + len(parser.others))
+            item = parser.one(())
             found += [*parser.others, item]
             parser.others = []
-    for index, item in enumerate(found[:-1]):  # "the ego is 35 m and the hero 20 m from the conflict point"
-        following = found[index + 1]
-        if not (isinstance(item, Clause) and isinstance(following, Clause)):
-            continue
-        if not item.says_more_than() and item.subject != following.subject:  # "the ego, a bus and a van drive west"
-            raise UnknownWordsError("nothing is said here", found=item.quote.text, fix="say it of each")
-        if item.waiting:
-            parser.at, parser.before = starts[index], following
-            found[index] = parser.one(())
+    for item, following in pairwise(found):  # "the ego, a bus and a van drive west"
+        if item.subject != following.subject and not item.says_more_than():
+            people.refuse("nothing is said here", item.quote, "say it of each")
     return found
 
 
 @dataclass(slots=True)
 class _Items:
-    narrative: Narrative
+    people: Cast
     chunks: list[Chunk]
     subject: int | None
     at: int = 0
@@ -142,18 +135,15 @@ class _Items:
     both: list[Chunk] = field(default_factory=list)  # of whom a clause is said that is said of two
     others: list[Clause] = field(default_factory=list)  # what the last clause says of the others of them
 
-    def is_then(self) -> bool:
-        """Whether "then" stands here, or what means no more than that."""
-        return self.is_joint("then") and "turn" not in self.chunks[self.at].text
-
     def is_joint(self, value: str) -> bool:
         chunk = self.chunks[self.at] if self.at < len(self.chunks) else None
-        return chunk is not None and chunk.value == value and chunk.kind in ("joint", "link")
+        is_it = chunk is not None and chunk.value == value and chunk.kind in ("joint", "link")
+        return is_it and "turn" not in self.chunks[self.at].text  # "after turning" says more than "then"
 
-    def one(self, inside: tuple[str, ...]) -> Item:
+    def one(self, inside: tuple[str, ...]) -> Clause:
         """Return the item that begins here; `inside` are the words that end it."""
         if self.at >= len(self.chunks):
-            raise UnknownWordsError("a condition is missing", fix="say what is so")
+            self.people.refuse("a condition is missing", fix="say what is so")
         chunk = self.chunks[self.at]
         kinds = [each.kind for each in self.chunks[self.at + 1 : self.at + 4]] + [""] * 3
         joins = chunk.value == "both" and kinds[0] in PEOPLE
@@ -163,29 +153,27 @@ class _Items:
             return self._joined(chunk, inside)
         return self._clause(inside)
 
-    def _joined(self, chunk: Chunk, inside: tuple[str, ...]) -> Item:
+    def _joined(self, chunk: Chunk, inside: tuple[str, ...]) -> Clause:
         self.at += 1
         if chunk.value == "not so":
-            return st.Compound("not", (self._part(inside),), chunk.quote)
+            return Clause(chunk.quote, joined=[st.Compound("not", (self._part(inside),), chunk.quote)])
         joint, link = _JOINTS[chunk.value]
         parts = [self._part((*inside, link))]
         while self.is_joint(link):
             self.at += 1
             parts.append(self._part((*inside, link)))
         if len(parts) < 2 or (joint == "if" and len(parts) > 2):
-            raise UnknownWordsError(f"'{chunk.text}' needs '{link}'", found=chunk.text, fix="say what it joins")
-        return st.Compound(joint, tuple(parts), chunk.quote)
+            self.people.refuse(f"'{chunk.text}' needs '{link}'", chunk.quote, "say what it joins")
+        return Clause(chunk.quote, joined=[st.Compound(joint, tuple(parts), chunk.quote)])
 
     def _part(self, inside: tuple[str, ...]) -> st.Condition:
         item = self.one(inside)
-        if isinstance(item, st.Compound):
-            return item
         if self.others:
-            raise UnknownWordsError("this is said of two at once", found=item.quote.text, fix="say it of each")
-        if not item.measures or item.says_more_than("measures"):
-            raise UnknownWordsError("this is no condition", found=item.quote.text, fix="say what is so")
-        measures = tuple(item.measures)
-        return measures[0] if len(measures) == 1 else st.Compound("and", measures, item.quote)
+            self.people.refuse("this is said of two at once", item.quote, "say it of each")
+        if not item.conditions or item.says_more_than("measures", "joined"):
+            self.people.refuse("this is no condition", item.quote, "say what is so")
+        one, several = item.conditions[0], tuple(item.conditions)
+        return one if len(several) == 1 else st.Compound("and", several, item.quote)
 
     def _clause(self, inside: tuple[str, ...]) -> Clause:
         subjects = self._subjects()
@@ -194,7 +182,7 @@ class _Items:
             chunk = self.chunks[self.at]
             parts = chunk.kind == "comma" or (chunk.kind == "joint" and chunk.value in ("and", "or"))
             between = self.at > 1 and self.chunks[self.at - 2].value == "between"
-            closes = any(self.is_joint(link) for link in inside) or self._turns_to_another(start)
+            closes = any(self.is_joint(link) for link in inside)
             fronted = self._is_fronted(start)
             if self.at > start and (closes or (parts and not (between or fronted) and self._begins(self.at + 1))):
                 break
@@ -208,12 +196,11 @@ class _Items:
             self.others.append(self._read([each, *own]))
         self.before = self._read([*self.both[-1:], *own])
         if any(each.subject == self.before.subject for each in self.others):
-            raise UnknownWordsError("one and the same is named twice", found=self.before.quote.text)
+            self.people.refuse("one and the same is named twice", self.before.quote)
         return self.before
 
     def _read(self, own: list[Chunk]) -> Clause:
-        before = self.before
-        clause = read_clause(own, self.narrative, before, self.subject if before is None else before.subject)
+        clause = read_clause(own, self.people, self.subject if self.before is None else self.before.subject)
         if clause.facts.get("turn", "straight") != "straight":
             self.turned.add(clause.subject)
         elif clause.subject in self.turned and "heading" in clause.facts and "headed" not in clause.flags:
@@ -231,23 +218,13 @@ class _Items:
         chunks = self.chunks[self.at : self.at + 4]
         if chunks[0].kind == "pair":
             self.at += 1
-            return [replace(chunks[0], kind="name", value=self.narrative.actor(each).name, traits=())
-                    for each in self.narrative.pair(chunks[0])]  # fmt: skip
+            return [replace(chunks[0], kind="name", value=self.people.actor(each).name, traits=())
+                    for each in self.people.pair(chunks[0])]  # fmt: skip
         kinds = [chunk.kind for chunk in chunks]
-        if kinds == ["actor", "comma", "actor", "comma"] and chunks[2].is_new:  # "the hero, a truck, ..."
-            self.narrative.same(self.narrative.who(chunks[0]), chunks[2])
-            del self.chunks[self.at + 1 : self.at + 4]
         if len(chunks) == 4 and kinds[0] in PEOPLE and kinds[2] in PEOPLE and chunks[1].value == "and":
             self.at += 3
             return [chunks[0], chunks[2]]
         return []
-
-    def _turns_to_another(self, start: int) -> bool:
-        """Whether "which" stands here for somebody who is not the subject of the clause that begins at `start`."""
-        if self.chunks[self.at].kind != "relative" or self.at <= start:
-            return False
-        named = any(chunk.kind in PEOPLE for chunk in self.chunks[start : self.at - 1])
-        return named or self.chunks[self.at - 1].kind not in PEOPLE
 
     def _begins(self, at: int) -> bool:
         """Whether a clause begins here."""
@@ -255,12 +232,3 @@ class _Items:
         while at < len(self.chunks) and (self.chunks[at].kind, self.chunks[at].value) in skipped:
             at += 1
         return at < len(self.chunks) and self.chunks[at].kind in _BEGINS_A_CLAUSE
-
-
-def is_told_twice(item: Item, following: Item | None) -> bool:
-    """Whether two clauses tell one deed: "it brakes at 3 m/s^2 and stops at the stop line"."""
-    if not (isinstance(item, Clause) and isinstance(following, Clause)):
-        return False
-    if item.says_more_than("deed", "phase", "rate", "measures", "times"):
-        return False
-    return (item.subject, item.deed, following.deed) == (following.subject, st.Verb.BRAKE, "stop")

@@ -12,59 +12,45 @@ from scenewright.errors import UnknownWordsError
 from scenewright.language.read.narrative import Narrative
 from scenewright.program.manner import manner_of, unit_of
 from scenewright.program.types import Parameter
-from scenewright.units import UNITS, Dimension, unit_of_name
+from scenewright.units import UNITS, Unit, unit_of_name
 
-_LINE = re.compile(r"^(Title|Map): (.*)$", re.MULTILINE)
+_LINE = re.compile(r"^(Title:|Map:|Manner:|Parameter) (.*)$", re.MULTILINE)
 _NUMBER = r"(-?\d+(?:[./]\d+)?)(?: ?([A-Za-z][A-Za-z/^0-9]*))?"
-_MANNER = re.compile(rf"^Manner: (\w+) is {_NUMBER}\.$", re.MULTILINE)
-_VALUE = re.compile(  # "Parameter gap_m is 12 m, from 10 m to 20 m", "gap_m = 12 m", "gap_m in [10, 20]"
-    r"(?:Parameter (\w+)|\{?\b([A-Za-z]\w*_\w+)\}?)(?: (?:is set to|is|equals|lies|ranges|varies|in)| ?[:=])? ?"
-    rf"(?:(open)|{_NUMBER})?(?:,? ?(?:between|from|\[) ?{_NUMBER}(?: and| to|,) {_NUMBER}\]?)?"
-    r"(?=\s*(?:[,;)\n]|and |\.(?:\s|$)|$))"
-)
+_VALUE = re.compile(rf"(\w+) is (?:open|{_NUMBER})(?:, from {_NUMBER} to {_NUMBER})?\.")
 
 
 def take_labels(text: str, narrative: Narrative) -> str:
     """Give labelled lines to `narrative` and return the text without them."""
     manner: list[tuple[str, Fraction, None]] = []
 
-    def line(match: re.Match[str]) -> str:
-        if match[1] == "Title":
-            narrative.title = match[2]
-        else:
-            narrative.map_name = match[2]
-        return " " * len(match[0])
-
-    def of_manner(match: re.Match[str]) -> str:
-        manner.append((match[1], _in(unit_of(match[1]).dimension, match[2], match[3]), None))
-        return " " * len(match[0])
-
-    def value(match: re.Match[str]) -> str:
-        name, unit = match[1] or match[2], unit_of_name(match[1] or match[2])
-        if not (match[3] or match[4] or match[6]) or (unit is None and not match[1]):
+    def take(match: re.Match[str]) -> str:
+        (label, said), value = match.groups(), _VALUE.fullmatch(match[2])
+        if label == "Title:":
+            narrative.title = said
+        elif label == "Map:":
+            narrative.map_name = said
+        elif value is None or (label == "Manner:" and value[2] is None):
             return match[0]
-        if unit is None:
-            raise UnknownWordsError(f"parameter {name} has no unit", fix="end its name in _m, _s, _mps or _mpss")
-        symbol = match[5] or match[9] or unit.symbol
-        told, low, high = (
-            None if match[at] is None else _in(unit.dimension, match[at], match[at + 1] or symbol) / unit.si_factor
-            for at in (4, 6, 8)
-        )
-        if any(each.name == name for each in narrative.parameters):
-            raise UnknownWordsError(f"two values are told of {name}", found=match[0], fix="leave one out")
-        narrative.parameters.append(Parameter(name, told, low, high))
+        elif label == "Manner:":
+            manner.append((value[1], _in(unit_of(value[1]), value, 2) or Fraction(0), None))
+        else:
+            unit = unit_of_name(value[1])
+            if unit is None:
+                fix = "end its name in _m, _s, _mps or _mpss"
+                raise UnknownWordsError(f"parameter {value[1]} has no unit", found=match[0], fix=fix)
+            told, low, high = (each and each / unit.si_factor for at in (2, 4, 6) for each in [_in(unit, value, at)])
+            narrative.parameters.append(Parameter(value[1], told, low, high))
         return " " * len(match[0])
 
-    for pattern, taken in ((_LINE, line), (_MANNER, of_manner), (_VALUE, value)):
-        text = pattern.sub(taken, text)
+    text = _LINE.sub(take, text)
     if manner:
         narrative.manner = manner_of(manner)
     return text
 
 
-def _in(dimension: Dimension, number: str, symbol: str) -> Fraction:
-    """Return an amount in SI units."""
-    unit = UNITS.get(symbol)
-    if unit is None or unit.dimension != dimension:
-        raise UnknownWordsError(f"'{symbol}' is no unit of {dimension}", found=f"{number} {symbol}")
-    return Fraction(number) * unit.si_factor
+def _in(unit: Unit, match: re.Match[str], at: int) -> Fraction | None:
+    """Return an amount in SI units, which is one of `unit` where no other is told; None where it is open."""
+    told = UNITS.get(match[at + 1] or unit.symbol)
+    if told is None or told.dimension != unit.dimension:
+        raise UnknownWordsError(f"'{match[at + 1]}' is no unit of {unit.dimension}", found=match[0])
+    return None if match[at] is None else Fraction(match[at]) * told.si_factor
