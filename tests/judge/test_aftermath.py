@@ -47,7 +47,8 @@ def test_the_ego_hits_a_standing_hero_and_it_happened_as_described() -> None:
     assert came.collision.speeds_mps == pytest.approx((10.0, 0.0), abs=1e-9)
     assert came.collision.relative_speed_mps == pytest.approx(10.0)
     assert (came.closest_m, came.min_ttc_s, came.post_encroachment_s) == (0.0, 0.0, None)
-    assert came.in_words() == "the ego hit the hero at 9.9 s, 10.0 m/s against 0.0 m/s; until then the ego did not brake"
+    hit = "the ego hit the hero at 9.9 s, 10.0 m/s against 0.0 m/s"
+    assert came.in_words() == f"{hit}; until then the ego did not brake"
 
 
 def test_who_drives_into_whom_comes_first() -> None:

@@ -39,19 +39,10 @@ DERIVED: dict[st.Quantity, ex.DerivedKind] = {
 
 
 def compile_story(story: st.Story, description: str | None = None) -> pt.Program:
-    """Return the program that `story` is.
+    """Return the program that `story` is; its quotes point into `description`, where there is one.
 
-    Parameters
-    ----------
-    description
-        The text that the quotes of the story point into, where there is one.
-
-    Raises
-    ------
-    TranslationError
-        For what the program language does not know, by name.
-    ProgramError
-        Where the story contradicts itself, such as a speed in metres.
+    Raises `TranslationError` for what the program language does not know, by name, and `ProgramError` where the story
+    contradicts itself, such as a speed in metres.
     """
     _check_known(story)
     compiler = _Compiler(story, description, {actor.id: _sketch(story, actor.id) for actor in story.actors})

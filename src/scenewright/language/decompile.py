@@ -61,24 +61,14 @@ def way_of(route: pt.RouteSpec) -> st.Way:
 
 @dataclass(slots=True)
 class Decompiled:
-    """The story of a program as its moments come, and what became of each constraint.
-
-    Attributes
-    ----------
-    taken
-        What each formula became, of those that stand side by side in a constraint.
-    moment_of
-        The moment that each knot is, of those that matter.
-    untold
-        Constraints that no story tells yet, which the story is without.
-    """
+    """The story of a program as its moments come, and what became of each constraint."""
 
     program: pt.Program
     leniently: bool = False
     story: st.Story = field(init=False)
-    taken: dict[ex.Formula, tuple[Taken, ...]] = field(default_factory=dict)
-    moment_of: dict[Key, int] = field(default_factory=dict)
-    untold: list[pt.Constraint] = field(default_factory=list)
+    taken: dict[ex.Formula, tuple[Taken, ...]] = field(default_factory=dict)  # of formulas that stand side by side
+    moment_of: dict[Key, int] = field(default_factory=dict)  # of the knots that matter
+    untold: list[pt.Constraint] = field(default_factory=list)  # which the story is without
     _conditions: list[list[st.Condition]] = field(default_factory=list)
     _times: dict[int, st.Amount] = field(default_factory=dict)
     _throughout: dict[tuple[int, int], list[st.Measure]] = field(default_factory=dict)  # by actor and piece

@@ -84,15 +84,8 @@ class Place:
 class Measure:
     """One thing that is so: the atom of every condition.
 
-    Attributes
-    ----------
-    op, amount
-        The bound. A place without an amount: ``==`` at it, ``>=`` has reached it, ``>`` is past it, ``<`` is before it.
-    other
-        Whom a gap, a headway or a time to collision is measured to; whose speed a speed is compared with.
-    opposite
-        The amount is counted the other way: past a place instead of before it, slower than `other` instead of faster,
-        slowing instead of speeding up.
+    A place without an amount: ``==`` at it, ``>=`` has reached it, ``>`` is past it, ``<`` is before it. An `opposite`
+    amount is counted the other way: past a place, not before it; slower than `other`, not faster; slowing.
     """
 
     actor: int
@@ -100,7 +93,7 @@ class Measure:
     op: Operator
     amount: Amount | None = None
     place: Place | None = None
-    other: int | None = None
+    other: int | None = None  # whom a gap, a headway or a time to collision is to; whose speed a speed is held against
     opposite: bool = False
     quote: Quote | None = field(default=None, compare=False, repr=False)
 
@@ -250,19 +243,13 @@ class Question:
 class Story:
     """A whole scenario as it is told.
 
-    Attributes
-    ----------
-    moments
-        By number; 0 is the start.
-    ego
-        The numbers of the moments that the ego comes through one after the other, other than the start.
-    asides, assumptions, questions
-        What was set aside, taken for granted and left open in reading; no part of the meaning.
+    `asides`, `assumptions` and `questions` are what was set aside, taken for granted and left open in reading; they are
+    no part of the meaning.
     """
 
     actors: tuple[Actor, ...]
-    moments: tuple[Moment, ...] = (Moment(),)
-    ego: tuple[int, ...] = ()
+    moments: tuple[Moment, ...] = (Moment(),)  # by number; 0 is the start
+    ego: tuple[int, ...] = ()  # the moments that the ego comes through one after the other, other than the start
     deeds: tuple[Deed, ...] = ()
     orders: tuple[Order, ...] = ()
     holds: tuple[Hold, ...] = ()

@@ -38,13 +38,7 @@ Told = tuple[str, tuple[st.Quote, ...]]  # a sentence, and the quotes of what it
 
 
 def tell(story: st.Story) -> list[str]:
-    """Return `story` as sentences, one a line.
-
-    Raises
-    ------
-    TranslationError
-        Where it holds something that there are no words for.
-    """
+    """Return `story` as sentences, one a line; raises `TranslationError` for what there are no words for."""
     return [text for text, _ in Teller(st.arranged(story)).lines()]
 
 
@@ -294,8 +288,7 @@ class Teller:
 
     def _time(self, deed: st.Deed) -> str:
         """Return which time somebody does a deed, where it is not the first."""
-        same = [each for each in self.story.deeds_of(deed.actor) if each.verb == deed.verb]
-        number = same.index(deed)
+        number = [each for each in self.story.deeds_of(deed.actor) if each.verb == deed.verb].index(deed)
         if number >= len(ORDINALS):
             raise untold("so many deeds of one kind")
         return "" if number == 0 else f" for the {ORDINALS[number]} time"

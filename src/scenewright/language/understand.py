@@ -29,24 +29,14 @@ Ask = Callable[[Question], str]  # returns one of the alternatives
 
 @dataclass(frozen=True, slots=True)
 class Understanding:
-    """What was understood of a text.
-
-    Attributes
-    ----------
-    translator
-        Who read it: ``offline``, ``openai:NAME``, ``files:DIR``.
-    answers
-        The answers that were given, by slot.
-    notes
-        What else is to be known of the reading: what a model took, its doubts.
-    """
+    """What was understood of a text."""
 
     text: str
     story: Story
     program: Program
-    translator: str = OFFLINE
-    answers: Answers = field(default_factory=dict)
-    notes: tuple[str, ...] = ()
+    translator: str = OFFLINE  # who read it: "offline", "openai:NAME", "files:DIR"
+    answers: Answers = field(default_factory=dict)  # that were given, by slot
+    notes: tuple[str, ...] = ()  # what else is to be known of the reading: what a model took, its doubts
 
     @property
     def questions(self) -> tuple[Question, ...]:

@@ -23,13 +23,7 @@ BEARINGS = {"oncoming": 2, "from the left": 1, "from the right": 3, "ahead": 0, 
 
 
 def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | None = None) -> st.Story:
-    """Return `story` with whole ways.
-
-    Raises
-    ------
-    TranslationError
-        Where no way on the map fits what is said of somebody.
-    """
+    """Return `story` with whole ways; raises `TranslationError` where none on the map fits what is said of somebody."""
     fitting = {actor.id: _fitting(actor, road_map) for actor in story.actors}
     for _ in story.actors:  # what one relation leaves may decide another
         for actor in story.actors:
