@@ -76,11 +76,9 @@ class Model(Protocol):
     @property
     def name(self) -> str:
         """Return what the user calls it, such as ``openai:NAME``; never a key or an address."""
-        ...
 
     def reply(self, call: Call) -> Answer:
         """Return the answer to `call`; raises TranslationError where none is to be had."""
-        ...
 
 
 def key_of(model: Model, call: Call) -> str:

@@ -14,7 +14,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from pydantic import TypeAdapter, ValidationError
+from pydantic import TypeAdapter
 
 from scenewright.errors import OutputError, Place, TranslationError
 from scenewright.language.model.exchange import LONGEST_REPLY, Answer, Call, GaveUpError, Model, estimated_usage, key_of
@@ -48,20 +48,16 @@ class FilesModel:
         # The instructions are the same for all texts on a map: whoever answers many reads them once, here.
         instructions = next((each.content for each in call.messages if each.role == "system"), "")
         shared = self.folder / f"{hashlib.sha256(instructions.encode()).hexdigest()[:12]}.instructions.md"
-        if not shared.exists():
-            _write_text(shared, instructions)
+        _write(shared, instructions)
         more = {"instructions_file": shared.name, "reply_schema": call.schema, "reply_file": places[0].name}
         write_whole(request, {**_as_data(call, key), **more})
         until = time.monotonic() + self.wait_s
         while (text := next(filter(None, map(_read, places)), None)) is None:
             if (left := until - time.monotonic()) <= 0:
-                raise NoReplyYetError(
-                    f"there is no reply yet to request {key}",
-                    place=Place(str(request)),
-                    expected=f"the reply, as JSON in {places[0].name} or as a model's own text in {places[1].name}",
-                    fix="write the reply beside the request and run the same command again, "
-                    "or wait for it with --reply-wait SECONDS",
-                )
+                either = f"the reply, as JSON in {places[0].name} or as a model's own text in {places[1].name}"
+                fix = "write it there and run the same command again, or wait for it with --reply-wait SECONDS"
+                message = f"there is no reply yet to request {key}"
+                raise NoReplyYetError(message, place=Place(str(request)), expected=either, fix=fix)
             time.sleep(min(_LOOK_EVERY_S, left))
         return Answer(text, estimated_usage(call, text))
 
@@ -81,8 +77,7 @@ class Recording:
     def reply(self, call: Call) -> Answer:
         """Return the model's answer, and keep it with the call."""
         answer, key = self.model.reply(call), key_of(self.model, call)
-        data = {**_as_data(call, key), "model": self.name, "answer": asdict(answer)}
-        write_whole(self.folder / f"{key}.json", data)
+        write_whole(self.folder / f"{key}.json", {**_as_data(call, key), "model": self.name, "answer": asdict(answer)})
         return answer
 
 
@@ -95,19 +90,13 @@ class Replayed:
 
     def reply(self, call: Call) -> Answer:
         """Return what was answered when this call was recorded; raises TranslationError where it was not."""
-        path = self.folder / f"{key_of(self, call)}.json"
+        path, fix = self.folder / f"{key_of(self, call)}.json", "record it with --record DIR in place of --replay DIR"
         if (text := _read(path, _LONGEST_RECORD)) is None:
-            raise TranslationError(
-                "this exchange was not recorded",
-                place=Place(str(self.folder)),
-                found=f"no {path.name}",
-                expected=f"a record of {self.name} for this text, map and prompt (version {PROMPT_VERSION})",
-                fix="record it once with --record DIR in place of --replay DIR",
-            )
+            expected = f"a record of {self.name} for this text, map and prompt (version {PROMPT_VERSION})"
+            raise TranslationError("this exchange was not recorded", place=Place(str(path)), expected=expected, fix=fix)
         try:
             return TypeAdapter(Answer).validate_python(json.loads(text)["answer"])
-        except (ValidationError, ValueError, KeyError, TypeError, RecursionError):
-            fix = "record it again with --record DIR"
+        except (ValueError, KeyError, TypeError, RecursionError):  # pydantic's own is a ValueError
             raise TranslationError("a record cannot be read", place=Place(str(path)), fix=fix) from None
 
 
@@ -126,23 +115,22 @@ def _read(path: Path, longest: int = 4 * LONGEST_REPLY) -> str | None:
     except (FileNotFoundError, NotADirectoryError):
         return None
     except OSError as error:
-        place, found = Place(str(path)), error.strerror or str(error)
+        place, found = Place(str(path)), str(error)
         raise TranslationError("a reply cannot be read", place=place, found=found, fix="make it readable") from None
     return raw.decode("utf-8", errors="replace") if raw.strip() else None
 
 
 def write_whole(path: Path, data: object) -> None:
     """Write `data` as JSON in one step, so that nobody reads half of it; raises OutputError where that fails."""
-    _write_text(path, json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+    _write(path, json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
 
 
-def _write_text(path: Path, text: str) -> None:
+def _write(path: Path, text: str) -> None:
     temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         temporary.write_text(text, encoding="utf-8", errors="replace")
         os.replace(temporary, path)
     except OSError as error:
-        place, found = Place(str(path)), error.strerror or str(error)
         message, fix = "an exchange with the model cannot be written", "choose a folder that can be written"
-        raise OutputError(message, place=place, found=found, fix=fix) from None
+        raise OutputError(message, place=Place(str(path)), found=str(error), fix=fix) from None
