@@ -67,14 +67,14 @@ def fault_of(server: Server, *acts: Act, **options: Any) -> ScenewrightError:
 def test_reply_of_a_server_becomes_a_program(server: Server) -> None:
     translation = translate(server, says())
     assert [deed.verb for deed in translation.story.deeds] == ["drive on", "brake"]
-    assert "1 call, 7000 tokens in and 300 out, as the provider counts" in translation.notes[-1]
+    assert "1 call, 7000 tokens in and 300 out" in translation.notes[-1]
     assert server.asked[0]["model"] == "tiny"
     assert [message["role"] for message in server.asked[0]["messages"]] == ["system", "user"]
     assert "tools" not in server.asked[0], "a model gets no tool to call"
 
 
-def test_tokens_that_a_server_does_not_count_are_estimated_and_said_to_be(server: Server) -> None:
-    assert "estimated" in translate(server, says(usage=None)).notes[-1]
+def test_tokens_that_a_server_does_not_count_are_not_told(server: Server) -> None:
+    assert translate(server, says(usage=None)).notes[-1].endswith(": 1 call")
 
 
 def anthropic_says(text: str) -> Act:
@@ -116,7 +116,7 @@ def test_every_provider_speaks_its_own_protocol(
     translation = translate(server, speaks(GOOD), who=f"{provider}:some", base_url=root)
     assert len(translation.story.deeds) == 2
     assert server.paths == [path]
-    assert [usage.estimated for usage in translation.calls] == [False]
+    assert [usage.output_tokens for usage in translation.calls] == [300 if speaks is says else 5]
     assert f"{provider}:some" in translation.notes[-1]
     # Headers carry the key, and nothing else does.
     assert KEY in json.dumps(server.headers)

@@ -7,7 +7,6 @@ is, for `scenewright models`. Keys are looked for, and never told.
 from __future__ import annotations
 
 import os
-import sys
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
@@ -34,11 +33,9 @@ class Configured:
 
 def settings_file() -> Path:
     """Return where the settings file lies on this platform, whether or not it is there."""
-    home = Path.home()
-    folders = {"win32": os.environ.get("APPDATA") or home / "AppData" / "Roaming",
-               "darwin": home / "Library" / "Application Support"}  # fmt: skip
-    folder = folders.get(sys.platform) or os.environ.get("XDG_CONFIG_HOME") or home / ".config"
-    return Path(folder) / "scenewright" / "settings.toml"
+    from typer import get_app_dir
+
+    return Path(get_app_dir("scenewright")) / "settings.toml"
 
 
 def configured() -> Configured:

@@ -126,8 +126,15 @@ class _Evidence(Measured):
         """Check that a moment's time is told with what is so then."""
         yield from self.amount(moment.time)
         quote = moment.time.quote if moment.time else None
+        if quote is None:
+            return
+        sentence, own, index = self.heard.sentence(quote.start)
+        link = next((each.value for each in reversed(own[:index]) if each.kind == "link"), "")
         near = {self.heard.sentence(words.start)[0] for _, words in self._told_at(number) if words}
-        if quote and near and self.heard.sentence(quote.start)[0] not in near:
+        # "When" a deed begins, "until" it ends.
+        turned = {each.begins if link == "until" else each.ends for each in self.claim.story.deeds
+                  if each.quote and lies_in(quote.start, quote.end, [each.quote.span])}  # fmt: skip
+        if (near and sentence not in near) or (link in ("when", "until") and number in turned):
             yield f"'{quote.text}' is not told with what is so then: say it as an order from start"
 
     def _deed(self, deed: st.Deed) -> Iterator[str]:

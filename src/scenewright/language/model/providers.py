@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
 from scenewright.errors import InputError, MissingExtraError, ScenewrightError, TranslationError
-from scenewright.language.model.exchange import CUT_OFF, Answer, Call, GaveUpError, Usage, estimated_usage
+from scenewright.language.model.exchange import CUT_OFF, Answer, Call, GaveUpError, Usage
 from scenewright.language.model.keys import KEY_VARIABLES, key_for, scrubbed
 from scenewright.language.model.settings import DEFAULT_MAX_TOKENS, DEFAULT_TIMEOUT_S
 
@@ -79,8 +79,7 @@ class ServedModel:
             raise self._declined(text or str((response.provider_details or {}).get("refusal") or ""))
         if response.finish_reason == "length" and not text.rstrip().endswith("}"):
             text += f"\n{CUT_OFF}"  # within the text, so that it goes back like any other reply that does not hold
-        counted = Usage(1, used.input_tokens, used.output_tokens)
-        return Answer(text, counted if used.input_tokens or used.output_tokens else estimated_usage(call, text))
+        return Answer(text, Usage(1, used.input_tokens, used.output_tokens))
 
     async def _request(self, model: LibraryModel, call: Call, form: Mapping[str, Any] | None) -> ModelResponse:
         from pydantic_ai.direct import model_request

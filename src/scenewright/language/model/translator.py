@@ -78,7 +78,7 @@ class _Conversation:
             self.messages = (*self.messages, Message("assistant", said), prompt.answered(new))
             story, _ = self._until_it_holds()
         questions = tuple(each for each in (*story.questions, *more) if each.slot not in answers)
-        self.notes.append(f"{self.model.name}, prompt {prompt.fingerprint(self.road_map)}: {sum(self.calls, Usage())}")
+        self.notes.append(f"{self.model.name}, prompt {prompt.fingerprint(self.road_map)}: {sum(self.calls, Usage(0))}")
         return Told(replace(story, questions=questions), tuple(self.notes), self.calls, answers)
 
     def _answers(self, asked: tuple[st.Question, ...]) -> dict[str, str]:
@@ -103,7 +103,7 @@ class _Conversation:
             except ScenewrightError as fault:
                 last = fault.message + (f" ({fault.found})" if fault.found else "")
                 if not left:
-                    message = f"{self.model.name} gave no story that holds: {sum(self.calls, Usage())}"
+                    message = f"{self.model.name} gave no story that holds: {sum(self.calls, Usage(0))}"
                     fix = "say it in plainer sentences, try another model or more of --repairs, or --translator offline"
                     raise TranslationError(message, found=f"in the last reply: {last}", fix=fix) from None
                 said = Message("assistant", answer.text[:_KEPT_OF_A_REPLY])
