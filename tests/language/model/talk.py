@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from http.server import BaseHTTPRequestHandler
 from typing import Any
 
-from scenewright.language.model.exchange import Answer, Call, estimated_usage
+from scenewright.language.model.exchange import Answer, Call
 
 KEY = "sentinel-7c1f-key-of-nobody"
 TEXT = (
@@ -77,7 +77,7 @@ class Said:
     def reply(self, call: Call) -> Answer:
         self.calls.append(call)
         text = self.texts[min(len(self.calls), len(self.texts)) - 1]
-        return Answer(text, estimated_usage(call, text))
+        return Answer(text)
 
 
 Act = Callable[["Handler"], None]

@@ -14,7 +14,7 @@ from talk import GOOD, TEXT, Said, reply_to
 from scenewright.errors import OutputError, ScenewrightError, TranslationError
 from scenewright.language.model.choose import model_named
 from scenewright.language.model.exchange import Call, GaveUpError, Message, key_of
-from scenewright.language.model.files import FilesModel, NoReplyYetError, Recording, Replayed, write_whole
+from scenewright.language.model.files import FilesModel, NoReplyYetError, Recording, Replayed
 from scenewright.language.model.prompt import PROMPT_VERSION
 from scenewright.language.model.settings import TranslatorSettings
 from scenewright.language.model.translator import Told, story_by_model
@@ -92,7 +92,7 @@ def test_waiting_process_takes_a_reply_that_comes_later(tmp_path: Path) -> None:
 
     thread = threading.Thread(target=somebody)
     thread.start()
-    assert translate(tmp_path, reply_wait_s=30.0).calls[0].estimated
+    assert translate(tmp_path, reply_wait_s=30.0).story.deeds
     thread.join()
 
 
@@ -130,14 +130,6 @@ def test_reply_of_ten_megabytes_in_a_file_is_a_reply_that_does_not_hold(tmp_path
     assert "too long" in str(caught.value.found)
 
 
-def test_half_a_file_is_never_seen(tmp_path: Path) -> None:
-    write_whole(tmp_path / "a.json", {"x": 1})
-    with pytest.raises(ValueError, match="not JSON compliant"):
-        write_whole(tmp_path / "a.json", {"x": float("nan")})
-    assert json.loads((tmp_path / "a.json").read_text(encoding="utf-8")) == {"x": 1}
-    assert [path.name for path in tmp_path.iterdir()] == ["a.json"]
-
-
 # -- --record and --replay ------------------------------------------------------------------------------------------
 def recorded(folder: Path, *texts: str) -> Told:
     model = Recording(Said([*texts]), folder)
@@ -150,7 +142,7 @@ def replayed(folder: Path, name: str = "said:so") -> Told:
 
 def test_what_was_recorded_is_said_again(tmp_path: Path) -> None:
     first = recorded(tmp_path, "nothing", GOOD)
-    assert len(list(tmp_path.glob("*.json"))) == 2
+    assert len(list(tmp_path.glob("*.reply.txt"))) == 2
     assert replayed(tmp_path) == first
 
 
@@ -162,12 +154,12 @@ def test_other_model_other_record(tmp_path: Path) -> None:
     assert not isinstance(caught.value, GaveUpError)
 
 
-@pytest.mark.parametrize("content", ["", "{", "[]", '{"key": "a"}', '{"key": 1, "reply": []}', "\x00", "[" * 99_999])
-def test_broken_record_is_told(tmp_path: Path, content: str) -> None:
+def test_record_has_the_form_of_an_exchange_by_files(tmp_path: Path) -> None:
     recorded(tmp_path, GOOD)
-    (record,) = tmp_path.glob("*.json")
-    record.write_text(content, encoding="utf-8")
-    with pytest.raises(TranslationError):
+    (request,) = requests_in(tmp_path)
+    assert (tmp_path / f"{request['key']}.reply.txt").read_text(encoding="utf-8") == GOOD
+    (tmp_path / f"{request['key']}.reply.txt").write_text(" ", encoding="utf-8")
+    with pytest.raises(TranslationError, match="was not recorded"):
         replayed(tmp_path)
 
 

@@ -101,6 +101,6 @@ def test_key_is_in_nothing_that_is_written_or_said(server: Server, tmp_path: Pat
         server.does(fails(status, f"Authorization: Bearer {KEY} key {KEY}" + "x" * 300 + KEY, retry_after="9999"))
         outputs.append(asked(server, who, tmp_path))
     assert all("[key]" in output for output in outputs)
-    assert len(list(tmp_path.glob("*.json"))) == 2
+    assert len(list(tmp_path.glob("*.reply.txt"))) == 2
     assert KEY.encode() not in everything_in(tmp_path)
     assert KEY not in "".join(outputs)

@@ -1,6 +1,6 @@
-"""Amounts in words: which numbers, units and parameters a stretch of text can be read as.
+"""Amounts in words: which numbers, units and parameters a text speaks of, and what they can be read as.
 
-What enters: words. What leaves: amounts, by the units of the vocabulary; and where a text speaks of numbers at all.
+What enters: words. What leaves: stretches with their readings, by the numbers and the units of the vocabulary.
 """
 
 from __future__ import annotations
@@ -8,89 +8,78 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Iterator
+from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 
 from scenewright.errors import Span
 from scenewright.language.read.chunks import vocabulary
 from scenewright.program.arithmetic import JUST_BEFORE_M
 from scenewright.units import unit_of_name
 
-_ONES = (
-    "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen "
-    "eighteen nineteen"
-)
-_TENS = "twenty thirty forty fifty sixty seventy eighty ninety"
-_NUMERALS = {word: Fraction(number) for number, word in enumerate(_ONES.split())}
-_NUMERALS |= {word: Fraction(10 * tens) for tens, word in enumerate(_TENS.split(), start=2)}
-_NUMERALS |= {"half": Fraction(1, 2), "quarter": Fraction(1, 4), "couple": Fraction(2)}
-_WORD = rf"(?:{'|'.join(_NUMERALS)}|hundred|point|an?)"
-_RUN = re.compile(rf"(?i)\b{_WORD}(?:[\s-]+(?:and[\s-]+)?{_WORD})*\b")
-_NUMBER = re.compile(r"(?<![\w.^/])-?\d+(?:[.,]\d+|/[1-9]\d*)*")
-_PARAMETER = re.compile(r"(?<!\w)[A-Za-z]\w*_\w+")
-_SHARE = re.compile(r"(\d*)\s?([¼½¾⅓⅔])")
-_SPELLED = {
-    r"met(?:re|er)s? per second (?:squared|per second)": "m/s^2", r"met(?:re|er)s? (?:per|a) second": "m/s",
-    r"kilomet(?:re|er)s? (?:per|an) hour": "km/h", r"miles? (?:per|an) hour": "mph",
-}  # fmt: skip
+_OF_A = re.compile(r"(?:\s+of)?\s+an?(?=\s)")  # "half a second"
 
 
-def read_amounts(words: str) -> set[tuple[Fraction | str, str | None]]:
-    """Return what `words` can be read as: numbers and parameters, each with its unit where one follows.
+@dataclass(frozen=True, slots=True)
+class Spoken:
+    """A number or a parameter that a text speaks of; what it can be read as, with the unit where one follows."""
+
+    span: Span
+    values: frozenset[Fraction | str]
+    unit: str | None
+
+
+@cache
+def _numerals() -> dict[str, Fraction]:
+    return {
+        **vocabulary().numbers,
+        "half": Fraction(1, 2),
+        "quarter": Fraction(1, 4),
+        "a": Fraction(),
+        "an": Fraction(),
+    }
+
+
+@cache
+def _pattern() -> re.Pattern[str]:
+    word = rf"(?:{'|'.join(_numerals())}|hundred)"
+    return re.compile(
+        r"(?P<digits>(?<![\w.^/])-?(?:\d+(?:[.,]\d+|/[1-9]\d*)*)?[¼½¾]?(?<=[\d¼½¾]))|(?P<name>(?<!\w)[A-Za-z]\w*_\w+)"
+        rf"|(?P<near>(?i:\b(?:just|right) before\b))|(?P<words>(?i:\b{word}(?:[\s-]+(?:and[\s-]+)?{word})*\b))"
+    )
+
+
+def spoken_in(text: str) -> Iterator[Spoken]:
+    """Yield the amounts of `text`; words for a number only where a unit follows.
 
     Examples
     --------
-    >>> read_amounts("twenty-five metres") == {(Fraction(25), "m"), (Fraction(5), "m")}
-    True
+    >>> [(max(each.values), each.unit) for each in spoken_in("twenty-five metres, then 1.5 m/s²")]
+    [(Fraction(25, 1), 'm'), (Fraction(3, 2), 'm/s^2')]
     """
-    found: set[tuple[Fraction | str, str | None]] = set()
-    for match in _PARAMETER.finditer(words):
-        if unit := unit_of_name(match[0]):
-            found.add((match[0], unit.symbol))
-    if re.search(r"(?i)\b(?:just|right) before\b", words):
-        found.add((JUST_BEFORE_M, "m"))
-    for match in _SHARE.finditer(words):
-        share = Fraction(unicodedata.numeric(match[2])).limit_denominator(4)
-        found.add((Fraction(match[1] or 0) + share, _unit_at(words[match.end() :])))
-    for match in _NUMBER.finditer(words):  # a comma is a decimal one, or one between thousands
-        readings = {match[0].replace(",", "."), match[0].replace(",", "")}
-        plain = [each for each in readings if each.count(".") < 2 and each.count("/") < 2]
-        found |= {(Fraction(each), _unit_at(words[match.end() :])) for each in plain}
-    for match in _RUN.finditer(words):
-        said = re.findall(r"[a-z]+", match[0].lower())
-        found |= {(_value(said[first:]), _unit_at(words[match.end() :])) for first in range(len(said))}
-    return found
-
-
-def _unit_at(rest: str) -> str | None:
-    """Return the unit that `rest` begins with."""
-    rest = re.sub(r"(?i)^\W*(?:of (?:an? )?|an? )?", "", rest)
-    for spelled, unit in _SPELLED.items():
-        if re.match(rf"(?i){spelled}\b", rest):
-            return unit
-    match = re.match(r"[^\s,;:!?()}]+", rest)
-    said, known = match[0].rstrip(".'") if match else "", vocabulary().units
-    return known.get(said) or known.get(said.lower())
+    units = vocabulary().units
+    for match in _pattern().finditer(text):
+        of = _OF_A.match(text, match.end())
+        follows = vocabulary().unit_pattern.match(text, of.end() if of else match.end())
+        unit = (units.get(follows[1]) or units.get(follows[1].lower())) if follows else None
+        values = set[Fraction | str]()
+        if match["name"] and (own := unit_of_name(match[0])):
+            values, unit = {match[0]}, own.symbol
+        elif match["near"]:
+            values, unit = {Fraction(JUST_BEFORE_M)}, "m"
+        elif match["words"] and unit:
+            values = {_value(re.findall("[a-z]+", match[0].lower()))}
+        elif match["digits"]:
+            plain, share = re.sub("[¼½¾]", "", match[0]), match[0][-1]
+            readings = {plain.replace(",", "."), plain.replace(",", "")}  # a decimal comma, or one between thousands
+            more = Fraction(0) if share.isascii() else Fraction(unicodedata.numeric(share))
+            values = {Fraction(each or 0) + more for each in readings if each.count(".") < 2 and each.count("/") < 2}
+        if values:
+            yield Spoken(Span(*match.span()), frozenset(values), unit)
 
 
 def _value(words: list[str]) -> Fraction:
-    total, share = Fraction(0), None
+    total = Fraction(0)
     for word in words:
-        if word == "point":
-            share = Fraction(1, 10)
-        elif word == "hundred":
-            total = (total or Fraction(1)) * 100
-        elif share is not None:
-            total, share = total + _NUMERALS.get(word, Fraction(0)) * share, share / 10
-        else:
-            total += _NUMERALS.get(word, Fraction(0))
-    return total if any(word not in ("a", "an", "and") for word in words) else Fraction(1)
-
-
-def spoken_of(text: str) -> Iterator[Span]:
-    """Yield where `text` speaks of a number or a parameter: all of them must be used."""
-    for match in re.finditer(rf"{_PARAMETER.pattern}|{_NUMBER.pattern}|{_SHARE.pattern}", text):
-        if not match[0][0].isalpha() or unit_of_name(match[0]):
-            yield Span(*match.span())
-    for match in _RUN.finditer(text):
-        if match[0].lower() not in ("a", "an") and _unit_at(text[match.end() :]):
-            yield Span(*match.span())
+        total = max(total, Fraction(1)) * 100 if word == "hundred" else total + _numerals().get(word, 0)
+    return total if set(words) - {"a", "an"} else Fraction(1)

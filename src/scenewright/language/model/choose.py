@@ -7,9 +7,8 @@ is, for `scenewright models`. Keys are looked for, and never told.
 from __future__ import annotations
 
 import os
-import sys
 import tomllib
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from scenewright.errors import InputError, Place
@@ -19,8 +18,8 @@ from scenewright.language.model.settings import TranslatorSettings
 
 AUTO, OFFLINE, FILES = "auto", "offline", "files"
 TRANSLATORS = f"{AUTO}, {OFFLINE}, {', '.join(f'{each}:NAME' for each in KEY_VARIABLES)} or files:DIR"
-_TRIAL_TOKENS = 1000  # for one word; models that think before they write count that too
 TRANSLATOR_VARIABLE, BASE_URL_VARIABLE = "SCENEWRIGHT_TRANSLATOR", "SCENEWRIGHT_BASE_URL"
+_TRIAL_TOKENS = 1000  # for one word; models that think before they write count that too
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,11 +33,9 @@ class Configured:
 
 def settings_file() -> Path:
     """Return where the settings file lies on this platform, whether or not it is there."""
-    home = Path.home()
-    folders = {"win32": os.environ.get("APPDATA") or home / "AppData" / "Roaming",
-               "darwin": home / "Library" / "Application Support"}  # fmt: skip
-    folder = folders.get(sys.platform) or os.environ.get("XDG_CONFIG_HOME") or home / ".config"
-    return Path(folder) / "scenewright" / "settings.toml"
+    from typer import get_app_dir
+
+    return Path(get_app_dir("scenewright")) / "settings.toml"
 
 
 def configured() -> Configured:
@@ -49,14 +46,14 @@ def configured() -> Configured:
     path = settings_file()
     try:
         kept = tomllib.loads(path.read_text(encoding="utf-8"))
+        if not all(name in ("translator", "base_url") and isinstance(value, str) for name, value in kept.items()):
+            raise ValueError(f"it holds {', '.join(kept)}")
     except (FileNotFoundError, NotADirectoryError):
         kept = {}
     except (OSError, ValueError) as error:
-        raise InputError("the settings file cannot be read", place=Place(str(path)), found=str(error)) from None
-    if not all(name in ("translator", "base_url") and isinstance(value, str) for name, value in kept.items()):
         expected = 'translator = "PROVIDER:NAME", base_url = "http://..."; keys stay in the environment or a keyring'
-        message, found = "the settings file holds something else", ", ".join(kept)
-        raise InputError(message, place=Place(str(path)), found=found, expected=expected)
+        message, place = "the settings file cannot be read", Place(str(path))
+        raise InputError(message, place=place, found=str(error), expected=expected) from None
     address = os.environ.get(BASE_URL_VARIABLE, "").strip() or kept.get("base_url")
     if named := os.environ.get(TRANSLATOR_VARIABLE, "").strip():
         return Configured(named, TRANSLATOR_VARIABLE, address)
@@ -75,23 +72,18 @@ def model_named(translator: str, settings: TranslatorSettings) -> Model | None:
         translator = configured().translator
     if translator == OFFLINE:
         return None
-    provider, colon, name = (part.strip() for part in translator.partition(":"))
+    provider, _, name = (part.strip() for part in translator.partition(":"))
     known = provider in (*KEY_VARIABLES, FILES)
-    if not (known and colon and name):
+    if not (known and name):
         message = f"{provider} is named without a model" if known else f"there is no translator {translator}"
-        fix = f"--translator {provider}:NAME" if known else f"--translator {OFFLINE}"
-        raise InputError(message, found=translator, expected=TRANSLATORS, fix=fix)
+        raise InputError(message, found=translator, expected=TRANSLATORS, fix=f"--translator {OFFLINE}")
     from scenewright.language.model.files import FilesModel, Recording, Replayed
     from scenewright.language.model.providers import ServedModel
 
-    model: Model
+    address = settings.base_url or (configured().base_url if provider == "openai-compatible" else None)
+    model: Model = ServedModel(provider, name, address, settings.timeout_s, settings.max_tokens)
     if provider == FILES:
         model = FilesModel(Path(name), settings.reply_wait_s)
-    else:
-        if settings.base_url is None and provider == "openai-compatible":
-            settings = replace(settings, base_url=configured().base_url)
-        limits = (settings.timeout_s, settings.max_tokens, settings.say)
-        model = ServedModel(provider, name, settings.base_url, *limits)
     if settings.replay is not None:
         return Replayed(model.name, settings.replay)
     return model if settings.record is None else Recording(model, settings.record)

@@ -13,7 +13,6 @@ from typing import Any, Literal, Protocol
 
 from scenewright.errors import TranslationError
 
-CHARACTERS_PER_TOKEN = 4  # what English and code come to with the tokenisers of today, near enough for an estimate
 CUT_OFF = "[cut off by the limit of tokens]"  # what stands at the end of a reply that came to no end
 LONGEST_REPLY = 100_000  # characters; a whole reply of a model is some thousands
 
@@ -45,21 +44,19 @@ class Call:
 
 @dataclass(frozen=True, slots=True)
 class Usage:
-    """What was read and written, in tokens; `estimated` where the provider did not say."""
+    """What was read and written, in tokens, where the provider says."""
 
-    calls: int = 0
+    calls: int = 1
     input_tokens: int = 0
     output_tokens: int = 0
-    estimated: bool = False
 
     def __add__(self, other: Usage) -> Usage:
         tokens = self.input_tokens + other.input_tokens, self.output_tokens + other.output_tokens
-        return Usage(self.calls + other.calls, *tokens, self.estimated or other.estimated)
+        return Usage(self.calls + other.calls, *tokens)
 
     def __str__(self) -> str:
         calls = "1 call" if self.calls == 1 else f"{self.calls} calls"
-        how = "estimated from the length of the texts" if self.estimated else "as the provider counts"
-        return f"{calls}, {self.input_tokens} tokens in and {self.output_tokens} out, {how}"
+        return calls + (f", {self.input_tokens} tokens in and {self.output_tokens} out" if self.input_tokens else "")
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +64,7 @@ class Answer:
     """What a model said to one call."""
 
     text: str
-    usage: Usage
+    usage: Usage = Usage()
 
 
 class Model(Protocol):
@@ -76,11 +73,9 @@ class Model(Protocol):
     @property
     def name(self) -> str:
         """Return what the user calls it, such as ``openai:NAME``; never a key or an address."""
-        ...
 
     def reply(self, call: Call) -> Answer:
         """Return the answer to `call`; raises TranslationError where none is to be had."""
-        ...
 
 
 def key_of(model: Model, call: Call) -> str:
@@ -88,9 +83,3 @@ def key_of(model: Model, call: Call) -> str:
     said = [[message.role, message.content] for message in call.messages]
     data = json.dumps([model.name, said], ensure_ascii=False)
     return hashlib.sha256(data.encode("utf-8", "surrogatepass")).hexdigest()[:24]
-
-
-def estimated_usage(call: Call, text: str) -> Usage:
-    """Return an estimate of the tokens of one exchange, and say that it is one."""
-    length = sum(len(message.content) for message in call.messages)
-    return Usage(1, -(-length // CHARACTERS_PER_TOKEN), -(-len(text) // CHARACTERS_PER_TOKEN), estimated=True)

@@ -1,7 +1,7 @@
 """Exchanges as files: somebody who answers by files, and exchanges that are kept and said again.
 
-What enters: calls. What leaves: one JSON file for each request or record, named by the key of its call and written in
-one step, and the text of a reply that somebody has put beside its request. Keys and addresses never come here.
+What enters: calls. What leaves: one JSON file for each request, named by the key of its call, and beside it the text of
+its reply, each written in one step. Keys and addresses never come here.
 """
 
 from __future__ import annotations
@@ -12,17 +12,13 @@ import os
 import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
-
-from pydantic import TypeAdapter, ValidationError
 
 from scenewright.errors import OutputError, Place, TranslationError
-from scenewright.language.model.exchange import LONGEST_REPLY, Answer, Call, GaveUpError, Model, estimated_usage, key_of
+from scenewright.language.model.exchange import LONGEST_REPLY, Answer, Call, GaveUpError, Model, key_of
 from scenewright.language.model.prompt import PROMPT_VERSION
 
-SCHEMA_VERSION = 2
+SCHEMA_VERSION = 3
 _LOOK_EVERY_S = 0.2
-_LONGEST_RECORD = 4_000_000  # bytes: all that was said, more than once where replies were sent back
 
 
 class NoReplyYetError(GaveUpError):
@@ -42,33 +38,24 @@ class FilesModel:
 
         Raises `NoReplyYetError` where neither is there in time; the same call finds the reply later.
         """
-        key = key_of(self, call)
-        request = self.folder / f"{key}.request.json"
-        places = (self.folder / f"{key}.reply.json", self.folder / f"{key}.reply.txt")
-        # The instructions are the same for all texts on a map: whoever answers many reads them once, here.
-        instructions = next((each.content for each in call.messages if each.role == "system"), "")
-        shared = self.folder / f"{hashlib.sha256(instructions.encode()).hexdigest()[:12]}.instructions.md"
-        if not shared.exists():
-            _write_text(shared, instructions)
-        more = {"instructions_file": shared.name, "reply_schema": call.schema, "reply_file": places[0].name}
-        write_whole(request, {**_as_data(call, key), **more})
+        key = _leave(self.folder, self, call)
         until = time.monotonic() + self.wait_s
-        while (text := next(filter(None, map(_read, places)), None)) is None:
+        while (text := _reply(self.folder, key)) is None:
             if (left := until - time.monotonic()) <= 0:
-                raise NoReplyYetError(
+                place, message = (
+                    Place(str(self.folder / f"{key}.request.json")),
                     f"there is no reply yet to request {key}",
-                    place=Place(str(request)),
-                    expected=f"the reply, as JSON in {places[0].name} or as a model's own text in {places[1].name}",
-                    fix="write the reply beside the request and run the same command again, "
-                    "or wait for it with --reply-wait SECONDS",
                 )
+                either = f"the reply, as JSON in {key}.reply.json or as a model's own text in {key}.reply.txt"
+                fix = "write it there and run the same command again, or wait for it with --reply-wait SECONDS"
+                raise NoReplyYetError(message, place=place, expected=either, fix=fix)
             time.sleep(min(_LOOK_EVERY_S, left))
-        return Answer(text, estimated_usage(call, text))
+        return Answer(text)
 
 
 @dataclass(frozen=True, slots=True)
 class Recording:
-    """A model whose exchanges are kept in `folder`."""
+    """A model whose exchanges are kept in `folder`, as files of the same form."""
 
     model: Model
     folder: Path
@@ -80,9 +67,8 @@ class Recording:
 
     def reply(self, call: Call) -> Answer:
         """Return the model's answer, and keep it with the call."""
-        answer, key = self.model.reply(call), key_of(self.model, call)
-        data = {**_as_data(call, key), "model": self.name, "answer": asdict(answer)}
-        write_whole(self.folder / f"{key}.json", data)
+        answer = self.model.reply(call)
+        _write(self.folder / f"{_leave(self.folder, self, call)}.reply.txt", answer.text)
         return answer
 
 
@@ -95,54 +81,55 @@ class Replayed:
 
     def reply(self, call: Call) -> Answer:
         """Return what was answered when this call was recorded; raises TranslationError where it was not."""
-        path = self.folder / f"{key_of(self, call)}.json"
-        if (text := _read(path, _LONGEST_RECORD)) is None:
-            raise TranslationError(
-                "this exchange was not recorded",
-                place=Place(str(self.folder)),
-                found=f"no {path.name}",
-                expected=f"a record of {self.name} for this text, map and prompt (version {PROMPT_VERSION})",
-                fix="record it once with --record DIR in place of --replay DIR",
-            )
+        if (text := _reply(self.folder, key_of(self, call))) is not None:
+            return Answer(text)
+        expected = f"a record of {self.name} for this text, map and prompt (version {PROMPT_VERSION})"
+        fix = "record it once with --record DIR in place of --replay DIR"
+        raise TranslationError(
+            "this exchange was not recorded", place=Place(str(self.folder)), expected=expected, fix=fix
+        )
+
+
+def _leave(folder: Path, model: Model, call: Call) -> str:
+    """Write a request with all that whoever answers needs; return the key that it is kept under."""
+    key = key_of(model, call)
+    # The instructions are the same for all texts on a map: whoever answers many reads them once, here.
+    instructions = next((each.content for each in call.messages if each.role == "system"), "")
+    shared = f"{hashlib.sha256(instructions.encode()).hexdigest()[:12]}.instructions.md"
+    _write(folder / shared, instructions)
+    request = {"schema_version": SCHEMA_VERSION, "key": key, "prompt_version": PROMPT_VERSION, "model": model.name,
+               "attempt": call.attempt, "map": call.map_name, "description": call.description,
+               "messages": [asdict(message) for message in call.messages], "instructions_file": shared,
+               "reply_schema": call.schema, "reply_file": f"{key}.reply.json"}  # fmt: skip
+    _write(folder / f"{key}.request.json", json.dumps(request, indent=2, ensure_ascii=False) + "\n")
+    return key
+
+
+def _reply(folder: Path, key: str) -> str | None:
+    """Return the reply that lies in a folder, its first bytes where it is too long; None where there is none."""
+    for path in (folder / f"{key}.reply.json", folder / f"{key}.reply.txt"):
         try:
-            return TypeAdapter(Answer).validate_python(json.loads(text)["answer"])
-        except (ValidationError, ValueError, KeyError, TypeError, RecursionError):
-            fix = "record it again with --record DIR"
-            raise TranslationError("a record cannot be read", place=Place(str(path)), fix=fix) from None
+            with path.open("rb") as file:
+                raw = file.read(4 * LONGEST_REPLY + 1)
+        except (FileNotFoundError, NotADirectoryError):
+            continue
+        except OSError as error:
+            fix = "make it readable"
+            raise TranslationError(
+                "a reply cannot be read", place=Place(str(path)), found=str(error), fix=fix
+            ) from None
+        if raw.strip():
+            return raw.decode("utf-8", errors="replace")
+    return None
 
 
-def _as_data(call: Call, key: str) -> dict[str, Any]:
-    """Return a call as it stands in files."""
-    version = {"schema_version": SCHEMA_VERSION, "key": key, "prompt_version": PROMPT_VERSION}
-    said = {"description": call.description, "messages": [asdict(message) for message in call.messages]}
-    return {**version, "attempt": call.attempt, "map": call.map_name, **said}
-
-
-def _read(path: Path, longest: int = 4 * LONGEST_REPLY) -> str | None:
-    """Return the text of a file, its first `longest` bytes and one more; None where there is none, or nothing in it."""
-    try:
-        with path.open("rb") as file:
-            raw = file.read(longest + 1)
-    except (FileNotFoundError, NotADirectoryError):
-        return None
-    except OSError as error:
-        place, found = Place(str(path)), error.strerror or str(error)
-        raise TranslationError("a reply cannot be read", place=place, found=found, fix="make it readable") from None
-    return raw.decode("utf-8", errors="replace") if raw.strip() else None
-
-
-def write_whole(path: Path, data: object) -> None:
-    """Write `data` as JSON in one step, so that nobody reads half of it; raises OutputError where that fails."""
-    _write_text(path, json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
-
-
-def _write_text(path: Path, text: str) -> None:
+def _write(path: Path, text: str) -> None:
+    """Write a file in one step, so that nobody reads half of it; raises OutputError where that fails."""
     temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         temporary.write_text(text, encoding="utf-8", errors="replace")
         os.replace(temporary, path)
     except OSError as error:
-        place, found = Place(str(path)), error.strerror or str(error)
         message, fix = "an exchange with the model cannot be written", "choose a folder that can be written"
-        raise OutputError(message, place=place, found=found, fix=fix) from None
+        raise OutputError(message, place=Place(str(path)), found=str(error), fix=fix) from None

@@ -6,7 +6,7 @@ words do not tell. Words that nobody knows are no fault: they only leave more op
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from scenewright.errors import Span
@@ -25,11 +25,12 @@ def people(*chunks: Chunk) -> set[int]:
     return {int(number) for each in chunks if each.kind == "who" for number in each.value.split()}
 
 
-def _lies_in(chunk: Chunk, span: Span) -> bool:
-    return span.start <= chunk.start + len("the ") * (chunk.kind == "place") and chunk.end <= span.end
+def lies_in(start: int, end: int, spans: Sequence[Span]) -> bool:
+    """Whether a stretch lies in one of `spans`."""
+    return any(each.start <= start and end <= each.end for each in spans)
 
 
-def is_head(own: Sequence[Chunk], at: int) -> bool:
+def _is_head(own: Sequence[Chunk], at: int) -> bool:
     """Whether a name or "it" is whom a clause speaks of: it stands at its beginning."""
     if own[at].kind != "who" and (own[at].kind, own[at].value) != ("pronoun", "it"):
         return False
@@ -70,7 +71,9 @@ class Heard:
 
     def within(self, span: Span) -> list[Chunk]:
         """Return the chunks that lie in a stretch, whether or not it begins with their article."""
-        return [each for own in self.said for each in own if _lies_in(each, span)]
+        articles = {"place": len("the ")}
+        return [each for own in self.said for each in own
+                if lies_in(each.start + articles.get(each.kind, 0), each.end, [span])]  # fmt: skip
 
     def sentence(self, at: int) -> tuple[int, list[Chunk], int]:
         """Return the number and the chunks of the sentence at a place of the text, and which chunk is there."""
@@ -78,61 +81,49 @@ class Heard:
         own = self.said[number]
         return number, own, next((index for index, each in enumerate(own) if each.end > at), len(own) - 1)
 
-    def clause(self, at: int, span: Span) -> list[Chunk]:
-        """Return the chunks of a stretch that are of the same clause as a place in it."""
+    def clause(self, at: int) -> list[Chunk]:
+        """Return the chunks at a place of the text from whom it speaks of to whom it speaks of next."""
         _, own, index = self.sentence(at)
-        parts = [place for place, each in enumerate(own) if each.kind == "link" or is_head(own, place)]
+        parts = [place for place, each in enumerate(own) if each.kind == "link" or _is_head(own, place)]
         start = max((place for place in parts if place <= index), default=0)
-        end = min((place for place in parts if place > index), default=len(own))
-        return [each for each in own[start:end] if _lies_in(each, span)]
+        return own[start : min((place for place in parts if place > index), default=len(own))]
 
-    def subjects(self, at: int) -> tuple[set[int], int | None]:
-        """Return who may be spoken of at a place, and where the "it" is that stands for it."""
+    def place(self, at: int) -> str | None:
+        """Return the place that an amount is counted to: the nearest, in its own clause and after it where there is."""
+        (_, own, _), near = self.sentence(at), self.clause(at)
+        places = [each for each in own if each.kind == "place"]
+        return (
+            min(places, key=lambda each: (each not in near, each.start < at, abs(each.start - at))).value
+            if places
+            else None
+        )
+
+    def subjects(self, at: int) -> set[int]:
+        """Return who may be spoken of at a place: the nearest, whom the clause is of before others."""
         number, own, index = self.sentence(at)
         beside = next((each for each in own[index + 1 :] if each.kind not in _COLOURS), None)
         if own[index].kind in _COLOURS and beside and beside.kind == "who":
-            return people(beside), None  # "a westbound truck"
-        start = max((place + 1 for place in range(index) if own[place].kind in _CUTS), default=0)
-        end = next((place for place in range(index, len(own)) if own[place].kind in _CUTS), len(own))
-        heads = [place for place in range(len(own)) if is_head(own, place)]
-        names = [place for place, each in enumerate(own) if each.kind == "who"]
-        behind = [place for place in names if index <= place < end and place and own[place - 1].kind == "side"
-                  and own[place - 1].value not in _NOT_OF_WHOM
-                  and (own[max(place - 2, 0)].kind != "place" or own[place - 1].value == "for")]  # fmt: skip
-        beside_it = own[index].amount and index - 1 in names and (index < 2 or own[index - 2].kind != "side")
-        for found in (  # from the nearest to the farthest; "3 s for the ego" names it behind
-            [index - 1] if beside_it else [],  # "sees the hero 20 m before the stop line"
-            [place for place in heads if start <= place <= index][-1:],
-            [place for place in names if start <= place <= index][-1:] or behind[:1],
-            [place for place in heads if place <= index][-1:],
-            [place for place in names if place <= index][-1:],
-            [place for place in heads if place > index][:1],
-        ):
-            if found and own[found[0]].kind == "who":
-                return people(own[found[0]]), None
-            if found:
-                return people(*own[: found[0]]) | self._before(number), own[found[0]].start
-        return self._before(number), None
+            return people(beside)  # "a westbound truck"
+        cuts = [place for place, each in enumerate(own) if each.kind in _CUTS]
+        start = max((place for place in cuts if place < index), default=-1)
+        end = min((place for place in cuts if place >= index), default=len(own))
 
-    def _before(self, sentence: int) -> set[int]:
-        """Return everybody of the nearest sentence before that names anybody."""
-        return next(filter(None, (people(*own) for own in reversed(self.said[:sentence]))), set())
+        def rank(place: int) -> tuple[bool, bool, bool, bool, int]:
+            side = own[place - 1] if place and own[place - 1].kind == "side" else None
+            of_place = place > 1 and own[place - 2].kind == "place" and side is not None and side.value != "for"
+            told = side is not None and side.value not in _NOT_OF_WHOM and not of_place  # "3 s for the ego"
+            object_ = (
+                own[index].amount is not None and place == index - 1 and side is None
+            )  # "sees the hero 20 m before"
+            behind = place > index
+            head = _is_head(own, place)
+            return not object_, behind and not (told and place < end), place < start, not head, abs(place - index)
 
-    def places(self, at: int) -> set[str]:
-        """Return the places that an amount may be counted to: those of its own clause, else the nearest after it."""
-        _, own, index = self.sentence(at)
-        heads = [place for place in range(len(own)) if is_head(own, place)]
-        start = max((place for place in heads if place < index), default=0)
-        end = min((place for place in heads if place > index), default=len(own))
-        near = _nearest(own[index + 1 : end]) | _nearest(own[start:index][::-1])
-        return near or _nearest(own[index + 1 :], over=True) or _nearest(own[:index][::-1], over=True)
-
-
-def _nearest(chunks: Iterable[Chunk], over: bool = False) -> set[str]:
-    """Return the first place in `chunks`; `over` other amounts too."""
-    for each in chunks:
-        if each.kind == "place":
-            return {each.value}
-        if each.amount is not None and each.amount.dimension in ("length", "time") and not over:
-            break
-    return set()
+        found = min(
+            (place for place, each in enumerate(own) if each.kind == "who" or _is_head(own, place)), key=rank, default=0
+        )
+        if own[found].kind == "who":
+            return people(own[found])
+        # "It", or nobody: those named before in the sentence, and everybody of the nearest one that names anybody.
+        earlier = next(filter(None, (people(*each) for each in reversed(self.said[:number]))), set[int]())
+        return people(*own[:found]) | earlier

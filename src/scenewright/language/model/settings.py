@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from scenewright.language.story import Question
-    from scenewright.program.types import Program
 
 DEFAULT_REPAIRS = 3
 DEFAULT_TIMEOUT_S = 120.0
@@ -29,12 +28,9 @@ class TranslatorSettings:
     record: Path | None = None  # folder in which exchanges are kept
     replay: Path | None = None  # folder from which replies are taken, without asking anybody
     timeout_s: float = DEFAULT_TIMEOUT_S  # for one reply, waits that a busy server asks for included
-    reply_wait_s: float = (
-        0.0  # for a reply file of ``files:DIR``; with 0 the request is left there and the call gives up
-    )
+    reply_wait_s: float = 0.0  # for a reply file of ``files:DIR``; with 0 the call gives up and leaves the request
     max_tokens: int = DEFAULT_MAX_TOKENS  # that one reply may hold
     ask: Callable[[Question], str] | None = None  # the user's choice; None where nobody can be asked
     answers: Mapping[str, str] = field(default_factory=dict)  # that were given before, by the slot of their question
     second_opinion: bool = False  # let a second call judge the story that was told
-    verify: Callable[[Program], str | None] | None = None  # says why a program cannot happen
     say: Callable[[str], None] | None = None  # told what is being waited for

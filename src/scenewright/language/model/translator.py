@@ -31,24 +31,12 @@ _KEPT_OF_A_REPLY = 20_000  # characters that go back: a flood is not paid for tw
 
 @dataclass(frozen=True, slots=True)
 class Told:
-    """What a model made of a text.
+    """What a model made of a text."""
 
-    Attributes
-    ----------
-    story
-        With quotes that point into the text, and the questions that are still open.
-    notes
-        What is worth telling: how the calls went, the model, the version of the prompt, the tokens.
-    calls
-        The tokens of each call.
-    answers
-        What the user answered, by slot.
-    """
-
-    story: st.Story
-    notes: tuple[str, ...]
-    calls: tuple[Usage, ...]
-    answers: dict[str, str] = field(default_factory=dict)
+    story: st.Story  # with quotes that point into the text, and the questions that are still open
+    notes: tuple[str, ...]  # how the calls went, the model, the version of the prompt, the tokens
+    calls: tuple[Usage, ...]  # the tokens of each call
+    answers: dict[str, str] = field(default_factory=dict)  # what the user answered, by slot
 
 
 def story_by_model(text: str, road_map: RoadMap, name: str, model: Model, settings: TranslatorSettings) -> Told:
@@ -58,8 +46,6 @@ def story_by_model(text: str, road_map: RoadMap, name: str, model: Model, settin
     reply is to be had at all (then with exit status 4).
     """
     check_description(text, name)
-    if not text.strip():
-        raise TranslationError("the text is empty", place=Place(name), fix="say what should happen")
     return _Conversation(text, road_map, name, model, settings).told()
 
 
@@ -86,15 +72,13 @@ class _Conversation:
         answers = self._answers(asked)
         taken = {each.slot: None if each.default is None else each.alternatives[each.default] for each in asked}
         new = {
-            each.text: answers[each.slot]
-            for each in asked
-            if answers.get(each.slot, taken[each.slot]) != taken[each.slot]
+            each.text: answers[each.slot] for each in asked if answers.get(each.slot) not in (None, taken[each.slot])
         }
         if new:
             self.messages = (*self.messages, Message("assistant", said), prompt.answered(new))
             story, _ = self._until_it_holds()
         questions = tuple(each for each in (*story.questions, *more) if each.slot not in answers)
-        self.notes.append(f"{self.model.name}, prompt {prompt.fingerprint(self.road_map)}: {sum(self.calls, Usage())}")
+        self.notes.append(f"{self.model.name}, prompt {prompt.fingerprint(self.road_map)}: {sum(self.calls, Usage(0))}")
         return Told(replace(story, questions=questions), tuple(self.notes), self.calls, answers)
 
     def _answers(self, asked: tuple[st.Question, ...]) -> dict[str, str]:
@@ -119,7 +103,7 @@ class _Conversation:
             except ScenewrightError as fault:
                 last = fault.message + (f" ({fault.found})" if fault.found else "")
                 if not left:
-                    message = f"{self.model.name} gave no story that holds: {sum(self.calls, Usage())}"
+                    message = f"{self.model.name} gave no story that holds: {sum(self.calls, Usage(0))}"
                     fix = "say it in plainer sentences, try another model or more of --repairs, or --translator offline"
                     raise TranslationError(message, found=f"in the last reply: {last}", fix=fix) from None
                 said = Message("assistant", answer.text[:_KEPT_OF_A_REPLY])
@@ -155,7 +139,6 @@ class _Conversation:
                 raise
             raise _CannotBeSaidError(error) from None
         ground(program, self.road_map)
-        _check_turns(placed)
         return story
 
     def _ask(self, messages: tuple[Message, ...], schema: dict[str, Any]) -> Answer:
@@ -184,13 +167,3 @@ class _Conversation:
         asked = (f"A second reading differs: {each} Is the story right?" for each in sentences)
         choice = (AS_TOLD, NOT_AS_TOLD)
         return [st.Question(f"second opinion {number}", text, choice) for number, text in enumerate(asked, start=1)]
-
-
-def _check_turns(story: st.Story) -> None:
-    """Refuse an event of a turn of somebody who goes straight on: it has a place on the way there, but no meaning."""
-    for each in (atom for moment in story.moments for condition in moment.conditions for atom in st.atoms(condition)):
-        if each.place and each.place.name in ("turn_start", "turn_end"):
-            owner = story.actors[each.actor if each.place.of is None else each.place.of]
-            if owner.way.turn == "straight":
-                found, expected = each.quote.text if each.quote else None, "a place on its own way, or a question"
-                raise TranslationError(f"{owner.name} does not turn", found=found, expected=expected)
