@@ -113,29 +113,27 @@ class _Evidence(Measured):
         return chunk.value
 
     # -- moments, deeds, orders, holds --------------------------------------------------------------------------------
-    def _told_at(self, number: int) -> Iterator[tuple[set[int], st.Quote | None]]:
-        """Yield who does or is something at a moment, with the words for it."""
+    def _told_at(self, number: int, link: str = "") -> Iterator[tuple[set[int], st.Quote | None]]:
+        """Yield who does or is something at a moment, with the words for it; "when" a deed begins, "until" it ends."""
         moment = self.claim.story.moments[number]
         for each in (atom for condition in moment.conditions for atom in st.atoms(condition)):
             yield st.people_in(each), each.quote
         for deed in self.claim.story.deeds:
-            if number in (deed.begins, deed.ends):
-                yield {deed.actor}, deed.quote if number == deed.begins or not moment.conditions else None
+            if number == deed.begins or (number == deed.ends and link == "until"):
+                yield {deed.actor}, deed.quote if link != "until" or number == deed.ends else None
+            elif number == deed.ends:
+                yield {deed.actor}, deed.quote if not moment.conditions and link != "when" else None
 
     def _time(self, number: int, moment: st.Moment) -> Iterator[str]:
         """Check that a moment's time is told with what is so then."""
         yield from self.amount(moment.time)
         quote = moment.time.quote if moment.time else None
-        if quote is None:
-            return
-        sentence, own, index = self.heard.sentence(quote.start)
-        link = next((each.value for each in reversed(own[:index]) if each.kind == "link"), "")
-        near = {self.heard.sentence(words.start)[0] for _, words in self._told_at(number) if words}
-        # "When" a deed begins, "until" it ends.
-        turned = {each.begins if link == "until" else each.ends for each in self.claim.story.deeds
-                  if each.quote and lies_in(quote.start, quote.end, [each.quote.span])}  # fmt: skip
-        if (near and sentence not in near) or (link in ("when", "until") and number in turned):
-            yield f"'{quote.text}' is not told with what is so then: say it as an order from start"
+        if quote is not None:
+            sentence, own, index = self.heard.sentence(quote.start)
+            link = next((each.value for each in reversed(own[:index]) if each.kind == "link"), "")
+            near = {self.heard.sentence(words.start)[0] for _, words in self._told_at(number, link) if words}
+            if near and sentence not in near:
+                yield f"'{quote.text}' is not told with what is so then: say it as an order from start"
 
     def _deed(self, deed: st.Deed) -> Iterator[str]:
         for measure in deed.throughout:

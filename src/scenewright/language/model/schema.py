@@ -71,10 +71,6 @@ def descriptions() -> dict[str, dict[str, str]]:
     return tomllib.loads(files(__package__ or "").joinpath("slots.toml").read_text(encoding="utf-8"))
 
 
-def _is_part(kind: Any) -> bool:
-    return is_dataclass(kind)
-
-
 def _made(name: str, slots: _Slots) -> Any:
     told, made = descriptions().get(name.rstrip("0123456789"), {}), dict[str, Any]()
     for slot, (kind, default) in slots.items():
@@ -113,20 +109,14 @@ def _kind(hint: Any, depth: int, slot: tuple[Any, str]) -> Any:
         return list[_kind(parts[0], depth, slot)]  # type: ignore[misc]
     if hint in (str, int, Fraction):  # numbers of actors and moments are names; a number is written in digits
         return _WORDS.get(slot, Words)
-    return form_of(hint, depth) if _is_part(hint) else hint
+    return form_of(hint, depth) if hasattr(hint, "__dataclass_fields__") else hint
 
 
 Assumption: Any = _made("Assumption", {"words": (Words, ""), "says": (Words, ...)})
 _READING: Any = _made("Reading", {"words": (Words, ...), "means": (Words, ...)})
 _REFUSAL: Any = _made("Refusal", {"reason": (Words, ...), "words": (Words, ""), "fix": (Words, "")})
-Reply: type[BaseModel] = _made(
-    "Reply",
-    {
-        "readings": (list[_READING], []),
-        "refusal": (_REFUSAL | None, None),
-        "story": (form_of(st.Story) | None, None),
-    },
-)
+_SLOTS: _Slots = {"readings": (list[_READING], []), "refusal": (_REFUSAL | None, None)}
+Reply: type[BaseModel] = _made("Reply", {**_SLOTS, "story": (form_of(st.Story) | None, None)})
 
 
 def reply_schema() -> dict[str, Any]:
@@ -141,7 +131,7 @@ def sheet() -> str:
     lines: list[str] = []
     part: Any
     for part in parts:
-        form: Any = form_of(part) if _is_part(part) else part
+        form: Any = form_of(part) if hasattr(part, "__dataclass_fields__") else part
         lines.append(f"\n{part.__name__}")
         for name, slot in form.model_fields.items():
             words = [json.dumps(word) for word in _KNOWN.get((part, name), ())] or [_shown(slot.annotation)]
@@ -173,12 +163,9 @@ def read_reply(text: str) -> Any:
     >>> read_reply('Here you are: {"refusal": {"reason": "It is a recipe."}}').refusal.reason
     'It is a recipe.'
     """
-    if len(text) > LONGEST_REPLY:
-        most = f"one JSON object of at most {LONGEST_REPLY} characters"
-        raise TranslationError("the reply is too long", found=f"{len(text)} characters", expected=most)
-    if text.endswith(CUT_OFF):
-        shorter = "a shorter reply: the JSON object alone, each reading in a few words"
-        raise TranslationError("the reply is cut off", found="more tokens than --max-tokens allows", expected=shorter)
+    if len(text) > LONGEST_REPLY or text.endswith(CUT_OFF):
+        most = f"one JSON object of at most {LONGEST_REPLY} characters and --max-tokens tokens, readings in a few words"
+        raise TranslationError("the reply is too long, or cut off", found=f"{len(text)} characters", expected=most)
     try:
         reply: Any = Reply.model_validate(_object_in(text))
     except ValidationError as error:
@@ -191,21 +178,19 @@ def read_reply(text: str) -> Any:
 
 
 def _object_in(text: str) -> object:
-    fault = ""
+    begins = str(_plain(text[:160]))
+    fault = f"no JSON object; it begins: {begins}" if begins else "an empty reply"
     for match in list(re.finditer(r"\{", text))[:50]:
         try:
             value, _ = json.JSONDecoder().raw_decode(text, match.start())
+            if value.keys() & Reply.model_fields.keys():
+                return value
         except json.JSONDecodeError as error:
-            fault = fault or f"{error.msg} at character {error.pos} of the reply"
+            fault = f"no JSON object: {error.msg} at character {error.pos}; it begins: {begins}"
         except (RecursionError, ValueError):
             fault = "an object or a number without end"
             break
-        else:
-            if isinstance(value, dict) and value.keys() & Reply.model_fields.keys():
-                return value
-    begins = str(_plain(text[:160]))
-    found = f"{fault or 'no JSON object'}; it begins: {begins}" if begins else "an empty reply"
-    raise TranslationError("the reply holds no JSON object that can be read", found=found, expected="one JSON object")
+    raise TranslationError("the reply holds no JSON object that can be read", found=fault, expected="one JSON object")
 
 
 # -- from names and words to numbers and positions ------------------------------------------------------------------
@@ -264,20 +249,19 @@ class _Reader:
         quote = None
         if "words" in type(form).model_fields and cls is not st.Way:
             quote = self.quote(form.words, within if cls is st.Amount else None)
-        values: dict[str, Any] = {}
+        inner, values = quote.span if quote else None, dict[str, Any]()
+        made: dict[str, Any] = {
+            "quote": lambda: self._mention(form.called) if cls is st.Actor else quote,
+            "id": lambda: self.names["actor"][form.name],
+            "asides": lambda: tuple(filter(None, map(self.quote, form.asides))),
+            "assumptions": lambda: tuple(assumption.says for assumption in form.assumptions),
+        }
+        if cls is st.Question:
+            made["default"] = lambda: self._default(form)
         for each in fields(cls):
-            if each.name == "quote":
-                values["quote"] = self._mention(form.called) if cls is st.Actor else quote
-            elif each.name == "id":
-                values["id"] = self.names["actor"][form.name]
-            elif each.name == "asides":
-                values["asides"] = tuple(filter(None, map(self.quote, form.asides)))
-            elif each.name == "assumptions":
-                values["assumptions"] = tuple(assumption.says for assumption in form.assumptions)
-            elif cls is st.Question and each.name == "default":
-                values["default"] = self._default(form)
+            if each.name in made:
+                values[each.name] = made[each.name]()
             elif each.name not in OURS.get(cls, ()):
-                inner = quote.span if quote else None
                 values[each.name] = self._value(_hints(cls)[each.name], getattr(form, each.name), inner, each.name)
         if cls is st.Amount:
             self._check_amount(form)
