@@ -12,15 +12,15 @@ import pytest
 from scenewright.errors import InputError, OutputError, ParameterError, ScenewrightError, TranslationError
 from scenewright.judge.files import judge_run_directory
 from scenewright.judge.tolerance import LOOSE, TIGHT
-from scenewright.language.model.settings import TranslatorSettings
-from scenewright.language.questions import read_answers
-from scenewright.language.sources import read_scenario
 from scenewright.orchestrate import EXIT_STATUS, Request, Result, orchestrate
 from scenewright.program.printer import print_program
 from scenewright.program.resolve import resolve
 from scenewright.program.text import parse_program
 from scenewright.roads import find_conflict
 from scenewright.trace.files import read_trace
+from scenewright.translate.model.settings import TranslatorSettings
+from scenewright.translate.questions import read_answers
+from scenewright.translate.sources import read_scenario
 
 SENTENCE = (
     "The ego drives westbound and is 90 m before the intersection. An oncoming hero turns left into the driveway. "

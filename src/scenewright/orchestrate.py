@@ -23,8 +23,6 @@ from scenewright.explain.cause import cause_of
 from scenewright.explain.ways_out import ways_out
 from scenewright.judge.tolerance import LOOSE, TIGHT, dimension_of
 from scenewright.judge.tolerance import Tolerance as Tolerances
-from scenewright.language.model.settings import TranslatorSettings
-from scenewright.language.sources import read_scenario
 from scenewright.plan.planner import Attempt
 from scenewright.plan.rehearsal import Rehearsed
 from scenewright.program.check import check_values
@@ -42,16 +40,18 @@ from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
 from scenewright.solve.holding import NotHeld, not_held
 from scenewright.solve.limits import Limits
+from scenewright.translate.model.settings import TranslatorSettings
+from scenewright.translate.sources import read_scenario
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from scenewright.judge.case import Case
     from scenewright.judge.verdict import Condition, Verdict
-    from scenewright.language.understand import Understanding
     from scenewright.program.types import Program
     from scenewright.solve.proofs.witness import Witness
     from scenewright.trace.model import Trace
+    from scenewright.translate.understand import Understanding
 
 Mode = Literal["closed", "open"]
 PlannerName = Literal["convex", "smt"]

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from sentences import SENTENCE
 
-from scenewright.language.model.prompt import examples
+from scenewright.translate.model.prompt import examples
 
 Command = Callable[..., Any]
 

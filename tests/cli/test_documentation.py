@@ -14,11 +14,11 @@ import pytest
 
 from scenewright.cli.app import app
 from scenewright.errors import TranslationError
-from scenewright.language.understand import understand
 from scenewright.plan.preferences import preferences_of
 from scenewright.program.manner import USUAL
 from scenewright.program.printer import print_program
 from scenewright.program.text import parse_program
+from scenewright.translate.understand import understand
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 
-from scenewright.language.understand import understand
 from scenewright.orchestrate import Request, orchestrate
 from scenewright.program.check import check_program
 from scenewright.program.printer import print_expression, print_program
@@ -17,6 +16,7 @@ from scenewright.roads.load import load_map
 from scenewright.study.benchmark import BenchmarkRow, benchmark_row, benchmark_rows, draw_row
 from scenewright.study.benchmark.draws import range_of
 from scenewright.study.meaning import differences
+from scenewright.translate.understand import understand
 
 TAXONOMY = Path(__file__).resolve().parents[2].parent / "shared" / "paper" / "taxonomy.csv"
 HEADINGS = {

@@ -18,8 +18,8 @@ def models(as_json: AsJson = False) -> None:
     """Show which language model reads descriptions, and try it with one call."""
     with told(as_json):
         from scenewright.cli import tables
-        from scenewright.language.model import choose
-        from scenewright.language.model.keys import KEY_VARIABLES
+        from scenewright.translate.model import choose
+        from scenewright.translate.model.keys import KEY_VARIABLES
 
         found = choose.configured()
         keys = [name for names in KEY_VARIABLES.values() for name in names if os.environ.get(name, "").strip()]

@@ -19,7 +19,7 @@ from scenewright.cli.options import SOURCE, AsJson, MapName, Translator
 from scenewright.cli.running import carry_out, data_without_a_run, tell_map_notes, tell_no_plan
 from scenewright.cli.translators import Asked, with_asked, with_translator
 from scenewright.errors import InputError, OutputError, Place
-from scenewright.language.model.settings import TranslatorSettings
+from scenewright.translate.model.settings import TranslatorSettings
 
 ProgramFile = Annotated[
     Path | None,
@@ -54,8 +54,8 @@ def translate(
             raise InputError(
                 "there is no description", expected='"TEXT"|FILE', fix='scenewright translate "The ego drives ..."'
             )
-        from scenewright.language.sources import read_scenario
         from scenewright.program.printer import print_program
+        from scenewright.translate.sources import read_scenario
 
         program, understanding = read_scenario(source, translator, map_name, settings)
         text = print_program(program)
@@ -77,10 +77,10 @@ def translate(
 
 def _show_prompt(source: str | None, map_name: str | None) -> None:
     """Print the messages that begin a translation by a model, word by word."""
-    from scenewright.language.model.prompt import fingerprint, opening
-    from scenewright.language.sources import text_of
     from scenewright.program.types import DEFAULT_MAP
     from scenewright.roads.load import load_map
+    from scenewright.translate.model.prompt import fingerprint, opening
+    from scenewright.translate.sources import text_of
 
     road_map = load_map(map_name or DEFAULT_MAP)
     text = "(your description)" if source is None else text_of(source)[0]

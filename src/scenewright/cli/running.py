@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from scenewright.judge.verdict import Verdict
-    from scenewright.language.story import Question
     from scenewright.orchestrate import Request, Result, Stop
+    from scenewright.translate.story import Question
 
 _SAYS = {
     "translate": "reading the description",

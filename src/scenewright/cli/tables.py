@@ -21,10 +21,10 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from scenewright.judge.verdict import Condition, Verdict
-    from scenewright.language.understand import Understanding
     from scenewright.program.types import Program
     from scenewright.roads.grounding import Scene
     from scenewright.solve.plan import Plan
+    from scenewright.translate.understand import Understanding
 
 # Conditions of these kinds are the same in every run; they are shown one by one only where one fails.
 ROUTINE = ("route", "safety")
@@ -52,7 +52,7 @@ def facts(rows: Iterable[tuple[str, str | Text]]) -> Table:
 # -- the scenario ---------------------------------------------------------------------------------------------------
 def tell_understood(console: Console, program: Program, understanding: Understanding | None) -> None:
     """Print what was understood, sentence by sentence with the words it came from, and what was taken for granted."""
-    from scenewright.language.lines import lines_of_program
+    from scenewright.translate.lines import lines_of_program
 
     if understanding is None:
         lines, heads = lines_of_program(program), ("what the program says", "the words beside it")
@@ -70,7 +70,7 @@ def tell_understood(console: Console, program: Program, understanding: Understan
 
 def understanding_data(program: Program, understanding: Understanding | None) -> dict[str, Any]:
     """Return what was understood as plain data; of a program what it says."""
-    from scenewright.language.lines import lines_of_program
+    from scenewright.translate.lines import lines_of_program
 
     if understanding is not None:
         return understanding.as_data()
@@ -102,7 +102,7 @@ def parameter_data(scene: Scene, given: Iterable[str]) -> dict[str, dict[str, fl
 # -- the plan -------------------------------------------------------------------------------------------------------
 def knots(scene: Scene, plan: Plan) -> Table:
     """Return when and where each actor is at its moments, and how it goes on from there."""
-    from scenewright.language.lines import told_knots
+    from scenewright.translate.lines import told_knots
 
     numbers = ("time s", "position m", "speed m/s", "then m/s^2")
     made = table("actor", "when", "time s", "position m", "place", "speed m/s", "then m/s^2", right=numbers)

@@ -13,9 +13,9 @@ from scenewright.cli.options import AsJson, MapName, Source
 def tell(source: Source, map_name: MapName = None, as_json: AsJson = False) -> None:
     """Tell a program in plain English: who there is, the moment, and what happens, one line each."""
     with told(as_json):
-        from scenewright.language.decompile import decompile
-        from scenewright.language.sources import read_scenario
-        from scenewright.language.tell import tell as told_story
+        from scenewright.translate.decompile import decompile
+        from scenewright.translate.sources import read_scenario
+        from scenewright.translate.tell import tell as told_story
 
         program, understanding = read_scenario(source, map_name=map_name)
         sentences = told_story(understanding.story if understanding else decompile(program))

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 import typer
 
 from scenewright.cli.options import Ego, MapName, Parameters, Source, Translator, parameters_of
-from scenewright.language.model.settings import (
+from scenewright.translate.model.settings import (
     DEFAULT_MAX_TOKENS,
     DEFAULT_REPAIRS,
     DEFAULT_TIMEOUT_S,
@@ -25,8 +25,8 @@ from scenewright.language.model.settings import (
 )
 
 if TYPE_CHECKING:
-    from scenewright.language.story import Question
     from scenewright.orchestrate import Request
+    from scenewright.translate.story import Question
 
 _PANEL = "Translation"
 T = TypeVar("T")
@@ -109,7 +109,7 @@ def _settings(
     ] = None,
 ) -> TranslatorSettings:
     """Return the settings that these options say."""
-    from scenewright.language.questions import read_answers
+    from scenewright.translate.questions import read_answers
 
     return TranslatorSettings(
         base_url=base_url,
@@ -177,7 +177,7 @@ def ask(question: Question) -> str:
     OpenQuestionsError
         At the end of the input where there is no default.
     """
-    from scenewright.language.questions import OpenQuestionsError
+    from scenewright.translate.questions import OpenQuestionsError
 
     words = f'  ("{question.quote.text}")' if question.quote else ""
     lines = [f"\n{question.text}{words}"]

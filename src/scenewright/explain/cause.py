@@ -21,13 +21,13 @@ from scenewright.explain.evidence import (
 from scenewright.explain.in_way import hero_in_way
 from scenewright.judge.tolerance import Tolerance
 from scenewright.judge.verdict import Cause, CauseKind, Condition, Verdict
-from scenewright.language.lines import in_words
-from scenewright.language.phrases import called
 from scenewright.program.structure import Role, actors_of
 from scenewright.program.types import EGO, Actor, Constraint, Program
 from scenewright.simulate.loop import Run
 from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
+from scenewright.translate.lines import in_words
+from scenewright.translate.phrases import called
 
 
 def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, proof: Feasibility | None) -> Cause:

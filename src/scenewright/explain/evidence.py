@@ -14,8 +14,6 @@ import numpy as np
 
 from scenewright.judge.tolerance import TIGHT
 from scenewright.judge.verdict import Verdict
-from scenewright.language.lines import in_words, told_constraints
-from scenewright.language.phrases import called
 from scenewright.plan.planner import GOOD, Replan
 from scenewright.program.expressions import Compare, Elapsed
 from scenewright.program.types import EGO, Actor, Constraint
@@ -25,6 +23,8 @@ from scenewright.simulate.world import World
 from scenewright.solve.arrival import linear_conditions, tight_of
 from scenewright.solve.limits import Limits
 from scenewright.trace.model import ActorTrace
+from scenewright.translate.lines import in_words, told_constraints
+from scenewright.translate.phrases import called
 
 # Plans keep a few percent of room to limits (`plan.asked`, `solve.limits.ROOM`): from here on one is made use of.
 _REACHED = 0.9

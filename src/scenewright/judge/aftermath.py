@@ -15,8 +15,8 @@ import numpy as np
 
 from scenewright.judge.boxes import moving_box
 from scenewright.judge.case import Case
-from scenewright.language.phrases import called
 from scenewright.program.types import EGO
+from scenewright.translate.phrases import called
 
 _NEAR_M = 0.1
 _BRAKES_MPS2 = 0.05  # less than what is told as 0.1 m/s^2 is no braking

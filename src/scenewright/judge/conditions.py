@@ -16,7 +16,6 @@ from scenewright.judge.knots import Measured
 from scenewright.judge.terms import Moments, sides
 from scenewright.judge.tolerance import TIGHT, Leaf, Values, dimension_of, normalised, unit_symbol
 from scenewright.judge.verdict import Condition, Kind, unjudged
-from scenewright.language.lines import told_constraints
 from scenewright.program.expressions import (
     Arithmetic,
     Compare,
@@ -33,6 +32,7 @@ from scenewright.program.expressions import (
 )
 from scenewright.program.structure import Role, knots_of
 from scenewright.program.types import EGO, Constraint, PieceKind
+from scenewright.translate.lines import told_constraints
 
 _KINDS: dict[Role, Kind] = {
     Role.INITIAL: "initial",

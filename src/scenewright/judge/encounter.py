@@ -17,11 +17,11 @@ from scenewright.judge.instants import minima
 from scenewright.judge.knots import Measured, sides_of
 from scenewright.judge.terms import Moments
 from scenewright.judge.tolerance import TIGHT, FloatArray, dimension_of, normalised, unit_symbol
-from scenewright.language.lines import told_formulas
 from scenewright.program.expressions import Compare, Derived, Formula, State, walk
 from scenewright.program.printer import print_expression
 from scenewright.program.structure import KnotKey
 from scenewright.program.types import EGO
+from scenewright.translate.lines import told_formulas
 
 
 def encounter_facts(case: Case, measured: Measured) -> dict[str, Any]:

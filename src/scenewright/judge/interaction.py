@@ -15,8 +15,8 @@ from scenewright.judge.case import Case
 from scenewright.judge.knots import SIGN_OF, Measured, demands_standstill
 from scenewright.judge.phases import move_off_after, rest_after
 from scenewright.judge.verdict import Condition, bounded, unjudged
-from scenewright.language.phrases import called, does
 from scenewright.program.types import Actor, PieceKind
+from scenewright.translate.phrases import called, does
 
 _VERBS = {PieceKind.DEC: "brake", PieceKind.ACC: "speed up"}
 

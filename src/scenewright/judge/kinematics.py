@@ -13,8 +13,8 @@ import numpy as np
 from scenewright.judge.case import Case
 from scenewright.judge.tolerance import FloatArray
 from scenewright.judge.verdict import Condition, bounded
-from scenewright.language.phrases import called
 from scenewright.trace.model import ActorTrace
+from scenewright.translate.phrases import called
 from scenewright.units import Dimension
 
 _TURN_OVER_S = 0.1  # headings are compared over this time, so that rounding in a map is not taken for swerving

@@ -12,9 +12,9 @@ import numpy as np
 from scenewright.judge.case import CannotJudge, Case
 from scenewright.judge.tolerance import FloatArray, Leaf
 from scenewright.judge.verdict import Condition
-from scenewright.language.phrases import called
 from scenewright.program.types import Actor
 from scenewright.trace.model import ActorTrace
+from scenewright.translate.phrases import called
 
 MAX_LATERAL_M = 1.0
 MAX_ANGLE_RAD = 0.5  # between where a car points and where it goes: more is sliding, or another path

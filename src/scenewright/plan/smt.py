@@ -13,7 +13,6 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import product
 
-from scenewright.language.lines import told_constraints
 from scenewright.motion.profile import Profile, Segment
 from scenewright.plan.one_rate import OneRate, Past, Question
 from scenewright.plan.planner import Attempt, Replan
@@ -27,6 +26,7 @@ from scenewright.solve.plan import Plan
 from scenewright.solve.proofs.events import EgoBounds
 from scenewright.solve.proofs.refuters import Answer
 from scenewright.solve.proofs.z3_engine import Z3
+from scenewright.translate.lines import told_constraints
 
 # By how many tight tolerances reactive constraints give way in turn: the paper has "various" and names none; 4 is the
 # loose tolerance of places and speeds.

@@ -19,9 +19,6 @@ from typing import Any
 
 from scenewright import __version__
 from scenewright.errors import OutputError, Place
-from scenewright.language.lines import lines_of_program
-from scenewright.language.questions import as_data
-from scenewright.language.understand import Understanding
 from scenewright.program.printer import print_program
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.conflicts import shared_offset_m
@@ -31,6 +28,9 @@ from scenewright.simulate.loop import Rates, Run
 from scenewright.solve.limits import Limits
 from scenewright.solve.plan import SCHEMA_VERSION
 from scenewright.trace.files import TRACE_FILE, write_trace
+from scenewright.translate.lines import lines_of_program
+from scenewright.translate.questions import as_data
+from scenewright.translate.understand import Understanding
 
 TEXT_FILE, ANSWERS_FILE = "description.txt", "answers.json"
 _PACKAGES = ("z3-solver", "daqp", "numpy", "scipy", "pyarrow")

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal
 
-from scenewright.language.lines import named
 from scenewright.program.printer import print_expression
 from scenewright.program.structure import Structure
 from scenewright.program.types import Program
@@ -23,6 +22,7 @@ from scenewright.solve.proofs.events import EgoBounds, EgoDrive
 from scenewright.solve.proofs.refuters import Refuter, refuter_called
 from scenewright.solve.proofs.witness import Broken, Witness
 from scenewright.solve.suggestions import Suggestion, suggest
+from scenewright.translate.lines import named
 from scenewright.units import decimal_fraction
 
 __all__ = ["Clash", "EgoBounds", "EgoDrive", "Feasibility", "Suggestion", "check_feasibility"]

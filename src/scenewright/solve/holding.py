@@ -10,7 +10,6 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
-from scenewright.language.lines import named
 from scenewright.motion.profile import Profile
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import term_value, violation
@@ -18,6 +17,7 @@ from scenewright.program.structure import Role, actors_of, knots_of, read_struct
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.plan import PlanWorld
+from scenewright.translate.lines import named
 from scenewright.units import SI_SYMBOL, Dimension
 
 _ROUNDED = 1e-2  # what a plan may be off by where no tolerance is given for what is compared

@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from scenewright.language.lines import in_words
 from scenewright.program.expressions import (
     Arithmetic,
     Compare,
@@ -29,6 +28,7 @@ from scenewright.program.types import Constraint, Program
 from scenewright.roads.grounding import Scene
 from scenewright.solve.proofs.decide import Question, decide
 from scenewright.solve.tolerances import compared_dimension
+from scenewright.translate.lines import in_words
 from scenewright.units import SI_SYMBOL, decimal_fraction, format_fraction
 
 _QUERY_S, _ALL_S = 0.2, 3.0

@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.errors import InputError, Place, ProgramError
-from scenewright.language.compile import UNNAMED
 from scenewright.program.types import Program
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.studio.program_data import clauses, condition_times, places, triggers
@@ -25,6 +24,7 @@ from scenewright.studio.scene_data import SceneGeometry, scene_geometry
 from scenewright.studio.told_facts import told_facts
 from scenewright.trace.files import TRACE_FILE, read_trace
 from scenewright.trace.model import ActorTrace, Trace
+from scenewright.translate.compile import UNNAMED
 
 Json = dict[str, Any]
 
@@ -140,7 +140,7 @@ def _plain(description: object) -> list[Json]:
 
 def _understood(manifest: Json, program: Program | None) -> list[Json]:
     """Return the sentences of what was understood with the words they came from, or else what the program says."""
-    from scenewright.language.lines import lines_of_program
+    from scenewright.translate.lines import lines_of_program
 
     if (told := manifest.get("understood")) or program is None:
         return told or []
@@ -234,7 +234,7 @@ def _knots(manifest: Json, verdict: Json | None) -> dict[str, dict[str, float]]:
 
 def _in_order(knots: Mapping[str, Mapping[str, float]], program: Program | None) -> dict[str, list[list[Any]]]:
     """Return by actor its knots in time: name, moment, and what happens then; nothing where nothing is said of it."""
-    from scenewright.language.lines import told_knots
+    from scenewright.translate.lines import told_knots
 
     told = told_knots(program) if program else {}
     numbers = {actor.name: actor.id for actor in program.actors} if program else {}

@@ -13,12 +13,12 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from scenewright.errors import InputError, Place, ScenewrightError
-from scenewright.language.sources import read_scenario
-from scenewright.language.understand import OFFLINE
 from scenewright.orchestrate import Request, Result, orchestrate
 from scenewright.study.causes import cause_of
 from scenewright.study.draws import draw_parameters
 from scenewright.study.workers import Crash, each_done
+from scenewright.translate.sources import read_scenario
+from scenewright.translate.understand import OFFLINE
 
 
 @dataclass(frozen=True, slots=True)

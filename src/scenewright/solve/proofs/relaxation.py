@@ -14,7 +14,6 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.language.phrases import does
 from scenewright.motion.laws import Law, reach
 from scenewright.program.types import EGO
 from scenewright.solve.proofs.events import Events, Stretch
@@ -31,6 +30,7 @@ from scenewright.solve.proofs.polynomials import (
     every,
     some,
 )
+from scenewright.translate.phrases import does
 
 _CERTAIN = 1e-9
 

@@ -1,0 +1,281 @@
+"""From a program to its story, for every program in the constructs that a story has.
+
+What enters: a `Program`. What leaves: an arranged `Story` that compiles to a program of the same meaning (knots are
+named and comparisons written the compiler's way), or a `TranslationError` that names what a story cannot tell yet.
+What a program says of where it came from in a text becomes the story's quotes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import Literal
+
+from scenewright.errors import ProgramError, TranslationError
+from scenewright.program import expressions as ex
+from scenewright.program import types as pt
+from scenewright.program.linear import Linear, linear
+from scenewright.program.structure import knots_of, read_structure, synchronised
+from scenewright.program.types import EGO
+from scenewright.translate import story as st
+from scenewright.translate.compile import COMPASS, PIECES, TURNS, UNNAMED, amounts_of, kind_of
+from scenewright.translate.measures import difference, measure_of, right_side, untold
+
+_VERBS = {piece: verb for verb, piece in PIECES.items()}
+Key = tuple[int, str]
+Became = st.Measure | st.Compound | st.Order | st.Hold | None  # what a constraint is; None: it makes moments one
+Taken = tuple[int | None, Became]  # and at which moment, where it is about one
+
+
+def decompile(program: pt.Program) -> st.Story:
+    """Return the story that `program` tells; raises `TranslationError` for what a story cannot tell yet."""
+    return st.arranged(decompiled(program).story)
+
+
+def decompiled(program: pt.Program, leniently: bool = False) -> Decompiled:
+    """Return the same with what became of each constraint; `leniently` without those that a story cannot tell yet."""
+    try:
+        return Decompiled(program, leniently)
+    except ProgramError as error:  # of a term that is no sum
+        raise TranslationError(f"{error.message}, and cannot be told in words yet", found=error.found) from None
+
+
+def way_of(route: pt.RouteSpec) -> st.Way:
+    """Return the facts of a way that make `route`."""
+    match route:
+        case pt.LanesRoute(lanes=lanes):
+            return st.Way(lanes=lanes)
+        case pt.HeadingsRoute(headings=(heading,)):
+            return st.Way(heading=heading, turn="straight")
+        case pt.HeadingsRoute(headings=(first, second) as headings):
+            turned = (COMPASS.index(second) - COMPASS.index(first)) % 4
+            turn = next((name for name, quarters in TURNS.items() if quarters == turned and quarters), None)
+            return st.Way(heading=first, turn=turn) if turn else st.Way(headings=headings)
+        case pt.HeadingsRoute(headings=headings):
+            return st.Way(headings=headings)
+        case pt.IntentRoute():
+            return st.Way(route.origin, route.origin_heading, route.turn, route.destination, route.destination_heading)
+
+
+@dataclass(slots=True)
+class Decompiled:
+    """The story of a program as its moments come, and what became of each constraint."""
+
+    program: pt.Program
+    leniently: bool = False
+    story: st.Story = field(init=False)
+    taken: dict[ex.Formula, tuple[Taken, ...]] = field(default_factory=dict)  # of formulas that stand side by side
+    moment_of: dict[Key, int] = field(default_factory=dict)  # of the knots that matter
+    untold: list[pt.Constraint] = field(default_factory=list)  # which the story is without
+    _conditions: list[list[st.Condition]] = field(default_factory=list)
+    _times: dict[int, st.Amount] = field(default_factory=dict)
+    _throughout: dict[tuple[int, int], list[st.Measure]] = field(default_factory=dict)  # by actor and piece
+    _quote: st.Quote | None = None  # of the constraint that is being taken
+
+    def __post_init__(self) -> None:
+        parts = {each.id: list(parts_of(each.formula)) for each in self.program.constraints}
+        formulas = [formula for own in parts.values() for formula in own]
+        self._name_moments(formulas)
+        for formula in formulas:
+            with suppress(TranslationError, ProgramError):  # raised when it is taken
+                self._fix_time(formula)
+        for constraint in self.program.constraints:
+            source, words = constraint.source, self.program.words_of(constraint)
+            self._quote = None if source is None or words is None else st.Quote(source.start, source.end, words)
+            try:
+                for formula in parts[constraint.id]:
+                    self.taken[formula] = tuple(self._take(formula))
+            except (TranslationError, ProgramError, LookupError):  # of a piece that there is not
+                if not self.leniently:
+                    raise
+                self.untold.append(constraint)
+        self.story = self._story()
+
+    def _story(self) -> st.Story:
+        program = self.program
+        if set(program.ego.sketch.pieces) != {pt.PieceKind.GO}:
+            raise untold("a deed of the ego", "let its pieces be 'go': the policy under test drives it")
+        if [actor.id for actor in program.actors] != [*range(len(program.actors))]:
+            raise untold("actors that are not numbered one after the other", "number them 0, 1, 2")
+        taken = dict.fromkeys(each for own in self.taken.values() for _, each in own)
+        story = st.Story(
+            tuple(st.Actor(each.id, "ego" if each.is_ego else each.name, way_of(each.route), kind_of(each.name))
+                  for each in program.actors),
+            tuple(st.Moment(tuple(dict.fromkeys(own)), self._times.get(number))
+                  for number, own in enumerate(self._conditions)),
+            tuple(self.moment_of[EGO, knot] for knot in program.ego.sketch.knots[1:] if (EGO, knot) in self.moment_of),
+            tuple(self._deeds()),
+            tuple(each for each in taken if isinstance(each, st.Order) and each != self._fixed(each.second)),
+            tuple(each for each in taken if isinstance(each, st.Hold)),
+            (),
+            program.manner,
+            program.map_name,
+            None if program.name in UNNAMED else program.name,
+        )  # fmt: skip
+        used = {amount.name for amount in amounts_of(story)}
+        declared = (each for each in program.parameters if each.name not in used or each != pt.Parameter(each.name))
+        return replace(story, parameters=tuple(declared))
+
+    def _name_moments(self, formulas: list[ex.Formula]) -> None:
+        """Give a number to every instant: the start, what the program merges, and every other knot that matters."""
+        spoken = {key for formula in formulas for key in knots_of(formula)}
+        structure = read_structure(self.program)
+        starts = frozenset(structure.starts.items())
+        merged = [group for group in structure.instants if not group & starts]
+        start = starts.union(*(group for group in structure.instants if group & starts))
+        instant_of = {key: group for group in (start, *merged) for key in group}
+        numbers = {start: st.START}
+        for actor in (*self.program.heroes, self.program.ego):
+            keys = [(actor.id, knot) for knot in actor.sketch.knots]
+            own = {key: instant_of.get(key, frozenset({key})) for key in keys}
+            if len(set(own.values())) != len(own):
+                raise untold(f"two knots of {actor.name} at one moment", "leave one of them out")
+            for key, instant in own.items():
+                if not actor.is_ego or instant in numbers or key in spoken:  # else an end that nothing is asked of
+                    self.moment_of[key] = numbers.setdefault(instant, len(numbers))
+        self._conditions = [[] for _ in numbers]
+
+    def _fix_time(self, formula: ex.Formula) -> None:
+        """Take ``A1(t1) == 5 s``."""
+        if isinstance(formula, ex.Compare) and formula.operator == "==" and (form := _of_times(formula)) is not None:
+            below_zero, amount = right_side(form, "time")
+            match list(self._instants(form).items()):
+                case [(moment, factor)] if factor == 1 and not below_zero:
+                    self._times.setdefault(moment, amount)
+
+    def _fixed(self, moment: int) -> st.Order:
+        """Return the order that a moment's time is."""
+        return st.Order(st.START, moment, "==", self._times.get(moment))
+
+    def _deeds(self) -> Iterator[st.Deed]:
+        for actor in self.program.heroes:
+            moments = [self.moment_of[actor.id, knot] for knot in actor.sketch.knots]
+            for index, piece in enumerate(actor.sketch.pieces):
+                held = tuple(dict.fromkeys(self._throughout.get((actor.id, index), ())))
+                yield st.Deed(actor.id, _VERBS[piece], moments[index], moments[index + 1], held)
+
+    def _take(self, formula: ex.Formula) -> list[Taken]:
+        if merged := list(synchronised(formula)):
+            return [(self.moment_of[one], None) for one, _ in merged]
+        if isinstance(formula, ex.Temporal):
+            return [(None, self._hold(formula))]
+        if isinstance(formula, ex.Compare):
+            if (piece := ex.piece_of(formula)) is not None:
+                return [(None, self._held(formula, piece))]
+            if (form := _of_times(formula)) is not None:
+                return [(None, self._order(formula, form))]
+        condition, moments = self._condition(formula), self._moments_in(formula)
+        if len(moments) != 1:
+            raise untold("a condition about more than one moment", "ask for each by itself", formula)
+        (moment,) = moments
+        self._conditions[moment].append(condition)
+        return [(moment, condition)]
+
+    def _held(self, compare: ex.Compare, piece: ex.State) -> st.Measure:
+        assert isinstance(piece.at, ex.PieceRef)
+        sketch = self.program.actor(piece.actor).sketch
+        index = sketch.piece_index(piece.at.name)
+        measure = measure_of(ex.with_state(compare, piece, replace(piece, at=None)), self.program)
+        if piece.actor == EGO or measure is None or measure.other is not None:
+            raise untold("this condition on a piece", "ask for it from one moment until another", compare)
+        measure = replace(measure, quote=self._quote)
+        if sketch.pieces[index] is not pt.PieceKind.STOP or measure != st.standstill(piece.actor):
+            self._throughout.setdefault((piece.actor, index), []).append(measure)
+        return measure
+
+    def _order(self, compare: ex.Compare, form: Linear) -> st.Order:
+        instants, op = self._instants(form), compare.operator
+        if sorted(instants.values()) not in ([-1], [1], [-1, 1]):
+            raise untold("a sum of times", "ask for the time from one moment to another", compare)
+        first, second = (
+            next((moment for moment, own in instants.items() if own == factor), st.START) for factor in (-1, 1)
+        )
+        below_zero, amount = right_side(form, "time")
+        margin = None if amount.value == 0 else amount
+        if below_zero or (margin is None and op in ("<", "<=")):
+            first, second, op = second, first, st.FLIPPED[op]
+        return st.Order(first, second, op, margin, self._quote)
+
+    def _hold(self, temporal: ex.Temporal) -> st.Hold:
+        how: st.How = "at some time" if temporal.operator == "eventually" else temporal.operator
+        if self._moments_in(temporal.body):
+            raise untold("a moment inside an interval", "ask for it apart from the interval", temporal)
+        start, end = self._point(temporal.start), self._point(temporal.end)
+        return st.Hold(how, start, end, self._condition(temporal.body), self._quote)
+
+    def _point(self, term: ex.Term) -> st.Point:
+        form = linear(term)
+        instants = [(self.moment_of[atom.actor, atom.knot], factor)
+                    for atom, factor in form.atoms.items() if isinstance(atom, ex.Elapsed)]  # fmt: skip
+        if len(instants) > 1 or any(factor != 1 for _, factor in instants):
+            raise untold("the end of an interval", "let it begin and end some time after a moment", term)
+        earlier, offset = right_side(form.scaled(Fraction(-1)), "time")
+        moment = instants[0][0] if instants else st.START
+        return st.Point(moment) if offset.value == 0 else st.Point(moment, offset, earlier)
+
+    # -- conditions ---------------------------------------------------------------------------------------------------
+    def _condition(self, formula: ex.Formula) -> st.Condition:
+        match formula:
+            case ex.Compare():
+                measure = measure_of(formula, self.program)
+                if measure is None:
+                    raise untold("this comparison", "compare a place, a speed or a gap with an amount", formula)
+                return replace(measure, quote=self._quote)
+            case ex.Logic(operator=operator, operands=operands):
+                joint: Literal["and", "or", "not", "if"] = "if" if operator == "implies" else operator
+                return st.Compound(joint, tuple(self._condition(each) for each in operands), self._quote)
+            case ex.Temporal():
+                raise untold("an interval inside another condition", "ask for it by itself", formula)
+
+    # -- moments and amounts ------------------------------------------------------------------------------------------
+    def _moments_in(self, formula: ex.Formula) -> set[int]:
+        states = (node for node in ex.walk(formula) if isinstance(node, ex.State | ex.Derived))
+        return {self._moment(state.actor, state.at) for state in states if state.at is not None}
+
+    def _moment(self, actor: int, at: ex.At) -> int:
+        match at:
+            case ex.Knot(name=name):
+                return self.moment_of[actor, name]
+            case ex.Elapsed(actor=owner, knot=knot):
+                return self.moment_of[owner, knot]
+            case ex.Number(value=value):
+                time = st.Amount(value, "s")
+                if time not in self._times.values():
+                    self._times[len(self._conditions)] = time
+                    self._conditions.append([])
+                return next(number for number, own in self._times.items() if own == time)
+            case _:
+                raise untold("this moment", "name a knot or a time")
+
+    def _instants(self, form: Linear) -> dict[int, Fraction]:
+        found: dict[int, Fraction] = {}
+        for atom, factor in form.of(ex.Elapsed).items():
+            assert isinstance(atom, ex.Elapsed)
+            moment = self.moment_of[atom.actor, atom.knot]
+            if moment != st.START:
+                found[moment] = found.get(moment, Fraction(0)) + factor
+        return found
+
+
+def _of_times(compare: ex.Compare) -> Linear | None:
+    """Return what a comparison of times holds against zero; None for other comparisons."""
+    form = difference(compare)
+    only = len(form.atoms) == len(form.of(ex.Elapsed, ex.ParameterRef))
+    return form if only and form.of(ex.Elapsed) else None
+
+
+def parts_of(formula: ex.Formula) -> Iterator[ex.Formula]:
+    """Yield what a constraint asks for side by side; a contrary of an interval is the interval of the contrary."""
+    if isinstance(formula, ex.Logic) and formula.operator == "and":
+        for operand in formula.operands:
+            yield from parts_of(operand)
+    elif isinstance(formula, ex.Logic) and formula.operator == "not" and isinstance(formula.operands[0], ex.Temporal):
+        inner = formula.operands[0]
+        if inner.operator == "always":
+            yield replace(inner, operator="eventually", body=ex.Logic("not", (inner.body,)))
+        else:
+            yield replace(inner, operator="never" if inner.operator == "eventually" else "eventually")
+    else:
+        yield formula

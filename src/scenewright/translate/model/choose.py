@@ -1,0 +1,98 @@
+"""Which model is asked: the one that is named, else the one that the environment or the settings file configures.
+
+What enters: the name of a translator, settings. What leaves: a `Model` of which nothing has been asked yet; what there
+is, for `scenewright models`. Keys are looked for, and never told.
+"""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+from scenewright.errors import InputError, Place
+from scenewright.translate.model.exchange import Answer, Call, Message, Model
+from scenewright.translate.model.keys import KEY_VARIABLES
+from scenewright.translate.model.settings import TranslatorSettings
+
+AUTO, OFFLINE, FILES = "auto", "offline", "files"
+TRANSLATORS = f"{AUTO}, {OFFLINE}, {', '.join(f'{each}:NAME' for each in KEY_VARIABLES)} or files:DIR"
+TRANSLATOR_VARIABLE, BASE_URL_VARIABLE = "SCENEWRIGHT_TRANSLATOR", "SCENEWRIGHT_BASE_URL"
+_TRIAL_TOKENS = 1000  # for one word; models that think before they write count that too
+
+
+@dataclass(frozen=True, slots=True)
+class Configured:
+    """What `auto` stands for, where it comes from, and the address of its server where one is given."""
+
+    translator: str
+    source: str
+    base_url: str | None = None
+
+
+def settings_file() -> Path:
+    """Return where the settings file lies on this platform, whether or not it is there."""
+    from typer import get_app_dir
+
+    return Path(get_app_dir("scenewright")) / "settings.toml"
+
+
+def configured() -> Configured:
+    """Return what `auto` stands for: the environment's translator, else that of the settings file, else offline.
+
+    Raises InputError where the settings file cannot be read, or holds what it should not.
+    """
+    path = settings_file()
+    try:
+        kept = tomllib.loads(path.read_text(encoding="utf-8"))
+        if not all(name in ("translator", "base_url") and isinstance(value, str) for name, value in kept.items()):
+            raise ValueError(f"it holds {', '.join(kept)}")
+    except (FileNotFoundError, NotADirectoryError):
+        kept = {}
+    except (OSError, ValueError) as error:
+        expected = 'translator = "PROVIDER:NAME", base_url = "http://..."; keys stay in the environment or a keyring'
+        message, place = "the settings file cannot be read", Place(str(path))
+        raise InputError(message, place=place, found=str(error), expected=expected) from None
+    address = os.environ.get(BASE_URL_VARIABLE, "").strip() or kept.get("base_url")
+    if named := os.environ.get(TRANSLATOR_VARIABLE, "").strip():
+        return Configured(named, TRANSLATOR_VARIABLE, address)
+    source = str(path) if "translator" in kept else "nothing is configured"
+    return Configured(kept.get("translator", OFFLINE), source, address)
+
+
+def model_named(translator: str, settings: TranslatorSettings) -> Model | None:
+    """Return the model that `translator` names, recorded or replayed as `settings` say; None for the offline reader.
+
+    Raises InputError where there is no such translator, or the settings contradict each other.
+    """
+    if settings.record is not None and settings.replay is not None:
+        raise InputError("exchanges are either recorded or replayed", found="--record and --replay", fix="give one")
+    if translator == AUTO:
+        translator = configured().translator
+    if translator == OFFLINE:
+        return None
+    provider, _, name = (part.strip() for part in translator.partition(":"))
+    known = provider in (*KEY_VARIABLES, FILES)
+    if not (known and name):
+        message = f"{provider} is named without a model" if known else f"there is no translator {translator}"
+        raise InputError(message, found=translator, expected=TRANSLATORS, fix=f"--translator {OFFLINE}")
+    from scenewright.translate.model.files import FilesModel, Recording, Replayed
+    from scenewright.translate.model.providers import ServedModel
+
+    address = settings.base_url or (configured().base_url if provider == "openai-compatible" else None)
+    model: Model = ServedModel(provider, name, address, settings.timeout_s, settings.max_tokens)
+    if provider == FILES:
+        model = FilesModel(Path(name), settings.reply_wait_s)
+    if settings.replay is not None:
+        return Replayed(model.name, settings.replay)
+    return model if settings.record is None else Recording(model, settings.record)
+
+
+def tried(found: Configured) -> Answer | None:
+    """Return what the configured model says to one short call; None for files. Raises as the model does."""
+    model = model_named(found.translator, TranslatorSettings(max_tokens=_TRIAL_TOKENS))
+    if model is None or model.name == FILES:
+        return None
+    said = Message("system", "This is a trial of the connection."), Message("user", "Reply with the word: ready")
+    return model.reply(Call(said, "", 1, ""))

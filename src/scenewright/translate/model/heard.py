@@ -1,0 +1,129 @@
+"""A text as typed chunks with the people of a reply in it: who is spoken of at a place of it, and which place is meant.
+
+What enters: a text and the words by which it names each actor. What leaves: sets of what is possible, empty where the
+words do not tell. Words that nobody knows are no fault: they only leave more open.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from scenewright.errors import Span
+from scenewright.translate.model.schema import locate
+from scenewright.translate.read.chunks import Chunk, sentences
+
+_CUTS = ("comma", "joint", "link")  # what parts one thing that is said from another
+_COLOURS = ("unknown", "harmless", "relation", "heading", "turn")  # what may stand before a name and belong to it
+_PREDICATES = ("be", "state", "event", "phase", "deed", "turn", "mood", "order", "kept")
+_WHOLE = ("place", "amount", "area", "standstill")  # what needs nobody after it
+_NOT_OF_WHOM = ("before", "behind", "after", "than")
+
+
+def people(*chunks: Chunk) -> set[int]:
+    """Return whom names stand for."""
+    return {int(number) for each in chunks if each.kind == "who" for number in each.value.split()}
+
+
+def lies_in(start: int, end: int, spans: Sequence[Span]) -> bool:
+    """Whether a stretch lies in one of `spans`."""
+    return any(each.start <= start and end <= each.end for each in spans)
+
+
+def _is_head(own: Sequence[Chunk], at: int) -> bool:
+    """Whether a name or "it" is whom a clause speaks of: it stands at its beginning."""
+    if own[at].kind != "who" and (own[at].kind, own[at].value) != ("pronoun", "it"):
+        return False
+    before = at - 1
+    while before >= 0 and own[before].kind in _COLOURS:
+        before -= 1
+    follows = own[at + 1].kind if at + 1 < len(own) else ""
+    if before >= 0 and own[before].kind == "side":
+        return own[before].value in ("before", "after", "with") and follows in (*_PREDICATES, "amount")
+    return before < 0 or own[before].kind in (*_CUTS, *_WHOLE) or follows in _PREDICATES
+
+
+@dataclass(slots=True)
+class Heard:
+    """The chunks of a text by sentence; a name of somebody is of kind ``who``, its value the numbers of whose it is."""
+
+    text: str
+    called: Mapping[int, tuple[str, ...]]
+    said: list[list[Chunk]] = field(init=False)
+
+    def __post_init__(self) -> None:
+        named: dict[tuple[int, int], set[int]] = {}
+        for number, own in self.called.items():
+            for span in (span for words in own for span in locate(words, self.text)):
+                named.setdefault((span.start, span.end), set()).add(number)
+        taken: list[Chunk] = []
+        for start, end in sorted(named, key=lambda each: each[0] - each[1]):  # the longest first
+            if not any(start < other.end and other.start < end for other in taken):
+                value = " ".join(map(str, sorted(named[start, end])))
+                taken.append(Chunk("who", value, start, end, self.text[start:end]))
+        self.said = []
+        for plain in sentences(self.text) or [[Chunk("unknown", "", 0, len(self.text), self.text)]]:
+            chunks = [each for chunk in plain for each in (*chunk.traits, chunk)]
+            own_names = [each for each in taken if each.end >= chunks[0].start and each.start < chunks[-1].end]
+            kept = [chunk for chunk in chunks if chunk.kind not in ("actor", "name", "unknown")
+                    or not any(each.start < chunk.end and chunk.start < each.end for each in own_names)]  # fmt: skip
+            self.said.append(sorted([*kept, *own_names], key=lambda chunk: (chunk.start, -chunk.end)))
+
+    def within(self, span: Span) -> list[Chunk]:
+        """Return the chunks that lie in a stretch, whether or not it begins with their article."""
+        articles = {"place": len("the ")}
+        return [each for own in self.said for each in own
+                if lies_in(each.start + articles.get(each.kind, 0), each.end, [span])]  # fmt: skip
+
+    def sentence(self, at: int) -> tuple[int, list[Chunk], int]:
+        """Return the number and the chunks of the sentence at a place of the text, and which chunk is there."""
+        number = next((number for number, own in enumerate(self.said) if at < own[-1].end), len(self.said) - 1)
+        own = self.said[number]
+        return number, own, next((index for index, each in enumerate(own) if each.end > at), len(own) - 1)
+
+    def clause(self, at: int) -> list[Chunk]:
+        """Return the chunks at a place of the text from whom it speaks of to whom it speaks of next."""
+        _, own, index = self.sentence(at)
+        parts = [place for place, each in enumerate(own) if each.kind == "link" or _is_head(own, place)]
+        start = max((place for place in parts if place <= index), default=0)
+        return own[start : min((place for place in parts if place > index), default=len(own))]
+
+    def place(self, at: int) -> str | None:
+        """Return the place that an amount is counted to: the nearest, in its own clause and after it where there is."""
+        (_, own, _), near = self.sentence(at), self.clause(at)
+        places = [each for each in own if each.kind == "place"]
+        return (
+            min(places, key=lambda each: (each not in near, each.start < at, abs(each.start - at))).value
+            if places
+            else None
+        )
+
+    def subjects(self, at: int) -> set[int]:
+        """Return who may be spoken of at a place: the nearest, whom the clause is of before others."""
+        number, own, index = self.sentence(at)
+        beside = next((each for each in own[index + 1 :] if each.kind not in _COLOURS), None)
+        if own[index].kind in _COLOURS and beside and beside.kind == "who":
+            return people(beside)  # "a westbound truck"
+        cuts = [place for place, each in enumerate(own) if each.kind in _CUTS]
+        start = max((place for place in cuts if place < index), default=-1)
+        end = min((place for place in cuts if place >= index), default=len(own))
+
+        def rank(place: int) -> tuple[bool, bool, bool, bool, int]:
+            side = own[place - 1] if place and own[place - 1].kind == "side" else None
+            of_place = place > 1 and own[place - 2].kind == "place" and side is not None and side.value != "for"
+            told = side is not None and side.value not in _NOT_OF_WHOM and not of_place  # "3 s for the ego"
+            object_ = (
+                own[index].amount is not None and place == index - 1 and side is None
+            )  # "sees the hero 20 m before"
+            behind = place > index
+            head = _is_head(own, place)
+            return not object_, behind and not (told and place < end), place < start, not head, abs(place - index)
+
+        found = min(
+            (place for place, each in enumerate(own) if each.kind == "who" or _is_head(own, place)), key=rank, default=0
+        )
+        if own[found].kind == "who":
+            return people(own[found])
+        # "It", or nobody: those named before in the sentence, and everybody of the nearest one that names anybody.
+        earlier = next(filter(None, (people(*each) for each in reversed(self.said[:number]))), set[int]())
+        return people(*own[:found]) | earlier

@@ -1,0 +1,199 @@
+"""Holds amounts and measures against the words that they quote: value, unit, who, where, bound and side.
+
+What enters: parts of a `Claim`. What leaves: faults, as sentences for the model. Words either contradict a slot, which
+is always a fault, or are silent about it; then an assumption or a question that quotes them must own to it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from itertools import pairwise
+
+from scenewright.translate import story as st
+from scenewright.translate.model.amounts import spoken_in
+from scenewright.translate.model.heard import Heard, people
+from scenewright.translate.model.schema import Claim
+from scenewright.translate.phrases import BOUNDS, PLACES
+from scenewright.translate.read.chunks import Chunk
+from scenewright.units import format_fraction
+
+STANDS = re.compile(r"(?i)\b(?:st[oa]\w*|halt\w*|rests?|wait\w*|parked|zero)\b")
+_BARE: dict[str, st.Operator] = {"past": ">", "at or past": ">=", "at or before": "<=", "before": "<"}
+_FAST = {"faster": (">", ">="), "slower": ("<", "<="), "as fast as": ("==", ">=", "<=")}
+_SLOWING = {"brake": True, "stop": True, "deceleration": True, "speed up": False, "acceleration": False}
+_DOES = {"stop": st.Verb.BRAKE, "stands": st.Verb.STAND, "drives": st.Verb.DRIVE}
+
+
+def meaning(chunk: Chunk) -> str:
+    """Return the deed that a chunk speaks of, else its value."""
+    return st.Verb.DRIVE if chunk.kind in ("event", "order") else _DOES.get(chunk.value, chunk.value)
+
+
+@dataclass(slots=True)
+class Measured:
+    """What is known while a claim is checked; `nameless` holds of whom words that name nobody were taken to speak."""
+
+    claim: Claim
+    text: str
+    heard: Heard = field(init=False)
+    nameless: dict[str, int] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.heard = Heard(self.text, self.claim.called)
+
+    def name(self, actor: int) -> str:
+        """Return what the reply calls somebody."""
+        return self.claim.story.actors[actor].name
+
+    def silent(self, quote: st.Quote, fault: str, *about: str) -> Iterator[str]:
+        """Yield a fault of silence, where no assumption and no question on these words owns to it by one of `about`."""
+        for span, said in self.claim.owned:
+            near = span is not None and span.start < quote.end and quote.start < span.end
+            if near and any(re.search(rf"(?i)(?<![\w.]){re.escape(word)}", said) for word in about):
+                return
+        yield f"'{quote.text}' {fault}; if it is meant so, an assumption that quotes these words says '{about[0]}'"
+
+    def subject(self, actor: int, quote: st.Quote, places: Sequence[int], other: int | None = None) -> Iterator[str]:
+        """Yield a fault where `actor` is none of those who are spoken of at `places`; of two, named anywhere."""
+        known = {each for at in places for each in self.heard.subjects(at)}
+        known |= people(*self.heard.within(quote.span)) if other is not None else set()
+        if other is None and not people(*self.heard.within(quote.span)):  # "it": all that is quoted so is of one
+            known &= {self.nameless.setdefault(quote.text, actor)} if actor in known else known
+        if not known or known == {other}:
+            names = self.name(actor), *self.claim.called[actor]
+            yield from self.silent(quote, f"names nobody of `called` that is {self.name(actor)}", *names)
+        elif actor not in known:
+            told = " or ".join(map(self.name, sorted(known)))
+            yield f"what '{quote.text}' says is said of {told}, not of {self.name(actor)}"
+
+    def says(
+        self, quote: st.Quote, said: Sequence[Chunk], value: str, actor: int, *more: str, other: int | None = None
+    ) -> Iterator[str]:
+        """Check that one of the chunks that tell of such a thing says `value`, and says it of somebody."""
+        if own := [each.start for each in said if value in (each.value, meaning(each))]:
+            yield from self.subject(actor, quote, own, other)
+        elif said:
+            yield f"'{quote.text}' says {' and '.join(each.text for each in said)}, not '{more[-1] if more else value}'"
+        else:
+            yield from self.silent(quote, f"does not say '{value}' of {self.name(actor)}", *more, value)
+
+    # -- amounts ------------------------------------------------------------------------------------------------------
+    def amount(self, amount: st.Amount | None) -> Iterator[str]:
+        """Check that the words of an amount are its number and its unit."""
+        if amount is None:
+            return
+        value = amount.name or abs(amount.value or 0)
+        told = amount.name or f"{format_fraction(amount.value or Fraction(0))} {amount.unit}"
+        if amount.quote is None:
+            yield f"no words are quoted for {told}"
+            return
+        read = [({each if isinstance(each, str) else abs(each) for each in spoken.values}, spoken.unit)
+                for spoken in spoken_in(amount.quote.text)]  # fmt: skip
+        stands = value == 0 and amount.dimension == "speed"
+        if any(value in values and unit == amount.unit for values, unit in read):
+            return
+        if amount.name or any(value not in values or unit for values, unit in read):
+            yield f"'{amount.quote.text}' is not {told}"
+        elif not (stands and STANDS.search(amount.quote.text)):
+            about = ("stop", "stand") if stands else (format_fraction(amount.value or Fraction(0)),)
+            yield from self.silent(amount.quote, f"does not say {told}", told, *about)
+
+    def bound(self, op: st.Operator, quote: st.Quote, amount: st.Amount) -> Iterator[str]:
+        """Check a bound: the words for it stand before the amount."""
+        at = amount.quote.start if amount.quote else quote.start
+        said = self.heard.within(quote.span)
+        bounds = ["==" if each.value in ("falls", "about") else each.value for each in said
+                  if each.kind == "bound" and 0 <= at - each.end < 4]  # fmt: skip
+        if bounds and op != bounds[-1]:
+            yield f"'{quote.text}' says {bounds[-1]}, not {op}"
+        elif op not in ("==", *bounds) and all(each.kind not in ("negation", "factor") for each in said):
+            yield from self.silent(quote, f"has no bound ({op}) but the amount itself (==)", BOUNDS[op].strip())
+
+    # -- measures -----------------------------------------------------------------------------------------------------
+    def condition(self, condition: st.Condition) -> Iterator[str]:
+        """Check every measure of a condition."""
+        for each in st.atoms(condition):
+            yield from self.measure(each)
+
+    def measure(self, measure: st.Measure) -> Iterator[str]:
+        """Check one measure: its amount, who and where, how it compares."""
+        quote, amount = measure.quote, measure.amount
+        yield from self.amount(amount)
+        if quote is None:
+            yield f"no words are quoted for the {measure.quantity} of {self.name(measure.actor)}"
+            return
+        at = amount.quote.start if amount is not None and amount.quote is not None else None
+        near, whole = self.heard.clause(quote.start if at is None else at), self.heard.within(quote.span)
+        said = [each for each in whole if each in near]
+        if measure.place is not None:
+            yield from self._place(measure, measure.place, quote, at)
+        elif at is not None or measure.other is not None:
+            yield from self.subject(measure.actor, quote, [quote.start if at is None else at], measure.other)
+        if measure.other is not None:
+            yield from self._other(measure, measure.other, quote, said)
+        times = [each.value for each in said if each.value in (st.Quantity.COLLISION, st.Quantity.ARRIVAL)]
+        meant = measure.quantity in times or (not times and measure.quantity is not st.Quantity.COLLISION)
+        if not meant and amount is not None and amount.dimension == "time":
+            yield from self.silent(quote, f"does not speak of a {measure.quantity}", measure.quantity)
+        if measure.quantity is st.Quantity.RATE:
+            kinds = [each.value for each in said if each.kind in ("quantity", "deed") and each.value in _SLOWING]
+            kinds = [each for each in kinds if each.endswith("celeration")] or kinds
+            positive = amount is None or amount.value is None or amount.value > 0
+            if kinds and positive and measure.opposite not in {_SLOWING[each] for each in kinds}:
+                yield f"'{quote.text}' speaks of {kinds[0]}; `opposite` is true for slowing alone"
+        if amount is not None:
+            yield from self.bound(measure.op, quote, amount)
+
+    def _place(self, measure: st.Measure, place: st.Place, quote: st.Quote, at: int | None) -> Iterator[str]:
+        """Check a place: that it is named, by whom it is passed, and on which side of it somebody is."""
+        said, told = self.heard.within(quote.span), PLACES[place.name]
+        own = [each for each in said if each.kind == "place" or each.value == place.name]
+        marks = [each.start for each in own if each.value == place.name]
+        marks += [two.start for one, two in pairwise(said)  # "before the ego passes it"
+                  if (one.kind, two.kind) == ("event", "pronoun") and marks and two.start > marks[0]]  # fmt: skip
+        if own and not marks:
+            yield f"'{quote.text}' speaks of {' and '.join(each.text for each in own)}, not of the {told}"
+        elif not marks:
+            yield from self.silent(quote, f"does not name the {told}: quote on to where it is named", told)
+        elif at is not None and self.heard.place(at) not in (None, place.name):
+            yield f"the amount in '{quote.text}' is not counted to the {told}"
+        yield from self.subject(measure.actor, quote, [at] if at is not None else marks)
+        near = self.heard.clause(at if at is not None else marks[0] if marks else quote.start)
+        owners = next((people(three) for one, two, three in zip(near, near[1:], near[2:], strict=False)
+                       if (one.kind, two.value) == ("place", "of")), set[int]())  # fmt: skip
+        if (measure.actor if place.of is None else place.of) not in (owners or {measure.actor}):
+            yield f"'{quote.text}' says of whom the {told} is: `of` is not {self.name(place.of or measure.actor)}"
+        sides = [one.value for one, two in pairwise(said) if two.kind == "place" and one.start > (at or 0)]
+        known = {_BARE[each] for each in sides if each in _BARE}
+        if at is not None and measure.opposite is not (sides[:1] in (["past"], ["after"])):
+            yield f"'{quote.text}' says '{''.join(sides[:1])}' of the {told}: `opposite` is true for past it alone"
+        elif at is None and measure.op not in known:
+            kinds = {each.kind for each in near}
+            if known and "be" in kinds and "event" not in kinds:
+                yield f"'{quote.text}' is not at the place: `op` is {' or '.join(known)}"
+            elif measure.op != "==":
+                yield from self.silent(quote, "says that it is at the place: `op` is ==", BOUNDS[measure.op].strip())
+
+    def _other(self, measure: st.Measure, other: int, quote: st.Quote, said: list[Chunk]) -> Iterator[str]:
+        """Check whom somebody is measured to, and which of both is in front, or faster."""
+        fast, told, pair = measure.quantity is st.Quantity.SPEED, False, {measure.actor, other}
+        for place, each in enumerate(said[:-1]):
+            one = next((who for who in reversed(said[:place]) if who.kind == "who"), each)
+            if each.value in (("than", "as fast as") if fast else ("ahead", "behind", "to", "with")):
+                sides = people(one), people(said[place + 1])
+                told = told or bool(sides[0] & pair or sides[1] & pair)
+                actors = (other, measure.actor) if each.value == "ahead" else (measure.actor, other)
+                if any(who not in known and known & pair for who, known in zip(actors, sides, strict=True)):
+                    yield f"'{quote.text}' says it of {self.name(other)} and {self.name(measure.actor)} the other way"
+        relations = {(actor.id, each.kind, each.of) for actor in self.claim.story.actors for each in actor.relations}
+        known = {(measure.actor, "behind", other), (other, "ahead", measure.actor)} & relations
+        if measure.quantity in (st.Quantity.GAP, st.Quantity.HEADWAY) and not told and not known:
+            yield from self.silent(quote, "does not say who is in front", "behind", "ahead", "in front")
+        factor = next((each.value for each in said if each.kind == "factor"), "")
+        if fast and (factor or measure.op != "=="):
+            opposed = measure.opposite is not (factor == "slower")
+            if measure.op not in _FAST.get(factor, ()) if measure.amount is None else factor and opposed:
+                yield from self.silent(quote, f"says {factor or 'neither faster nor slower'}", "faster", "slower")

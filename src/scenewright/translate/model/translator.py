@@ -1,0 +1,169 @@
+"""Asks a model for a story until what it says holds: ask, read, hold against the words, send the fault back, ask again.
+
+What enters: a text, a map, a model, settings. What leaves: `Told`, or a `TranslationError` that says what was wrong
+with the last reply. Nothing that a model wrote is executed, and nothing is written to disk here.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from scenewright.errors import Place, ScenewrightError, Span, TranslationError
+from scenewright.program.limits import check_description
+from scenewright.program.types import EGO
+from scenewright.roads.grounding import ground
+from scenewright.roads.model import RoadMap
+from scenewright.translate import story as st
+from scenewright.translate.compile import DRIVEN, compile_story
+from scenewright.translate.model import prompt
+from scenewright.translate.model.evidence import check_evidence
+from scenewright.translate.model.exchange import Answer, Call, Message, Model, Usage
+from scenewright.translate.model.schema import claim_of, locate, read_reply, reply_schema
+from scenewright.translate.model.settings import TranslatorSettings
+from scenewright.translate.tell import tell
+from scenewright.translate.ways import BEARINGS, put_on_map
+
+AS_TOLD, NOT_AS_TOLD = "yes, it is meant as told", "no, as in the text"
+_KEPT_OF_A_REPLY = 20_000  # characters that go back: a flood is not paid for twice
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """What a model made of a text."""
+
+    story: st.Story  # with quotes that point into the text, and the questions that are still open
+    notes: tuple[str, ...]  # how the calls went, the model, the version of the prompt, the tokens
+    calls: tuple[Usage, ...]  # the tokens of each call
+    answers: dict[str, str] = field(default_factory=dict)  # what the user answered, by slot
+
+
+def story_by_model(text: str, road_map: RoadMap, name: str, model: Model, settings: TranslatorSettings) -> Told:
+    """Return what `model` makes of `text` on `road_map`; `name` is what to call the text in messages.
+
+    Raises TranslationError where the model refuses, where no reply holds after `settings.repairs` repairs, or where no
+    reply is to be had at all (then with exit status 4).
+    """
+    check_description(text, name)
+    return _Conversation(text, road_map, name, model, settings).told()
+
+
+class _CannotBeSaidError(Exception):
+    """Ends a conversation: the story is one that the program language does not know. A model might bend it."""
+
+
+@dataclass(slots=True)
+class _Conversation:
+    text: str
+    road_map: RoadMap
+    name: str
+    model: Model
+    settings: TranslatorSettings
+    messages: tuple[Message, ...] = ()
+    calls: tuple[Usage, ...] = ()
+    notes: list[str] = field(default_factory=list)
+
+    def told(self) -> Told:
+        self.messages = prompt.opening(self.road_map, self.text)
+        story, said = self._until_it_holds()
+        more = self._second_opinion(story) if self.settings.second_opinion else []
+        asked = (*story.questions, *more)
+        answers = self._answers(asked)
+        taken = {each.slot: None if each.default is None else each.alternatives[each.default] for each in asked}
+        new = {
+            each.text: answers[each.slot] for each in asked if answers.get(each.slot) not in (None, taken[each.slot])
+        }
+        if new:
+            self.messages = (*self.messages, Message("assistant", said), prompt.answered(new))
+            story, _ = self._until_it_holds()
+        questions = tuple(each for each in (*story.questions, *more) if each.slot not in answers)
+        self.notes.append(f"{self.model.name}, prompt {prompt.fingerprint(self.road_map)}: {sum(self.calls, Usage(0))}")
+        return Told(replace(story, questions=questions), tuple(self.notes), self.calls, answers)
+
+    def _answers(self, asked: tuple[st.Question, ...]) -> dict[str, str]:
+        """Return the answers to questions: those given before, and those of the user where one can be asked."""
+        answers: dict[str, str] = {}
+        for each in asked:
+            if self.settings.answers.get(each.slot) in each.alternatives:
+                answers[each.slot] = self.settings.answers[each.slot]
+            elif self.settings.ask is not None:
+                answers[each.slot] = self.settings.ask(each)
+        return answers
+
+    def _until_it_holds(self) -> tuple[st.Story, str]:
+        """Ask until a reply holds; return its story and its text. Raises what was wrong with the last one."""
+        for left in range(self.settings.repairs, -1, -1):
+            answer = self._ask(self.messages, reply_schema())
+            try:
+                reply = read_reply(answer.text)
+                if reply.refusal is not None:
+                    break
+                return self._checked(reply), answer.text[:_KEPT_OF_A_REPLY]
+            except ScenewrightError as fault:
+                last = fault.message + (f" ({fault.found})" if fault.found else "")
+                if not left:
+                    message = f"{self.model.name} gave no story that holds: {sum(self.calls, Usage(0))}"
+                    fix = "say it in plainer sentences, try another model or more of --repairs, or --translator offline"
+                    raise TranslationError(message, found=f"in the last reply: {last}", fix=fix) from None
+                said = Message("assistant", answer.text[:_KEPT_OF_A_REPLY])
+                self.messages = (*self.messages, said, prompt.refused(fault))
+                self.notes.append(f"a reply went back: {last}")
+            except _CannotBeSaidError as error:
+                raise error.args[0] from None
+        refusal = reply.refusal
+        raise TranslationError(
+            f"{self.model.name} refuses the text: {refusal.reason}",
+            place=Place(self.name, self.text, next(iter(locate(refusal.words, self.text)), Span(0, len(self.text)))),
+            found=refusal.words or None,
+            fix=refusal.fix or "say it in other words, or try --translator offline",
+        )
+
+    def _checked(self, reply: Any) -> st.Story:
+        """Return the story of a reply; raises where it is not in the words, not on the map, or no program."""
+        claim = claim_of(reply, self.text)
+        check_evidence(claim, self.text)
+        story = replace(claim.story, map_name=self.road_map.name)
+        # The ego comes through every moment at which something is asked of it, as the moments stand.
+        asked = {number for number, moment in enumerate(story.moments) for each in moment.conditions
+                 if number and isinstance(each, st.Measure) and each.actor == EGO}  # fmt: skip
+        if not asked <= set(story.ego):
+            story = replace(story, ego=tuple(sorted({*story.ego, *asked})))
+        placed = put_on_map(story, self.road_map)
+        try:
+            program = compile_story(placed, self.text)
+        except TranslationError as error:
+            kinds = all(actor.kind in DRIVEN for actor in story.actors)
+            relations = all(each.kind in BEARINGS for actor in story.actors for each in actor.relations)
+            if kinds and relations and all(deed.verb in set(st.Verb) for deed in story.deeds):
+                raise
+            raise _CannotBeSaidError(error) from None
+        ground(program, self.road_map)
+        return story
+
+    def _ask(self, messages: tuple[Message, ...], schema: dict[str, Any]) -> Answer:
+        number = len(self.calls) + 1
+        if self.settings.say is not None:
+            self.settings.say(f"asking {self.model.name}" + (f", call {number}" if number > 1 else ""))
+        answer = self.model.reply(Call(messages, self.text, number, self.road_map.name, schema))
+        self.calls = (*self.calls, answer.usage)
+        return answer
+
+    def _second_opinion(self, story: st.Story) -> list[st.Question]:
+        """Return a question for each difference between the text and the story told in English, judged blind."""
+        try:
+            told = "\n".join(tell(put_on_map(story, self.road_map)))
+        except TranslationError as error:
+            self.notes.append(f"no second opinion: {error.message}")
+            return []
+        answer = self._ask(prompt.compared(self.text, told), {})
+        try:
+            found = json.loads(answer.text[answer.text.index("{") : answer.text.rindex("}") + 1])["differences"]
+            sentences = [" ".join(str(each).split())[:300] for each in found]
+        except (ValueError, KeyError, TypeError, RecursionError):
+            self.notes.append("the second opinion could not be read")
+            return []
+        self.notes.append(f"second opinion: {len(sentences) or 'no'} difference{'s' if len(sentences) != 1 else ''}")
+        asked = (f"A second reading differs: {each} Is the story right?" for each in sentences)
+        choice = (AS_TOLD, NOT_AS_TOLD)
+        return [st.Question(f"second opinion {number}", text, choice) for number, text in enumerate(asked, start=1)]

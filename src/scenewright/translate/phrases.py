@@ -1,0 +1,210 @@
+"""The words of the teller for the parts of a story: people, places, amounts, conditions and ways.
+
+What enters: parts of a story. What leaves: phrases of the controlled English, which `read` reads back to the same
+parts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TypeGuard
+
+from scenewright.errors import TranslationError
+from scenewright.program.expressions import LANDMARKS
+from scenewright.program.types import EGO, PieceKind
+from scenewright.translate import story as st
+from scenewright.translate.compile import PIECES
+from scenewright.units import format_fraction
+
+BOUNDS: dict[st.Operator, str] = {"==": "", ">=": "at least ", "<=": "at most ", ">": "more than ", "<": "less than "}
+PLACES = {name: name.replace("_", " ") for name in LANDMARKS} | {
+    "turn_start": "start of the turn",
+    "turn_end": "end of the turn",
+    "junction_start": "start of the junction",
+    "junction_end": "end of the junction",
+    "route_end": "end of the route",
+}
+TURNING = {st.Place("turn_start"): "begins to turn", st.Place("turn_end"): "completes its turn"}
+PLAIN_NAMES = ("ego", "hero", "car", "truck", "van", "bus", "taxi")  # told as they are; other names in quotes
+COMPASS_WORDS = {"N": "north", "E": "east", "S": "south", "W": "west"}
+# Verb: as somebody does it, as it begins, as it ends.
+DOES: dict[str, tuple[str, str, str]] = {
+    st.Verb.DRIVE: ("drives on", "drive on", "driving on"),
+    st.Verb.SPEED_UP: ("speeds up", "speed up", "speeding up"),
+    st.Verb.BRAKE: ("brakes", "brake", "braking"),
+    st.Verb.STAND: ("stands still", "stand still", "standing still"),
+}
+NO_GAP = st.Amount(Fraction(0), "m")
+ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
+_WITHOUT_AMOUNT: dict[st.Operator, tuple[str, str]] = {  # of a place, and of a speed beside that of somebody else
+    "==": ("is at", "as fast as"),
+    ">=": ("is at or past", "at least as fast as"),
+    ">": ("is past", "faster than"),
+    "<=": ("is at or before", "at most as fast as"),
+    "<": ("is before", "slower than"),
+}
+
+
+def does(piece: PieceKind, before: int = 0) -> str:
+    """Return what somebody does in a piece of a sketch, after so many of its kind: ``brakes for the second time``."""
+    verb = DOES[next(verb for verb, kind in PIECES.items() if kind is piece)][0]
+    return f"{verb} for the {ORDINALS[before]} time" if 0 < before < len(ORDINALS) else verb
+
+
+# What to do about words that are not understood: there is a sentence for everything, and models read the others.
+OTHERWISE = "say it in plainer words, as in docs/english.md, or let a model read it: --translator PROVIDER:NAME"
+
+
+def untold(what: str) -> TranslationError:
+    """Return the error for a story that the controlled English has no words for."""
+    return TranslationError(f"there are no words yet for {what}", fix="write it as a program: see docs/program.md")
+
+
+def amount(of: st.Amount) -> str:
+    """Return an amount as it was written."""
+    return of.name or f"{format_fraction(of.value or Fraction(0))} {of.unit}"
+
+
+def bounded(op: st.Operator, of: st.Amount) -> str:
+    """Return an amount with its bound: ``at least 12 m``."""
+    return BOUNDS[op] + amount(of)
+
+
+def listed(phrases: Sequence[str]) -> str:
+    """Return phrases joined as one list: ``a, b and c``."""
+    return phrases[0] if len(phrases) == 1 else f"{', '.join(phrases[:-1])} and {phrases[-1]}"
+
+
+def sentence(text: str) -> str:
+    """Return `text` as a sentence."""
+    return f"{text[0].upper()}{text[1:]}."
+
+
+def called(name: str, kind: str = "car") -> str:
+    """Return what somebody of a name is called: ``the ego``, or with the name in quotes ``the car 'blue'``."""
+    return f"the {name}" if name in PLAIN_NAMES else f"the {kind} '{name}'"
+
+
+@dataclass(frozen=True, slots=True)
+class Phrases:
+    """The phrases for one story, whose actors have names."""
+
+    story: st.Story
+
+    def name(self, actor: int) -> str:
+        """Return what somebody is called."""
+        found = next(each for each in self.story.actors if each.id == actor)
+        return called(found.name, found.kind)
+
+    def place(self, place: st.Place) -> str:
+        """Return a place; whose it is where that is somebody else, with whom where that is not the usual one."""
+        text = f"the {PLACES[place.name]}"
+        text += "" if place.of is None else f" of {self.name(place.of)}"
+        return text + ("" if place.partner is None else f" with {self.name(place.partner)}")
+
+    def clauses(self, conditions: Sequence[st.Condition], it: int | None = None, passing: bool = True) -> list[str]:
+        """Return a clause for each condition; who stands at a place is said in one. `it` is who is called so."""
+        conditions = sorted(conditions, key=lambda each: not isinstance(each, st.Measure) or each.actor != it)
+        places: dict[st.Condition, st.Measure] = {}  # where somebody stands, by the condition that it does
+        for each in conditions:
+            if isinstance(each, st.Measure) and each == st.standstill(each.actor):
+                free = [where for where in conditions if _is_where(where, each.actor) and where not in places.values()]
+                places.update({each: free[0]} if free else {})
+        found, spoken = [], set[int]()
+        for each in conditions:
+            if each in places.values():
+                continue
+            # Whoever alone has been spoken of is "it" from then on.
+            known = each.actor if it is None and isinstance(each, st.Measure) and spoken == {each.actor} else it
+            spoken |= st.people_in(each)
+            clause = self.clause(each, known, passing and each not in places)
+            where = f" {self.predicate(places[each]).removeprefix('is ')}" if each in places else ""
+            found.append(clause + where)
+        return found
+
+    def clause(self, condition: st.Condition, it: int | None = None, passing: bool = False) -> str:
+        """Return one condition as a clause; `passing` says that it is an event: ``the ego passes the stop line``."""
+        if isinstance(condition, st.Measure):
+            subject = "it" if condition.actor == it else self.name(condition.actor)
+            return f"{subject} {self.predicate(condition, passing)}"
+        parts = [self._part(part, condition.joint, it) for part in condition.parts]
+        if condition.joint == "not":
+            return f"it is not so that {parts[0]}"
+        if condition.joint == "if":
+            return f"if {parts[0]} then {parts[1]}"
+        return f"either {' or '.join(parts)}" if condition.joint == "or" else f"both {' and '.join(parts)}"
+
+    def _part(self, part: st.Condition, joint: str, it: int | None) -> str:
+        """Return a part of a compound: the English has no brackets, so there is only so much inside another."""
+        if isinstance(part, st.Compound):
+            inner = [each for each in part.parts if isinstance(each, st.Compound)]
+            fits = {"not": {"or", "and", "if"}, "and": {"or", "if", "not"}, "or": {"if", "not"}, "if": set[str]()}
+            flat = all(each.joint == "not" and isinstance(each.parts[0], st.Measure) for each in inner)
+            if joint not in fits[part.joint] or (inner and (part.joint == "not" or not flat)):
+                raise untold("conditions inside conditions of conditions")
+        return self.clause(part, it)
+
+    def predicate(self, measure: st.Measure, passing: bool = False) -> str:
+        """Return what a measure says of its actor."""
+        bound = "" if measure.amount is None else bounded(measure.op, measure.amount)
+        match measure.quantity:
+            case st.Quantity.PLACE if measure.place is not None:
+                return self._where(measure, measure.place, bound, passing)
+            case st.Quantity.ARRIVAL if measure.place is not None:
+                return f"is {bound} from {self.place(measure.place)}"
+            case st.Quantity.SPEED if measure.other is not None:
+                whom = self.name(measure.other)
+                if measure.amount is None:
+                    return f"drives {_WITHOUT_AMOUNT[measure.op][1]} {whom}"
+                return f"drives {bound} {'slower' if measure.opposite else 'faster'} than {whom}"
+            case st.Quantity.SPEED:
+                if measure == st.standstill(measure.actor):
+                    return "stands"
+                return f"drives at {bound}" if measure.op == "==" else f"drives at a speed of {bound}"
+            case st.Quantity.RATE:
+                return f"has {'a deceleration' if measure.opposite else 'an acceleration'} of {bound}"
+            case st.Quantity.GAP if measure.other is not None:
+                bound = "" if (measure.op, measure.amount) == (">", NO_GAP) else f"{bound} "
+                return f"is {bound}behind {self.name(measure.other)}"
+            case st.Quantity.HEADWAY if measure.other is not None:
+                return f"has a headway of {bound} to {self.name(measure.other)}"
+            case st.Quantity.COLLISION if measure.other is not None:
+                return f"has a time to collision of {bound} with {self.name(measure.other)}"
+        raise untold(f"a {measure.quantity} to nothing")
+
+    def _where(self, measure: st.Measure, place: st.Place, bound: str, passing: bool) -> str:
+        if bound:
+            return f"is {bound} {'past' if measure.opposite else 'before'} {self.place(place)}"
+        if measure.op == "==" and place in TURNING:
+            return TURNING[place]
+        return f"{'passes' if passing and measure.op == '==' else _WITHOUT_AMOUNT[measure.op][0]} {self.place(place)}"
+
+    def way(self, way: st.Way) -> str:
+        """Return how somebody drives."""
+        if way.lanes:
+            return f"follows the lanes {', '.join(way.lanes)}"
+        if way.headings:
+            return f"is headed {', then '.join(COMPASS_WORDS[each] for each in way.headings)}"
+        onward = {None: "goes on", "straight": "goes straight on"}.get(way.turn, f"turns {way.turn}")
+        into = f"{onward} into the {way.destination}" if way.destination else onward if way.turn else None
+        parts = (
+            way.origin and f"comes from the {way.origin}",
+            way.heading and f"is headed {COMPASS_WORDS[way.heading]}",
+            into,
+            way.destination_heading and f"is then headed {COMPASS_WORDS[way.destination_heading]}",
+        )
+        return listed([each for each in parts if each] or ["has an open way"])
+
+
+def speaks_of_ego(conditions: Sequence[st.Condition]) -> bool:
+    """Whether something is asked of the ego."""
+    return any(EGO in st.people_in(condition) for condition in conditions)
+
+
+def _is_where(condition: st.Condition, actor: int) -> TypeGuard[st.Measure]:
+    """Whether a condition puts somebody at one place, which is not an event of its turn."""
+    if not isinstance(condition, st.Measure) or condition.quantity is not st.Quantity.PLACE or condition.op != "==":
+        return False
+    return condition.actor == actor and not (condition.amount is None and condition.place in TURNING)

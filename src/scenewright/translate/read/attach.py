@@ -1,0 +1,148 @@
+"""Reads one clause: amounts attach by dimension to what they may be counted to, and what carries meaning is used up.
+
+What enters: the chunks of a clause, and who its people are. What leaves: the `Clause`, or the words that nothing could
+be made of. An amount belongs to the nearest place or actor after it, else before it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+
+from scenewright.program.types import EGO
+from scenewright.translate import story as st
+from scenewright.translate.read.cast import Cast
+from scenewright.translate.read.chunks import Chunk
+from scenewright.translate.read.clauses import IT, Clause, Taken, Target
+
+_BARE: dict[str, st.Operator] = {  # a side and a place, without an amount
+    "at": "==", "to": "==", "at or past": ">=", "past": ">", "at or before": "<=", "before": "<", "behind": "<",
+}  # fmt: skip
+_TO_PLACE = ("before", "behind", "from", "to", "ahead", "of")
+# What is asked for, by whether the amount is a time; and the sides on which the other one may stand.
+_TO_ACTOR = {
+    (None, False): st.Quantity.GAP, ("gap", False): st.Quantity.GAP, (None, True): st.Quantity.HEADWAY,
+    ("headway", True): st.Quantity.HEADWAY, ("time to collision", True): st.Quantity.COLLISION,
+}  # fmt: skip
+_SIDES_OF_ACTORS = {
+    None: ("behind", "ahead"), "gap": ("behind", "ahead", "to"), "headway": ("behind", "to"),
+    "time to collision": ("behind", "with", "to"),
+}  # fmt: skip
+_OF_A_PLACE = {True: (None, "time to arrival"), False: (None, "gap")}  # what may be asked for, by whether it is a time
+_OF_ITS_OWN = {"speed": (None, "speed"), "acceleration": (None, "rate", "acceleration", "deceleration")}
+_CONTRARY = ((st.Verb.BRAKE, "acceleration"), ("stop", "acceleration"), (st.Verb.SPEED_UP, "deceleration"))
+
+
+def read_clause(chunks: Sequence[Chunk], people: Cast, subject: int | None = None) -> Clause:
+    """Return what `chunks` say of whom they name, else of `subject`; what carries meaning must be used up."""
+    taken = Taken(list(chunks), people, subject)
+    taken.take_all()
+    _attach(taken)
+    return taken.clause
+
+
+def _attach(taken: Taken) -> None:
+    """Give amounts their targets, make measures of what stands alone, and say of whom all of it is."""
+    clause, last = taken.clause, taken.chunks[-1]
+    _find_subject(taken)
+    for target in taken.targets:
+        if target.place is None and target.other is None:
+            target.other = taken.people.whom(target.chunk, clause.subject)
+    if "stands" in taken.states:
+        taken.measure(last, st.Measure(IT, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s")))
+    for name in sorted(taken.states & {"turn_start", "turn_end"}):
+        taken.measure(last, st.Measure(IT, st.Quantity.PLACE, "==", None, st.Place(name)))
+    for at, op, chunk in taken.amounts:
+        _give(taken, at, op, chunk)
+    for target in taken.targets:
+        if not target.used:
+            _stand_alone(taken, target)
+    places = [each for each in clause.measures if each.quantity is st.Quantity.PLACE]
+    passes_nothing = "pass" in taken.states and all(each.amount is not None for each in places)
+    if passes_nothing or ("reach" in taken.states and not places) or (taken.quantity and not taken.amounts):
+        raise taken.left_over(last)
+    if "goes" in taken.states and clause.deed is None and not (clause.facts or clause.measures or clause.flags):
+        clause.deed = st.Verb.DRIVE
+    if clause.subject is None and (clause.measures or clause.rate):
+        raise taken.left_over(taken.chunks[0])
+    clause.measures = [_of(each, clause.subject) for each in clause.measures]
+    clause.rate = clause.rate and _of(clause.rate, clause.subject)
+
+
+def _find_subject(taken: Taken) -> None:
+    """Say of whom a clause is that names nobody in front."""
+    clause = taken.clause
+    ahead = next((each for each in taken.targets if each.side == "ahead" and each.other is not None), None)
+    place = next((each for each in taken.targets if each.place is not None and each.side == "at"), None)
+    # "There is a driveway 100 m in front of the ego."
+    if clause.subject is None and taken.amounts and ahead is not None and place is not None:
+        clause.subject, ahead.used, place.side = ahead.other, True, "before"
+    if taken.pair is not None:
+        rear = taken.people.rear(*taken.pair, clause.quote)
+        clause.subject, front = rear, next((each for each in taken.pair if each != rear), rear)
+        taken.targets.append(Target(0, "behind", taken.chunks[-1], other=front))
+    clause.subject = taken.subject if clause.subject is None else clause.subject
+
+
+def _of(measure: st.Measure, subject: int | None) -> st.Measure:
+    """Return a measure of `IT` as one of the subject."""
+    actor, other = (subject if each == IT else each for each in (measure.actor, measure.other))
+    assert actor is not None
+    place = measure.place
+    place = replace(place, of=None) if place is not None and place.of == actor else place
+    return replace(measure, actor=actor, other=other, place=place)
+
+
+def _stand_alone(taken: Taken, target: Target) -> None:
+    """Make of a target without an amount what it says: how two ways lie, or where somebody is."""
+    clause = taken.clause
+    if target.other is not None and target.side in ("ahead", "behind") and not (clause.deed or "event" in clause.notes):
+        clause.relations.append(st.Relation(target.side, target.other, target.chunk.quote))
+    elif target.side == "at" and target.at < taken.subject_at and not taken.states & {"pass", "reach"}:
+        raise taken.left_over(target.chunk)  # "at the junction, the ego ...": it is what follows that is there
+    elif target.place is not None and target.side in _BARE:
+        taken.measure(target.chunk, st.Measure(IT, st.Quantity.PLACE, _BARE[target.side], None, target.place))
+    else:
+        raise taken.left_over(target.chunk)
+
+
+def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk) -> None:
+    """Make a measure of an amount, with the nearest free target after it, else before it."""
+    amount, clause = chunk.amount, taken.clause
+    assert amount is not None
+    if taken.quantity not in _OF_ITS_OWN.get(amount.dimension, (taken.quantity,)):
+        raise taken.left_over(chunk)
+    if amount.dimension == "speed":
+        taken.measure(chunk, st.Measure(IT, st.Quantity.SPEED, op, amount))
+        return
+    if amount.dimension == "acceleration":
+        slowing = taken.quantity == "deceleration" or clause.deed in (st.Verb.BRAKE, "stop")
+        if (clause.deed, taken.quantity) in _CONTRARY:
+            raise taken.left_over(chunk)  # nobody brakes with an acceleration
+        taken.measure(chunk, st.Measure(IT, st.Quantity.RATE, op, amount, opposite=slowing))
+        if clause.deed is not None:
+            clause.rate = clause.measures.pop()
+        return
+    free = [target for target in taken.targets if not target.used]
+    target = next((each for each in free if each.at > at), free[-1] if free else None)
+    if target is None:
+        raise taken.left_over(chunk)
+    target.used = True
+    is_time, side, place = amount.dimension == "time", target.side, target.place
+    past = side in ("past", "after") and not is_time
+    if place is not None:
+        quantity = st.Quantity.ARRIVAL if is_time else st.Quantity.PLACE
+        fits = past or side in _TO_PLACE or (side == "at" and taken.quantity == "time to arrival")
+        if not fits or taken.quantity not in _OF_A_PLACE[is_time]:
+            raise taken.left_over(target.chunk)
+        taken.measure(chunk, st.Measure(IT, quantity, op, amount, place, opposite=past))
+        return
+    asked, fits = _TO_ACTOR.get((taken.quantity, is_time)), side in _SIDES_OF_ACTORS.get(taken.quantity, ())
+    if asked is None or target.other is None or not fits:
+        raise taken.left_over(target.chunk)
+    behind = side == "ahead"  # it is the other one that is behind
+    if asked is st.Quantity.GAP and side == "to":
+        behind = taken.people.rear(clause.subject or EGO, target.other, chunk.quote) == target.other
+    one, other = (target.other, IT) if behind else (IT, target.other)
+    taken.measure(chunk, st.Measure(one, asked, op, amount, other=other))

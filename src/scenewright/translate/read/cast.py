@@ -1,0 +1,228 @@
+"""Who is spoken of: people by name, kind and what describes them, pronouns, and questions where two fit.
+
+What enters: mentions, one after the other. What leaves: numbers of actors. It knows no moments and no deeds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, NoReturn
+
+from scenewright.errors import UnknownWordsError
+from scenewright.program.types import EGO
+from scenewright.translate import story as st
+from scenewright.translate.compile import DRIVEN, kind_of
+from scenewright.translate.phrases import OTHERWISE
+from scenewright.translate.read.chunks import Chunk, nearest_words, word_as
+
+NEW = "somebody new"
+ASIDE, CAR = "set it aside", "a car of that name"
+
+
+@dataclass(slots=True)
+class Cast:
+    """Everybody so far, and who and what was spoken of last."""
+
+    text: str
+    answers: Mapping[str, str] = field(default_factory=dict)
+    actors: list[st.Actor] = field(default_factory=list)
+    known_by: dict[int, set[str]] = field(default_factory=dict)  # the words that somebody was described with
+    assumptions: list[str] = field(default_factory=list)
+    questions: list[st.Question] = field(default_factory=list)
+    mentioned: list[int] = field(default_factory=list)  # in this sentence
+    subject: int | None = None  # of the last main clause
+    place: st.Place | None = None  # that was spoken of last
+    driving: set[int] = field(default_factory=set)  # who goes straight on where nothing else is said
+    doer: int | None = None  # whose deed it is, while what ends it is read
+    quote: st.Quote = field(default_factory=lambda: st.Quote(0, 0, ""))  # the sentence that is being read
+
+    def who(self, chunk: Chunk, acts: bool = False) -> int:
+        """Return the number of whoever is mentioned; somebody new is added. Who `acts` is not the ego."""
+        if chunk.kind == "relative" and self.mentioned:
+            return self.mentioned[-1]
+        actor = self._it(chunk, acts) if chunk.kind in ("pronoun", "relative") else self._named(chunk)
+        self.mentioned.append(actor)
+        for trait in chunk.traits:
+            if trait.kind == "relation":
+                self.relate(actor, st.Relation(trait.value, EGO, trait.quote))
+            elif trait.kind in ("heading", "turn"):
+                self.tell_way(actor, {trait.kind: trait.value})
+                self.driving.add(actor)
+        return actor
+
+    def whom(self, chunk: Chunk, subject: int | None) -> int:
+        """Return the one that "it" means who is not the subject."""
+        others = set(self.mentioned) - {subject} or {actor.id for actor in self.actors} - {subject}
+        if len(others) != 1:
+            self.refuse("it is not clear who is meant", chunk.quote)
+        return others.pop()
+
+    def where(self, chunk: Chunk) -> st.Place:
+        """Return the place that "it" means: the one that was spoken of last."""
+        if self.place is None:
+            self.refuse("it is not clear which place is meant", chunk.quote)
+        return self.place
+
+    def pair(self, chunk: Chunk) -> tuple[int, int]:
+        """Return the ego and the only other one, whom "both" and "they" mean."""
+        if len(self.heroes) != 1 or not any(each.id == EGO for each in self.actors):
+            self.refuse(f"it is not clear who '{chunk.text}' are", chunk.quote, "name them")
+        return EGO, self.heroes[0].id
+
+    def rear(self, one: int, other: int, quote: st.Quote) -> int:
+        """Return who of two drives behind the other: as was said, else the first, which is a question."""
+        if one == other:
+            self.refuse("one and the same is named twice", quote)
+        for actor in self.actors:
+            for relation in actor.relations:
+                if {actor.id, relation.of} == {one, other} and relation.kind in ("ahead", "behind"):
+                    return actor.id if relation.kind == "behind" else relation.of
+        return self._one_of([one, other], "Who drives behind?", 0, quote) or 0
+
+    def _it(self, chunk: Chunk, acts: bool) -> int:
+        if self.doer is not None:
+            return self.doer
+        named, last = list(dict.fromkeys(self.mentioned)), [] if self.subject is None else [self.subject]
+        found = named or last
+        if acts and EGO in found:  # which is driven by the policy under test
+            found = [each for each in named if each != EGO] or [each for each in last if each != EGO] or found
+        if not found:
+            self.refuse("it is not clear who is meant", chunk.quote)
+        return self._one_of([*found], "Who is 'it'?", len(found) - 1, chunk.quote) or 0
+
+    def _one_of(self, people: list[int | None], asked: str, default: int | None, quote: st.Quote) -> int | None:
+        """Return the one of some people, None for somebody new; several are asked about."""
+        names = [NEW if each is None else self.actor(each).name for each in people]
+        told = self.ask(f"who {quote.start}", asked, names, default, quote) if len(people) > 1 else ""
+        return people[names.index(told)] if told else [None, *people][-1]
+
+    def _named(self, chunk: Chunk) -> int:
+        if chunk.kind != "actor":
+            return self._called(chunk, chunk.value, chunk.traits[0].value if chunk.traits else "car")
+        if chunk.value == "ego":
+            self.known_by.setdefault(EGO, set()).update(chunk.text.lower().split())
+            return self._called(chunk, "ego", "car")
+        words = {each.text.lower() for each in chunk.traits if each.kind == "quality"}
+        fitting = [each for each in self.heroes if self._fits(each, chunk, words)]
+        fitting = [each for each in fitting if each.name == chunk.value] or fitting
+        fitting = [each for each in fitting if words and words <= self.known_by[each.id]] or fitting
+        another = chunk.is_new and any(each.kind == "other" for each in chunk.traits)
+        some: list[int | None] = [] if another else [each.id for each in fitting]
+        if not some and not chunk.is_new and chunk.text.lower() in self.known_by.get(EGO, ()):
+            some = [EGO, None]  # "our car ... the car": the ego, or another one?
+        some += [None] * (chunk.is_new and bool(some))  # "a car ... a car"
+        number = self._one_of(some, f"Who is '{chunk.text}'?", None, chunk.quote)
+        if number is None:
+            number = self._called(chunk, self._free_name(chunk.value, words), chunk.value)
+        self.known_by.setdefault(number, set()).update(words)
+        return number
+
+    def _fits(self, actor: st.Actor, chunk: Chunk, words: set[str]) -> bool:
+        """Whether a mention may mean somebody that is known: of its kind, or "the car" where there is only one."""
+        kind = "car" if chunk.value == "hero" else chunk.value
+        general = chunk.value == "car" and (len(self.heroes) == 1 or any(e.kind == "other" for e in chunk.traits))
+        named = chunk.value in (actor.name, *self.known_by.get(actor.id, ()))
+        named |= actor.kind == kind and chunk.value != "hero"
+        strange = words - self.known_by.get(actor.id, set())
+        return (named or (general and not chunk.is_new)) and not (strange and self.known_by.get(actor.id))
+
+    def _free_name(self, name: str, words: set[str]) -> str:
+        """Return a name that nobody has: that of its kind, with what describes it, with a number."""
+        taken = {each.name for each in self.actors}
+        described = " ".join((*sorted(words), name))
+        names = (name, described, *(f"{described} {number}" for number in range(2, len(taken) + 3)))
+        return next(each for each in names if each not in taken)
+
+    def _called(self, chunk: Chunk, name: str, kind: str) -> int:
+        for actor in self.actors:
+            if actor.name == name:
+                return actor.id
+        heroes = [each.id for each in self.heroes]
+        number = EGO if name == "ego" and chunk.kind == "actor" else max(heroes, default=0) + 1
+        kind = "car" if kind in ("hero", "ego") else kind
+        self.actors.append(st.Actor(number, name, st.Way(), kind_of(kind) if kind in DRIVEN else kind, (), chunk.quote))
+        self.known_by.setdefault(number, set())
+        return number
+
+    @property
+    def heroes(self) -> list[st.Actor]:
+        """Everybody but the ego."""
+        return [actor for actor in self.actors if actor.id != EGO]
+
+    def actor(self, number: int) -> st.Actor:
+        """Return somebody by number; the ego may not have been named yet."""
+        found = [actor for actor in self.actors if actor.id == number]
+        if not found:
+            raise UnknownWordsError("the text does not say who is under test", fix="call it the ego")
+        return found[0]
+
+    def tell_way(self, number: int, facts: Mapping[str, str], turns_then: bool = False) -> None:
+        """Add facts of somebody's way; who went straight until then may turn at a moment."""
+        actor = self.actor(number)
+        way = replace(actor.way, turn=None) if turns_then and actor.way.turn == "straight" else actor.way
+        for name, value in facts.items():
+            if name == "then" or (name, value) == ("turn", "on"):
+                continue
+            many = {"headings": tuple(value), "lanes": tuple(value.split(", "))}
+            whole = many.get(name, value)
+            if getattr(way, name) not in (None, (), whole):
+                self.refuse(f"two things are said of the way of {actor.name}")
+            fact: dict[str, Any] = {name: whole}
+            way = replace(way, **fact)
+        self._change(replace(actor, way=way))
+
+    def go_straight(self) -> None:
+        """Let who drives and is not said to turn go straight on, unless it drives in one line with who turns."""
+        for actor in self.actors:
+            near = [self.actor(each.of) for each in actor.relations if each.kind != "oncoming"]
+            near += [other for other in self.actors
+                     if any(each.of == actor.id and each.kind != "oncoming" for each in other.relations)]  # fmt: skip
+            way, ways = actor.way, [each.way for each in near if not actor.way.heading]
+            told = any(each.origin == "driveway" or each.turn not in (None, "straight") for each in (way, *ways))
+            driving = {actor.id, *(each.id for each in near)} & self.driving
+            if driving and not (told or way.turn or way.destination or way.headings or way.lanes):
+                self._change(replace(actor, way=replace(way, turn="straight")))
+                self.assumptions.append(f"{actor.name} goes straight on")
+
+    def relate(self, number: int, *relations: st.Relation) -> None:
+        """Add how somebody's way lies to another's."""
+        actor = self.actor(number)
+        if number == EGO and len(self.heroes) == 1:  # "the ego is ahead": of the only other one
+            relations = tuple(replace(each, of=self.heroes[0].id) for each in relations)
+        if any(each.of == number for each in relations):
+            self.refuse("it is not clear whose way this is", relations[0].quote)
+        self._change(replace(actor, relations=tuple(dict.fromkeys((*actor.relations, *relations)))))
+
+    def _change(self, changed: st.Actor) -> None:
+        self.actors = [changed if each.id == changed.id else each for each in self.actors]
+
+    def ask(self, slot: str, text: str, alternatives: list[str], default: int | None, quote: st.Quote) -> str:
+        """Return the answer to a question; its default, or nothing, where it is noted as open."""
+        answer = self.answers.get(slot, "")
+        if answer in alternatives:
+            return answer
+        if all(each.slot != slot for each in self.questions):
+            self.questions.append(st.Question(slot, text, tuple(alternatives), default, quote))
+        return "" if default is None else alternatives[default]
+
+    def known_words(self, chunks: Sequence[Chunk]) -> tuple[list[Chunk], bool]:
+        """Ask what unknown words mean: return the chunks with those that are answered, and whether some are not."""
+        known, is_open = [], False
+        for chunk in chunks:
+            if chunk.kind != "unknown":
+                known.append(chunk)
+                continue
+            meant = {f"it means '{word}'": word for word in nearest_words(chunk.text)}
+            slot, asked = f"word {chunk.text.lower()}", f"What is '{chunk.text}'?"
+            answer = self.ask(slot, asked, [*meant, CAR, ASIDE], None, chunk.quote)
+            is_open |= not answer
+            if answer in meant:
+                known.append(word_as(chunk, meant[answer]))
+            elif answer == CAR:
+                known.append(replace(chunk, kind="name"))
+        return known, is_open
+
+    def refuse(self, message: str, quote: st.Quote | None = None, fix: str = OTHERWISE) -> NoReturn:
+        """Raise the error that says what could not be read, of the sentence where nothing nearer is known."""
+        raise UnknownWordsError(message, found=(quote or self.quote).text, fix=fix)

@@ -1,0 +1,268 @@
+"""Cuts a text into sentences of typed chunks: people, amounts, places, deeds, links and the rest.
+
+What enters: a text. What leaves: for each sentence its chunks, each with the stretch it came from; a word that is not
+of the domain is a chunk of kind `unknown`. It decides nothing about what belongs to what.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+from fractions import Fraction
+from functools import lru_cache
+from importlib.resources import files
+
+from scenewright.translate.phrases import ORDINALS
+from scenewright.translate.story import Amount, Quote
+from scenewright.units import UNITS, unit_of_name
+
+_TOKEN = re.compile(
+    r"(?P<layout>\n[ \t]*(?=\n|[A-Z][A-Za-z ]{1,24}:)|(?:(?<=\n)|\A)[ \t]*(?:[-*•]|\d{1,2}[.)])[ \t]+)"
+    r"|(?P<quoted>(?<![\w'])'[^'\n]+')"
+    r"|(?P<number>(?<![\w.])-?\d+(?:\.\d+|/[1-9]\d*)?)"
+    r"|\{(?P<braced>[A-Za-z]\w*)\}"
+    r"|(?P<snake>[A-Za-z][A-Za-z0-9]*_\w*)"
+    r"|(?P<word>[^\W\d_][^\W_]*(?:[-’'](?!s\b|ve\b|ll\b)[^\W\d_]+)*)"
+    r"|(?P<possessive>['’]s\b|['’](?=\s))"
+    r"|(?P<short>['’](?:ve|ll)\b)"
+    r"|(?P<mark>[.,;:!?()\[\]–—\"“”])"
+    r"|(?P<other>\S)"
+)
+_LANES = re.compile(r"follows? the lanes ((?:[A-Za-z0-9_]+(?:\.-?[A-Za-z0-9_]+)+(?:, )?)+)")
+_NUMBERS = "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen"
+_TENS = "twenty thirty forty fifty sixty"
+_ENDS = ".;!?"
+_QUOTES = '"“”'
+_TRAITS = ("heading", "relation", "quality", "other", "turn")
+_LONG = 8  # letters; of shorter words too many differ from another word by one letter
+_LIKE = 0.86  # of two words of so many letters, one slip apart, 7 letters in 8 agree
+_SUFFIX = {"m": "_m", "s": "_s", "m/s": "_mps", "m/s^2": "_mpss", "km/h": "_kmph", "mph": "_mph", "ft": "_ft"}
+
+
+@dataclass(frozen=True, slots=True)
+class Chunk:
+    """A stretch of a text with what it is: `kind` and `value` are those of the vocabulary."""
+
+    kind: str
+    value: str
+    start: int
+    end: int
+    text: str
+    amount: Amount | None = None
+    traits: tuple[Chunk, ...] = ()  # of somebody: which one, how its way lies
+    is_new: bool = False  # "a car", "another car"
+    slips: tuple[str, ...] = ()  # the words that it was read with where the text seems to have a slip of the pen
+
+    @property
+    def quote(self) -> Quote:
+        """Where it came from."""
+        return Quote(self.start, self.end, self.text)
+
+
+@dataclass(frozen=True, slots=True)
+class Vocabulary:
+    """Phrases by their first word, the longest first; unit words and number words."""
+
+    phrases: dict[str, list[tuple[tuple[str, ...], str, str]]]
+    units: dict[str, str]
+    numbers: dict[str, Fraction]
+    labels: dict[str, str]
+    words: frozenset[str]  # all that stand in phrases
+    long: tuple[str, ...]
+    unit_pattern: re.Pattern[str]
+
+
+@lru_cache(maxsize=1)
+def vocabulary() -> Vocabulary:
+    """Return the words of the domain."""
+    table = tomllib.loads(files("scenewright.translate.read").joinpath("words.toml").read_text(encoding="utf-8"))
+    units = {word: symbol for symbol, said in table.pop("unit").items() for word in said.split(" | ")}
+    numbers = {word: Fraction(number) for number, word in enumerate(_NUMBERS.split())}
+    numbers |= {word: Fraction(10 * tens) for tens, word in enumerate(_TENS.split(), start=2)}
+    labels = {word: kind for kind, said in table.pop("label").items() for word in said.split(" | ")}
+    table["ordinal"] = {str(number): f"for the {word} time" for number, word in enumerate(ORDINALS)}
+    phrases: dict[str, list[tuple[tuple[str, ...], str, str]]] = {}
+    for kind, values in table.items():
+        for value, said in values.items():
+            for phrase in said.split(" | "):
+                for form in _forms(phrase) + ([f"the {phrase}"] if kind == "place" else []):
+                    words = tuple(form.split())
+                    phrases.setdefault(words[0], []).append((words, kind, value))
+    for known in phrases.values():
+        known.sort(key=lambda each: -len(each[0]))
+    longest = "|".join(map(re.escape, sorted(units, key=len, reverse=True)))
+    pattern = re.compile(rf"[\s-]?({longest})(?![\w/^²])", re.IGNORECASE)
+    single = frozenset(word for same in phrases.values() for said, _, _ in same for word in said)
+    return Vocabulary(phrases, units, numbers, labels, single, tuple(w for w in single if len(w) >= _LONG), pattern)
+
+
+_IRREGULAR = {
+    "drive": "drove driven", "go": "went gone", "come": "came", "stand": "stood", "begin": "began begun",
+    "leave": "left", "get": "got", "keep": "kept", "hold": "held", "make": "made", "take": "took taken",
+    "fall": "fell fallen", "mean": "meant", "shrink": "shrank shrunk", "ride": "rode", "run": "ran",
+}  # fmt: skip
+_DOUBLED = ("stop", "begin", "get", "plan", "slam", "drop", "run")
+
+
+def _forms(phrase: str) -> list[str]:
+    """Return a phrase, and where it is a verb (marked with *) its other forms."""
+    if not phrase.startswith("*"):
+        return [phrase]
+    verb, _, rest = phrase[1:].partition(" ")
+    doubled = verb + verb[-1] if verb in _DOUBLED else verb
+    stem = verb.removesuffix("e")
+    carried = f"{verb[:-1]}ie" if verb.endswith("y") and verb[-2] not in "aeiou" else verb  # "carry", "carries"
+    third = f"{verb}es" if verb.endswith(("s", "sh", "ch", "x", "o")) else f"{carried}s"
+    past = _IRREGULAR.get(verb, f"{carried}d" if carried.endswith("e") else f"{doubled}ed").split()
+    forms = [verb, third, f"{stem if verb.endswith('e') else doubled}ing", *past]
+    return [f"{form} {rest}".strip() for form in forms]
+
+
+def sentences(text: str) -> list[list[Chunk]]:
+    """Return the chunks of each sentence of `text`; what means nothing is left out.
+
+    Examples
+    --------
+    >>> [(chunk.kind, chunk.value) for chunk in sentences("The hero brakes at 3 m/s^2.")[0]]
+    [('actor', 'hero'), ('deed', 'brake'), ('side', 'at'), ('amount', '3 m/s^2')]
+    """
+    found: list[list[Chunk]] = [[]]
+    for chunk in _chunks(text):
+        if chunk.kind == "end":
+            if chunk.text == "?":  # a question states nothing
+                found[-1].append(replace(chunk, kind="unknown"))
+            found.append([])
+        else:
+            found[-1].append(chunk)
+    return [chunks for each in found if (chunks := _described(_labelled(each, text)))]
+
+
+def _labelled(chunks: list[Chunk], text: str) -> list[Chunk]:
+    """Take what a label in front of a colon says: whom, when, or nothing (``Action: ...``)."""
+    colon = next((number for number, each in enumerate(chunks[:6]) if each.text == ":"), 0)
+    if not colon:
+        return chunks
+    people = [each for each in chunks[:colon] if each.kind == "actor"]
+    words = " ".join(each.text.lower() for each in chunks[:colon] if each.kind not in ("actor", "filler", "possessive"))
+    kind = vocabulary().labels.get(words)
+    if kind is None and (words or not people):
+        return chunks
+    first = replace(chunks[0], kind="link", value="when" if kind == "when" else "start")
+    return [*people, *([first] if kind in ("when", "start") else []), *chunks[colon + 1 :]]
+
+
+def _described(chunks: list[Chunk]) -> list[Chunk]:
+    """Give somebody the words that describe it, and leave out what means nothing: ``an oncoming red car``."""
+    found: list[Chunk] = []
+    for chunk in chunks:
+        if chunk.kind == "actor":
+            first = len(found)
+            while first and found[first - 1].kind in _TRAITS:
+                first -= 1
+            is_new = first > 0 and (found[first - 1].kind, found[first - 1].value) == ("det", "a")
+            chunk = replace(chunk, traits=tuple(found[first:]), is_new=is_new)
+            del found[first - is_new :]
+        if chunk.kind == "name" and found and found[-1].kind == "actor":  # "the car 'blue'"
+            chunk = replace(chunk, traits=(found.pop(),))
+        found.append(chunk)
+    another = {each for each in found if (each.kind, each.value) == ("det", "a") and len(each.text) > 3}
+    kept = [each for each in found if each in another or each.kind not in ("filler", "det")]
+    return [replace(each, kind="unknown") if each in another else each for each in kept]  # "another stop line"
+
+
+def _chunks(text: str) -> Iterator[Chunk]:
+    tokens = list(_TOKEN.finditer(text))
+    words = [token.group().lower() for token in tokens]
+    slips = {at: right for at, token in enumerate(tokens) if token["word"] and (right := corrected(words[at]))}
+    words = [slips.get(at, word) for at, word in enumerate(words)]
+    end = 0
+    for index, token in enumerate(tokens):
+        if token.start() >= end:
+            chunk = _lanes(text, token.start()) or _amount(text, token) or _phrase(text, tokens, words, index)
+            chunk = chunk or _plain(token)
+            end = chunk.end
+            slipped = [each for at, each in slips.items() if chunk.start <= tokens[at].start() < end]
+            yield replace(chunk, slips=tuple(slipped)) if slipped else chunk
+
+
+def _lanes(text: str, at: int) -> Chunk | None:
+    match = _LANES.match(text, at)
+    if match is None:
+        return None
+    end = match.start(1) + len(match[1].rstrip(", "))
+    return Chunk("lanes", match[1].rstrip(", "), at, end, text[at:end])
+
+
+def _amount(text: str, match: re.Match[str]) -> Chunk | None:
+    """Return a number, a number word or a parameter, with its unit."""
+    known = vocabulary()
+    start, end = match.span()
+    name = match["braced"] or match["snake"]
+    number = match["number"] or (str(known.numbers.get((match["word"] or "").lower(), "")) or None)
+    if not name and number is None:
+        return None
+    unit = known.unit_pattern.match(text, end)
+    symbol = None if unit is None else known.units[unit[1].lower() if unit[1].lower() in known.units else unit[1]]
+    if match["word"] and symbol is None:
+        return None  # "one" of them
+    if unit is not None:
+        end = unit.end()
+    quote = Quote(start, end, text[start:end])
+    if name:
+        own = unit_of_name(name)
+        if own is None and symbol in _SUFFIX:
+            name, own = name + _SUFFIX[symbol], UNITS[symbol]
+        if own is None or (symbol is not None and UNITS[symbol].dimension != own.dimension):
+            return Chunk("no unit", name, start, end, quote.text)
+        return Chunk("amount", quote.text, start, end, quote.text, Amount(None, own.symbol, name, quote))
+    assert number is not None
+    if symbol is None:
+        return Chunk("no unit", number, start, end, quote.text)
+    return Chunk("amount", quote.text, start, end, quote.text, Amount(Fraction(number), symbol, None, quote))
+
+
+def _phrase(text: str, tokens: list[re.Match[str]], said: list[str], index: int) -> Chunk | None:
+    """Return the longest phrase of the domain that begins here."""
+    if tokens[index]["word"] is None and tokens[index]["short"] is None:
+        return None
+    for words, kind, value in vocabulary().phrases.get(said[index], ()):
+        last = index + len(words) - 1
+        if tuple(said[index : last + 1]) != words:
+            continue
+        after = said[last + 1] if last + 1 < len(said) else ""
+        where = after == "of" if words[-1] == "start" else words[-1] == "on" and after in ("the", "a")
+        if len(words) == 1 or not where:  # "drives on the road", "at the start of the turn" say where
+            start, end = tokens[index].start(), tokens[last].end()
+            return Chunk(kind, value, start, end, text[start:end])
+    return None
+
+
+def _plain(token: re.Match[str]) -> Chunk:
+    (start, end), said = token.span(), token.group()
+    if token["quoted"]:
+        return Chunk("name", said[1:-1], start, end, said)
+    mark = "end" if token["layout"] or said in _ENDS else "filler" if said in _QUOTES else "comma"
+    other = "possessive" if token["possessive"] else "unknown"
+    return Chunk(mark if token["mark"] or token["layout"] else other, said, start, end, said)
+
+
+def corrected(word: str) -> str | None:
+    """Return the long word of the domain that an unknown one is taken for; None where it may be a word of its own."""
+    known = vocabulary()
+    close = [] if word in known.words or len(word) < _LONG - 1 else get_close_matches(word, known.long, 1, _LIKE)
+    return close[0] if close else None
+
+
+def nearest_words(word: str) -> list[str]:
+    """Return the words of the domain that are spelled most like `word`."""
+    single = {words[0] for known in vocabulary().phrases.values() for words, _, _ in known if len(words) == 1}
+    return get_close_matches(word.lower(), sorted(single), n=2, cutoff=0.7)
+
+
+def word_as(chunk: Chunk, word: str) -> Chunk:
+    """Return `chunk` as what another word is."""
+    kind, value = next((kind, value) for words, kind, value in vocabulary().phrases[word] if words == (word,))
+    return replace(chunk, kind=kind, value=value)

@@ -1,0 +1,391 @@
+"""Takes the chunks of one clause: whom it is about, what is done, what is said of a way, amounts and what they go to.
+
+What enters: the chunks of a clause, and who its people are. What leaves: a `Clause` with what is said of its subject,
+or an `UnknownWordsError` with the words that nothing could be made of. Order decides only what is nearest.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields, replace
+
+from scenewright.errors import UnknownWordsError
+from scenewright.program.arithmetic import JUST_BEFORE_M
+from scenewright.program.types import EGO
+from scenewright.translate import story as st
+from scenewright.translate.compile import COMPASS
+from scenewright.translate.phrases import OTHERWISE
+from scenewright.translate.read.cast import Cast
+from scenewright.translate.read.chunks import Chunk
+
+IT = -1  # the subject, in a measure of a clause that is still being read
+PEOPLE = ("actor", "name", "pronoun", "relative")
+OPERATORS: dict[str, st.Operator] = {"==": "==", ">=": ">=", "<=": "<=", ">": ">", "<": "<"}
+# Verbs that may have an amount: "reaches a point 12 m before".
+_REACHES = ("reach", "get", "got", "come", "came", "arriv")
+_CONFLICT = st.Place("turn")  # where a driveway joins a road
+_SIDES = ("before", "behind", "from", "to", "ahead", "past")  # of a place that an amount is counted to
+
+
+_OF_AMOUNTS = ("amount", "bound", "quantity", "no unit")
+_AFTER = {  # what may stand behind a side that says no more than that it belongs there: "to pass it", "at a speed of"
+    "to": (*_OF_AMOUNTS, "event", "turn", "deed", "state", "phase", "mood"), "at": _OF_AMOUNTS, "of": _OF_AMOUNTS,
+    "for": _OF_AMOUNTS, "with": (*_OF_AMOUNTS, "turn", "deed"), "by": ("turn", "deed"),
+}  # fmt: skip
+_INITIAL = (("at", "link", "start"), ("with", "link", "start"))  # "with an initial speed of"
+
+
+@dataclass(slots=True)
+class Clause:
+    """What one clause says.
+
+    Attributes
+    ----------
+    measures, rate, times
+        What is so of the subject, how hard it brakes or speeds up, and for how long or how long after the start.
+    joined
+        Conditions that "either", "both", "if" and "it is not so that" join, of whomever they are.
+    flags
+        ``standstill``, ``while`` (the end is open), ``to`` a speed, ``first``, ``start``, ``way``
+        (it is open), ``falls`` (an amount that is reached), ``yields``, ``insists``.
+    notes
+        How it says it, which is no meaning of its own: ``event`` (something is passed), ``wanted`` (a wish).
+    """
+
+    quote: st.Quote
+    subject: int | None = None
+    deed: str | None = None
+    phase: str | None = None
+    ordinal: int = 0
+    measures: list[st.Measure] = field(default_factory=list)
+    joined: list[st.Compound] = field(default_factory=list)
+    rate: st.Measure | None = None
+    times: dict[str, tuple[st.Operator, st.Amount]] = field(default_factory=dict)
+    facts: dict[str, str] = field(default_factory=dict)
+    flags: set[str] = field(default_factory=set)
+    relations: list[st.Relation] = field(default_factory=list)
+    notes: set[str] = field(default_factory=set)
+
+    def says_more_than(self, *expected: str) -> bool:
+        """Whether anything but these attributes is filled: what carries meaning must be used up."""
+        known = {*expected, "quote", "subject", "notes"}
+        return any(getattr(self, each.name) for each in fields(self) if each.name not in known)
+
+    @property
+    def conditions(self) -> list[st.Condition]:
+        """All that it says is so."""
+        return [*self.measures, *self.joined]
+
+    @property
+    def is_event(self) -> bool:
+        """Whether it says that its subject comes to a place, and nothing else."""
+        told = self.says_more_than("measures") or not self.measures or "event" not in self.notes
+        return not told and all(st.is_event(each) for each in self.measures)
+
+
+@dataclass(slots=True)
+class Target:
+    """What an amount may be counted to: a place or somebody, with the side that it lies on; "it" is neither yet."""
+
+    at: int
+    side: str
+    chunk: Chunk
+    place: st.Place | None = None
+    other: int | None = None
+    used: bool = False
+
+
+@dataclass(slots=True)
+class Taken:
+    """A clause while it is read: what was found in it, in order; `at` is the last chunk that was taken."""
+
+    chunks: list[Chunk]
+    people: Cast
+    subject: int | None = None  # of whom it is where it names nobody
+    at: int = 0
+    clause: Clause = field(init=False)
+    amounts: list[tuple[int, st.Operator, Chunk]] = field(default_factory=list)
+    targets: list[Target] = field(default_factory=list)
+    states: set[str] = field(default_factory=set)
+    quantity: str | None = None
+    subject_at: int = 0
+    pair: tuple[int, int] | None = None  # between whom a gap is
+
+    def __post_init__(self) -> None:
+        start, end = self.chunks[0].start, self.chunks[-1].end
+        self.clause = Clause(st.Quote(start, end, self.people.text[start:end]))
+
+    def take_all(self) -> None:
+        """Take every chunk, in order."""
+        while self.at < len(self.chunks):
+            self._take(self.chunks[self.at])
+            self.at += 1
+
+    def _take(self, chunk: Chunk) -> None:
+        """Take the chunk at `at`, and those behind it that belong to it."""
+        clause, value = self.clause, chunk.value
+        match chunk.kind:
+            case "pronoun" if value == "it" and self.states & {"pass", "reach"}:
+                self.targets.append(Target(self.at, "at", chunk, self.people.where(chunk)))
+            case _ if self._says_no_more(chunk):
+                pass
+            case "relative" if "deed" in (self.peek()[0], self.peek(2)[0]):
+                raise self.left_over(chunk)  # "which was braking" is no deed of the moment
+            case "relative" if clause.subject is not None and self.at == self.subject_at + 1:
+                clause.notes.add("relative")
+            case "actor" | "pronoun" | "name" | "relative" if clause.subject is None:
+                kinds = {each.kind for each in self.chunks}
+                acts = "deed" in kinds or ("turn" in kinds and "mood" not in kinds)
+                clause.subject, self.subject_at = self.people.who(chunk, acts), self.at
+                clause.notes |= {"relative"} if chunk.kind == "relative" else set()
+            case "quality" if self.peek(-1)[0] != "be":  # "the truck is red", not "5 m heavy"
+                raise self.left_over(chunk)
+            case "be" | "possessive" | "quality":
+                clause.notes |= {"has"} if value == "has" else set()
+            case "mood":
+                clause.notes.add(value)
+            case "amount" | "no unit":
+                self._amount(chunk)
+            case "near":
+                just = st.Amount(JUST_BEFORE_M, "m", None, chunk.quote)
+                self.amounts.append((self.at, "==", replace(chunk, amount=just)))
+                self._target("before")
+            case "side":
+                self._side(chunk)
+            case "place" if self.states & {"pass", "reach"} or self.peek()[0] in ("be", "event"):
+                self.at -= 1
+                self._target("at")
+            case "area" if value == "driveway" and (
+                self.states & {"pass", "reach"} or (clause.subject is None and self.peek(2)[1] == "ahead")
+            ):
+                self.targets.append(Target(self.at, "at", chunk, _CONFLICT))
+            case "deed" if clause.deed is None:
+                clause.deed = value or chunk.text.lower()
+            case "phase" if clause.phase is None:
+                clause.phase = value
+            case "ordinal":
+                clause.ordinal = int(value)
+            case "standstill" | "open" | "order" | "yields" | "insists":
+                clause.flags.add("standstill" if chunk.kind == "standstill" else value)
+            case "link" if value == "start":
+                clause.flags.add("start")
+            case "relation" if value in ("ahead", "behind") and self.peek(-1)[0] == "amount":
+                self.targets.append(Target(self.at, value, chunk))
+            case "relation":
+                clause.relations.append(st.Relation(value, EGO, chunk.quote))
+            case "state" | "event":
+                self.states.add("reach" if value == "pass" and chunk.text.lower().startswith(_REACHES) else value)
+                clause.notes |= {"event", value} if chunk.kind == "event" else {value}
+            case "quantity" if self.quantity in (None, "rate", value):
+                self.quantity = value
+            case "factor" if value == "as fast as" or self.peek() == ("side", "than"):
+                self._factor(chunk)
+            case "joins" if self.targets and all(e.value == "ego" for e in self.chunks[self.at :] if e.kind == "actor"):
+                self.at = len(self.chunks)
+            case "turn" | "heading" | "origin" | "then_headed" | "area" | "lanes":
+                self.way(chunk)
+            case _:
+                raise self.left_over(chunk)
+
+    def _says_no_more(self, chunk: Chunk) -> bool:
+        """Whether a chunk is taken with its neighbours, or says here what they say."""
+        following, before = self.peek()[0], self.chunks[self.at - 1] if self.at else chunk
+        match chunk.kind:
+            case "pronoun":
+                return chunk.value == "its"
+            case "bound":
+                return following in ("amount", "no unit", "bound", "near") or self.peek()[1] == "as fast as"
+            case "link":  # "north, then south"
+                return chunk.value == "then" and before.kind == following == "heading"
+        return (chunk.kind, chunk.value, following) == ("joint", "and", "side")  # "across it and into the driveway"
+
+    def bound(self) -> st.Operator:
+        """Return the bound in front of the amount at `at`; one that is only reached is told, a vague one is asked."""
+        kind, value = self.peek(-1)
+        if kind != "bound":
+            return "=="
+        amount = self.chunks[self.at]
+        if value == "falls":
+            self.clause.flags.add("falls")
+        if value == "about":
+            told = f"{self.chunks[self.at - 1].text} {amount.text}"
+            exact: dict[str, st.Operator] = {f"exactly {amount.text}": "==", f"at most {amount.text}": "<=",
+                                             f"at least {amount.text}": ">="}  # fmt: skip
+            return exact[self.people.ask(f"vague {amount.start}", f"How much is '{told}'?", [*exact], 0, amount.quote)]
+        return OPERATORS.get(value, "==")
+
+    def _amount(self, chunk: Chunk) -> None:
+        op = self.bound()
+        lead = self.peek(-2 if self.peek(-1)[0] == "bound" else -1)
+        amount = chunk.amount
+        if amount is None:
+            raise self.left_over(chunk)
+        if amount.dimension == "time" and lead == ("side", "for"):
+            self.clause.times["for"] = (op, amount)
+        elif (self.peek(1)[1], self.peek(2)[1]) == ("after", "the start"):
+            self.clause.times["after the start"] = (op, amount)
+            self.at += 2
+        else:
+            self.amounts.append((self.at, op, chunk))
+
+    def _side(self, chunk: Chunk) -> None:
+        side, (kind, value) = chunk.value, self.peek()
+        before = self.chunks[self.at - 1].amount if self.at else None
+        if before is not None and before.dimension == "speed" and side in _SIDES and kind in ("place", *PEOPLE):
+            raise self.left_over(chunk)  # "12 m/s before the stop line"
+        if side in ("across", "to") and kind in PEOPLE and (side == "across" or "yields" in self.clause.flags):
+            self.at += 1  # "turns left across the ego's path", "yields to the ego"
+            own = self.subject if self.clause.subject is None else self.clause.subject
+            if self.people.who(self.chunks[self.at]) == own:
+                raise self.left_over(chunk)
+            self.at += 2 if (self.peek()[0], self.peek(2)[0]) == ("possessive", "thing") else 0
+        elif side == "between":
+            self._between(chunk)
+        elif kind in ("place", *PEOPLE):
+            self._target(side)
+        elif (kind, value) == ("area", "driveway") and side in _SIDES and self.peek(-1)[0] == "amount":
+            self.at += 1
+            self.targets.append(Target(self.at - 1, side, self.chunks[self.at], _CONFLICT))
+        elif side == "to" and kind in ("amount", "bound", "no unit") and self.clause.deed is not None:
+            self.clause.flags.add("to")
+        elif not (self.road(side) or kind in _AFTER.get(side, ()) or (side, kind, value) in _INITIAL):
+            raise self.left_over(chunk)
+
+    def _between(self, chunk: Chunk) -> None:
+        """Take "between the ego and the hero", "between them"."""
+        self.at += 1
+        if self.peek(0)[0] == "pair":
+            self.pair = self.people.pair(self.chunks[self.at])
+            return
+        if [self.peek(ahead)[0] in PEOPLE for ahead in (0, 2)] != [True, True] or self.peek()[1] != "and":
+            raise self.left_over(chunk)
+        one = self.people.who(self.chunks[self.at])
+        self.at += 2
+        self.pair = one, self.people.who(self.chunks[self.at])
+
+    def _target(self, side: str) -> None:
+        """Take the place or the actor after a side, with whose the place is and with whom."""
+        at = self.at
+        self.at += 2 if self.peek()[1] == "its" else 1
+        if self.at >= len(self.chunks):
+            raise self.left_over(self.chunks[at])
+        chunk = self.chunks[self.at]
+        if chunk.kind == "pronoun":  # who somebody is ahead of or behind, else the place that was spoken of last
+            place = None if side in ("ahead", "behind") else self.people.where(chunk)
+            self.targets.append(Target(at, side, chunk, place))
+        elif chunk.kind == "place":
+            self.targets.append(Target(at, side, chunk, self._place(chunk)))
+        else:
+            who = self.people.who(chunk)
+            if self.peek()[0] == "possessive" and self.peek(2)[0] == "place":
+                self.at += 2
+                place = replace(self._place(self.chunks[self.at]), of=who)
+                self.targets.append(Target(at, side, chunk, place))
+            elif self.peek()[0] == "possessive" and "area" in (self.peek(2)[0], self.peek(3)[0]):
+                if self.peek(2)[0] != "area" and self.peek(2)[1] != "oncoming":
+                    raise self.left_over(chunk)
+                self.at += 2 if self.peek(2)[0] == "area" else 3  # "into the ego's lane"
+                self.area(self.chunks[self.at], side)
+            else:
+                self.targets.append(Target(at, side, chunk, other=who))
+
+    def _place(self, chunk: Chunk) -> st.Place:
+        place = st.Place(chunk.value)
+        for side in ("of", "with"):
+            if self.peek()[1] != side or self.peek(2)[0] not in ("actor", "name"):
+                continue
+            if side == "of" or chunk.value in ("conflict_point", "intersection", "turn"):
+                self.at += 2
+                person = self.people.who(self.chunks[self.at])
+                place = replace(place, of=person) if side == "of" else replace(place, partner=person)
+        self.people.place = place
+        return place
+
+    def _factor(self, chunk: Chunk) -> None:
+        """Take "2 m/s faster than the ego", "at least as fast as the ego"."""
+        op, amount = self.bound(), None
+        if chunk.value != "as fast as":
+            op = ">" if chunk.value == "faster" else "<"
+            if self.amounts and self.amounts[-1][0] == self.at - 1:
+                _, op, before = self.amounts.pop()
+                amount = before.amount
+            self.at += 1
+        if self.peek()[0] not in ("actor", "name"):
+            raise self.left_over(chunk)
+        self.at += 1
+        other = self.people.who(self.chunks[self.at])
+        slower = chunk.value == "slower" and amount is not None
+        self.measure(chunk, st.Measure(IT, st.Quantity.SPEED, op, amount, other=other, opposite=slower))
+
+    def measure(self, chunk: Chunk, measure: st.Measure) -> None:
+        """Add a measure with the words that it came from."""
+        self.clause.measures.append(replace(measure, quote=chunk.quote))
+
+    def peek(self, ahead: int = 1) -> tuple[str, str]:
+        """Return kind and value of a chunk from here; nothing where there is none."""
+        at = self.at + ahead
+        return (self.chunks[at].kind, self.chunks[at].value) if 0 <= at < len(self.chunks) else ("", "")
+
+    def left_over(self, chunk: Chunk) -> UnknownWordsError:
+        """Return the error that names a chunk that nothing was made of."""
+        expected = "a number with a unit, such as 12 m" if chunk.kind == "no unit" else None
+        message, found = f"'{chunk.text}' could not be understood here", self.clause.quote.text
+        return UnknownWordsError(message, found=found, expected=expected, fix=OTHERWISE)
+
+    def way(self, chunk: Chunk) -> None:
+        """Take a chunk that says how somebody drives, with what belongs to it."""
+        facts = self.clause.facts
+        if chunk.kind == "heading" and self.peek(-1)[1] == "then" and self.peek(-2)[0] == "heading":
+            facts["headings"] = facts.get("headings", facts.pop("heading", "")) + chunk.value  # "north, then south"
+        elif chunk.kind == "heading":
+            self.headed(chunk)
+        elif chunk.kind == "area":
+            self.area(chunk)
+        elif chunk.kind == "origin" and self.road("from"):
+            pass
+        elif chunk.kind == "origin" or (chunk.kind == "then_headed" and self.peek()[0] != "heading"):
+            raise self.left_over(chunk)
+        elif chunk.text.lower().startswith("to ") and "origin" not in facts:
+            raise self.left_over(chunk)  # "leaves the road to the left", not "is to the left"
+        else:
+            if chunk.text.lower().split()[0] in ("turning", "making", "taking"):
+                self.clause.notes.add("wanted")
+            self.fact("then" if chunk.kind == "then_headed" else chunk.kind, chunk)
+
+    def road(self, side: str) -> bool:
+        """Take the road, the lane or the direction behind a side, where one is: "from the east", "into the road"."""
+        kind = self.peek()[0]
+        if side in ("from", "into", "to", "at") and self.is_lane():
+            self.at += 2
+            self.fact("destination_heading" if side == "into" else "heading", self.chunks[self.at - 1])
+            self.area(self.chunks[self.at], side)
+        elif kind == "heading" and side in ("to", "from"):  # who comes from the east is headed west
+            self.at += 1
+            self.headed(self.chunks[self.at], back=side == "from")
+        elif kind == "area" and side in ("at", "into", "from"):
+            self.at += 1
+            self.area(self.chunks[self.at], side)
+        else:
+            return False
+        return True
+
+    def is_lane(self) -> bool:
+        """Whether "the westbound lane" follows, which is no direction to come from."""
+        lane = (self.peek()[0], self.peek(2)[0]) == ("heading", "area")
+        return lane and self.chunks[self.at + 1].text.lower().endswith("bound")
+
+    def headed(self, chunk: Chunk, back: bool = False) -> None:
+        """Take a heading, of the way before or after its turn; `back` is where somebody comes from."""
+        later = "then" in self.clause.facts or self.clause.facts.get("turn", "straight") != "straight"
+        if back:
+            chunk = replace(chunk, value=COMPASS[(COMPASS.index(chunk.value) + 2) % 4])
+        self.fact("destination_heading" if later and not back else "heading", chunk)
+
+    def area(self, chunk: Chunk, side: str = "") -> None:
+        """Take a road, from which or into which somebody drives."""
+        turned = self.clause.facts.get("turn", "straight") != "straight" and side != "from"
+        self.fact("destination" if side == "into" or turned else "origin", chunk)
+
+    def fact(self, name: str, chunk: Chunk) -> None:
+        """Take one fact of a way; two that differ are left over."""
+        if self.clause.facts.setdefault(name, chunk.value) != chunk.value:
+            raise self.left_over(chunk)

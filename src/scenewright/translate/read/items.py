@@ -1,0 +1,234 @@
+"""Cuts sentences at their links, and lists of conditions into clauses.
+
+What enters: the chunks of a sentence, or of a stretch of it. What leaves: segments, and items: clauses, or conditions
+that are joined by "either", "both", "if" and "it is not so that".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from typing import Literal
+
+from scenewright.errors import UnknownWordsError
+from scenewright.translate import story as st
+from scenewright.translate.read.attach import read_clause
+from scenewright.translate.read.cast import Cast
+from scenewright.translate.read.chunks import Chunk
+from scenewright.translate.read.clauses import OPERATORS, PEOPLE, Clause
+
+LINKS = ("when", "until", "no later than", "from")
+_PREDICATES = {
+    "be", "state", "event", "phase", "deed", "turn", "mood", "heading", "origin", "quantity", "amount", "lanes",
+}  # fmt: skip
+_BEGINS_A_CLAUSE = {
+    *PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed", "pair",
+    "order", "yields", "insists", "open",
+}  # fmt: skip
+_ACTS = ("deed", "order", "yields", "insists")
+_FRONTED = ("side", "turn", "state", "origin", "heading", "area")
+_JOINTS: dict[str, tuple[Literal["and", "or", "if"], str]] = {  # what a word makes of its parts, and what parts them
+    "either": ("or", "or"),
+    "both": ("and", "and"),
+    "if": ("if", "then"),
+}
+
+
+@dataclass(slots=True)
+class Segment:
+    """A stretch of a sentence behind one link; `margin` is an amount of time that stood before the link."""
+
+    link: str
+    chunks: list[Chunk] = field(default_factory=list)
+    margin: tuple[st.Operator, st.Amount] | None = None
+
+
+def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
+    """Cut a sentence at its links; "before" and "after" are links where a clause follows, not a place.
+
+    "With the ego 12 m from ..., the hero ..." and "If ..., then ..." tell a moment, unless something leads them.
+    """
+    found = [Segment("main")]
+    opens = [(chunk.kind, chunk.value) for chunk in chunks[:2]] + [("", "")] * 2
+    fronted = opens[0] == ("side", "with") and opens[1][0] in PEOPLE  # "With the ego 12 m from ...", "At a gap of 12 m"
+    fronted |= opens[0] in (("side", "with"), ("side", "at")) and opens[1][0] == "quantity"
+    if (fronted or opens[0] == ("joint", "if")) and not is_led:
+        found, chunks = [*found, Segment("when")], chunks[1:]
+    for index, chunk in enumerate(chunks):
+        orders = chunk.kind == "side" and chunk.value in ("before", "after")
+        if orders and _is_clause(chunks[index + 1 :]):
+            found.append(Segment(chunk.value, margin=_margin(found[-1].chunks)))
+        elif chunk.kind == "link" and chunk.value in LINKS:
+            if found[-1].chunks and found[-1].chunks[-1].kind == "bound":  # "exactly when"
+                found[-1].chunks.pop()
+            found.append(Segment(chunk.value))
+        else:
+            found[-1].chunks.append(chunk)
+    for segment in found:
+        while segment.chunks and segment.chunks[-1].text in (",", "and") and segment.link != "when":
+            segment.chunks.pop()
+    return found
+
+
+def _is_clause(chunks: Sequence[Chunk]) -> bool:
+    """Whether somebody does or is something here, before the next link."""
+    if not chunks or chunks[0].kind not in PEOPLE:
+        return False
+    ends = (number for number, chunk in enumerate(chunks) if chunk.kind in ("link", "comma", "joint", "possessive"))
+    return any(chunk.kind in _PREDICATES for chunk in chunks[: next(ends, len(chunks))])
+
+
+def _margin(chunks: list[Chunk]) -> tuple[st.Operator, st.Amount] | None:
+    """Take an amount of time off the end of a segment: ``the ego turns at least 2 s | after ...``."""
+    amount = chunks[-1].amount if chunks else None
+    if amount is None or amount.dimension != "time":
+        return None
+    chunks.pop()
+    is_bound = bool(chunks) and chunks[-1].kind == "bound" and chunks[-1].value in OPERATORS
+    return OPERATORS[chunks.pop().value] if is_bound else "==", amount
+
+
+def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
+    """Part a moment from what happens at it: at the first comma before a deed, else at the last."""
+    commas, is_aside = list[int](), False
+    for index, chunk in enumerate(chunks[:-1]):
+        if chunk.kind == "comma":
+            following, was_aside = chunks[index + 1].kind, is_aside
+            is_aside = following == "relative"
+            if not is_aside and (not was_aside or following in PEOPLE):  # "the ego, which turns left, is 10 m ..."
+                commas.append(index)
+    if not commas:
+        raise UnknownWordsError("it is not clear where the moment ends", fix="put a comma before what happens")
+    acts = (start for start, end in zip(commas, [*commas[1:], len(chunks)], strict=True)
+            if any(chunk.kind in _ACTS for chunk in chunks[start:end]))  # fmt: skip
+    cut = next(acts, commas[-1])
+    main = chunks[cut + 1 :]
+    return chunks[:cut], main[1:] if main and main[0].value == "then" else main
+
+
+def items_of(people: Cast, chunks: Sequence[Chunk], subject: int | None = None) -> list[Clause]:
+    """Return the clauses of a list, and its joined conditions; `subject` is that of a clause that names none."""
+    parser = _Items(people, list(chunks), subject)
+    found: list[Clause] = []
+    while parser.at < len(parser.chunks):
+        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and") or parser.is_joint("then"):
+            parser.at += 1
+        else:
+            item = parser.one(())
+            found += [*parser.others, item]
+            parser.others = []
+    for item, following in pairwise(found):  # "the ego, a bus and a van drive west"
+        if item.subject != following.subject and not item.says_more_than():
+            people.refuse("nothing is said here", item.quote, "say it of each")
+    return found
+
+
+@dataclass(slots=True)
+class _Items:
+    people: Cast
+    chunks: list[Chunk]
+    subject: int | None
+    at: int = 0
+    before: Clause | None = None
+    turned: set[int | None] = field(default_factory=set)  # who turns, as was said
+    both: list[Chunk] = field(default_factory=list)  # of whom a clause is said that is said of two
+    others: list[Clause] = field(default_factory=list)  # what the last clause says of the others of them
+
+    def is_joint(self, value: str) -> bool:
+        chunk = self.chunks[self.at] if self.at < len(self.chunks) else None
+        is_it = chunk is not None and chunk.value == value and chunk.kind in ("joint", "link")
+        return is_it and "turn" not in self.chunks[self.at].text  # "after turning" says more than "then"
+
+    def one(self, inside: tuple[str, ...]) -> Clause:
+        """Return the item that begins here; `inside` are the words that end it."""
+        if self.at >= len(self.chunks):
+            self.people.refuse("a condition is missing", fix="say what is so")
+        chunk = self.chunks[self.at]
+        kinds = [each.kind for each in self.chunks[self.at + 1 : self.at + 4]] + [""] * 3
+        joins = chunk.value == "both" and kinds[0] in PEOPLE
+        if joins and kinds[2] in PEOPLE and self.chunks[self.at + 2].value == "and":  # "both the ego and the hero"
+            self.at += 1
+        elif joins or (chunk.kind == "joint" and chunk.value in (*_JOINTS, "not so")):
+            return self._joined(chunk, inside)
+        return self._clause(inside)
+
+    def _joined(self, chunk: Chunk, inside: tuple[str, ...]) -> Clause:
+        self.at += 1
+        if chunk.value == "not so":
+            return Clause(chunk.quote, joined=[st.Compound("not", (self._part(inside),), chunk.quote)])
+        joint, link = _JOINTS[chunk.value]
+        parts = [self._part((*inside, link))]
+        while self.is_joint(link):
+            self.at += 1
+            parts.append(self._part((*inside, link)))
+        if len(parts) < 2 or (joint == "if" and len(parts) > 2):
+            self.people.refuse(f"'{chunk.text}' needs '{link}'", chunk.quote, "say what it joins")
+        return Clause(chunk.quote, joined=[st.Compound(joint, tuple(parts), chunk.quote)])
+
+    def _part(self, inside: tuple[str, ...]) -> st.Condition:
+        item = self.one(inside)
+        if self.others:
+            self.people.refuse("this is said of two at once", item.quote, "say it of each")
+        if not item.conditions or item.says_more_than("measures", "joined"):
+            self.people.refuse("this is no condition", item.quote, "say what is so")
+        one, several = item.conditions[0], tuple(item.conditions)
+        return one if len(several) == 1 else st.Compound("and", several, item.quote)
+
+    def _clause(self, inside: tuple[str, ...]) -> Clause:
+        subjects = self._subjects()
+        start = self.at
+        while self.at < len(self.chunks):
+            chunk = self.chunks[self.at]
+            parts = chunk.kind == "comma" or (chunk.kind == "joint" and chunk.value in ("and", "or"))
+            between = self.at > 1 and self.chunks[self.at - 2].value == "between"
+            closes = any(self.is_joint(link) for link in inside)
+            fronted = self._is_fronted(start)
+            if self.at > start and (closes or (parts and not (between or fronted) and self._begins(self.at + 1))):
+                break
+            self.at += 1
+        own = [chunk for chunk in self.chunks[start : self.at] if chunk.kind != "comma"]
+        if [chunk.value for chunk in own[:2]] == ["it", "is"] and own[-1].value == "the start":
+            own = own[2:]  # nobody: "it is 5 s after the start"
+        if subjects or (own and own[0].kind in PEOPLE):
+            self.both = subjects
+        for each in self.both[:-1]:
+            self.others.append(self._read([each, *own]))
+        self.before = self._read([*self.both[-1:], *own])
+        if any(each.subject == self.before.subject for each in self.others):
+            self.people.refuse("one and the same is named twice", self.before.quote)
+        return self.before
+
+    def _read(self, own: list[Chunk]) -> Clause:
+        clause = read_clause(own, self.people, self.subject if self.before is None else self.before.subject)
+        if clause.facts.get("turn", "straight") != "straight":
+            self.turned.add(clause.subject)
+        elif clause.subject in self.turned and "heading" in clause.facts and "headed" not in clause.flags:
+            clause.facts["destination_heading"] = clause.facts.pop("heading")  # "turns left out of it and goes east"
+        return clause
+
+    def _is_fronted(self, start: int) -> bool:
+        """Whether what stands before this comma is of whom is named after it: "Behind it, the ego drives"."""
+        opens = start == 0 and not any(chunk.kind in PEOPLE for chunk in self.chunks[:1])
+        named = self.at + 1 < len(self.chunks) and self.chunks[self.at + 1].kind in PEOPLE
+        return opens and named and self.chunks[self.at].kind == "comma" and self.chunks[0].kind in _FRONTED
+
+    def _subjects(self) -> list[Chunk]:
+        """Take the two whom a clause is about: "both", "the ego and the hero"."""
+        chunks = self.chunks[self.at : self.at + 4]
+        if chunks[0].kind == "pair":
+            self.at += 1
+            return [replace(chunks[0], kind="name", value=self.people.actor(each).name, traits=())
+                    for each in self.people.pair(chunks[0])]  # fmt: skip
+        kinds = [chunk.kind for chunk in chunks]
+        if len(chunks) == 4 and kinds[0] in PEOPLE and kinds[2] in PEOPLE and chunks[1].value == "and":
+            self.at += 3
+            return [chunks[0], chunks[2]]
+        return []
+
+    def _begins(self, at: int) -> bool:
+        """Whether a clause begins here."""
+        skipped = (("joint", "and"), ("link", "then"), ("comma", ","))
+        while at < len(self.chunks) and (self.chunks[at].kind, self.chunks[at].value) in skipped:
+            at += 1
+        return at < len(self.chunks) and self.chunks[at].kind in _BEGINS_A_CLAUSE

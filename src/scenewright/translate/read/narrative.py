@@ -1,0 +1,254 @@
+"""The story while it is being read: who is known, which moments, who does what, in the order in which it is told.
+
+What enters: what sentences say, one after the other. What leaves: a `Story`. It reads no words; what a text leaves out
+by custom (who brakes comes to a standstill, who stops and goes on has stood in between) is put in here, and told.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+
+from scenewright.program.manner import USUAL, Manner
+from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
+from scenewright.translate import story as st
+from scenewright.translate.phrases import speaks_of_ego
+from scenewright.translate.read.cast import Cast
+from scenewright.translate.read.clauses import Clause
+
+COURTESIES = {"yields", "insists", "first"}
+
+
+@dataclass(slots=True)
+class Doing:
+    """A deed that is being told; it is open while its end is not known."""
+
+    actor: int
+    verb: str
+    begins: int
+    ends: int | None = None
+    throughout: list[st.Measure] = field(default_factory=list)
+    quote: st.Quote | None = None
+    duration: tuple[st.Operator, st.Amount] | None = None
+
+
+@dataclass(slots=True)
+class Narrative(Cast):
+    """The story so far."""
+
+    conditions_at: list[list[st.Condition]] = field(default_factory=lambda: [[]])  # by moment
+    times: dict[int, st.Amount] = field(default_factory=dict)
+    quotes: list[st.Quote | None] = field(default_factory=lambda: [None])
+    ego: list[int] = field(default_factory=list)
+    doings: list[Doing] = field(default_factory=list)
+    orders: list[st.Order] = field(default_factory=list)
+    holds: list[st.Hold] = field(default_factory=list)
+    pending: int | None = None  # a moment that the last sentence told, at which nobody does anything yet
+    courtesies: list[tuple[int | None, str, st.Quote]] = field(default_factory=list)  # who yields, or does not
+    parameters: list[Parameter] = field(default_factory=list)
+    manner: Manner = USUAL
+    map_name: str = DEFAULT_MAP
+    title: str | None = None
+    asides: list[st.Quote] = field(default_factory=list)
+
+    def story(self) -> st.Story:
+        """Return the story; deeds that are still open end at moments of their own."""
+        self.actor(EGO)  # refuses a text that does not name it
+        for who, courtesy, quote in self.courtesies:
+            self._check(who, courtesy, quote)
+        self.go_straight()
+        for doing in self.doings:
+            if doing.ends is None:
+                doing.ends = self.new_moment()
+            if doing.duration is not None:
+                self.orders.append(st.Order(doing.begins, doing.ends, *doing.duration, doing.quote))
+        return st.Story(
+            tuple(sorted(self.actors, key=lambda actor: actor.id)),
+            tuple(st.Moment(tuple(own), self.times.get(number), self.quotes[number])
+                  for number, own in enumerate(self.conditions_at)),
+            tuple(self.ego),
+            tuple(st.Deed(each.actor, each.verb, each.begins, each.ends or st.START, tuple(each.throughout), each.quote)
+                  for each in self.doings),
+            tuple(self.orders), tuple(self.holds), tuple(self.parameters), self.manner, self.map_name, self.title,
+            tuple(self.asides), tuple(self.assumptions), tuple(self.questions),
+        )  # fmt: skip
+
+    def _check(self, who: int | None, courtesy: str, quote: st.Quote) -> None:
+        """Refuse a courtesy that no deed bears out."""
+        own = [doing for doing in self.doings if who in (None, doing.actor)]
+        stops = any(doing.verb in (st.Verb.BRAKE, st.Verb.STAND) for doing in own)
+        if not own or not (self.orders if courtesy == "first" else stops is (courtesy == "yields")):
+            self.refuse("it is not said what is done to yield, or instead", quote, "say where it stops or passes")
+
+    def new_moment(self, conditions: Sequence[st.Condition] = ()) -> int:
+        """Add a moment and return its number."""
+        self.conditions_at.append(list(conditions))
+        self.quotes.append(self.quote)
+        return len(self.conditions_at) - 1
+
+    def add(self, moment: int, conditions: Sequence[st.Condition]) -> None:
+        """Let more be so at a moment."""
+        self.conditions_at[moment] += [each for each in conditions if each not in self.conditions_at[moment]]
+
+    def _moment_with(self, conditions: Sequence[st.Condition], one: bool = False) -> int | None:
+        """Return the moment that is known by an event among these conditions, by any `one` of them, or by all."""
+        for number, own in enumerate(self.conditions_at[1:], start=1):
+            if (own and own == conditions) or any(each in own and (one or st.is_event(each)) for each in conditions):
+                return number
+        return None
+
+    def conditions(self, items: Sequence[Clause], *taken: str) -> list[st.Condition]:
+        """Return what a list says is so; `taken` are attributes of its clauses that something else takes."""
+        for item in items:
+            wish = item.notes & {"wanted", "relative"}
+            if wish or (item.facts.get("turn", "straight") == "straight" and not item.relations):
+                self.tell(item)
+            if item.says_more_than("measures", "joined", *taken):
+                self.refuse("this is no condition", item.quote)
+        return [condition for item in items for condition in item.conditions]
+
+    def moment(self, items: Sequence[Clause], until: int | None = None) -> int:
+        """Return the moment that a list of clauses tells, known or new; `until` is whose deed ends then."""
+        for item in items:
+            item.flags -= {"falls"}  # what is reached is so when it is
+            if item.is_event and "has" in item.notes:  # "once the ego has passed it": then, or sooner
+                item.measures = [replace(each, op=">=") for each in item.measures]
+            if until is not None and (item.deed, item.subject) == ("stop", until):  # "until it comes to a stop"
+                item.deed, item.measures = None, [standstill(until), *item.measures]
+        events = [item for item in items if item.deed is not None]
+        conditions = self.conditions([item for item in items if item not in events], "times")
+        if not conditions and not any(each.deed or each.times for each in items):
+            self.refuse("it is not said what is so then")  # "when the ego does"
+        known = {self.event(item) for item in events}
+        if len(known) > 1:
+            self.refuse("two moments are told as one")
+        moment = next(iter(known), self._moment_with(conditions))
+        moment = self.new_moment() if moment is None else moment
+        self.add(moment, conditions)
+        for item in items:
+            if item not in events and item.times:
+                self.timed(moment, item)
+        return moment
+
+    def timed(self, moment: int, clause: Clause) -> None:
+        """Take "5 s after the start"."""
+        if clause.times.keys() != {"after the start"}:
+            self.refuse("it is not clear what lasts so long", clause.quote)
+        op, time = clause.times["after the start"]
+        if op == "==" and moment not in self.times:
+            self.times[moment] = time
+        else:
+            self.orders.append(st.Order(st.START, moment, op, time, self.quote))
+
+    def event(self, clause: Clause) -> int:
+        """Return the moment of an event: a deed begins or ends, or something comes to be so."""
+        if clause.deed is not None:
+            doing = self.doing_of(clause)
+            if doing is None or clause.says_more_than("deed", "phase", "ordinal", "times"):
+                self.refuse("nothing was told of this deed before", clause.quote)
+            if clause.phase != "finishes" and clause.deed != "stop":
+                return doing.begins
+            doing.ends = self.new_moment() if doing.ends is None else doing.ends
+            return doing.ends
+        if clause.measures and "event" in clause.notes:  # "begins its turn into the driveway"
+            self.tell(clause)
+        if not clause.measures or clause.says_more_than("measures", "times"):
+            self.refuse("this is no event", clause.quote)
+        moment = self._moment_with(clause.measures, one=True)
+        if moment is not None:
+            self.add(moment, clause.measures)
+            return moment
+        if clause.subject != EGO:
+            self.refuse("nothing was told of this event before", clause.quote)
+        self.ego.append(self.new_moment(clause.measures))
+        return self.ego[-1]
+
+    def tell(self, clause: Clause) -> None:
+        """Take what a clause says of somebody's way, and leave the rest."""
+        if not (clause.facts or clause.relations or clause.flags & {"way", "headed"}):
+            return
+        if clause.subject is None:
+            self.refuse("it is not clear whose way this is", clause.quote)
+        self.tell_way(clause.subject, clause.facts)
+        self.relate(clause.subject, *clause.relations)
+        is_led = "headed" in clause.flags or "then" in clause.facts
+        if clause.notes & {"drives", "goes"} or ("heading" in clause.facts and not is_led):
+            self.driving.add(clause.subject)
+        clause.facts, clause.relations, clause.flags = {}, [], clause.flags - {"way", "headed"}
+
+    def knots(self, actor: int) -> set[int | None]:
+        """Return the moments at which somebody begins or ends a deed."""
+        return {each for doing in self.doings if doing.actor == actor for each in (doing.begins, doing.ends)}
+
+    def is_owned(self, moment: int) -> bool:
+        """Whether somebody begins or ends a deed at a moment."""
+        return any(moment in self.knots(actor.id) for actor in self.actors)
+
+    def ego_comes(self, moment: int) -> None:
+        """Note that the ego comes through a moment that asks something of it, after those that were told before."""
+        owned = self.is_owned(moment)
+        timed = moment in self.times and not owned
+        if moment in self.ego or moment == st.START or timed or not speaks_of_ego(self.conditions_at[moment]):
+            return
+        if owned and self.ego and not any({self.ego[-1], moment} <= self.knots(actor.id) for actor in self.actors):
+            later, either = "it comes after the ego's moments that were told before", "it may come before or after them"
+            asked = f"How does this moment lie to the ego's others: {self.quote.text}"
+            if self.ask(f"ego {self.quote.start}", asked, [either, later], 0, self.quote) == either:
+                return
+        self.ego.append(moment)
+
+    def ego_order(self, moments: list[int]) -> None:
+        """Take the moments that the ego comes through, as a text lists them: nothing is open about them."""
+        self.ego = moments
+        self.questions = [each for each in self.questions if not each.slot.startswith("ego ")]
+
+    def begin(self, actor: int, verb: str, moment: int | None, leads: set[str]) -> Doing:
+        """Let somebody begin a deed at a moment, or where the last one ended."""
+        if actor == EGO:
+            self.refuse("the ego is driven by the policy under test: say what the others do")
+        before = next((doing for doing in reversed(self.doings) if doing.actor == actor), None)
+        if before is None:
+            moment = self.new_moment() if moment is None and "then" in leads else moment
+            if moment is not None and moment != st.START:
+                waits = verb != st.Verb.BRAKE and standstill(actor) in self.conditions_at[st.START]
+                first = st.Verb.STAND if waits else st.Verb.DRIVE
+                self.doings.append(Doing(actor, first, st.START, moment, quote=self.quote))
+                self.assumptions += [f"{self.actor(actor).name} stands still until then"] * waits
+            begins = st.START if moment is None else moment
+        elif before.ends is None:
+            begins = before.ends = self.new_moment() if moment is None else moment
+        else:
+            begins = self._go_on(before, verb, moment, leads)
+        self.doings.append(Doing(actor, verb, begins, quote=self.quote))
+        return self.doings[-1]
+
+    def _go_on(self, before: Doing, verb: str, moment: int | None, leads: set[str]) -> int:
+        """Return where a deed begins after one whose end is known; what lies between is standing or driving on."""
+        assert before.ends is not None
+        stands = standstill(before.actor) in self.conditions_at[before.ends]
+        waits = (
+            stands
+            and verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)
+            and "at once" not in leads
+            and before.verb != st.Verb.STAND
+        )
+        if moment == before.ends or (moment is None and not waits):
+            return before.ends
+        between = Doing(before.actor, st.Verb.STAND if stands else st.Verb.DRIVE, before.ends, quote=before.quote)
+        between.ends = self.new_moment() if moment is None else moment
+        self.doings.append(between)
+        does = "stands still" if stands else "drives on"
+        self.assumptions.append(f"{self.actor(before.actor).name} {does} in between")
+        return between.ends
+
+    def doing_of(self, clause: Clause) -> Doing | None:
+        """Return the deed that an event speaks of: ``the hero begins to brake for the second time``."""
+        verb = st.Verb.BRAKE if clause.deed == "stop" else clause.deed
+        same = [each for each in self.doings if each.actor == clause.subject and each.verb == verb]
+        return same[clause.ordinal] if clause.ordinal < len(same) else None
+
+
+def standstill(actor: int) -> st.Measure:
+    """Return that somebody stands."""
+    return st.Measure(actor, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s"))

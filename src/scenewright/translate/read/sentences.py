@@ -1,0 +1,348 @@
+"""Reads sentences: gives what each clause says to the narrative, by the links between them.
+
+What enters: a text, and answers to questions. What leaves: a `Story` with what was set aside, assumed and asked; or an
+error that quotes the words that nothing could be made of.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import zip_longest
+
+from scenewright.errors import Place as Where
+from scenewright.errors import TranslationError
+from scenewright.program.types import EGO
+from scenewright.translate import story as st
+from scenewright.translate.read.chunks import Chunk, sentences
+from scenewright.translate.read.clauses import PEOPLE, Clause
+from scenewright.translate.read.items import Segment, items_of, parted, segments_of
+from scenewright.translate.read.labels import take_labels
+from scenewright.translate.read.narrative import COURTESIES, Doing, Narrative, standstill
+
+_ORDERS = ("before", "after", "no later than")
+_HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
+_LEADS = ("then", "then left", "then right", "at once", "later", "meanwhile", "start")
+_SAYS_NOTHING = {"unknown", "comma", "harmless", "be", "joint", "quality", "name", "mood", "other"}
+_COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "yields", "insists", "order", "side", "link"}
+
+
+def read(text: str, answers: Mapping[str, str] | None = None, name: str = "description") -> st.Story:
+    """Return the story that `text` tells; what `answers` does not answer, by slot, takes its default and is noted.
+
+    Raises `TranslationError` where words of the domain are left over, or what they say cannot be.
+    """
+    narrative = Narrative(text, answers or {})
+    for chunks in sentences(take_labels(text, narrative)):
+        narrative.quote = st.Quote(chunks[0].start, chunks[-1].end, text[chunks[0].start : chunks[-1].end])
+        narrative.assumptions += [f"'{chunk.text}' is read with '{word}'" for chunk in chunks for word in chunk.slips]
+        kinds = {chunk.kind for chunk in chunks}
+        if kinds <= _SAYS_NOTHING or _comments(narrative, chunks):
+            narrative.asides.append(narrative.quote)
+            continue
+        chunks = [chunk for chunk in chunks if chunk.kind != "harmless"]
+        sentence = _Sentence(narrative, chunks, narrative.pending)
+        narrative.pending = None
+        try:
+            sentence.read()
+        except TranslationError as error:
+            if sentence.is_open:
+                continue  # it is asked about first
+            error.place = error.place or Where(name, text, narrative.quote.span)
+            raise
+    return narrative.story()
+
+
+def _comments(narrative: Narrative, chunks: list[Chunk]) -> bool:
+    """Whether a sentence says what is tested; who yields in it, or goes first, is checked against what is told."""
+    people = [chunk.value for chunk in chunks if chunk.kind in ("actor", "name")]
+    kinds = {chunk.kind for chunk in chunks}
+    if "comment" not in kinds or people[:1] not in ([], ["ego"]) or not kinds <= _COMMENT:
+        return False
+    narrative.courtesies += [(None, each.value, each.quote) for each in chunks
+                             if each.kind in ("yields", "insists", "order")]  # fmt: skip
+    return True
+
+
+@dataclass(slots=True)
+class _Sentence:
+    story: Narrative
+    chunks: list[Chunk]
+    pending: int | None  # a moment that was told just before, and nobody did anything at it
+    leads: set[str] = field(default_factory=set)
+    turned: str = ""
+    is_open: bool = False  # a word in it must be asked about first
+
+    def read(self) -> None:
+        self.story.mentioned, self.story.doer = [], None
+        self.chunks, self.is_open = self.story.known_words(self.chunks)
+        how = next((chunk for chunk in self.chunks if chunk.kind == "link" and chunk.value in _HOW), None)
+        if self.chunks and self.chunks[0].kind == "ego's order":
+            self._ego_order()
+        elif how is not None:
+            self._hold(how)
+        elif self.chunks:
+            self._take_leads()
+            self._cut()
+
+    def _take_leads(self) -> None:
+        """Take the words that say when a sentence is, at its front or behind its subject: ``then``, ``initially``."""
+        joined = any(chunk.value == "if" for chunk in self.chunks)  # its "then" is another
+        kept: list[Chunk] = []
+        for chunk in self.chunks:
+            free = not kept or (not joined and kept[-1].kind in ("be", "mood", *PEOPLE) and chunk.value != "start")
+            if chunk.kind == "link" and chunk.value in _LEADS and free:
+                lead, _, self.turned = chunk.value.partition("then ")
+                self.leads.add(lead or "then")
+            elif kept or chunk.kind != "comma":
+                kept.append(chunk)
+        self.chunks = kept
+
+    def _cut(self) -> None:
+        """Cut the sentence into what happens, the moment at which it does, and the rest."""
+        story, (main, *rest) = self.story, segments_of(self.chunks, bool(self.leads))
+        if not main.chunks and rest and rest[0].link in ("before", "after"):
+            rest[0].chunks, main.chunks = parted(rest[0].chunks)  # "2 s after ..., the hero brakes"
+        later = next((each for each in rest if each.link == "when"), None)
+        rest = [each for each in rest if each is not later]
+        if later is None or main.chunks:
+            items = items_of(story, main.chunks, story.subject)
+            self._main(items, None if later is None else items_of(story, later.chunks), rest)
+        else:
+            if any(chunk.kind in ("comma", "deed") for chunk in later.chunks):
+                later.chunks, main.chunks = parted(later.chunks)
+            when = items_of(story, later.chunks)
+            self._main(items_of(story, main.chunks, story.subject), when, rest)
+
+    def _main(self, items: list[Clause], when: list[Clause] | None, rest: list[Segment]) -> None:
+        story = self.story
+        items = [each for each in items if each.says_more_than()] or items[:1]
+        does = any("shall" in each.notes and not each.says_more_than() for each in items)  # "so does the hero"
+        timed = any(each.times for each in when or ())
+        is_told = when is not None or self.pending is not None or bool(self.leads & {"then", "at once"})
+        items = self._acts(items, is_told and not timed)
+        if not items and when is None:
+            if rest or does:
+                story.refuse("it is not said what is done")
+            return
+        first = items[0] if items else Clause(story.quote)
+        tells_time = any(each.link in _ORDERS for each in rest) or "after the start" in first.times
+        # "The hero begins to brake 2 s after ..." speaks of a deed that was told before.
+        known = first.phase and story.doing_of(first) is not None and when is None and not self.leads
+        if first.deed and len(items) > 1:  # "it brakes to a stop, waits for 3 s and drives on"
+            for item, following in zip_longest(items, items[1:]):
+                self._main([item], when, [] if following else rest)
+                if following and following.subject == item.subject:
+                    self.leads, when, self.pending = {"then"}, None, None
+        elif first.deed and not (known and tells_time):
+            self._deed(first, when, rest)
+        elif when is not None:
+            if first.subject == EGO and first.is_event and not timed:
+                story.refuse("the ego is driven by the policy under test", fix="say what the others do then")
+            moment = story.moment(when)
+            if moment not in story.times and not story.is_owned(moment):
+                story.pending = moment
+            story.add(moment, story.conditions(items))
+            story.ego_comes(moment)
+            self._orders(moment, rest)
+        elif tells_time:
+            if len(items) > 1:
+                story.refuse("only one event is before or after another")
+            moment = story.event(first)
+            if first.times:
+                story.timed(moment, first)
+            self._orders(moment, rest)
+        elif rest:
+            story.refuse("it is not clear when this is so")
+        else:
+            self._facts(items)
+
+    def _acts(self, items: list[Clause], happens: bool) -> list[Clause]:
+        """Return what is done and what is so: a turn, a speed or an event is a deed where it `happens`.
+
+        What only says why (yields, does not give way) is kept to be checked; a deed and the event at its end are one,
+        and so is one that is told twice: "it brakes at 3 m/s^2 and stops at the stop line".
+        """
+        found: list[Clause] = []
+        acts = any(each.deed is not None for each in items)
+        for item in items:
+            self.story.courtesies += [(item.subject, each, item.quote) for each in item.flags & COURTESIES]
+            item.flags -= COURTESIES
+            is_hero = happens and item.deed is None and item.subject not in (None, EGO)
+            meant = "wanted" in item.notes or ("relative" in item.notes and acts)
+            turns = item.facts.get("turn", "straight") != "straight"
+            if is_hero and turns and not meant:
+                self.story.tell_way(item.subject or EGO, item.facts, turns_then=True)
+                item.facts, item.deed = {}, "turn"
+            elif item.phase == "begins" and item.deed is None and item.measures:
+                item.phase = None
+                if is_hero and item.measures[0].quantity is st.Quantity.SPEED:  # "starts driving at 8 m/s"
+                    item.deed, item.flags = st.Verb.DRIVE, item.flags | {"to"}
+                    item.facts = {} if item.facts.get("turn") == "straight" else item.facts
+                else:  # "starts 40 m before the stop line"
+                    item.flags.add("start")
+            if acts:
+                self.story.tell(item)
+            before = found[-1] if found and found[-1].subject == item.subject else Clause(item.quote)
+            twice = (before.deed, item.deed) == (st.Verb.BRAKE, "stop")
+            if before.deed not in (None, "stop") and item.is_event and not before.measures:
+                before.measures, before.notes = item.measures, before.notes | item.notes
+            elif twice and not before.says_more_than("deed", "phase", "rate", "measures", "times"):
+                found[-1], item.rate, item.times = item, item.rate or before.rate, {**before.times, **item.times}
+                item.measures = [*before.measures, *item.measures]
+            elif item.says_more_than():
+                if is_hero and item.is_event:
+                    item.deed = st.Verb.DRIVE
+                found.append(item)
+        return found
+
+    def _facts(self, items: list[Clause]) -> None:
+        """Take what is so at the start, all the while, later, or of somebody's way."""
+        story = self.story
+        for item in items:
+            story.tell(item)
+            story.subject = story.subject if item.subject is None else item.subject
+            if "start" in item.flags:
+                item.flags -= {"start"}
+                story.add(st.START, story.conditions([item]))
+                item.measures = []
+        conditions = story.conditions(items)
+        measures = [each for each in conditions if isinstance(each, st.Measure)]
+        if not conditions:
+            if all(each.subject is None for each in items):
+                story.refuse("nothing is said here")
+        elif "meanwhile" in self.leads and story.doings and len(measures) == len(conditions):
+            story.doings[-1].throughout += measures
+        elif "later" in self.leads:
+            story.ego.append(story.new_moment(conditions))
+        elif "start" in self.leads or not (story.doings or self.leads - {"meanwhile"}):
+            story.add(st.START, conditions)
+        else:
+            story.refuse("it is not clear when this is so", fix="begin it with 'At the start,' or 'Later,'")
+
+    def _deed(self, clause: Clause, when: list[Clause] | None, rest: list[Segment]) -> None:
+        story = self.story
+        if clause.subject is not None and clause.subject != EGO:
+            story.tell(clause)
+        more = clause.says_more_than("deed", "phase", "measures", "rate", "times", "flags")
+        if clause.subject is None or clause.deed is None or more or clause.flags & {"way", "start", "falls"}:
+            story.refuse("it is not clear what is done here")
+        if clause.phase == "finishes" or "after the start" in clause.times:
+            story.refuse("nothing was told of this deed before")
+        if self.turned:  # "after turning left, it ..."
+            story.tell_way(clause.subject, {"turn": self.turned})
+        moment = self.pending if when is None else story.moment(when)
+        begins, held, ends = self._shares(clause)
+        drives_on = bool(begins) and clause.deed != st.Verb.STAND  # "it brakes 15 m before the stop line"
+        if clause.deed == "turn":
+            told = [] if moment is None else story.conditions_at[moment]
+            starts, done = (st.Measure(clause.subject, st.Quantity.PLACE, "==", None, st.Place(name), quote=story.quote)
+                            for name in ("turn_start", "turn_end"))  # fmt: skip
+            if not any(isinstance(each, st.Measure) and each.actor == clause.subject and each.place for each in told):
+                begins.append(starts)  # else it is told where it is then, and it turns later
+            ends.append(done)
+        is_event = "event" in clause.notes
+        if drives_on or any(not is_event and (each.link == "after" or (each.margin and not ends)) for each in rest):
+            self.leads.add("then")
+        verb = {"stop": st.Verb.BRAKE, "turn": st.Verb.DRIVE}.get(clause.deed, clause.deed)
+        doing = story.begin(clause.subject, verb, moment, self.leads)
+        story.subject = clause.subject
+        story.add(doing.begins, begins)
+        story.ego_comes(doing.begins)
+        doing.throughout += [*held, *([clause.rate] if clause.rate else [])]
+        rests = clause.deed == "stop" or "standstill" in clause.flags
+        doing.duration = None if rests else clause.times.get("for")
+        if "while" in clause.flags and ends:
+            story.refuse("it is not clear when this ends")
+        self._end(doing, clause, ends, next((each for each in rest if each.link == "until"), None))
+        for each in rest:
+            early = (each.link == "after" and not is_event) or not ends or doing.ends is None
+            if each.link != "until":
+                self._orders(doing.begins if early else doing.ends or st.START, [each])
+        if rests and "for" in clause.times:
+            story.refuse("it is not clear what lasts so long")
+
+    def _shares(self, clause: Clause) -> tuple[list[st.Measure], list[st.Measure], list[st.Measure]]:
+        """Return what a deed's own clause says of its beginning, of the deed throughout, and of its end."""
+        rests = clause.deed == "stop" or "standstill" in clause.flags
+        begins, held, ends = list[st.Measure](), list[st.Measure](), [standstill(clause.subject or EGO)][: int(rests)]
+        for measure in clause.measures:
+            fast = measure.quantity is st.Quantity.SPEED
+            if rests and measure.quantity is st.Quantity.ARRIVAL:
+                self.story.refuse("who stands has no time to arrival", clause.quote, "say where it stands, in metres")
+            if fast and "to" not in clause.flags and clause.deed != st.Verb.DRIVE:
+                self.story.refuse("it is not clear when it is so fast")
+            stays = clause.deed == st.Verb.STAND or not (rests or fast or st.is_event(measure))
+            text, at = self.story.text, measure.quote or clause.quote
+            if rests and text[: at.start].rstrip().endswith(",") and "," in text[at.end : clause.quote.end]:
+                here = ["where it begins to brake", "where it stands"]  # "brakes, 8 m before it, to standstill"
+                stays = self.story.ask(f"where {at.start}", f"What is '{at.text}'?", here, None, at) == here[0]
+            (held if fast and "to" not in clause.flags else begins if stays else ends).append(measure)
+        return begins, held, ends
+
+    def _end(self, doing: Doing, clause: Clause, ends: Sequence[st.Condition], until: Segment | None) -> None:
+        story = self.story
+        if until is not None:
+            story.doer = doing.actor
+            items = items_of(story, until.chunks)
+            story.doer = None
+            doing.ends = story.moment(items, doing.actor)
+            story.add(doing.ends, ends)
+        elif ends:
+            doing.ends = story.new_moment(ends)
+        elif doing.verb == st.Verb.BRAKE and "while" not in clause.flags and doing.duration is None:
+            doing.ends = story.new_moment([standstill(doing.actor)])
+            story.assumptions.append(f"{story.actor(doing.actor).name} brakes to a standstill")
+        if doing.ends is not None:
+            story.ego_comes(doing.ends)
+
+    def _event_of(self, chunks: list[Chunk]) -> int:
+        """Return the moment of the one event that chunks tell."""
+        items = items_of(self.story, chunks)
+        if len(items) != 1 or items[0].times:
+            self.story.refuse("this is not one event")
+        return self.story.event(items[0])
+
+    def _point(self, chunks: list[Chunk]) -> st.Point:
+        """Return what "2 s before the hero begins to brake" tells."""
+        offset, earlier = None, False
+        if len(chunks) > 1 and chunks[0].kind == "amount" and chunks[1].value in ("before", "after"):
+            offset, earlier = chunks[0].amount, chunks[1].value == "before"
+            chunks = chunks[2:]
+        at_start = [chunk.value for chunk in chunks] == ["the start"]
+        return st.Point(st.START if at_start else self._event_of(chunks), offset, earlier)
+
+    def _orders(self, moment: int, rest: list[Segment]) -> None:
+        """Take what comes before or after a moment."""
+        for segment in rest:
+            if segment.link not in _ORDERS:
+                self.story.refuse("it is not clear before or after what")
+            other = self._event_of(segment.chunks)
+            first, second = (other, moment) if segment.link == "after" else (moment, other)
+            op, margin = segment.margin or (">=" if segment.link == "no later than" else ">", None)
+            self.story.orders.append(st.Order(first, second, op, margin, self.story.quote))
+
+    def _hold(self, how: Chunk) -> None:
+        """Read ``From ... until ..., always: ...``."""
+        at, links = self.chunks.index(how), [chunk.value for chunk in self.chunks]
+        if links[0] != "from" or "until" not in links[:at]:
+            fix = "From the start until ..., never: ..."
+            self.story.refuse(f"'{how.text}' needs a time from which and until which", fix=fix)
+        until = links.index("until")
+        start = self._point(self.chunks[1:until])
+        end = self._point([each for each in self.chunks[until + 1 : at] if each.kind != "comma"])
+        held = [each for each in self.chunks[at + 1 :] if each.text != ":"]
+        conditions = self.story.conditions(items_of(self.story, held))
+        if len(conditions) != 1:
+            self.story.refuse("one condition holds all the while", fix="write a sentence for each")
+        self.story.holds.append(st.Hold(_HOW[how.value], start, end, conditions[0], self.story.quote))
+
+    def _ego_order(self) -> None:
+        """Read ``In the ego's order: ..., then ...``."""
+        events: list[list[Chunk]] = [[]]
+        for chunk in self.chunks[1:]:
+            if chunk.value == "then":
+                events.append([])
+            elif chunk.kind not in ("comma", "nothing"):
+                events[-1].append(chunk)
+        self.story.ego_order([self._event_of(chunks) for chunks in events if chunks])

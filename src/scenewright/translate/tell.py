@@ -1,0 +1,317 @@
+"""Tells a story in plain English: people and their ways first, then the moment, then what happens, one line each.
+
+What enters: a `Story`. What leaves: sentences of the controlled English, which `read` reads back to the same story,
+with the quotes of what each tells, or a `TranslationError` for the little that has no words yet. It decides nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+from scenewright.program.manner import NUMBERS, unit_of
+from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
+from scenewright.translate import story as st
+from scenewright.translate.compile import amounts_of
+from scenewright.translate.phrases import (
+    DOES,
+    ORDINALS,
+    Phrases,
+    amount,
+    bounded,
+    listed,
+    sentence,
+    speaks_of_ego,
+    untold,
+)
+from scenewright.units import SI_SYMBOL, format_fraction
+
+_LASTING = (st.Verb.DRIVE, st.Verb.STAND)  # deeds that need no end to be told
+_RATES: dict[str, bool] = {
+    st.Verb.BRAKE: True,
+    st.Verb.SPEED_UP: False,
+}  # deeds told with their rate, and whether it is a slowing
+
+
+Told = tuple[str, tuple[st.Quote, ...]]  # a sentence, and the quotes of what it tells
+
+
+def tell(story: st.Story) -> list[str]:
+    """Return `story` as sentences, one a line; raises `TranslationError` for what there are no words for."""
+    return [text for text, _ in Teller(st.arranged(story)).lines()]
+
+
+@dataclass(slots=True)
+class Teller:
+    """Tells one story, sentence by sentence."""
+
+    story: st.Story
+    phrases: Phrases = field(init=False)
+    told: list[Told] = field(default_factory=list)
+    known: set[int] = field(default_factory=lambda: {st.START})  # moments that have been told
+    ego: list[int] = field(default_factory=list)  # its moments as a reader finds them
+    open_order: bool = False  # a reader would have to ask how the ego's moments follow each other
+    durations: set[st.Order] = field(default_factory=set)
+    fresh: list[int] = field(default_factory=list)  # moments of which the joined conditions have not been told
+    begun: list[st.Deed] = field(default_factory=list)  # deeds that have been told
+    ended: list[st.Deed] = field(default_factory=list)  # those of which a reader knows when they end
+
+    def __post_init__(self) -> None:
+        self.phrases = Phrases(self.story)
+
+    def lines(self) -> list[Told]:
+        """Return all sentences."""
+        story = self.story
+        self._head()
+        for each in story.actors:
+            self._say(sentence(f"{self.phrases.name(each.id)} {self.phrases.way(each.way)}"), each)
+        if any(actor.relations for actor in story.actors):
+            raise untold("how one way lies to another: choose the ways first")
+        for parameter in story.parameters:
+            self._parameter(parameter)
+        self._start()
+        for moment in self._in_time():
+            if not self._is_of_deeds(moment):
+                self._pure(moment)
+            for deed in story.deeds:
+                if deed.begins == moment:
+                    self._deed(deed)
+        for order in story.orders:
+            if order not in self.durations:
+                self._say(sentence(self.order(order)), order)
+                for moment in (order.first, order.second):
+                    self._introduce(moment)
+        for hold in story.holds:
+            self._say(sentence(self.hold(hold)), hold)
+        if tuple(self.ego) != story.ego or self.open_order:
+            events = [self.event(moment) for moment in story.ego] or ["nothing"]
+            self._say(f"In the ego's order: {', then '.join(events)}.")
+        return self.told
+
+    def _say(self, text: str, *told: object) -> None:
+        quotes = dict.fromkeys(st.within(told, st.Quote))
+        self.told.append((text, tuple(sorted(quotes, key=lambda quote: quote.start))))
+
+    def _head(self) -> None:
+        story = self.story
+        for label, text in (("Title", story.title), ("Map", None if story.map_name == DEFAULT_MAP else story.map_name)):
+            if text is not None:
+                if text != " ".join(text.split()) or not text:
+                    raise untold(f"a {label.lower()} of this form")
+                self._say(f"{label}: {text}")
+        names = [actor.name for actor in story.actors]
+        if "'" in "".join(names) or names[0] != "ego" or [actor.id for actor in story.actors] != [*range(len(names))]:
+            raise untold("actors of these names")
+        for name in NUMBERS:
+            value = getattr(story.manner, name)
+            if value != getattr(type(story.manner)(), name):
+                self._say(f"Manner: {name} is {format_fraction(value)} {SI_SYMBOL[unit_of(name).dimension]}.")
+
+    def _parameter(self, parameter: Parameter) -> None:
+        """Tell a parameter of which more is known than the amounts that go by its name."""
+        if parameter == Parameter(parameter.name) and parameter.name in {each.name for each in amounts_of(self.story)}:
+            return
+        unit = parameter.unit.symbol
+        text = f"{parameter.name} is "
+        text += "open" if parameter.value is None else f"{format_fraction(parameter.value)} {unit}"
+        if parameter.low is not None or parameter.high is not None:
+            low, high = (format_fraction(bound) for bound in parameter.bounds())
+            text += f", from {low} {unit} to {high} {unit}"
+        self._say(f"Parameter {text}.")
+
+    def _start(self) -> None:
+        conditions = self.story.moments[st.START].conditions
+        simple = [each for each in conditions if isinstance(each, st.Measure)]
+        for actor in self.story.actors:
+            own = [each for each in simple if each.actor == actor.id]
+            if own:
+                self._say(f"At the start, {listed(self.phrases.clauses(own, passing=False))}.", *own)
+        for each in conditions:
+            if each not in simple:
+                self._say(f"At the start, {self.phrases.clause(each)}.", each)
+
+    def _in_time(self) -> list[int]:
+        """Return the moments in an order that agrees with everybody's own, the smallest number first."""
+        before = [pair for actor in self.story.actors for pair in pairwise(self.story.knots_of(actor.id))]
+        order: list[int] = []
+        left = [*range(len(self.story.moments))]
+        while left:
+            free = (each for each in left if not any(later == each and earlier in left for earlier, later in before))
+            if (found := next(free, None)) is None:
+                raise untold("moments that come before each other")
+            order.append(found)
+            left.remove(found)
+        return order
+
+    def _is_of_deeds(self, moment: int) -> bool:
+        return any(moment in (deed.begins, deed.ends) for deed in self.story.deeds)
+
+    # -- moments ------------------------------------------------------------------------------------------------------
+    def _pure(self, moment: int) -> None:
+        """Tell a moment at which nobody begins or ends a deed."""
+        conditions, time = self.story.moments[moment].conditions, self.story.moments[moment].time
+        if moment == st.START or self._is_left_to_an_order(moment):
+            return
+        if any(isinstance(each, st.Compound) for each in conditions) or (time is None and moment not in self.story.ego):
+            raise untold("a moment that is nobody's")
+        when = "Later" if time is None else f"When it is {amount(time)} after the start"
+        self._say(f"{when}, {listed(self.phrases.clauses(conditions))}.", *conditions)
+        self._introduce(moment)
+
+    def _is_left_to_an_order(self, moment: int) -> bool:
+        """Whether a moment is the ego's last and one event, and an order speaks of it."""
+        conditions = self.story.moments[moment].conditions
+        last = self.story.ego[-1:] == (moment,) and self.story.moments[moment].time is None and len(conditions) == 1
+        pairs = [{order.first, order.second} for order in self.story.orders]
+        its_own = last and st.is_event(conditions[0]) and conditions[0].actor == EGO
+        return its_own and any(moment in pair and st.START not in pair for pair in pairs)
+
+    def _introduce(self, moment: int) -> None:
+        """Note that a moment has been told, and whether a reader finds the ego's next one in it."""
+        if moment in self.known:
+            return
+        conditions = self.story.moments[moment].conditions
+        for other in self.known - {st.START}:
+            same = set(conditions) & set(self.story.moments[other].conditions)
+            if any(st.is_event(each) for each in same) or (conditions and same == set(conditions)):
+                raise untold("two moments at which the same is so")
+        self.known.add(moment)
+        self.fresh.append(moment)
+        if self._is_of_deeds(moment):
+            self._ego_comes(moment, [each for each in conditions if isinstance(each, st.Measure)])
+        elif self.story.moments[moment].time is None:
+            self.ego.append(moment)
+
+    def _ego_comes(self, moment: int, conditions: Sequence[st.Condition]) -> None:
+        if moment in self.ego or not speaks_of_ego(conditions):
+            return
+        if self.ego and not self._comes_after(self.ego[-1], moment):
+            self.open_order = True
+        else:
+            self.ego.append(moment)
+
+    def _comes_after(self, earlier: int, later: int) -> bool:
+        """Whether what has been told of one actor says so."""
+        told = {(deed.actor, deed.begins) for deed in self.begun} | {(deed.actor, deed.ends) for deed in self.ended}
+        return any({(hero.id, earlier), (hero.id, later)} <= told for hero in self.story.heroes)
+
+    def _items(self, moment: int, it: int | None = None) -> list[str]:
+        """Return what is so at a moment, as clauses; only its name where it has been told."""
+        if moment in self.known:
+            return [self.event(moment)]
+        found = self.story.moments[moment]
+        simple = [each for each in found.conditions if isinstance(each, st.Measure)]
+        time = [] if found.time is None else [f"it is {amount(found.time)} after the start"]
+        return time + self.phrases.clauses(simple, it)
+
+    def _compounds(self) -> None:
+        for moment in self.fresh:
+            conditions = self.story.moments[moment].conditions
+            for each in conditions:
+                if isinstance(each, st.Compound):
+                    self._say(f"When {self.event(moment)}, {self.phrases.clause(each)}.", each)
+                    self._ego_comes(moment, conditions)
+        self.fresh.clear()
+
+    # -- deeds --------------------------------------------------------------------------------------------------------
+    def _deed(self, deed: st.Deed) -> None:
+        chain = self.story.deeds_of(deed.actor)
+        index = chain.index(deed)
+        waits = deed.verb in _LASTING and deed != chain[-1]  # its end is told with what follows
+        lead, begins = self._begin(deed, chain, index)
+        slowing = _RATES.get(deed.verb)
+        rates = (each for each in deed.throughout if each.quantity is st.Quantity.RATE and each.opposite is slowing)
+        rate = next(rates, None)
+        held = [each for each in deed.throughout if each is not rate]
+        duration = next((each for each in self.story.orders if (each.first, each.second) == (deed.begins, deed.ends)
+                         and each.margin is not None and each not in self.durations), None)  # fmt: skip
+        plain = waits and deed.verb == st.Verb.DRIVE and not held and duration is None
+        plain &= st.standstill(deed.actor) not in self.story.moments[st.START].conditions
+        if index == 0 and plain and self._items(deed.ends):
+            return  # "When ..., the hero begins to brake" says it
+        self.begun += [each for each in chain[: index + 1] if each not in self.begun]
+        self.ended += chain[:index] if waits else chain[: index + 1]
+        self._introduce(deed.begins)
+        does, begin, _ = DOES[deed.verb]
+        text = f"{lead}{self.phrases.name(deed.actor)} {f'begins to {begin}' if begins else does}"
+        if rate is not None and rate.amount is not None:
+            text += f" {'at' if rate.op == '==' else 'with'} {bounded(rate.op, rate.amount)}"
+        if duration is not None and duration.margin is not None:
+            self.durations.add(duration)
+            text += f" for {bounded(duration.op, duration.margin)}"
+        told = [*self.story.moments[deed.begins].conditions] if begins else []
+        if not waits:
+            until = self._items(deed.ends, deed.actor)
+            if not until and any(each.ends == deed.ends for each in self.begun if each.actor != deed.actor):
+                until = [self.event(deed.ends)]
+            lasts = duration is not None or deed.verb in _LASTING
+            text += f" until {listed(until)}" if until else "" if lasts else " for a while"
+            self._introduce(deed.ends)
+            told += self.story.moments[deed.ends].conditions
+        self._say(sentence(text), deed, *told)
+        for each in held:
+            self._say(f"Meanwhile, {self.phrases.clause(each)}.", each)
+        self._compounds()
+
+    def _begin(self, deed: st.Deed, chain: tuple[st.Deed, ...], index: int) -> tuple[str, bool]:
+        """Return the words before the subject, and whether the deed is told as one that begins: ``When ..., ``."""
+        if index == 0:
+            return "", False
+        if chain[index - 1].verb in _LASTING:
+            items = self._items(deed.begins)
+            return (f"When {listed(items)}, ", True) if items else ("Then ", False)
+        moving = deed.verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)
+        at_rest = st.standstill(deed.actor) in self.story.moments[deed.begins].conditions
+        return "Then at once " if moving and at_rest else "Then ", False
+
+    # -- events, orders, holds ----------------------------------------------------------------------------------------
+    def event(self, moment: int) -> str:
+        """Return the words that a moment is known by."""
+        conditions = self.story.moments[moment].conditions
+        elsewhere = {each for number, other in enumerate(self.story.moments) if number != moment
+                     for each in other.conditions}  # fmt: skip
+        own = [each for each in conditions if isinstance(each, st.Measure) and each not in elsewhere]
+        for measure in own:
+            if st.is_event(measure):
+                return self.phrases.clause(measure, passing=st.standstill(measure.actor) not in conditions)
+        for deed in self.begun:
+            if deed.begins == moment and moment != st.START:
+                return f"{self.phrases.name(deed.actor)} begins to {DOES[deed.verb][1]}{self._time(deed)}"
+        for deed in self.begun:
+            if deed.ends == moment and (deed in self.ended or moment not in self.known):
+                self.ended.append(deed)
+                return f"{self.phrases.name(deed.actor)} finishes {DOES[deed.verb][2]}{self._time(deed)}"
+        if not own:
+            raise untold("a moment that nothing tells from others")
+        return self.phrases.clause(own[0])
+
+    def _time(self, deed: st.Deed) -> str:
+        """Return which time somebody does a deed, where it is not the first."""
+        number = [each for each in self.story.deeds_of(deed.actor) if each.verb == deed.verb].index(deed)
+        if number >= len(ORDINALS):
+            raise untold("so many deeds of one kind")
+        return "" if number == 0 else f" for the {ORDINALS[number]} time"
+
+    def order(self, order: st.Order) -> str:
+        """Return the order of two moments as a clause."""
+        if st.START in (order.first, order.second):
+            if order.first != st.START or order.margin is None:
+                raise untold("what comes before the start")
+            return f"{self.event(order.second)} {bounded(order.op, order.margin)} after the start"
+        if order.margin is not None:
+            margin = bounded(order.op, order.margin)
+            return f"{self.event(order.second)} {margin} after {self.event(order.first)}"
+        link = "before" if order.op == ">" else "no later than"
+        return f"{self.event(order.first)} {link} {self.event(order.second)}"
+
+    def hold(self, hold: st.Hold) -> str:
+        """Return what holds over an interval as a clause."""
+        start, end = self._point(hold.start, False), self._point(hold.end, True)
+        return f"from {start} until {end}, {hold.how}: {self.phrases.clause(hold.condition)}"
+
+    def _point(self, point: st.Point, is_end: bool) -> str:
+        event = "the start" if point.moment == st.START else self.event(point.moment)
+        if point.offset is None:
+            return event if is_end or point.moment == st.START else f"when {event}"
+        return f"{amount(point.offset)} {'before' if point.earlier else 'after'} {event}"

@@ -1,0 +1,141 @@
+"""The way of a text: read, put on a map, asked about, compiled.
+
+What enters: a text or whatever else makes a story of one, a map, answers and somebody to ask. What leaves: an
+`Understanding`: story and program, what was answered and what is open. A text with its answers is reproducible.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from scenewright.errors import Place, Span, TranslationError
+from scenewright.program.limits import check_description
+from scenewright.program.types import DEFAULT_MAP, Program
+from scenewright.roads.load import load_map
+from scenewright.roads.model import RoadMap
+from scenewright.translate.compile import compile_story
+from scenewright.translate.lines import Line, lines_of_program, lines_of_story
+from scenewright.translate.questions import as_data, check_asked, defaults_of, settled
+from scenewright.translate.read.sentences import read
+from scenewright.translate.story import Question, Story
+from scenewright.translate.ways import put_on_map
+
+OFFLINE = "offline"
+Answers = Mapping[str, str]
+Ask = Callable[[Question], str]  # returns one of the alternatives
+
+
+@dataclass(frozen=True, slots=True)
+class Understanding:
+    """What was understood of a text."""
+
+    text: str
+    story: Story
+    program: Program
+    translator: str = OFFLINE  # who read it: "offline", "openai:NAME", "files:DIR"
+    answers: Answers = field(default_factory=dict)  # that were given, by slot
+    notes: tuple[str, ...] = ()  # what else is to be known of the reading: what a model took, its doubts
+
+    @property
+    def questions(self) -> tuple[Question, ...]:
+        """What is open still; the default of each was taken."""
+        return self.story.questions
+
+    @property
+    def all_answers(self) -> dict[str, str]:
+        """The answers that were given or taken by default: with them the text gives the same program again."""
+        return {**self.answers, **defaults_of(self.story)}
+
+    @property
+    def lines(self) -> tuple[Line, ...]:
+        """The story in plain English beside the words it came from; its program where the story has no words."""
+        try:
+            return lines_of_story(self.story, self.text)
+        except TranslationError:
+            return lines_of_program(self.program)
+
+    @property
+    def remarks(self) -> tuple[tuple[str, str], ...]:
+        """What is open, assumed, set aside as saying nothing of the test, and noted: each with which of these it is."""
+        return (
+            *(("open", each.with_default()) for each in self.questions),
+            *(("assumed", each) for each in self.story.assumptions),
+            *(("set aside", f'"{each.text}"') for each in self.story.asides),
+            *(("note", each) for each in self.notes),
+        )
+
+    def as_data(self) -> dict[str, Any]:
+        """Return all of it but the program as plain data."""
+        return {
+            "translator": self.translator,
+            "understood": [{"sentence": each.sentence, "words": each.words} for each in self.lines],
+            "questions": as_data(self.questions),
+            "answers": self.all_answers,
+            "assumptions": list(self.story.assumptions),
+            "set_aside": [each.text for each in self.story.asides],
+            "notes": list(self.notes),
+        }
+
+
+def understand(
+    text: str,
+    road_map: RoadMap | None = None,
+    answers: Answers | None = None,
+    strict: bool = False,
+    name: str = "description",
+    ask: Ask | None = None,
+    read_with: Callable[[Answers], Story] | None = None,
+) -> Understanding:
+    """Return what `text` says on a map: the one that it names itself where it does.
+
+    Parameters
+    ----------
+    answers
+        What is answered already, by slot.
+    strict
+        Refuse what is left open even where there is a default.
+    name
+        What to call the text in messages.
+    ask
+        Asked about one open question after another; None where nobody can be asked.
+    read_with
+        Makes the story, with the answers that are known: after every answer again, which may open or close other
+        questions. The offline reader where None.
+
+    Raises
+    ------
+    TranslationError
+        Where it cannot be read, fits no way on the map, or leaves open what has no default (with `strict`: anything).
+    InputError
+        Where an answer is none to its question, or to no question that the text asks.
+
+    Examples
+    --------
+    >>> text = "The ego drives west. The hero is oncoming. The hero brakes to a stop at its stop line."
+    >>> [line.sentence for line in understand(text).lines][0]
+    'The ego is headed west and goes straight on.'
+    """
+    check_description(text, name)
+    known, given, asked = answers or {}, dict[str, str](), dict[str, Question]()
+    while True:
+        story = read(text, given, name) if read_with is None else read_with(given)
+        on = load_map(story.map_name) if road_map is None else road_map
+        if story.map_name == DEFAULT_MAP:
+            story = replace(story, map_name=on.name)
+        story = put_on_map(story, on, given)
+        asked |= {each.slot: each for each in story.questions}
+        waiting = [each for each in story.questions if each.slot not in given]
+        found = {each.slot: known[each.slot] for each in waiting if each.slot in known}
+        if not found and (ask is None or not waiting):
+            break
+        given |= found or ({waiting[0].slot: ask(waiting[0])} if ask else {})
+    check_asked(known, asked)
+    story = settled(story, given, strict, Place(name, text))
+    try:
+        return Understanding(text, story, compile_story(story, text), answers=given)
+    except TranslationError as error:  # of something that no program says yet, in the words that say it
+        if error.place is None and error.found and (at := text.find(error.found)) >= 0:
+            error.place = Place(name, text, Span(at, at + len(error.found)))
+        raise

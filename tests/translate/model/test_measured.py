@@ -1,0 +1,81 @@
+"""Amounts and measures against their words: one fault at a time."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from scenewright.errors import Span
+from scenewright.translate import story as st
+from scenewright.translate.model.measured import Measured
+from scenewright.translate.model.schema import Claim, locate
+
+CALLED = {0: ("The ego", "the ego"), 1: ("the van", "A van")}
+ACTORS = (st.Actor(0, "ego"), st.Actor(1, "van", kind="van"))
+
+
+def quote(words: str, text: str) -> st.Quote:
+    span = locate(words, text)[0]
+    return st.Quote(span.start, span.end, span.excerpt(text))
+
+
+def faults(text: str, value: str, unit: str, words: str, owned: str = "", **slots: object) -> str:
+    """Return what the words of a whole text say against a measure of it."""
+    amount = st.Amount(Fraction(value), unit, None, quote(words, text)) if value else None
+    claim = Claim(st.Story(ACTORS), CALLED, owned=[(Span(0, len(text)), owned)])
+    given = {
+        "actor": 1,
+        "quantity": st.Quantity.PLACE,
+        "op": "==",
+        "amount": amount,
+        "quote": quote(text, text),
+        **slots,
+    }
+    return "; ".join(Measured(claim, text).measure(st.Measure(**given)))  # type: ignore[arg-type]
+
+
+SPEED, GAP = st.Quantity.SPEED, st.Quantity.GAP
+STOP_LINE = {"place": st.Place("stop_line")}
+NEAR = "The ego is 25 m and the van is 15 m before the stop line"
+
+
+@pytest.mark.parametrize(
+    ("text", "value", "unit", "words", "slots", "fault"),
+    [
+        (NEAR, "15", "m", "15 m", STOP_LINE, ""),
+        (NEAR, "25", "m", "25 m", STOP_LINE, "is said of ego, not of van"),
+        (NEAR, "15", "m", "15 m", {"place": st.Place("turn")}, "speaks of the stop line, not of the turn"),
+        (NEAR, "15", "ft", "15 m", STOP_LINE, "'15 m' is not 15 ft"),
+        (NEAR, "15", "m", "15 m", {**STOP_LINE, "op": ">="}, "no bound"),
+        (NEAR, "15", "m", "15 m", {**STOP_LINE, "opposite": True}, "`opposite` is true for past it alone"),
+        ("the van is at least 15 m before the stop line", "15", "m", "15 m", STOP_LINE, "says >=, not =="),
+        ("the van must not exceed 20 km/h", "20", "km/h", "20 km/h", {"quantity": SPEED, "op": "<="}, ""),
+        ("the van drives at 20 km/h", "20", "km/h", "20 km/h", {"quantity": SPEED, "op": ">="}, "no bound"),
+        ("the van passes the stop line", "", "m", "", STOP_LINE, ""),
+        ("the van passes the stop line", "", "m", "", {**STOP_LINE, "op": ">"}, "`op` is =="),
+        ("the van is past the stop line", "", "m", "", {**STOP_LINE, "op": "=="}, "`op` is >"),
+        ("the van brakes at 3 m/s^2", "3", "m/s^2", "3 m/s^2", {"quantity": st.Quantity.RATE}, "slowing alone"),
+        ("the van is 20 m behind the ego", "20", "m", "20 m", {"quantity": GAP, "other": 0}, ""),
+        ("the van is 20 m ahead of the ego", "20", "m", "20 m", {"quantity": GAP, "other": 0}, "the other way"),
+        ("the van has a time to collision of 2 s with the ego", "2", "s", "2 s",
+         {"quantity": st.Quantity.HEADWAY, "other": 0}, "does not speak of a headway"),
+        ("the van is 2 s behind the ego", "2", "s", "2 s",
+         {"quantity": st.Quantity.COLLISION, "other": 0}, "does not speak of a time to collision"),
+        ("the van drives faster than the ego", "", "s", "", {"quantity": SPEED, "other": 0, "op": "<"}, "says faster"),
+        ("the van is 15 m before the stop line of the ego", "15", "m", "15 m", STOP_LINE, "says of whom"),
+        ("the van is 15 m before the stop line of the ego", "15", "m", "15 m", {"place": st.Place("stop_line", 0)}, ""),
+    ],
+)  # fmt: skip
+def test_measure_against_its_words(
+    text: str, value: str, unit: str, words: str, slots: dict[str, object], fault: str
+) -> None:
+    found = faults(text, value, unit, words, **slots)
+    assert fault in found if fault else found == ""
+
+
+def test_assumption_owns_to_a_unit_that_is_unsaid() -> None:
+    text = "the van is 15 before the stop line"
+    assert "does not say 15 m" in faults(text, "15", "m", "15", **STOP_LINE)
+    assert faults(text, "15", "m", "15", owned="15 is in metres", **STOP_LINE) == ""
+    assert faults(text, "16", "m", "15", owned="16 is in metres", **STOP_LINE) != ""

@@ -1,0 +1,62 @@
+"""Who is meant: by name, kind and what describes somebody; pronouns; and questions where two fit."""
+
+from __future__ import annotations
+
+import pytest
+
+from scenewright.errors import UnknownWordsError
+from scenewright.translate.read.cast import NEW
+from scenewright.translate.read.sentences import read
+from scenewright.translate.story import Story
+
+EGO = "The ego turns left out of the driveway. "
+
+
+def heroes(story: Story) -> list[tuple[str, str]]:
+    return [(actor.name, actor.kind) for actor in story.heroes]
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        ("A red delivery van drives west. The van brakes.", [("van", "van")]),
+        ("A pickup drives west. The car brakes. The vehicle drives on.", [("car", "car")]),
+        ("A red car drives west. A blue car drives east. The blue car brakes.", [("car", "car"), ("blue car", "car")]),
+        ("The other car drives west. It brakes.", [("car", "car")]),
+        ("A truck drives west. Another truck drives east.", [("truck", "truck"), ("truck 2", "truck")]),
+        ("The hero drives west. The car 'x' drives east.", [("hero", "car"), ("x", "car")]),
+        ("A cyclist drives west.", [("cyclist", "cyclist")]),
+    ],
+)
+def test_people(text: str, names: list[tuple[str, str]]) -> None:
+    answers = {f"who {text.find('blue car', 20) + 5}": NEW}
+    assert heroes(read(EGO + text, answers)) == names
+
+
+def test_a_second_one_of_a_kind_is_asked_about() -> None:
+    text = EGO + "A car drives west. When a car is 20 m before the conflict point, it brakes."
+    (question,) = read(text).questions
+    assert question.alternatives == ("car", NEW)
+    assert [len(heroes(read(text, {question.slot: told}))) for told in question.alternatives] == [1, 2]
+
+
+def test_our_car_is_the_ego_and_the_car_may_be_too() -> None:
+    (question,) = read("Our car drives west. The car brakes.").questions
+    assert "ego" in question.alternatives
+
+
+def test_what_describes_somebody_tells_its_way() -> None:
+    story = read(EGO + "When the westbound car is 20 m before the conflict point, the oncoming truck brakes.")
+    assert (story.actors[1].way.heading, story.actors[2].relations[0].kind) == ("W", "oncoming")
+
+
+def test_who_does_something_is_not_the_ego() -> None:
+    story = read("The ego drives west. The hero is ahead of it. When the ego is 9 m behind the hero, it brakes.")
+    assert story.deeds[-1].actor == 1
+    assert not story.questions
+
+
+@pytest.mark.parametrize("text", ["They brake.", "The hero is an ego.", "The hero is a hero of the ego."])
+def test_who_cannot_be_told_apart_is_refused(text: str) -> None:
+    with pytest.raises(UnknownWordsError):
+        read(EGO + "A bus drives west. A van drives east. The hero drives west. " + text)
