@@ -78,7 +78,7 @@ def test_lines_stand_beside_the_words_they_came_from() -> None:
         ("changes lanes", "change lanes"),
         ("cuts in", "cut in"),
         ("swerves", "swerve"),
-        ("backs up", "reverse"),
+        ("backs up", "back up"),
         ("overtakes", "overtake"),
     ],
 )

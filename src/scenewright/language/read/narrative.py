@@ -17,7 +17,7 @@ from scenewright.language.read.clauses import Clause
 from scenewright.program.manner import USUAL, Manner
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 
-COURTESIES = {"yields", "insists", "first"}
+COURTESIES = {"yields", "insists"}
 
 
 @dataclass(slots=True)
