@@ -22,9 +22,10 @@ def pieces(reading: Reading) -> str:
     return " ".join(reading.program.actors[1].sketch.pieces)
 
 
-def test_who_goes_first_is_refused_where_nothing_bears_it_out() -> None:
-    for text in (FILLED["DL"] + "When the ego is 12 m from the stop line, the hero goes first.",
-                 MEETS + "the ego goes first.", ONCOMING + "The ego passes the conflict point first.",
+def test_who_goes_first_passes_before_the_other_and_it_is_never_lost() -> None:
+    first = reading_of(FILLED["DL"] + "When the ego is 12 m from the stop line, the hero goes first.")
+    assert {"A1x(t2) == conflict_point", "A0x(t2) == conflict_point", "A0(t2) > A1(t2)"} <= formulas(first)
+    for text in (MEETS + "the ego goes first.", ONCOMING + "The ego passes the conflict point first.",
                  MEETS + "the hero stops, lets the ego go first and then drives on."):  # fmt: skip
         assert reading_of(text).program is None
 
@@ -84,14 +85,14 @@ def test_places_of_braking_and_of_standing() -> None:
 
 
 def test_a_time_to_collision_needs_one_lane() -> None:
-    ahead = "When the time to collision between them is 2.5 s, the hero brakes."
+    ahead = "When the time to collision is 2.5 s, the hero brakes."
     assert "ttc(A0, A1, t1) == 2.5" in formulas(reading_of(ALONG + ahead))
     crossing = reading_of(ONCOMING + ahead)
     assert (crossing.kind, "time to collision" in crossing.told[0]) == ("refused", True)
 
 
 def test_ahead_is_so_at_the_start() -> None:
-    reading = reading_of(ALONG + "When the gap between them is 12 m, the hero brakes.")
+    reading = reading_of(ALONG + "When the gap is 12 m, the hero brakes.")
     assert reading.program is not None
     told = [print_expression(each.formula) for each in reading.program.constraints]
     assert {"gap(A0, A1, t0) > 0", "gap(A0, A1, t1) == 12"} <= set(told)
@@ -116,3 +117,27 @@ def test_a_parameter_tells_its_unit() -> None:
     assert reading.program is not None
     assert {each.name for each in reading.program.parameters} == {"place_m", "rate_mpss"}
     assert "a number with a unit" in " ".join(reading_of(MEETS + "the hero stops {x} before the conflict point.").told)
+
+
+def test_what_follows_a_relative_clause_is_said_of_the_noun_before_it() -> None:
+    braking = (
+        "The ego is on the driveway. The hero drives west along the road. The hero brakes to a stop. At the moment "
+    )
+    text = braking + "when it begins to brake, the ego, which wants to turn left there, is 10 m from its stop line."
+    assert "A0x(t0) == stop_line - 10" in formulas(reading_of(text))
+    when = "When the ego, which drives at 3 m/s, is 8 m from its stop line, the hero brakes to a stop."
+    assert {"A0v(t1) == 3", "A0x(t1) == stop_line - 8"} <= formulas(reading_of(FILLED["DL"] + when))
+
+
+def test_we_are_the_ego_and_carries_on_is_driving_on() -> None:
+    text = FILLED["DL"].replace("The ego is", "We are").replace("and wants", "and want") + FILLED["W"]
+    said = reading_of(text.replace("the ego is", "our car is") + "the hero stops and then carries on.")
+    assert pieces(said) == "go dec stop go"
+    assert "A0x(t1) == stop_line - 12" in formulas(said)
+
+
+def test_an_amount_set_off_by_commas_before_a_standstill_is_asked_about() -> None:
+    asked = reading_of(MEETS + "the hero brakes, 8 m before its stop line, to standstill.")
+    assert (asked.kind, "where it stands" in " ".join(asked.told)) == ("asked", True)
+    stands = reading_of(MEETS + "the hero comes to a stop, 8 m before the conflict point.")
+    assert "A1x(t2) == conflict_point - 8" in formulas(stands)

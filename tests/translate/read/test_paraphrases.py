@@ -8,7 +8,7 @@ import pytest
 from readings import FILLED, all_texts, is_right, paraphrases, reading_of, to_refuse
 
 CASES = paraphrases()
-RIGHT = 61  # of 110, of which 1 with a question that has a default; a working set, which says nothing of other texts
+RIGHT = 65  # of 110, of which 1 with a question that has a default; a working set, which says nothing of other texts
 BESIDE_NAMES = (
     ", which is on its way,", ", whose driver is attentive,", ", still under way,", ", by now,", ", unaware of this,",
     " (still under way)", ", which goes straight on,", ", which is not braking,", " (no turn)",

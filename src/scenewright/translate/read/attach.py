@@ -37,7 +37,9 @@ _CONTRARY = ((st.Verb.BRAKE, "acceleration"), ("stop", "acceleration"), (st.Verb
 def read_clause(chunks: Sequence[Chunk], people: Cast, subject: int | None = None) -> Clause:
     """Return what `chunks` say of whom they name, else of `subject`; what carries meaning must be used up."""
     taken = Taken(list(chunks), people, subject)
-    taken.take_all()
+    while taken.at < len(taken.chunks):
+        taken.take(taken.chunks[taken.at])
+        taken.at += 1
     _attach(taken)
     return taken.clause
 
@@ -78,6 +80,8 @@ def _find_subject(taken: Taken) -> None:
     # "There is a driveway 100 m in front of the ego."
     if clause.subject is None and taken.amounts and ahead is not None and place is not None:
         clause.subject, ahead.used, place.side = ahead.other, True, "before"
+    if clause.subject is None and taken.quantity in ("gap", "headway", "time to collision") and not taken.targets:
+        taken.pair = taken.pair or taken.people.pair(taken.chunks[0])  # "when the gap is 20 m"
     if taken.pair is not None:
         rear = taken.people.rear(*taken.pair, clause.quote)
         clause.subject, front = rear, next((each for each in taken.pair if each != rear), rear)

@@ -90,7 +90,7 @@ def vocabulary() -> Vocabulary:
             for phrase in said.split(" | "):
                 for form in _forms(phrase) + ([f"the {phrase}"] if kind == "place" else []):
                     words = tuple(form.split())
-                    phrases.setdefault(words[0], []).append((words, kind, value))
+                    phrases.setdefault(words[0], []).append((words, kind, value or phrase.lstrip("*")))
     for known in phrases.values():
         known.sort(key=lambda each: -len(each[0]))
     longest = "|".join(map(re.escape, sorted(units, key=len, reverse=True)))
@@ -122,13 +122,7 @@ def _forms(phrase: str) -> list[str]:
 
 
 def sentences(text: str) -> list[list[Chunk]]:
-    """Return the chunks of each sentence of `text`; what means nothing is left out.
-
-    Examples
-    --------
-    >>> [(chunk.kind, chunk.value) for chunk in sentences("The hero brakes at 3 m/s^2.")[0]]
-    [('actor', 'hero'), ('deed', 'brake'), ('side', 'at'), ('amount', '3 m/s^2')]
-    """
+    """Return the chunks of each sentence of `text`; what means nothing is left out."""
     found: list[list[Chunk]] = [[]]
     for chunk in _chunks(text):
         if chunk.kind == "end":

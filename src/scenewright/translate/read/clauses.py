@@ -40,8 +40,6 @@ class Clause:
 
     Attributes
     ----------
-    measures, rate, times
-        What is so of the subject, how hard it brakes or speeds up, and for how long or how long after the start.
     joined
         Conditions that "either", "both", "if" and "it is not so that" join, of whomever they are.
     flags
@@ -114,13 +112,7 @@ class Taken:
         start, end = self.chunks[0].start, self.chunks[-1].end
         self.clause = Clause(st.Quote(start, end, self.people.text[start:end]))
 
-    def take_all(self) -> None:
-        """Take every chunk, in order."""
-        while self.at < len(self.chunks):
-            self._take(self.chunks[self.at])
-            self.at += 1
-
-    def _take(self, chunk: Chunk) -> None:
+    def take(self, chunk: Chunk) -> None:
         """Take the chunk at `at`, and those behind it that belong to it."""
         clause, value = self.clause, chunk.value
         match chunk.kind:
@@ -159,7 +151,7 @@ class Taken:
             ):
                 self.targets.append(Target(self.at, "at", chunk, _CONFLICT))
             case "deed" if clause.deed is None:
-                clause.deed = value or chunk.text.lower()
+                clause.deed = value
             case "phase" if clause.phase is None:
                 clause.phase = value
             case "ordinal":

@@ -17,7 +17,7 @@ from scenewright.translate.phrases import speaks_of_ego
 from scenewright.translate.read.cast import Cast
 from scenewright.translate.read.clauses import Clause
 
-COURTESIES = {"yields", "insists", "first"}
+COURTESIES = {"yields", "insists"}
 
 
 @dataclass(slots=True)

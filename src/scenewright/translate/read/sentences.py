@@ -28,10 +28,7 @@ _COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "yields", "insists",
 
 
 def read(text: str, answers: Mapping[str, str] | None = None, name: str = "description") -> st.Story:
-    """Return the story that `text` tells; what `answers` does not answer, by slot, takes its default and is noted.
-
-    Raises `TranslationError` where words of the domain are left over, or what they say cannot be.
-    """
+    """Return the story that `text` tells; what `answers` does not answer, by slot, takes its default and is noted."""
     narrative = Narrative(text, answers or {})
     for chunks in sentences(take_labels(text, narrative)):
         narrative.quote = st.Quote(chunks[0].start, chunks[-1].end, text[chunks[0].start : chunks[-1].end])
@@ -174,6 +171,8 @@ class _Sentence:
             if is_hero and turns and not meant:
                 self.story.tell_way(item.subject or EGO, item.facts, turns_then=True)
                 item.facts, item.deed = {}, "turn"
+            elif is_hero and "first" in item.flags and not item.says_more_than("flags"):
+                item.flags, item.deed = item.flags - {"first"}, "go first"
             elif item.phase == "begins" and item.deed is None and item.measures:
                 item.phase = None
                 if is_hero and item.measures[0].quantity is st.Quantity.SPEED:  # "starts driving at 8 m/s"
@@ -225,7 +224,7 @@ class _Sentence:
         if clause.subject is not None and clause.subject != EGO:
             story.tell(clause)
         more = clause.says_more_than("deed", "phase", "measures", "rate", "times", "flags")
-        if clause.subject is None or clause.deed is None or more or clause.flags & {"way", "start", "falls"}:
+        if clause.subject is None or clause.deed is None or more or clause.flags & {"first", "way", "start", "falls"}:
             story.refuse("it is not clear what is done here")
         if clause.phase == "finishes" or "after the start" in clause.times:
             story.refuse("nothing was told of this deed before")
@@ -236,15 +235,17 @@ class _Sentence:
         drives_on = bool(begins) and clause.deed != st.Verb.STAND  # "it brakes 15 m before the stop line"
         if clause.deed == "turn":
             told = [] if moment is None else story.conditions_at[moment]
-            starts, done = (st.Measure(clause.subject, st.Quantity.PLACE, "==", None, st.Place(name), quote=story.quote)
-                            for name in ("turn_start", "turn_end"))  # fmt: skip
             if not any(isinstance(each, st.Measure) and each.actor == clause.subject and each.place for each in told):
-                begins.append(starts)  # else it is told where it is then, and it turns later
-            ends.append(done)
+                begins.append(
+                    self._at(clause.subject, "turn_start")
+                )  # else it is told where it is then, and it turns later
+            ends.append(self._at(clause.subject, "turn_end"))
+        elif clause.deed == "go first":
+            ends.append(self._at(clause.subject, "conflict_point"))
         is_event = "event" in clause.notes
         if drives_on or any(not is_event and (each.link == "after" or (each.margin and not ends)) for each in rest):
             self.leads.add("then")
-        verb = {"stop": st.Verb.BRAKE, "turn": st.Verb.DRIVE}.get(clause.deed, clause.deed)
+        verb = {"stop": st.Verb.BRAKE, "turn": st.Verb.DRIVE, "go first": st.Verb.DRIVE}.get(clause.deed, clause.deed)
         doing = story.begin(clause.subject, verb, moment, self.leads)
         story.subject = clause.subject
         story.add(doing.begins, begins)
@@ -255,12 +256,18 @@ class _Sentence:
         if "while" in clause.flags and ends:
             story.refuse("it is not clear when this ends")
         self._end(doing, clause, ends, next((each for each in rest if each.link == "until"), None))
+        if clause.deed == "go first":  # it passes before the ego does
+            passes = story.event(Clause(story.quote, EGO, measures=[self._at(EGO, "conflict_point")]))
+            story.orders.append(st.Order(doing.ends or st.START, passes, ">", None, story.quote))
         for each in rest:
             early = (each.link == "after" and not is_event) or not ends or doing.ends is None
             if each.link != "until":
                 self._orders(doing.begins if early else doing.ends or st.START, [each])
         if rests and "for" in clause.times:
             story.refuse("it is not clear what lasts so long")
+
+    def _at(self, actor: int, place: str) -> st.Measure:
+        return st.Measure(actor, st.Quantity.PLACE, "==", None, st.Place(place), quote=self.story.quote)
 
     def _shares(self, clause: Clause) -> tuple[list[st.Measure], list[st.Measure], list[st.Measure]]:
         """Return what a deed's own clause says of its beginning, of the deed throughout, and of its end."""
