@@ -14,7 +14,9 @@ from pathlib import Path
 from scenewright.study.benchmark import benchmark_rows
 from scenewright.study.meaning import differences
 
-sys.path[:0] = [str(Path(__file__).resolve().parents[1] / "tests" / folder) for folder in ("translate", "translate/read")]
+sys.path[:0] = [
+    str(Path(__file__).resolve().parents[1] / "tests" / folder) for folder in ("translate", "translate/read")
+]
 from changes import changes  # noqa: E402 - the tests' own
 from readings import Expected, is_right, of_the_paper, paraphrases, reading_of, to_refuse  # noqa: E402
 from test_paper import ORACLE  # noqa: E402 - what a person reads

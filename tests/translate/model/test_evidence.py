@@ -109,7 +109,7 @@ def test_two_distances_exchanged() -> None:
 @pytest.mark.parametrize(
     ("slots", "told"),
     [
-        ({"asides": []}, "'12 m short"),
+        ({"asides": []}, "'12 m' of the text"),
         ({"deeds": [{**STORY["deeds"][0], "ends": "stopped"}]}, "'brakes'"),
     ],
 )

@@ -14,7 +14,6 @@ from scenewright.errors import TranslationError
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
 from scenewright.translate.compile import COMPASS, amounts_of
-from scenewright.translate.model.amounts import spoken_in
 from scenewright.translate.model.heard import Heard, lies_in, people
 from scenewright.translate.model.measured import STANDS, Measured, meaning
 from scenewright.translate.model.schema import Claim, locate
@@ -239,14 +238,17 @@ class _Evidence(Measured):
         declared = [
             self.heard.sentence(span.start)[0] for each in story.parameters for span in locate(each.name, self.text)
         ]
-        for each in spoken_in(self.text):
-            start, end = each.span.start, each.span.end
-            again = lies_in(start, end, longer) and any(self.text.startswith(quote.text, start) for quote in amounts)
-            used = again or lies_in(start, end, [*told, *named, *(quote.span for quote in amounts)])
-            owned = any(re.search(rf"(?<![\w.]){re.escape(self.text[start:end])}(?![\w]|\.\d)", said)
-                        for _, said in self.claim.owned)  # fmt: skip
-            if not (used or owned or self.heard.sentence(start)[0] in declared):
-                yield f"'{self.text[start : end + 12].strip()}' of the text is in no amount and no aside"
+        for each in (chunk for own in self.heard.said for chunk in own if chunk.kind in ("amount", "no unit")):
+            again = lies_in(each.start, each.end, longer) and any(
+                self.text.startswith(quote.text, each.start) for quote in amounts
+            )
+            used = again or lies_in(each.start, each.end, [*told, *named])
+            used = used or any(quote.start < each.end and each.start < quote.end for quote in amounts)
+            owned = any(
+                re.search(rf"(?<![\w.]){re.escape(each.text)}(?!\w|\.\d)", said) for _, said in self.claim.owned
+            )
+            if not (used or owned or self.heard.sentence(each.start)[0] in declared):
+                yield f"'{each.text}' of the text is in no amount and no aside"
         quotes = [quote.span for number in range(len(story.moments)) for _, quote in self._told_at(number) if quote]
         spans = [*self.claim.read, *told, *named, *longer, *quotes]
         for own in self.heard.said:

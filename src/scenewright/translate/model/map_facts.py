@@ -15,6 +15,7 @@ from scenewright.translate.phrases import COMPASS_WORDS, PLACES
 
 _MOST_WAYS = 60
 _MOST_PAIRS = 150
+_OWN = ("stop_line", "turn_start", "turn_end", "junction_start", "junction_end", "route_end")
 _HOW = {"crossing": "cross", "merging": "come together into one lane", "following": "begin on one lane, and part"}
 
 
@@ -46,12 +47,9 @@ def map_facts(road_map: RoadMap) -> str:
 def _told(way: Route) -> str:
     turn = "straight on" if way.turn == "straight" else f"turns {way.turn}"
     first, last = (COMPASS_WORDS[heading] for heading in (way.headings[0], way.headings[-1]))
-    missing = [PLACES[name] for name in PLACES if name in _OWN and name not in way.landmarks]
+    missing = [PLACES[name] for name in _OWN if name not in way.landmarks]
     none = f"; it has no {', no '.join(missing)}" if missing else ""
     return f"from the {way.origin_kind}, heading {first}, {turn}, into the {way.destination_kind}, then {last}{none}"
-
-
-_OWN = ("stop_line", "turn_start", "turn_end", "junction_start", "junction_end", "route_end")
 
 
 def _junctions(road_map: RoadMap, way: Route) -> set[str]:

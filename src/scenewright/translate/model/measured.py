@@ -13,7 +13,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from scenewright.translate import story as st
-from scenewright.translate.model.amounts import spoken_in
+from scenewright.translate.model.amounts import read_amounts
 from scenewright.translate.model.heard import Heard, people
 from scenewright.translate.model.schema import Claim
 from scenewright.translate.phrases import BOUNDS, PLACES
@@ -90,12 +90,11 @@ class Measured:
         if amount.quote is None:
             yield f"no words are quoted for {told}"
             return
-        read = [({each if isinstance(each, str) else abs(each) for each in spoken.values}, spoken.unit)
-                for spoken in spoken_in(amount.quote.text)]  # fmt: skip
+        read = list(read_amounts(amount.quote.text))
         stands = value == 0 and amount.dimension == "speed"
-        if any(value in values and unit == amount.unit for values, unit in read):
+        if (value, amount.unit) in read:
             return
-        if amount.name or any(value not in values or unit for values, unit in read):
+        if amount.name or (read and (value, None) not in read):
             yield f"'{amount.quote.text}' is not {told}"
         elif not (stands and STANDS.search(amount.quote.text)):
             about = ("stop", "stand") if stands else (format_fraction(amount.value or Fraction(0)),)

@@ -36,19 +36,14 @@ def instructions(road_map: RoadMap) -> str:
         f"## Example {number}\n\n{enclosed(text)}\n\nReply:\n\n{json.dumps(reply, ensure_ascii=False)}"
         for number, (text, reply) in enumerate(examples(), start=1)
     ]
-    parts = {"form": sheet(), "map": map_facts(road_map), "examples": "\n\n".join(shown)}
-    text = _file("prompt.md")
-    for name, part in parts.items():
-        text = text.replace("{{" + name + "}}", part)
-    return text
+    text = _file("prompt.md").replace("{{form}}", sheet()).replace("{{map}}", map_facts(road_map))
+    return text.replace("{{examples}}", "\n\n".join(shown))
 
 
 def opening(road_map: RoadMap, text: str) -> tuple[Message, ...]:
     """Return the messages that begin a translation."""
-    return (
-        Message("system", instructions(road_map)),
-        Message("user", f"Tell the story of this text.\n{enclosed(text)}"),
-    )
+    asked = Message("user", f"Tell the story of this text.\n{enclosed(text)}")
+    return Message("system", instructions(road_map)), asked
 
 
 def enclosed(text: str, name: str = "text") -> str:
@@ -93,6 +88,5 @@ def fingerprint(road_map: RoadMap) -> str:
     return f"{PROMPT_VERSION} ({hashlib.sha256(instructions(road_map).encode('utf-8')).hexdigest()[:12]})"
 
 
-@lru_cache(maxsize=8)
 def _file(name: str) -> str:
     return files(__package__ or "").joinpath(name).read_text(encoding="utf-8")

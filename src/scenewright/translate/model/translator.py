@@ -49,10 +49,6 @@ def story_by_model(text: str, road_map: RoadMap, name: str, model: Model, settin
     return _Conversation(text, road_map, name, model, settings).told()
 
 
-class _CannotBeSaidError(Exception):
-    """Ends a conversation: the story is one that the program language does not know. A model might bend it."""
-
-
 @dataclass(slots=True)
 class _Conversation:
     text: str
@@ -63,13 +59,19 @@ class _Conversation:
     messages: tuple[Message, ...] = ()
     calls: tuple[Usage, ...] = ()
     notes: list[str] = field(default_factory=list)
+    unknown: bool = False  # whether the last story has a word that the program language does not know
 
     def told(self) -> Told:
         self.messages = prompt.opening(self.road_map, self.text)
         story, said = self._until_it_holds()
         more = self._second_opinion(story) if self.settings.second_opinion else []
         asked = (*story.questions, *more)
-        answers = self._answers(asked)
+        given, answers = self.settings.answers, dict[str, str]()
+        for each in asked:
+            if given.get(each.slot) in each.alternatives:
+                answers[each.slot] = given[each.slot]
+            elif self.settings.ask is not None:
+                answers[each.slot] = self.settings.ask(each)
         taken = {each.slot: None if each.default is None else each.alternatives[each.default] for each in asked}
         new = {
             each.text: answers[each.slot] for each in asked if answers.get(each.slot) not in (None, taken[each.slot])
@@ -81,16 +83,6 @@ class _Conversation:
         self.notes.append(f"{self.model.name}, prompt {prompt.fingerprint(self.road_map)}: {sum(self.calls, Usage(0))}")
         return Told(replace(story, questions=questions), tuple(self.notes), self.calls, answers)
 
-    def _answers(self, asked: tuple[st.Question, ...]) -> dict[str, str]:
-        """Return the answers to questions: those given before, and those of the user where one can be asked."""
-        answers: dict[str, str] = {}
-        for each in asked:
-            if self.settings.answers.get(each.slot) in each.alternatives:
-                answers[each.slot] = self.settings.answers[each.slot]
-            elif self.settings.ask is not None:
-                answers[each.slot] = self.settings.ask(each)
-        return answers
-
     def _until_it_holds(self) -> tuple[st.Story, str]:
         """Ask until a reply holds; return its story and its text. Raises what was wrong with the last one."""
         for left in range(self.settings.repairs, -1, -1):
@@ -101,6 +93,8 @@ class _Conversation:
                     break
                 return self._checked(reply), answer.text[:_KEPT_OF_A_REPLY]
             except ScenewrightError as fault:
+                if self.unknown:  # to the program language: a model might bend it
+                    raise
                 last = fault.message + (f" ({fault.found})" if fault.found else "")
                 if not left:
                     message = f"{self.model.name} gave no story that holds: {sum(self.calls, Usage(0))}"
@@ -109,8 +103,6 @@ class _Conversation:
                 said = Message("assistant", answer.text[:_KEPT_OF_A_REPLY])
                 self.messages = (*self.messages, said, prompt.refused(fault))
                 self.notes.append(f"a reply went back: {last}")
-            except _CannotBeSaidError as error:
-                raise error.args[0] from None
         refusal = reply.refusal
         raise TranslationError(
             f"{self.model.name} refuses the text: {refusal.reason}",
@@ -130,14 +122,12 @@ class _Conversation:
         if not asked <= set(story.ego):
             story = replace(story, ego=tuple(sorted({*story.ego, *asked})))
         placed = put_on_map(story, self.road_map)
-        try:
-            program = compile_story(placed, self.text)
-        except TranslationError as error:
-            kinds = all(actor.kind in DRIVEN for actor in story.actors)
-            relations = all(each.kind in BEARINGS for actor in story.actors for each in actor.relations)
-            if kinds and relations and all(deed.verb in set(st.Verb) for deed in story.deeds):
-                raise
-            raise _CannotBeSaidError(error) from None
+        self.unknown = (
+            any(actor.kind not in DRIVEN for actor in story.actors)
+            or any(each.kind not in BEARINGS for actor in story.actors for each in actor.relations)
+            or any(deed.verb not in set(st.Verb) for deed in story.deeds)
+        )
+        program = compile_story(placed, self.text)
         ground(program, self.road_map)
         return story
 
@@ -165,5 +155,5 @@ class _Conversation:
             return []
         self.notes.append(f"second opinion: {len(sentences) or 'no'} difference{'s' if len(sentences) != 1 else ''}")
         asked = (f"A second reading differs: {each} Is the story right?" for each in sentences)
-        choice = (AS_TOLD, NOT_AS_TOLD)
-        return [st.Question(f"second opinion {number}", text, choice) for number, text in enumerate(asked, start=1)]
+        both = (AS_TOLD, NOT_AS_TOLD)
+        return [st.Question(f"second opinion {number}", text, both) for number, text in enumerate(asked, start=1)]
