@@ -211,8 +211,8 @@ def test_plan_and_resolves_are_written(written: tuple[Result, Path]) -> None:
 def test_who_drives_on_after_standing_moves_off() -> None:
     text = (
         "The ego drives westbound at 50 km/h. The hero is eastbound and turns left into the driveway. When the ego is "
-        "30 m and the hero is 15 m before the conflict point, the hero brakes to a stop 4 m before the conflict point, "
-        "waits for 2 s and drives on."
+        "30 m before the conflict point and the hero is 15 m before the conflict point, the hero brakes to a stop 4 m "
+        "before the conflict point, waits for 2 s and drives on."
     )
     result = orchestrate(Request(text, takes=1))
     assert result.status == "success"

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "language" / "model"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "translate" / "model"))
 
 from talk import KEY, Handler, Server, fails, says
 

@@ -17,7 +17,6 @@ CASES = [
     ("yields, distance", "answering:Stops", {}, "ego"),
     ("stops and goes", "speeder", {}, "ego"),
     ("goes first, time", "answering:Shy:keep_mps=5", {}, "way"),
-    ("stops and goes", "answering:Shy:keep_mps=5", {}, "authority"),
     ("goes first, distance", "speeder", {}, "order"),
     ("yields, distance", "staller", {"mode": "open"}, "prediction"),
     ("yields, time", "answering:Swings", {"mode": "open"}, "prediction"),

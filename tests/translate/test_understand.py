@@ -8,7 +8,7 @@ from scenewright.errors import MapError, TranslationError
 from scenewright.roads.grounding import ground
 from scenewright.roads.load import load_map
 from scenewright.translate.story import Question
-from scenewright.translate.understand import translate, understand
+from scenewright.translate.understand import understand
 
 TEXT = (
     "The ego drives west and goes straight on. An oncoming hero turns left into the driveway. When the ego is 25 m "
@@ -17,7 +17,7 @@ TEXT = (
 
 
 def test_a_text_becomes_a_program_that_fits_its_map() -> None:
-    program = translate(TEXT)
+    program = understand(TEXT).program
     assert ground(program, load_map(program.map_name)).routes[1].headings == ("E", "N")
     assert program.description == TEXT
     assert program.words_of(program.constraints[1]) == "the ego is 25 m before the conflict point"
@@ -82,7 +82,7 @@ def test_lines_stand_beside_the_words_they_came_from() -> None:
         ("overtakes", "overtake"),
     ],
 )
-def test_a_deed_that_no_program_says_yet_is_refused_by_its_name_in_the_text(does: str, name: str) -> None:
+def test_a_deed_that_no_program_says_yet_is_refused_in_the_words_of_the_text(does: str, name: str) -> None:
     text = TEXT.replace("brakes to a stop 8 m before it", does)
     with pytest.raises(TranslationError, match=f"'{name}' cannot be said in a program yet") as caught:
         understand(text)
