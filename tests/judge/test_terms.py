@@ -46,7 +46,7 @@ class Motions:
         return float(motion.states(np.array([time_s]))[order][0])
 
     def piece_span_s(self, actor: int, piece: str) -> tuple[float, float]:
-        raise NotImplementedError
+        raise NotImplementedError  # no rate of a piece is asked of plays here
 
     def knot_time_s(self, actor: int, knot: str) -> float:
         return float(MOMENTS.knots[actor, knot])

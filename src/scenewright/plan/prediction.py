@@ -23,18 +23,19 @@ EgoSample = tuple[float, float, float, float]
 # A driver stops with the bumper at the line, and takes a turn at this lateral acceleration.
 _BUMPER_M = 2.6
 _LATERAL_MPSS = 2.5
+# A bend is looked at so often, which is less than half a car; what is straighter (1/m) asks nobody to slow down.
 _BEND_STEP_M, _STRAIGHT = 2.0, 1e-3
 # An acceleration that changes by more than this from one step to the next is another intention, not a twitch.
 _JUMP_MPSS = 1.0
 # Who has gained this much a second over the last second is speeding up on purpose.
 _LATELY_S, _SPEEDS_UP_MPSS = 1.0, 0.6
 _STEP_S, _MOST_STEPS = 0.5, 20
-_SHORTEST_S = 1e-3
+_SHORTEST_S = 1e-3  # a stretch that lasts less is none
 # An acceleration that changes by this much (m/s^2) at every step is no sign of what comes; how it is forgotten (s).
 _UNSTEADY_MPSS, _UNSTEADY_FOR_S, _FORGETS_S, _FORGOTTEN_S = 0.03, 0.5, 1.0, 3.0
 _FEWEST_CHANGES, _FORGET_STEP_S = 10, 0.25
 # A foot that has hardly turned, and made so many steps to one side, is on its way; how many of them tell how fast, and
-# for how long that counts (s).
+# for how long that counts (s); chosen, and what it gains is told in docs/evaluation.md.
 _FEW_TURNS, _FEWEST_ONE_WAY, _RECENT, _MOVES_S = 2, 3, 5, 0.5
 # Below this share of what people drive there it crawls.
 _CRAWLS = 0.25

@@ -18,7 +18,7 @@ Place = tuple[float, float]
 _SAMPLE_M = 1.0
 _BLOCK = 32  # chords whose common box is looked at before any of them
 _NO_GAP_M = 0.1
-_SAME_M = 1e-6
+_SAME_M = 1e-6  # rounding, of an intersection that is found from two chords
 _STRAY_M = 2.0  # Newton's method starts within a chord of the intersection; it has no business further away
 
 

@@ -42,13 +42,17 @@ def test_only_who_speeds_up_accelerates() -> None:
         assert pieces(reading_of(f"{MEETS}the hero {said}.")) == "go acc", said
 
 
-def test_a_speed_is_that_of_the_start_and_one_that_is_kept_is_asked_about() -> None:
+def test_a_speed_is_that_of_the_start_and_a_kept_one_is_kept() -> None:
     start = "The ego turns left out of the driveway. A truck approaches from the east at 60 km/h"
     end = " When the ego is 10 m from the stop line, the truck brakes at 3 m/s^2."
     found = formulas(reading_of(f"{start}.{end}"))
     assert "A1v(t0) == 50/3" in found
     assert "A1v(go) == 50/3" not in found
-    assert reading_of(f"{start} and keeps its speed.{end}").kind == "asked"
+    kept = formulas(reading_of(f"{start} and keeps its speed.{end}"))
+    assert {"A1v(t0) == 50/3", "A1v(go) == 50/3"} <= kept
+    goes_on = formulas(reading_of(f"{MEETS}the hero continues at a constant speed."))
+    assert "A1a(go2) == 0" in goes_on
+    assert reading_of(f"{MEETS}the hero brakes and keeps its speed.").kind in ("asked", "refused")
     assert "A1v(t1) == 8" in formulas(reading_of(MEETS.replace("hero is 20 m", "hero drives at 8 m/s and is 20 m") +
                                                  "the hero brakes."))  # fmt: skip
 

@@ -7,6 +7,9 @@ import random
 import pytest
 from readings import FILLED, all_texts, is_right, paraphrases, reading_of, to_refuse
 
+from scenewright.translate.read.chunks import corrected
+from scenewright.translate.understand import understand
+
 CASES = paraphrases()
 RIGHT = 65  # of 110, of which 1 with a question that has a default; a working set, which says nothing of other texts
 BESIDE_NAMES = (
@@ -43,6 +46,13 @@ def test_a_slip_of_a_long_word_is_corrected_and_told(slip: str, word: str) -> No
     text += "ego is 12 m from the stop line, the hero decelerates to a stop 5 m before the conflict point."
     changed, plain = reading_of(text.replace(word, slip, 1)), reading_of(text)
     assert changed.meaning == plain.meaning
+    told = understand(text.replace(word, slip, 1)).story.assumptions
+    assert any(slip in each and "is read with" in each for each in told)
+
+
+@pytest.mark.parametrize("word", ["incoming", "interaction", "declaration", "serving", "opponents"])
+def test_a_real_word_is_never_taken_for_a_slip(word: str) -> None:
+    assert corrected(word) is None
 
 
 def test_a_short_word_is_never_corrected() -> None:

@@ -20,7 +20,7 @@ from scenewright.translate.model.schema import Claim, locate
 from scenewright.translate.phrases import COMPASS_WORDS, DOES
 from scenewright.translate.read.chunks import Chunk
 
-_SHOWN = 8
+_SHOWN = 8  # faults that go back at once: more are not mended at once either
 _HOW = {
     "never": r"(?i)\b(?:never|not|no|without|nor|avoid\w*)\b|n't",
     "always": r"(?i)\b(?:always|all|throughout|whole|entire|while|during|keep\w*|hold\w*|stay\w*|until|constant)\b",

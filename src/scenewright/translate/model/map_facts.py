@@ -13,6 +13,7 @@ from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route, all_routes
 from scenewright.translate.phrases import COMPASS_WORDS, PLACES
 
+# What a prompt tells of a large map: some thousand tokens of it, and that there is more.
 _MOST_WAYS = 60
 _MOST_PAIRS = 150
 _OWN = ("stop_line", "turn_start", "turn_end", "junction_start", "junction_end", "route_end")

@@ -30,8 +30,9 @@ from scenewright.translate.phrases import PLACES
 from scenewright.translate.ways import BEARINGS
 from scenewright.units import DIGITS, UNITS, is_size_of_a_scenario, unit_of_name
 
+# Far more than any test needs; a reply that holds more is a flood.
 MOST_ENTRIES = 100
-LONGEST_WORDS = 2_000
+LONGEST_WORDS = 2_000  # characters
 DEEPEST = 3  # conditions in conditions; the teller has words for no more
 PEOPLE = ("actor", "other", "of", "partner")  # slots that are numbers of actors; all other numbers are of moments
 # Ours to say, or found by the program: a reply could name any file as its map, or let anything pass as a standstill.

@@ -62,7 +62,14 @@ def _attach(taken: Taken) -> None:
             _stand_alone(taken, target)
     places = [each for each in clause.measures if each.quantity is st.Quantity.PLACE]
     passes_nothing = "pass" in taken.states and all(each.amount is not None for each in places)
-    if passes_nothing or ("reach" in taken.states and not places) or (taken.quantity and not taken.amounts):
+    fast = taken.quantity == "speed" or any(each.quantity is st.Quantity.SPEED for each in clause.measures)
+    is_kept = "kept" in clause.flags
+    if is_kept and clause.rate is not None:  # "brakes at a constant rate of 3 m/s^2"
+        clause.flags.discard("kept")
+    elif is_kept and not fast:  # "keeps a gap of 20 m"
+        raise taken.left_over(last)
+    is_empty = taken.quantity and not (taken.amounts or is_kept)
+    if passes_nothing or ("reach" in taken.states and not places) or is_empty:
         raise taken.left_over(last)
     if "goes" in taken.states and clause.deed is None and not (clause.facts or clause.measures or clause.flags):
         clause.deed = st.Verb.DRIVE

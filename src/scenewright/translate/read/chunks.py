@@ -72,6 +72,7 @@ class Vocabulary:
     labels: dict[str, str]
     words: frozenset[str]  # all that stand in phrases
     long: tuple[str, ...]
+    lookalikes: frozenset[str]  # real words that are never taken for a slip of the pen
     unit_pattern: re.Pattern[str]
 
 
@@ -82,6 +83,7 @@ def vocabulary() -> Vocabulary:
     units = {word: symbol for symbol, said in table.pop("unit").items() for word in said.split(" | ")}
     numbers = {word: Fraction(number) for number, word in enumerate(_NUMBERS.split())}
     numbers |= {word: Fraction(10 * tens) for tens, word in enumerate(_TENS.split(), start=2)}
+    lookalikes = frozenset(table.pop("lookalike")["words"].split())
     labels = {word: kind for kind, said in table.pop("label").items() for word in said.split(" | ")}
     table["ordinal"] = {str(number): f"for the {word} time" for number, word in enumerate(ORDINALS)}
     phrases: dict[str, list[tuple[tuple[str, ...], str, str]]] = {}
@@ -96,7 +98,8 @@ def vocabulary() -> Vocabulary:
     longest = "|".join(map(re.escape, sorted(units, key=len, reverse=True)))
     pattern = re.compile(rf"[\s-]?({longest})(?![\w/^²])", re.IGNORECASE)
     single = frozenset(word for same in phrases.values() for said, _, _ in same for word in said)
-    return Vocabulary(phrases, units, numbers, labels, single, tuple(w for w in single if len(w) >= _LONG), pattern)
+    long = tuple(sorted(word for word in single if len(word) >= _LONG))
+    return Vocabulary(phrases, units, numbers, labels, single, long, lookalikes, pattern)
 
 
 _IRREGULAR = {
@@ -246,8 +249,9 @@ def _plain(token: re.Match[str]) -> Chunk:
 def corrected(word: str) -> str | None:
     """Return the long word of the domain that an unknown one is taken for; None where it may be a word of its own."""
     known = vocabulary()
-    close = [] if word in known.words or len(word) < _LONG - 1 else get_close_matches(word, known.long, 1, _LIKE)
-    return close[0] if close else None
+    if len(word) < _LONG - 1 or word in known.words or word in known.lookalikes:
+        return None
+    return next(iter(get_close_matches(word, known.long, 1, _LIKE)), None)
 
 
 def nearest_words(word: str) -> list[str]:

@@ -26,7 +26,7 @@ _CONFLICT = st.Place("turn")  # where a driveway joins a road
 _SIDES = ("before", "behind", "from", "to", "ahead", "past")  # of a place that an amount is counted to
 
 
-_OF_AMOUNTS = ("amount", "bound", "quantity", "no unit")
+_OF_AMOUNTS = ("amount", "bound", "quantity", "kept", "no unit")
 _AFTER = {  # what may stand behind a side that says no more than that it belongs there: "to pass it", "at a speed of"
     "to": (*_OF_AMOUNTS, "event", "turn", "deed", "state", "phase", "mood"), "at": _OF_AMOUNTS, "of": _OF_AMOUNTS,
     "for": _OF_AMOUNTS, "with": (*_OF_AMOUNTS, "turn", "deed"), "by": ("turn", "deed"),
@@ -43,8 +43,8 @@ class Clause:
     joined
         Conditions that "either", "both", "if" and "it is not so that" join, of whomever they are.
     flags
-        ``standstill``, ``while`` (the end is open), ``to`` a speed, ``first``, ``start``, ``way``
-        (it is open), ``falls`` (an amount that is reached), ``yields``, ``insists``.
+        ``standstill``, ``while`` (the end is open), ``to`` a speed, ``first``, ``start``, ``kept`` (its speed),
+        ``way`` (it is open), ``falls`` (an amount that is reached), ``yields``, ``insists``.
     notes
         How it says it, which is no meaning of its own: ``event`` (something is passed), ``wanted`` (a wish).
     """
@@ -156,7 +156,7 @@ class Taken:
                 clause.phase = value
             case "ordinal":
                 clause.ordinal = int(value)
-            case "standstill" | "open" | "order" | "yields" | "insists":
+            case "standstill" | "open" | "kept" | "order" | "yields" | "insists":
                 clause.flags.add("standstill" if chunk.kind == "standstill" else value)
             case "link" if value == "start":
                 clause.flags.add("start")

@@ -24,7 +24,7 @@ _PREDICATES = {
 }  # fmt: skip
 _BEGINS_A_CLAUSE = {
     *PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed", "pair",
-    "order", "yields", "insists", "open",
+    "kept", "order", "yields", "insists", "open",
 }  # fmt: skip
 _ACTS = ("deed", "order", "yields", "insists")
 _FRONTED = ("side", "turn", "state", "origin", "heading", "area")

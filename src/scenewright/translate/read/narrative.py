@@ -45,6 +45,7 @@ class Narrative(Cast):
     orders: list[st.Order] = field(default_factory=list)
     holds: list[st.Hold] = field(default_factory=list)
     pending: int | None = None  # a moment that the last sentence told, at which nobody does anything yet
+    kept: list[tuple[int, st.Quote]] = field(default_factory=list)  # who keeps the speed that it has at the start
     courtesies: list[tuple[int | None, str, st.Quote]] = field(default_factory=list)  # who yields, or does not
     parameters: list[Parameter] = field(default_factory=list)
     manner: Manner = USUAL
@@ -55,6 +56,8 @@ class Narrative(Cast):
     def story(self) -> st.Story:
         """Return the story; deeds that are still open end at moments of their own."""
         self.actor(EGO)  # refuses a text that does not name it
+        for actor, quote in self.kept:
+            self._keep(actor, quote)
         for who, courtesy, quote in self.courtesies:
             self._check(who, courtesy, quote)
         self.go_straight()
@@ -80,6 +83,17 @@ class Narrative(Cast):
         stops = any(doing.verb in (st.Verb.BRAKE, st.Verb.STAND) for doing in own)
         if not own or not (self.orders if courtesy == "first" else stops is (courtesy == "yields")):
             self.refuse("it is not said what is done to yield, or instead", quote, "say where it stops or passes")
+
+    def _keep(self, actor: int, quote: st.Quote) -> None:
+        """Let somebody keep its first speed until its first deed, throughout where it has none."""
+        first = next((doing for doing in self.doings if doing.actor == actor), None)
+        if first is None or first.verb != st.Verb.DRIVE or first.begins != st.START:
+            if actor == EGO or first is not None:
+                self.refuse("it is not clear until when a speed is kept", quote)
+            first = self.begin(actor, st.Verb.DRIVE, None, set())
+        speeds = [each for each in self.conditions_at[st.START] if isinstance(each, st.Measure) and each.actor == actor
+                  and (each.quantity, each.op, each.other) == (st.Quantity.SPEED, "==", None)]  # fmt: skip
+        first.throughout.append(speeds[0] if len(speeds) == 1 else steady(actor, quote))
 
     def new_moment(self, conditions: Sequence[st.Condition] = ()) -> int:
         """Add a moment and return its number."""
@@ -247,6 +261,11 @@ class Narrative(Cast):
         verb = st.Verb.BRAKE if clause.deed == "stop" else clause.deed
         same = [each for each in self.doings if each.actor == clause.subject and each.verb == verb]
         return same[clause.ordinal] if clause.ordinal < len(same) else None
+
+
+def steady(actor: int, quote: st.Quote) -> st.Measure:
+    """Return that somebody keeps its speed, whichever that is."""
+    return st.Measure(actor, st.Quantity.RATE, "==", st.Amount(Fraction(0), "m/s^2"), quote=quote)
 
 
 def standstill(actor: int) -> st.Measure:

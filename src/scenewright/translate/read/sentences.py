@@ -18,7 +18,7 @@ from scenewright.translate.read.chunks import Chunk, sentences
 from scenewright.translate.read.clauses import PEOPLE, Clause
 from scenewright.translate.read.items import Segment, items_of, parted, segments_of
 from scenewright.translate.read.labels import take_labels
-from scenewright.translate.read.narrative import COURTESIES, Doing, Narrative, standstill
+from scenewright.translate.read.narrative import COURTESIES, Doing, Narrative, standstill, steady
 
 _ORDERS = ("before", "after", "no later than")
 _HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
@@ -200,7 +200,12 @@ class _Sentence:
         story = self.story
         for item in items:
             story.tell(item)
-            story.subject = story.subject if item.subject is None else item.subject
+            if item.subject is not None:
+                story.subject = item.subject
+                if "kept" in item.flags and story.knots(item.subject):  # "brakes and keeps its speed"
+                    story.refuse("it is not clear when a speed is kept", item.quote, "say it before what is done")
+                story.kept += [(item.subject, item.quote)] * ("kept" in item.flags)
+                item.flags -= {"kept"}
             if "start" in item.flags:
                 item.flags -= {"start"}
                 story.add(st.START, story.conditions([item]))
@@ -232,6 +237,10 @@ class _Sentence:
             story.tell_way(clause.subject, {"turn": self.turned})
         moment = self.pending if when is None else story.moment(when)
         begins, held, ends = self._shares(clause)
+        if "kept" in clause.flags and not held:  # "continues at a constant speed"
+            if clause.deed != st.Verb.DRIVE:
+                story.refuse("it is not clear what is kept here")
+            held.append(steady(clause.subject, clause.quote))
         drives_on = bool(begins) and clause.deed != st.Verb.STAND  # "it brakes 15 m before the stop line"
         if clause.deed == "turn":
             told = [] if moment is None else story.conditions_at[moment]
