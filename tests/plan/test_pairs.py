@@ -82,6 +82,11 @@ def test_who_is_told_nothing_of_the_other_keeps_clear_of_it(monkeypatch: pytest.
     assert drive(ACROSS, "idm").apart_m(of_ego=False) < 0.0
 
 
+def test_they_keep_as_clear_of_each_other_as_the_manner_says() -> None:
+    assert drive("manner:\n- clear_m = 3\n" + ACROSS, "idm").apart_m(of_ego=False) > 3.0
+    assert drive(ACROSS, "idm").apart_m(of_ego=False) < 3.0
+
+
 def test_who_is_to_be_in_contact_is_let() -> None:
     scene = scene_of(IN_CONTACT)
     driven = drive(IN_CONTACT, "constant")

@@ -15,11 +15,12 @@ from scenewright.solve.limits import ROOM, calm_mpss
 
 # Which way is stricter; what a manner says nothing of is what it is.
 MORE = ("least_rate_mpss", "beginning_mpss", "beginning_s", "settled_s", "shortest_s", "shortest_stand_s", "stands_s")
+CLEAR = ("clear_of_ego_m", "clear_of_zone_m", "clear_m", "clear_in_lane_m")
 LESS = ("settled_mpss",)
 REST = [
     each.name
     for each in fields(Preferences)
-    if each.name not in (*MORE, *LESS, "early_mpss", "least_s", "least_stand_s")
+    if each.name not in (*MORE, *CLEAR, *LESS, "early_mpss", "least_s", "least_stand_s")
 ]
 manners = st.builds(
     Manner, **{name: st.fractions(of.low, of.high, max_denominator=900) for name, of in NUMBERS.items()}
@@ -29,7 +30,7 @@ manners = st.builds(
 @given(manner=manners)
 def test_no_manner_is_asked_for_less_than_usual_and_none_is_done_less_than_it_asks(manner: Manner) -> None:
     found, usual = preferences_of(manner), Preferences()
-    for name in MORE:
+    for name in (*MORE, *CLEAR):
         assert getattr(found, name) >= getattr(usual, name)
     for name in LESS:
         assert getattr(found, name) <= getattr(usual, name)
@@ -39,6 +40,7 @@ def test_no_manner_is_asked_for_less_than_usual_and_none_is_done_less_than_it_as
     assert found.beginning_mpss >= float(manner.begins_mpss) - 1e-9
     assert found.beginning_s >= float(kept.begins_s) - 1e-9
     assert (found.least_s, found.least_stand_s) == (float(kept.begins_s), float(kept.stands_s))
+    assert all(getattr(found, name) >= float(kept.clear_m) for name in CLEAR)
     assert found.early_mpss <= float(manner.begins_mpss)
     assert found.settled_s >= float(kept.settled_s) - 1e-9
     assert found.settled_mpss <= float(calm_mpss(manner)) + 1e-9
@@ -53,9 +55,11 @@ def test_no_manner_is_asked_for_less_than_usual_and_none_is_done_less_than_it_as
         ({"begins_s": Fraction(1)}, {"beginning_s", "shortest_s"}),
         ({"settled_s": Fraction(2)}, {"settled_s"}),
         ({"settled_mpss": Fraction(1, 10)}, {"settled_mpss"}),
+        ({"clear_m": Fraction(1)}, {"clear_of_zone_m", "clear_m"}),
+        ({"clear_m": Fraction(3)}, set(CLEAR)),
         ({"stands_s": Fraction(3)}, {"shortest_stand_s", "stands_s"}),
     ],
 )
 def test_each_number_of_a_manner_has_its_own_say(stricter: dict[str, Fraction], changed: set[str]) -> None:
     found, usual = preferences_of(replace(USUAL, **stricter)), preferences_of(USUAL)
-    assert {name for name in (*MORE, *LESS) if getattr(found, name) != getattr(usual, name)} == changed
+    assert {name for name in (*MORE, *CLEAR, *LESS) if getattr(found, name) != getattr(usual, name)} == changed

@@ -27,7 +27,6 @@ from scenewright.solve.proofs.polynomials import Atom, Polynomial
 Array = NDArray[np.float64]
 
 TIGHT = {"time": 0.1, "place": 0.5, "speed": 0.25, "rate": 0.25, "other": 1.0}
-_OUT_OF_WAY_M = 0.5  # between the boxes of one before a conflict zone and one in it
 _AROUND_M, _STEP_M = 2.0, 0.5  # between two nodes of a plan a car goes a few metres
 _OF_TOP, _OF_LATERAL = 0.95, 0.97  # between two nodes a speed may be a little higher than at both
 
@@ -82,7 +81,7 @@ class Asked:
         for hero in scene.program.heroes:
             conflict = scene.conflict(EGO, hero.id)
             if conflict is not None and conflict.kind != "following":
-                self.zones_m[hero.id] = conflict.zone_b_m[0] - _OUT_OF_WAY_M
+                self.zones_m[hero.id] = conflict.zone_b_m[0] - self.wanted.clear_of_zone_m
 
     @property
     def size(self) -> int:

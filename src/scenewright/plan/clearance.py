@@ -16,8 +16,8 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
 
-# Between the centres of two on one lane, before a trigger.
-LEAST_GAP_M = VEHICLE_LENGTH_M + 1.5
+# Places that lie further apart than this tell who is ahead.
+_TELLING_M = VEHICLE_LENGTH_M + 1.5
 # A difference of places may depend on speeds too: what people drive in town tells the side.
 _TYPICAL_MPS = 10.0
 
@@ -68,7 +68,7 @@ class Clearance:
             }
             if {EGO, hero.id} <= set(places_m):
                 gap_m = places_m[hero.id] + offset_m - places_m[EGO]
-                if abs(gap_m) >= LEAST_GAP_M:
+                if abs(gap_m) >= _TELLING_M:
                     return cls(gap_m > 0.0, offset_m, of_distance=False)
         return None
 

@@ -77,6 +77,9 @@ class Preferences:
     sets_off_mpss: float = 1.5
     waits_mpss: float = 3.0
     waits_s: float = 1.5
+    # Between the bodies of two on the ego's lane, and of one before a conflict zone and one in it.
+    clear_of_ego_m: float = 1.5
+    clear_of_zone_m: float = 0.5
     # On the ego's lane a distance that hardly changes cannot be told from what it is a moment later.
     plain_mps: float = 1.2
     plain_price: float = 2.0
@@ -103,4 +106,8 @@ def preferences_of(manner: Manner) -> Preferences:
         least_s=float(kept.begins_s),
         least_stand_s=float(kept.stands_s),
         stands_s=max(usual.stands_s, 1.2 * float(kept.stands_s)),
+        clear_of_ego_m=max(usual.clear_of_ego_m, float(kept.clear_m)),
+        clear_of_zone_m=max(usual.clear_of_zone_m, float(kept.clear_m)),
+        clear_m=max(usual.clear_m, float(kept.clear_m)),
+        clear_in_lane_m=max(usual.clear_in_lane_m, float(kept.clear_m)),
     )

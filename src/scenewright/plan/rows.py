@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.plan.asked import Asked
-from scenewright.plan.clearance import LEAST_GAP_M
 from scenewright.plan.shooting import Leg, Moment, Shot
 from scenewright.plan.situation import Situation
 from scenewright.program.types import Actor, PieceKind
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.solve.proofs.narrowing import Narrowing
 
 Array = NDArray[np.float64]
@@ -271,7 +271,7 @@ class HeroRows:
         side, offset_m = self.now.lanes.apart[self.hero.id]
         s_m, _, d_s, _ = self.shot.at_node(node)
         ego_m, ego_mps, _ = self.now.ego(float(self.shot.time[node]))
-        room_m = side * (s_m + offset_m - ego_m) - LEAST_GAP_M
+        room_m = side * (s_m + offset_m - ego_m) - VEHICLE_LENGTH_M - self.asked.wanted.clear_of_ego_m
         slope = -side * (d_s - ego_mps * self.shot.d_time[node])
         self.bounds.add(-room_m, slope, self.asked.wanted.price / _TIGHT_LENGTH)
 
