@@ -112,7 +112,7 @@ def test_a_place_that_was_never_reached_is_missed_by_how_near_one_came() -> None
     condition = told(YIELDS, "A1x(t2) == conflict_point")
     assert abs(condition.error or 0.0) == pytest.approx(12.0, abs=1e-2)
     short = judge(NOT_YIELDING.with_hero(pieces=[(YIELDS_AT_S, 0.0), (9.0, -3.0)]).case()).condition("c4")
-    assert "never got to t2; this is the end of the run" in short.text
+    assert "never got so far; this is the end of the run" in short.text
     assert abs(short.error or 0.0) == pytest.approx(100.0 - 60.0 - 24.0, abs=1e-2)  # it stops 24 m behind its trigger
 
 

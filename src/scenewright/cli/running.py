@@ -5,6 +5,7 @@ What enters: the options of the command. What leaves: a run directory, a report 
 
 from __future__ import annotations
 
+import math
 import signal
 import sys
 from collections.abc import Iterator
@@ -321,7 +322,8 @@ def _trigger(verdict: Verdict) -> str:
     facts = verdict.facts
     if facts.get("ego_never_met_condition"):
         return "The ego never came within the tight tolerance of its side of the trigger."
-    times = {hero: time_s for hero, time_s in (facts.get("trigger_time_s") or {}).items() if time_s is not None}
+    told = (facts.get("trigger_time_s") or {}).items()
+    times = {hero: time_s for hero, time_s in told if time_s is not None and math.isfinite(time_s)}
     if len(times) > 1:
         return "The triggers came at " + ", ".join(f"{time_s:.2f} s ({hero})" for hero, time_s in times.items()) + "."
     return "".join(f"The trigger came at {time_s:.2f} s." for time_s in times.values()) or "No trigger came."

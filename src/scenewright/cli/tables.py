@@ -5,6 +5,7 @@ What enters: scenes, plans, verdicts. What leaves: rich renderables. Nothing is 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -198,7 +199,9 @@ def mark(holds: bool) -> Text:
 
 
 def _quantity(value: float | None, unit: str) -> str:
-    return "-" if value is None else f"{_number(value)} {unit}".strip()
+    if value is None or not math.isfinite(value):
+        return "-" if value is None else "never"
+    return f"{_number(value)} {unit}".strip()
 
 
 def _number(value: float) -> str:
@@ -206,5 +209,7 @@ def _number(value: float) -> str:
 
 
 def _signed(value: float) -> str:
+    if not math.isfinite(value):
+        return "-"
     text = f"{value:+.3f}"
     return text[1:] if float(text) == 0.0 else text

@@ -20,6 +20,7 @@ from scenewright.program.structure import Structure, read_structure
 from scenewright.program.types import Program
 from scenewright.roads.bodies import Body as Box
 from scenewright.trace.model import COLUMNS, ActorTrace, FloatArray, Trace
+from scenewright.translate.phrases import called
 
 __all__ = ["Box", "CannotJudge", "Case", "Limits", "NotReached", "PathLike"]
 
@@ -31,8 +32,8 @@ class CannotJudge(Exception):  # noqa: N818 - a reason that ends in a failed con
 class NotReached(CannotJudge):
     """A state is asked for at a knot that the actor never got to."""
 
-    def __init__(self, actor: str, actor_id: int, knot: str) -> None:
-        super().__init__(f"{actor} never got to {knot}")
+    def __init__(self, actor: str, actor_id: int) -> None:
+        super().__init__(f"{called(actor)} never got so far")
         self.actor_id = actor_id
 
 

@@ -21,6 +21,7 @@ from scenewright.judge.knots import Measured
 from scenewright.judge.verdict import Condition, bounded
 from scenewright.program.structure import placed_at
 from scenewright.program.types import EGO
+from scenewright.translate.phrases import called
 
 _SUB_STEPS = 5  # the samples, and four instants between each two
 _INSTANT_S = 0.001  # a collision at the trigger itself, or in the last instant of a run, is one, too
@@ -140,5 +141,5 @@ def _stay(case: Case, actor: int, other: int) -> tuple[float, float]:
     entered = first_crossing(lambda t: timeline.position(t) - (place - half), grid)
     left = first_crossing(lambda t: timeline.position(t) - (place + half), grid)
     if entered is None:
-        raise CannotJudge(f"{case.name(actor)} never came to the conflict zone")
+        raise CannotJudge(f"{called(case.name(actor))} never came to the conflict zone")
     return entered, np.inf if left is None else left

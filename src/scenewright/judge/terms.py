@@ -15,6 +15,7 @@ from scenewright.judge.case import CannotJudge, Case, NotReached
 from scenewright.judge.tolerance import FloatArray, Values
 from scenewright.program import expressions as ex
 from scenewright.program.structure import KnotKey
+from scenewright.translate.phrases import called
 
 Span = tuple[float, float]
 STANDING_MPS = 1e-3  # below this a time to arrive means nothing
@@ -101,7 +102,7 @@ class _Reader:
                     raise CannotJudge("nothing says at which moment")
                 return self.moments.now
         if not np.all(np.isfinite(time_s)):
-            raise NotReached(self.case.name(owner), owner, knot)
+            raise NotReached(self.case.name(owner), owner)
         return time_s
 
     def _state(self, term: ex.State) -> Values:
@@ -197,7 +198,7 @@ def piece_span(case: Case, moments: Moments, actor: int, piece: ex.PieceRef) -> 
     except KeyError:
         raise CannotJudge(f"{case.name(actor)} has no piece {piece.name}") from None
     if (actor, index) not in moments.spans:
-        raise CannotJudge(f"{case.name(actor)} never came to its piece {piece.name}")
+        raise CannotJudge(f"{called(case.name(actor))} never got so far")
     return moments.spans[actor, index]
 
 
