@@ -138,5 +138,5 @@ def test_who_hangs_on_a_hero_that_adapts_adapts_until_then() -> None:
     text = PROGRAMS["chain"](3).replace(
         "Constraints:", "Actor 4 (alone):\n- E\n- [t0, go, t1, dec, t2]\n\nConstraints:"
     )
-    program = parse_program(text + "A4(t1) == 5 s\n")
+    program = parse_program(text + "A4v(t1) == 5\n")
     assert adapts_until(program, read_structure(program)) == {1: "t1", 2: "t1", 3: "t1"}

@@ -56,6 +56,15 @@ def test_each_hero_has_a_trigger_of_its_own() -> None:
     assert roles == [*(Role.TRIGGER,) * 4, *(Role.INTERACTION,) * 3]
 
 
+@pytest.mark.parametrize(
+    ("line", "trigger"),
+    [("A1(t1) == 5 s", {(1, "t1")}), ("5 s == A1(t2)", {(1, "t2")}), ("A1(t1) <= 5 s", None), ("A1v(t1) == 5", None)],
+)
+def test_a_moment_of_a_hero_by_the_clock_is_its_trigger(line: str, trigger: set[tuple[int, str]] | None) -> None:
+    program = parse_program(example("W", "t0, go, t1, dec, t2", line))
+    assert read_structure(program).triggers == ({1: trigger} if trigger else {})
+
+
 def test_moments_are_joined_across_constraints_and_within_a_conjunction() -> None:
     text = example("W", "t0, go, t1, dec, t2", "A0(t1) == A1(t1) and A0(t0) == A1(t0)\nA1(t1) == A0(t2)")
     structure = read_structure(parse_program(text))

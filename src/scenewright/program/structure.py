@@ -43,7 +43,8 @@ class Structure:
     Attributes
     ----------
     triggers
-        For each hero id that has one, the instant at which ego and hero meet the trigger: knots of several actors.
+        For each hero id that has one, the instant at which ego and hero meet the trigger: knots of several actors;
+        of a hero alone where the clock decides (``A1(t1) == 5 s``).
     roles
         Role of every constraint, by constraint id.
     instants
@@ -153,7 +154,9 @@ def _trigger_of(program: Program, hero: int, instants: list[frozenset[KnotKey]])
         for instant in instants:
             if (hero, knot) in instant and any(actor == EGO for actor, _ in instant):
                 return instant
-        if any(_ties_to_ego(constraint.formula, hero, knot) for constraint in program.constraints):
+        if any(
+            _ties_to_ego(each.formula, hero, knot) or _at_time(each.formula, hero, knot) for each in program.constraints
+        ):
             return frozenset({(hero, knot)})
     return None
 
@@ -166,6 +169,16 @@ def _ties_to_ego(formula: Formula, hero: int, knot: str) -> bool:
         if isinstance(node, Derived) and node.actor == hero and node.target == EGO and node.at == Knot(knot):
             return True
     return False
+
+
+def _at_time(formula: Formula, hero: int, knot: str) -> bool:
+    """Whether `formula` says when the hero's knot is, since the start: ``A1(t1) == 5 s``."""
+    return (
+        isinstance(formula, Compare)
+        and formula.operator == "=="
+        and Elapsed(hero, knot) in (formula.left, formula.right)
+        and set(knots_of(formula)) == {(hero, knot)}
+    )
 
 
 def _role(constraint: Constraint, program: Program, triggers: dict[int, frozenset[KnotKey]]) -> Role:
