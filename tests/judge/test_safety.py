@@ -135,7 +135,7 @@ def test_who_asks_for_a_distance_does_not_ask_for_contact() -> None:
 @pytest.mark.parametrize(("brakes_s", "hit"), [(5.0, set()), (9.0, {"no_collision"})])
 def test_who_brakes_by_the_clock_and_is_hit_then_is_not_hit_before_its_trigger(brakes_s: float, hit: set[str]) -> None:
     """The first stands at 8.3 s, and is hit from behind: after its moment, or before it."""
-    program = PROGRAM.split("Constraints")[0].replace("t0, go, t1, go, t2", "t0, go, t1, dec, t2", 2)
+    program = PROGRAM.split("Constraints", maxsplit=1)[0].replace("t0, go, t1, go, t2", "t0, go, t1, dec, t2", 2)
     program = program.replace("t0, go, t1, dec, t2", "t0, go, t1, go, t2", 1)
     verdict = judged(
         Motion(20.0, 10.0, [(5.0, 0.0), (20.0, -3.0)]), Motion(-60.0, 10.0, []),

@@ -128,7 +128,7 @@ def test_programs_from_elsewhere_are_checked_without_a_text() -> None:
     undeclared = Compare("==", State(0, 1, Knot("t0")), ParameterRef("gone_mps"))
     with pytest.raises(ProgramError, match="parameter gone_mps is not declared"):
         check_constraint(program, Constraint("c1", undeclared))
-    declared = program.with_parameters((Parameter("gone_mps"),))
+    declared = replace(program, parameters=(Parameter("gone_mps"),))
     check_constraint(declared, Constraint("c1", undeclared))
     empty = replace(program, parameters=(Parameter("a_m", None, Fraction(3), Fraction(1)),))
     with pytest.raises(ProgramError, match="range of a_m is empty"):

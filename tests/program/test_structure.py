@@ -39,9 +39,8 @@ def test_roles_and_triggers_of_the_examples(case: Example) -> None:
 
 def test_knots_of_one_moment() -> None:
     structure = read_structure(YIELDS_THEN_GOES.program())
-    assert structure.same_moment(1, (0, "t1")) == "t1"
-    assert structure.same_moment(0, (0, "t2")) == "t2"
-    assert structure.same_moment(1, (0, "t2")) is None
+    assert structure.instants == (frozenset({(0, "t1"), (1, "t1")}),)
+    assert structure.starts == {0: "t0", 1: "t0"}
     assert structure.trigger_knot(0) == structure.trigger_knot(1) == "t1"
 
 

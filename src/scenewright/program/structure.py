@@ -58,15 +58,6 @@ class Structure:
     instants: tuple[frozenset[KnotKey], ...]
     starts: dict[int, str]
 
-    def same_moment(self, actor_id: int, knot: KnotKey) -> str | None:
-        """Return the knot of `actor_id` that is the same moment as `knot`, or None where there is none."""
-        if knot[0] == actor_id:
-            return knot[1]
-        for instant in self.instants:
-            if knot in instant:
-                return next((name for owner, name in sorted(instant) if owner == actor_id), None)
-        return self.starts.get(actor_id) if self.starts.get(knot[0]) == knot[1] else None
-
     def trigger_knot(self, actor_id: int) -> str | None:
         """Return the actor's own knot at its trigger (the ego's: at the first trigger); None where it has none."""
         for hero, instant in self.triggers.items():

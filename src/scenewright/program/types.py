@@ -6,7 +6,7 @@ It knows no map (routes are specifications, landmarks are names) and no solver.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import StrEnum
 from fractions import Fraction
 from typing import Literal
@@ -185,7 +185,3 @@ class Program:
         if self.description is None or constraint.source is None:
             return None
         return constraint.source.excerpt(self.description)
-
-    def with_parameters(self, parameters: tuple[Parameter, ...]) -> Program:
-        """Return the same program with other parameters."""
-        return replace(self, parameters=parameters)

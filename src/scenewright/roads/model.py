@@ -119,7 +119,3 @@ class RoadMap:
         """Return the end points of every stop line by lane id (see `Lane.stop_line`)."""
         lines = ((lane_id, lane.stop_line()) for lane_id, lane in self.lanes.items())
         return {lane_id: line for lane_id, line in lines if line is not None}
-
-    def junction_ids(self) -> tuple[str, ...]:
-        """Return the ids of the junctions that lanes pass through, in the order of the lanes."""
-        return tuple(dict.fromkeys(lane.junction_id for lane in self.lanes.values() if lane.junction_id is not None))
