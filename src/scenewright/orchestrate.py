@@ -19,23 +19,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from scenewright.errors import ScenewrightError
-from scenewright.explain.cause import cause_of
-from scenewright.explain.ways_out import ways_out
 from scenewright.judge.tolerance import LOOSE, TIGHT, dimension_of
 from scenewright.judge.tolerance import Tolerance as Tolerances
-from scenewright.plan.planner import Attempt
-from scenewright.plan.rehearsal import Rehearsed
 from scenewright.program.check import check_values
 from scenewright.program.printer import print_program
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
-from scenewright.simulate.beginning import first_plan, first_plan_of_smt, is_timed_by_ego
-from scenewright.simulate.ego_start import EgoFirstState
-from scenewright.simulate.heroes import HeroDriver
-from scenewright.simulate.hindsight import drive_profile, ego_left_no_room
-from scenewright.simulate.loop import Rates, Run, simulate
-from scenewright.simulate.port import Start
+from scenewright.simulate.loop import Rates
 from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
 from scenewright.solve.holding import NotHeld, not_held
@@ -48,7 +39,11 @@ if TYPE_CHECKING:
 
     from scenewright.judge.case import Case
     from scenewright.judge.verdict import Condition, Verdict
+    from scenewright.plan.planner import Attempt
     from scenewright.program.types import Program
+    from scenewright.simulate.ego_start import EgoFirstState
+    from scenewright.simulate.heroes import HeroDriver
+    from scenewright.simulate.loop import Run
     from scenewright.solve.proofs.witness import Witness
     from scenewright.trace.model import Trace
     from scenewright.translate.understand import Understanding
@@ -183,6 +178,8 @@ def orchestrate(
         if request.out is not None and result.feasibility is not None and result.feasibility.witness is not None:
             _write_witness(request.out, request, result, world, result.feasibility.witness, stages)
         return result
+    from scenewright.simulate.beginning import first_plan, first_plan_of_smt  # `check` has no use for planners
+
     with stages("plan"):
         planned = first_plan_of_smt(world) if request.planner == "smt" else first_plan(world, world.predictor)
         assert planned is not None
@@ -242,6 +239,9 @@ def _drive(
     progress: Callable[[float], None] | None,
 ) -> None:
     """Carry out one take from its first second, and judge it."""
+    from scenewright.simulate.loop import simulate
+    from scenewright.simulate.port import Start
+
     planner, start, result.attempt = planned
     with stages("simulate"):
         begin_at = Start.of(world.scene, world.ego, (start.s_m, start.speed_mps), planner.plan.profiles)
@@ -257,6 +257,10 @@ def _rehearse(
     Every take is a whole closed-loop run that is judged as the first is. What an ego does that answers the hero is not
     known from a drive in which the hero drove otherwise: from the third take on the hero comes more slowly, too.
     """
+    from scenewright.plan.rehearsal import Rehearsed
+    from scenewright.simulate.beginning import first_plan, is_timed_by_ego
+    from scenewright.simulate.hindsight import drive_profile
+
     last = first
     for take in range(2, 1 + (request.takes if request.planner == "convex" else 1)):
         if last.status != "failure" or request.mode == "open" or world.ego_bounds.holds_speed or last.run is None:
@@ -310,6 +314,9 @@ def _tolerance(request: Request) -> Tolerances:
 
 def _explain(request: Request, result: Result, world: World, stages: Stages) -> None:
     """Put into the verdict why the run missed and, where that is asked for, what would do."""
+    from scenewright.explain.cause import cause_of
+    from scenewright.explain.ways_out import ways_out
+
     assert result.run is not None
     assert result.verdict is not None
     with stages("explain"):
@@ -371,6 +378,8 @@ def judge_run(request: Request, result: Result, world: World, stages: Stages, hi
     if run.status != "finished":
         result.status = "interrupted" if run.status == "interrupted" else "failed"
     elif hindsight and not holds and request.explain != "nothing":
+        from scenewright.simulate.hindsight import ego_left_no_room
+
         try:
             with stages("hindsight"):
                 result.hindsight = ego_left_no_room(world.scene, world.structure, world.limits, run.trace)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 import signal
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-import scenewright.orchestrate as orchestration
 from scenewright.cli.running import _Shield
 from scenewright.orchestrate import EXIT_STATUS, Request, orchestrate
 from stories import STORIES
@@ -35,19 +35,27 @@ def test_at_the_very_end_it_is_no_longer_needed() -> None:
     shield.down()
 
 
-@pytest.mark.parametrize("where", ["first_plan", "cause_of", "ego_left_no_room"])
+@pytest.mark.parametrize(
+    "where",
+    [
+        "scenewright.simulate.beginning.first_plan",
+        "scenewright.explain.cause.cause_of",
+        "scenewright.simulate.hindsight.ego_left_no_room",
+    ],
+)
 def test_after_the_first_take_it_keeps_what_was_driven(
     where: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    real, calls = getattr(orchestration, where), []
+    module, _, name = where.rpartition(".")
+    real, calls = getattr(import_module(module), name), []
 
     def interrupted(*given: Any) -> Any:
         calls.append(given)
-        if where == "first_plan" and len(calls) == 1:
+        if name == "first_plan" and len(calls) == 1:
             return real(*given)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(orchestration, where, interrupted)
+    monkeypatch.setattr(where, interrupted)
     result = orchestrate(Request(STORIES["stops and goes"], ego="speeder", out=tmp_path / "run"))
     assert (result.status, EXIT_STATUS[result.status]) == ("interrupted", 130)
     assert result.verdict is not None

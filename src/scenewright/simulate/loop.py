@@ -10,17 +10,20 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from math import hypot
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from scenewright.errors import PolicyError, ScenewrightError, SimulatorError
-from scenewright.plan.planner import Replan
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
-from scenewright.simulate.heroes import HeroDriver
 from scenewright.simulate.port import SIMULATORS, Simulator, Snapshot, Start
-from scenewright.solve.plan import Plan
 from scenewright.trace.model import ActorState, ActorTrace, Trace
+
+if TYPE_CHECKING:
+    from scenewright.plan.planner import Replan
+    from scenewright.simulate.heroes import HeroDriver
+    from scenewright.solve.plan import Plan
 
 DEFAULT_STEP_S = 0.02
 DEFAULT_REPLAN_S = 0.1
