@@ -18,16 +18,17 @@ from scenewright.translate.model.exchange import Call, GaveUpError, Message, key
 from scenewright.translate.model.files import FilesModel, NoReplyYetError, Recording, Replayed
 from scenewright.translate.model.prompt import PROMPT_VERSION
 from scenewright.translate.model.settings import TranslatorSettings
-from scenewright.translate.model.translator import Told, story_by_model
+from scenewright.translate.model.translator import understand_by_model
+from scenewright.translate.understand import Understanding
 
 MAP = load_map("t_intersection")
 
 
-def translate(folder: Path, text: str = TEXT, **options: Any) -> Told:
+def translate(folder: Path, text: str = TEXT, **options: Any) -> Understanding:
     settings = TranslatorSettings(**options)
     model = model_named(f"files:{folder}", settings)
     assert model is not None
-    return story_by_model(text, MAP, "mine", model, settings)
+    return understand_by_model(text, MAP, "mine", model, settings)
 
 
 def requests_in(folder: Path) -> list[dict[str, Any]]:
@@ -62,7 +63,7 @@ def test_many_requests_in_one_go_and_all_replies_in_the_next(tmp_path: Path) -> 
         metres = request["description"].split(" m short")[0].split()[-1]
         reply = json.dumps(reply_to(request["description"])).replace("12 m", f"{metres} m")
         (tmp_path / request["reply_file"]).write_text(reply.replace('"12"', f'"{metres}"'), encoding="utf-8")
-    assert [len(translate(tmp_path, text).calls) for text in texts] == [1, 1, 1]
+    assert all(translate(tmp_path, text).notes[-1].endswith(": 1 call") for text in texts)
     assert len(requests_in(tmp_path)) == 3
 
 
@@ -77,7 +78,7 @@ def test_wrong_reply_leads_to_a_second_request_that_tells_the_fault(tmp_path: Pa
     assert (second["attempt"], len(second["messages"])) == (2, 4)
     assert "no JSON object" in second["messages"][3]["content"]
     (tmp_path / second["reply_file"]).write_text(GOOD, encoding="utf-8")
-    assert len(translate(tmp_path).calls) == 2
+    assert translate(tmp_path).notes[-1].endswith(": 2 calls")
 
 
 def test_waiting_process_takes_a_reply_that_comes_later(tmp_path: Path) -> None:
@@ -131,13 +132,13 @@ def test_reply_of_ten_megabytes_in_a_file_is_a_reply_that_does_not_hold(tmp_path
 
 
 # -- --record and --replay ------------------------------------------------------------------------------------------
-def recorded(folder: Path, *texts: str) -> Told:
+def recorded(folder: Path, *texts: str) -> Understanding:
     model = Recording(Said([*texts]), folder)
-    return story_by_model(TEXT, MAP, "mine", model, TranslatorSettings())
+    return understand_by_model(TEXT, MAP, "mine", model, TranslatorSettings())
 
 
-def replayed(folder: Path, name: str = "said:so") -> Told:
-    return story_by_model(TEXT, MAP, "mine", Replayed(name, folder), TranslatorSettings())
+def replayed(folder: Path, name: str = "said:so") -> Understanding:
+    return understand_by_model(TEXT, MAP, "mine", Replayed(name, folder), TranslatorSettings())
 
 
 def test_what_was_recorded_is_said_again(tmp_path: Path) -> None:
@@ -165,14 +166,14 @@ def test_record_has_the_form_of_an_exchange_by_files(tmp_path: Path) -> None:
 
 def test_replay_needs_neither_key_nor_library_nor_address(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     name = "openai-compatible:tiny"
-    story_by_model(TEXT, MAP, "mine", Recording(Said([GOOD], name=name), tmp_path), TranslatorSettings())
+    understand_by_model(TEXT, MAP, "mine", Recording(Said([GOOD], name=name), tmp_path), TranslatorSettings())
     monkeypatch.delenv("SCENEWRIGHT_API_KEY")
     for module in ("pydantic_ai", "openai"):
         monkeypatch.setitem(sys.modules, module, None)
     settings = TranslatorSettings(replay=tmp_path)
     model = model_named(name, settings)
     assert model is not None
-    assert story_by_model(TEXT, MAP, "mine", model, settings).story.deeds
+    assert understand_by_model(TEXT, MAP, "mine", model, settings).story.deeds
 
 
 def test_failed_exchange_leaves_no_record(tmp_path: Path) -> None:
@@ -181,5 +182,5 @@ def test_failed_exchange_leaves_no_record(tmp_path: Path) -> None:
             raise GaveUpError("silence")
 
     with pytest.raises(ScenewrightError, match="silence"):
-        story_by_model(TEXT, MAP, "mine", Recording(Silent([]), tmp_path), TranslatorSettings())
+        understand_by_model(TEXT, MAP, "mine", Recording(Silent([]), tmp_path), TranslatorSettings())
     assert not list(tmp_path.iterdir())

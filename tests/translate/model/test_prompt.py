@@ -13,7 +13,7 @@ from scenewright.roads.load import load_map
 from scenewright.translate.model import prompt
 from scenewright.translate.model.schema import locate, read_reply, sheet
 from scenewright.translate.model.settings import TranslatorSettings
-from scenewright.translate.model.translator import story_by_model
+from scenewright.translate.model.translator import understand_by_model
 
 MAP = load_map("t_intersection")
 
@@ -24,10 +24,10 @@ def test_examples_hold_as_replies_must(text: str, reply: dict[str, object]) -> N
     if "refusal" in reply:
         assert locate(read_reply(json.dumps(reply)).refusal.words, text)
         with pytest.raises(TranslationError, match="refuses the text"):
-            story_by_model(text, MAP, "example", model, TranslatorSettings())
+            understand_by_model(text, MAP, "example", model, TranslatorSettings())
         return
-    told = story_by_model(text, MAP, "example", model, TranslatorSettings(repairs=0))
-    assert len(told.calls) == 1
+    understand_by_model(text, MAP, "example", model, TranslatorSettings(repairs=0))
+    assert len(model.calls) == 1
 
 
 def test_examples_show_every_kind_of_reply() -> None:
