@@ -48,7 +48,7 @@ class Heard:
     """The chunks of a text by sentence; a name of somebody is of kind ``who``, its value the numbers of whose it is."""
 
     text: str
-    called: Mapping[int, tuple[str, ...]]
+    called: Mapping[int, Sequence[str]]
     said: list[list[Chunk]] = field(init=False)
 
     def __post_init__(self) -> None:
