@@ -32,7 +32,9 @@ def faults(text: str, value: str, unit: str, words: str, owned: str = "", **slot
         "quote": quote(text, text),
         **slots,
     }
-    return "; ".join(Measured(claim, text).measure(st.Measure(**given)))  # type: ignore[arg-type]
+    checked = Measured(claim, text)
+    found = [] if amount is None else [*checked.amount(amount, quote(words, text))]
+    return "; ".join([*found, *checked.measure(st.Measure(**given), quote(text, text))])  # type: ignore[arg-type]
 
 
 SPEED, GAP = st.Quantity.SPEED, st.Quantity.GAP

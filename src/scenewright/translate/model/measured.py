@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
 from itertools import pairwise
 
 from scenewright.translate import story as st
@@ -17,8 +16,8 @@ from scenewright.translate.model.amounts import read_amounts
 from scenewright.translate.model.heard import Heard, people
 from scenewright.translate.model.schema import Claim
 from scenewright.translate.phrases import BOUNDS, PLACES
+from scenewright.translate.phrases import amount as phrase_of
 from scenewright.translate.read.chunks import Chunk
-from scenewright.units import format_fraction
 
 STANDS = re.compile(r"(?i)\b(?:st[oa]\w*|halt\w*|rests?|wait\w*|parked|zero)\b")
 _BARE: dict[str, st.Operator] = {"past": ">", "at or past": ">=", "at or before": "<=", "before": "<"}
@@ -81,24 +80,17 @@ class Measured:
             yield from self.silent(quote, f"does not say '{value}' of {self.name(actor)}", *more, value)
 
     # -- amounts ------------------------------------------------------------------------------------------------------
-    def amount(self, amount: st.Amount | None) -> Iterator[str]:
+    def amount(self, amount: st.Amount, quote: st.Quote) -> Iterator[str]:
         """Check that the words of an amount are its number and its unit."""
-        if amount is None:
-            return
-        value = amount.name or abs(amount.value or 0)
-        told = amount.name or f"{format_fraction(amount.value or Fraction(0))} {amount.unit}"
-        if amount.quote is None:
-            yield f"no words are quoted for {told}"
-            return
-        read = list(read_amounts(amount.quote.text))
-        stands = value == 0 and amount.dimension == "speed"
+        value, told = amount.name or abs(amount.value or 0), phrase_of(amount)
+        read, stands = list(read_amounts(quote.text)), value == 0 and amount.dimension == "speed"
         if (value, amount.unit) in read:
             return
         if amount.name or (read and (value, None) not in read):
-            yield f"'{amount.quote.text}' is not {told}"
-        elif not (stands and STANDS.search(amount.quote.text)):
-            about = ("stop", "stand") if stands else (format_fraction(amount.value or Fraction(0)),)
-            yield from self.silent(amount.quote, f"does not say {told}", told, *about)
+            yield f"'{quote.text}' is not {told}"
+        elif not (stands and STANDS.search(quote.text)):
+            about = ("stop", "stand") if stands else (told.split()[0],)
+            yield from self.silent(quote, f"does not say {told}", told, *about)
 
     def bound(self, op: st.Operator, quote: st.Quote, amount: st.Amount) -> Iterator[str]:
         """Check a bound: the words for it stand before the amount."""
@@ -112,18 +104,9 @@ class Measured:
             yield from self.silent(quote, f"has no bound ({op}) but the amount itself (==)", BOUNDS[op].strip())
 
     # -- measures -----------------------------------------------------------------------------------------------------
-    def condition(self, condition: st.Condition) -> Iterator[str]:
-        """Check every measure of a condition."""
-        for each in st.atoms(condition):
-            yield from self.measure(each)
-
-    def measure(self, measure: st.Measure) -> Iterator[str]:
-        """Check one measure: its amount, who and where, how it compares."""
-        quote, amount = measure.quote, measure.amount
-        yield from self.amount(amount)
-        if quote is None:
-            yield f"no words are quoted for the {measure.quantity} of {self.name(measure.actor)}"
-            return
+    def measure(self, measure: st.Measure, quote: st.Quote) -> Iterator[str]:
+        """Check one measure: who and where, how it compares."""
+        amount = measure.amount
         at = amount.quote.start if amount is not None and amount.quote is not None else None
         near, whole = self.heard.clause(quote.start if at is None else at), self.heard.within(quote.span)
         said = [each for each in whole if each in near]

@@ -46,7 +46,7 @@ _WORDS: dict[tuple[Any, str], Any] = {
     (st.Way, "heading"): Literal[tuple(COMPASS)], (st.Way, "destination_heading"): Literal[tuple(COMPASS)],
     (st.Way, "turn"): Literal[tuple(TURNS)], (st.Way, "origin"): AreaKind, (st.Way, "destination"): AreaKind,
 }  # fmt: skip
-_KNOWN: dict[tuple[Any, str], tuple[str, ...]] = {
+KNOWN: dict[tuple[Any, str], tuple[str, ...]] = {
     (st.Actor, "kind"): DRIVEN, (st.Deed, "verb"): tuple(st.Verb), (st.Relation, "kind"): tuple(BEARINGS),
 }  # fmt: skip
 
@@ -144,7 +144,7 @@ def sheet() -> str:
         form: Any = form_of(part) if hasattr(part, "__dataclass_fields__") else part
         lines.append(f"\n{part.__name__}")
         for name, slot in form.model_fields.items():
-            words = [json.dumps(word) for word in _KNOWN.get((part, name), ())] or [_shown(slot.annotation)]
+            words = [json.dumps(word) for word in KNOWN.get((part, name), ())] or [_shown(slot.annotation)]
             lines.append(f"- {name}: {' | '.join(words)}. {slot.description or ''}".rstrip())
     return "\n".join(lines).strip()
 

@@ -15,16 +15,16 @@ from scenewright.program.types import EGO
 from scenewright.roads.grounding import ground
 from scenewright.roads.model import RoadMap
 from scenewright.translate import story as st
-from scenewright.translate.compile import DRIVEN, compile_story
+from scenewright.translate.compile import compile_story
 from scenewright.translate.model import prompt
 from scenewright.translate.model.evidence import check_evidence
 from scenewright.translate.model.exchange import Answer, Call, Message, Model, Usage
-from scenewright.translate.model.schema import claim_of, locate, read_reply, reply_schema
+from scenewright.translate.model.schema import KNOWN, claim_of, locate, read_reply, reply_schema
 from scenewright.translate.model.settings import TranslatorSettings
 from scenewright.translate.questions import defaults_of
 from scenewright.translate.tell import tell
 from scenewright.translate.understand import Answers, Understanding, understand
-from scenewright.translate.ways import BEARINGS, put_on_map
+from scenewright.translate.ways import put_on_map
 
 BOTH = AS_TOLD, NOT_AS_TOLD = "yes, it is meant as told", "no, as in the text"
 _KEPT_OF_A_REPLY = 20_000  # characters that go back: a flood is not paid for twice
@@ -114,11 +114,8 @@ class _Conversation:
         if not asked <= set(story.ego):
             story = replace(story, ego=tuple(sorted({*story.ego, *asked})))
         placed = put_on_map(story, self.road_map)
-        self.unknown = (
-            any(actor.kind not in DRIVEN for actor in story.actors)
-            or any(each.kind not in BEARINGS for actor in story.actors for each in actor.relations)
-            or any(deed.verb not in set(st.Verb) for deed in story.deeds)
-        )
+        parts = ((each, slot, known) for (kind, slot), known in KNOWN.items() for each in st.within(story, kind))
+        self.unknown = any(getattr(each, slot) not in known for each, slot, known in parts)
         program = compile_story(placed, self.text)
         ground(program, self.road_map)
         return story
