@@ -8,6 +8,7 @@ import pytest
 
 from scenewright.errors import Span
 from scenewright.translate import story as st
+from scenewright.translate.model.heard import Heard
 from scenewright.translate.model.measured import Measured, read_amounts
 from scenewright.translate.model.schema import Claim, locate
 
@@ -32,7 +33,7 @@ def faults(text: str, value: str, unit: str, words: str, owned: str = "", **slot
         "quote": quote(text, text),
         **slots,
     }
-    checked = Measured(claim, text)
+    checked = Measured(claim, text, Heard(text, CALLED))
     found = [] if amount is None else [*checked.amount(amount, quote(words, text))]
     return "; ".join([*found, *checked.measure(st.Measure(**given), quote(text, text))])  # type: ignore[arg-type]
 

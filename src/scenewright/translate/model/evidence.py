@@ -35,7 +35,7 @@ Said = Set[int | str]  # who is spoken of, by number, and words
 
 def check_evidence(claim: Claim, text: str) -> None:
     """Raise TranslationError, with every fault in it, where the words do not say what a reply claims of them."""
-    faults = list(dict.fromkeys(_Evidence(claim, text).faults()))
+    faults = list(dict.fromkeys(_Evidence(claim, text, Heard(text, claim.called)).faults()))
     if faults:
         raise TranslationError(
             "the story and the words that it quotes do not match",
@@ -82,9 +82,7 @@ class _Evidence(Measured):
                 yield f"no words are quoted for '{each.kind}' of {actor.name}"
                 continue
             said = self.heard.within(each.quote.span)
-            own = [
-                chunk for chunk in said if chunk.kind == "relation" or (chunk.kind, chunk.value) == ("side", each.kind)
-            ]
+            own = [one for one in said if one.kind == "relation" or (one.kind, one.value) == ("side", each.kind)]
             yield from self.says(each.quote, own, each.kind, actor.id, other=each.of)
 
     def _way(self, actor: st.Actor, quote: st.Quote | None) -> Iterator[str]:

@@ -42,13 +42,10 @@ class FilesModel:
         until = time.monotonic() + self.wait_s
         while (text := _reply(self.folder, key)) is None:
             if (left := until - time.monotonic()) <= 0:
-                place, message = (
-                    Place(str(self.folder / f"{key}.request.json")),
-                    f"there is no reply yet to request {key}",
-                )
+                place = Place(str(self.folder / f"{key}.request.json"))
                 either = f"the reply, as JSON in {key}.reply.json or as a model's own text in {key}.reply.txt"
                 fix = "write it there and run the same command again, or wait for it with --reply-wait SECONDS"
-                raise NoReplyYetError(message, place=place, expected=either, fix=fix)
+                raise NoReplyYetError(f"there is no reply yet to request {key}", place=place, expected=either, fix=fix)
             time.sleep(min(_LOOK_EVERY_S, left))
         return Answer(text)
 
@@ -85,9 +82,8 @@ class Replayed:
             return Answer(text)
         expected = f"a record of {self.name} for this text, map and prompt (version {PROMPT_VERSION})"
         fix = "record it once with --record DIR in place of --replay DIR"
-        raise TranslationError(
-            "this exchange was not recorded", place=Place(str(self.folder)), expected=expected, fix=fix
-        )
+        message, place = "this exchange was not recorded", Place(str(self.folder))
+        raise TranslationError(message, place=place, expected=expected, fix=fix)
 
 
 def _leave(folder: Path, model: Model, call: Call) -> str:
@@ -114,10 +110,8 @@ def _reply(folder: Path, key: str) -> str | None:
         except (FileNotFoundError, NotADirectoryError):
             continue
         except OSError as error:
-            fix = "make it readable"
-            raise TranslationError(
-                "a reply cannot be read", place=Place(str(path)), found=str(error), fix=fix
-            ) from None
+            message, place = "a reply cannot be read", Place(str(path))
+            raise TranslationError(message, place=place, found=str(error), fix="make it readable") from None
         if raw.strip():
             return raw.decode("utf-8", errors="replace")
     return None

@@ -39,11 +39,8 @@ class Measured:
 
     claim: Claim
     text: str
-    heard: Heard = field(init=False)
+    heard: Heard
     nameless: dict[str, int] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        self.heard = Heard(self.text, self.claim.called)
 
     def name(self, actor: int) -> str:
         """Return what the reply calls somebody."""
