@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
 from scenewright.errors import InputError, MissingExtraError, ScenewrightError, TranslationError
+from scenewright.translate.model.choose import KEY_VARIABLES, key_for, scrubbed
 from scenewright.translate.model.exchange import CUT_OFF, Answer, Call, GaveUpError, Usage
-from scenewright.translate.model.keys import KEY_VARIABLES, key_for, scrubbed
 from scenewright.translate.model.settings import DEFAULT_MAX_TOKENS, DEFAULT_TIMEOUT_S
 
 if TYPE_CHECKING:
