@@ -19,10 +19,9 @@ def models(as_json: AsJson = False) -> None:
     with told(as_json):
         from scenewright.cli import tables
         from scenewright.translate.model import choose
-        from scenewright.translate.model.keys import KEY_VARIABLES
 
         found = choose.configured()
-        keys = [name for names in KEY_VARIABLES.values() for name in names if os.environ.get(name, "").strip()]
+        keys = [name for names in choose.KEY_VARIABLES.values() for name in names if os.environ.get(name, "").strip()]
         facts: dict[str, Any] = {
             "translator": found.translator,
             "from": found.source,

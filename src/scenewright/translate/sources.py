@@ -7,13 +7,11 @@ description. Who reads a description follows from a name: ``auto``, ``offline``,
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 from scenewright.errors import InputError, Place
 from scenewright.program.check import check_program
-from scenewright.program.limits import TEXT_CHARACTERS, check_description
+from scenewright.program.limits import TEXT_CHARACTERS
 from scenewright.program.types import DEFAULT_MAP, Program
 from scenewright.roads.load import load_map
 from scenewright.translate.model.settings import TranslatorSettings
@@ -57,22 +55,15 @@ def read_scenario(
 def _understanding(
     text: str, name: str, translator: str, map_name: str | None, settings: TranslatorSettings
 ) -> Understanding:
-    check_description(text, name)
-    read = partial(understand, text, strict=settings.strict, name=name, ask=settings.ask)
     on = load_map(map_name) if map_name else None
     if translator != OFFLINE:
         from scenewright.translate.model.choose import model_named
 
         if (model := model_named(translator, settings)) is not None:
-            from scenewright.translate.model.translator import story_by_model
+            from scenewright.translate.model.translator import understand_by_model
 
-            on = on or load_map(DEFAULT_MAP)
-            told = story_by_model(text, on, name, model, settings)
-            open_ones = {slot: answer for slot, answer in settings.answers.items() if slot not in told.answers}
-            found = read(on, open_ones, read_with=lambda _: told.story)
-            answers = {**told.answers, **found.answers}
-            return replace(found, translator=model.name, notes=told.notes, answers=answers)
-    return read(on, settings.answers)
+            return understand_by_model(text, on or load_map(DEFAULT_MAP), name, model, settings)
+    return understand(text, on, settings.answers, settings.strict, name, settings.ask)
 
 
 def is_program(text: str) -> bool:

@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 from talk import Server, says
 
-from scenewright.errors import InputError
+from scenewright.errors import InputError, TranslationError
 from scenewright.translate.model.choose import Configured, configured, model_named, settings_file, tried
-from scenewright.translate.model.files import FilesModel, Recording, Replayed
+from scenewright.translate.model.exchange import Call, Model
+from scenewright.translate.model.files import NoReplyYetError
 from scenewright.translate.model.providers import ServedModel
 from scenewright.translate.model.settings import TranslatorSettings
 
@@ -21,6 +22,14 @@ def keep(text: str) -> Path:
     return path
 
 
+def server_of(model: Model | None) -> ServedModel:
+    """Return the served model whose replies are those of `model`."""
+    assert model is not None
+    served = getattr(model.reply, "__self__", None)
+    assert isinstance(served, ServedModel)
+    return served
+
+
 def test_nothing_configured_is_offline() -> None:
     assert configured() == Configured("offline", "nothing is configured")
     assert model_named("auto", TranslatorSettings()) is None
@@ -30,20 +39,18 @@ def test_nothing_configured_is_offline() -> None:
 def test_environment_comes_before_the_settings_file(monkeypatch: pytest.MonkeyPatch) -> None:
     path = keep('translator = "openai-compatible:tiny"\nbase_url = "http://127.0.0.1:1/v1"\n')
     assert configured() == Configured("openai-compatible:tiny", str(path), "http://127.0.0.1:1/v1")
-    model = model_named("auto", TranslatorSettings())
-    assert isinstance(model, ServedModel)
-    assert model.base_url == "http://127.0.0.1:1/v1"
+    assert server_of(model_named("auto", TranslatorSettings())).base_url == "http://127.0.0.1:1/v1"
     monkeypatch.setenv("SCENEWRIGHT_TRANSLATOR", "files:here")
     monkeypatch.setenv("SCENEWRIGHT_BASE_URL", "http://127.0.0.1:2/v1")
     assert configured() == Configured("files:here", "SCENEWRIGHT_TRANSLATOR", "http://127.0.0.1:2/v1")
-    assert model_named("auto", TranslatorSettings()) == FilesModel(Path("here"))
+    by_files = model_named("auto", TranslatorSettings())
+    assert by_files is not None
+    assert by_files.name == "files"
 
 
 def test_address_of_the_settings_is_that_of_no_other_provider() -> None:
     keep('base_url = "http://127.0.0.1:1/v1"\n')
-    model = model_named("openai:some", TranslatorSettings())
-    assert isinstance(model, ServedModel)
-    assert model.base_url is None
+    assert server_of(model_named("openai:some", TranslatorSettings())).base_url is None
 
 
 @pytest.mark.parametrize("text", ["translator = ", 'api_key = "x"', "translator = 3", "\x00"])
@@ -54,9 +61,21 @@ def test_settings_file_that_is_none_is_told(text: str) -> None:
     assert str(caught.value.place) == str(path)
 
 
-def test_records_stand_before_the_model() -> None:
-    assert isinstance(model_named("files:x", TranslatorSettings(record=Path("a"))), Recording)
-    assert model_named("files:x", TranslatorSettings(replay=Path("a"))) == Replayed("files", Path("a"))
+def test_records_stand_before_the_model(tmp_path: Path) -> None:
+    """A record is kept beside the exchange itself; what is replayed leaves nothing and asks nobody."""
+    call, folder, name = Call((), "a", 1, "m"), tmp_path / "a", f"files:{tmp_path / 'x'}"
+    replay = model_named(name, TranslatorSettings(replay=folder))
+    assert replay is not None
+    with pytest.raises(TranslationError, match="not recorded"):
+        replay.reply(call)
+    assert not list(tmp_path.iterdir())
+    record = model_named(name, TranslatorSettings(record=folder))
+    assert record is not None
+    with pytest.raises(NoReplyYetError):
+        record.reply(call)
+    (request,) = (tmp_path / "x").glob("*.request.json")
+    request.with_name(request.name.replace("request.json", "reply.txt")).write_text("ready", encoding="utf-8")
+    assert record.reply(call).text == replay.reply(call).text == "ready"
 
 
 @pytest.mark.parametrize(("platform", "part"), [("darwin", "Application Support"), ("linux", "scenewright")])

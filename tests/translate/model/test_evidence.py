@@ -27,7 +27,7 @@ from scenewright.translate.model import prompt
 from scenewright.translate.model.evidence import check_evidence
 from scenewright.translate.model.schema import claim_of, read_reply
 from scenewright.translate.model.settings import TranslatorSettings
-from scenewright.translate.model.translator import story_by_model
+from scenewright.translate.model.translator import understand_by_model
 from scenewright.translate.tell import tell
 
 MAP = load_map("t_intersection")
@@ -40,7 +40,7 @@ TOLD, MOST = 16, 60
 def fault_of(reply: dict[str, Any], text: str) -> ScenewrightError | None:
     """Return what is wrong with a reply, from its form to the program that it makes."""
     try:
-        story_by_model(text, MAP, "mine", Said([json.dumps(reply)]), TranslatorSettings(repairs=0))
+        understand_by_model(text, MAP, "mine", Said([json.dumps(reply)]), TranslatorSettings(repairs=0))
     except ScenewrightError as error:
         return error
     return None

@@ -15,19 +15,20 @@ from scenewright.errors import OutputError, ScenewrightError, TranslationError
 from scenewright.roads.load import load_map
 from scenewright.translate.model.choose import model_named
 from scenewright.translate.model.exchange import Call, GaveUpError, Message, key_of
-from scenewright.translate.model.files import FilesModel, NoReplyYetError, Recording, Replayed
+from scenewright.translate.model.files import NoReplyYetError, answering_by_files, recording, replayed
 from scenewright.translate.model.prompt import PROMPT_VERSION
 from scenewright.translate.model.settings import TranslatorSettings
-from scenewright.translate.model.translator import Told, story_by_model
+from scenewright.translate.model.translator import understand_by_model
+from scenewright.translate.understand import Understanding
 
 MAP = load_map("t_intersection")
 
 
-def translate(folder: Path, text: str = TEXT, **options: Any) -> Told:
+def translate(folder: Path, text: str = TEXT, **options: Any) -> Understanding:
     settings = TranslatorSettings(**options)
     model = model_named(f"files:{folder}", settings)
     assert model is not None
-    return story_by_model(text, MAP, "mine", model, settings)
+    return understand_by_model(text, MAP, "mine", model, settings)
 
 
 def requests_in(folder: Path) -> list[dict[str, Any]]:
@@ -62,7 +63,7 @@ def test_many_requests_in_one_go_and_all_replies_in_the_next(tmp_path: Path) -> 
         metres = request["description"].split(" m short")[0].split()[-1]
         reply = json.dumps(reply_to(request["description"])).replace("12 m", f"{metres} m")
         (tmp_path / request["reply_file"]).write_text(reply.replace('"12"', f'"{metres}"'), encoding="utf-8")
-    assert [len(translate(tmp_path, text).calls) for text in texts] == [1, 1, 1]
+    assert all(translate(tmp_path, text).notes[-1].endswith(": 1 call") for text in texts)
     assert len(requests_in(tmp_path)) == 3
 
 
@@ -77,7 +78,7 @@ def test_wrong_reply_leads_to_a_second_request_that_tells_the_fault(tmp_path: Pa
     assert (second["attempt"], len(second["messages"])) == (2, 4)
     assert "no JSON object" in second["messages"][3]["content"]
     (tmp_path / second["reply_file"]).write_text(GOOD, encoding="utf-8")
-    assert len(translate(tmp_path).calls) == 2
+    assert translate(tmp_path).notes[-1].endswith(": 2 calls")
 
 
 def test_waiting_process_takes_a_reply_that_comes_later(tmp_path: Path) -> None:
@@ -102,10 +103,11 @@ def requests_in_progress(folder: Path) -> list[dict[str, Any]]:
 
 def test_key_depends_on_what_is_asked_and_not_on_the_folder(tmp_path: Path) -> None:
     call = Call((Message("user", "a"),), "a", 1, "m")
-    one, other = FilesModel(tmp_path / "x"), FilesModel(tmp_path / "y", 5.0)
-    assert key_of(one, call) == key_of(other, call)
-    assert key_of(one, call) != key_of(one, Call((Message("user", "b"),), "a", 1, "m"))
-    assert key_of(one, call) != key_of(Said([""]), call)
+    for folder in (tmp_path / "x", tmp_path / "y"):
+        with pytest.raises(NoReplyYetError):
+            answering_by_files(folder).reply(call)
+    assert {path.name for path in tmp_path.rglob("*.request.json")} == {f"{key_of('files', call)}.request.json"}
+    assert key_of("files", call) != key_of("files", Call((Message("user", "b"),), "a", 1, "m"))
 
 
 def test_reply_that_cannot_be_read_and_folder_that_cannot_be_written(tmp_path: Path) -> None:
@@ -131,48 +133,48 @@ def test_reply_of_ten_megabytes_in_a_file_is_a_reply_that_does_not_hold(tmp_path
 
 
 # -- --record and --replay ------------------------------------------------------------------------------------------
-def recorded(folder: Path, *texts: str) -> Told:
-    model = Recording(Said([*texts]), folder)
-    return story_by_model(TEXT, MAP, "mine", model, TranslatorSettings())
+def record_of(folder: Path, *texts: str) -> Understanding:
+    model = recording(Said([*texts]), folder)
+    return understand_by_model(TEXT, MAP, "mine", model, TranslatorSettings())
 
 
-def replayed(folder: Path, name: str = "said:so") -> Told:
-    return story_by_model(TEXT, MAP, "mine", Replayed(name, folder), TranslatorSettings())
+def said_again(folder: Path, name: str = "said:so") -> Understanding:
+    return understand_by_model(TEXT, MAP, "mine", replayed(name, folder), TranslatorSettings())
 
 
 def test_what_was_recorded_is_said_again(tmp_path: Path) -> None:
-    first = recorded(tmp_path, "nothing", GOOD)
+    first = record_of(tmp_path, "nothing", GOOD)
     assert len(list(tmp_path.glob("*.reply.txt"))) == 2
-    assert replayed(tmp_path) == first
+    assert said_again(tmp_path) == first
 
 
 def test_other_model_other_record(tmp_path: Path) -> None:
-    recorded(tmp_path, GOOD)
+    record_of(tmp_path, GOOD)
     with pytest.raises(TranslationError, match="was not recorded") as caught:
-        replayed(tmp_path, "another:one")
+        said_again(tmp_path, "another:one")
     assert "--record" in str(caught.value.fix)
     assert not isinstance(caught.value, GaveUpError)
 
 
 def test_record_has_the_form_of_an_exchange_by_files(tmp_path: Path) -> None:
-    recorded(tmp_path, GOOD)
+    record_of(tmp_path, GOOD)
     (request,) = requests_in(tmp_path)
     assert (tmp_path / f"{request['key']}.reply.txt").read_text(encoding="utf-8") == GOOD
     (tmp_path / f"{request['key']}.reply.txt").write_text(" ", encoding="utf-8")
     with pytest.raises(TranslationError, match="was not recorded"):
-        replayed(tmp_path)
+        said_again(tmp_path)
 
 
 def test_replay_needs_neither_key_nor_library_nor_address(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     name = "openai-compatible:tiny"
-    story_by_model(TEXT, MAP, "mine", Recording(Said([GOOD], name=name), tmp_path), TranslatorSettings())
+    understand_by_model(TEXT, MAP, "mine", recording(Said([GOOD], name=name), tmp_path), TranslatorSettings())
     monkeypatch.delenv("SCENEWRIGHT_API_KEY")
     for module in ("pydantic_ai", "openai"):
         monkeypatch.setitem(sys.modules, module, None)
     settings = TranslatorSettings(replay=tmp_path)
     model = model_named(name, settings)
     assert model is not None
-    assert story_by_model(TEXT, MAP, "mine", model, settings).story.deeds
+    assert understand_by_model(TEXT, MAP, "mine", model, settings).story.deeds
 
 
 def test_failed_exchange_leaves_no_record(tmp_path: Path) -> None:
@@ -181,5 +183,5 @@ def test_failed_exchange_leaves_no_record(tmp_path: Path) -> None:
             raise GaveUpError("silence")
 
     with pytest.raises(ScenewrightError, match="silence"):
-        story_by_model(TEXT, MAP, "mine", Recording(Silent([]), tmp_path), TranslatorSettings())
+        understand_by_model(TEXT, MAP, "mine", recording(Silent([]), tmp_path), TranslatorSettings())
     assert not list(tmp_path.iterdir())

@@ -13,10 +13,9 @@ from talk import KEY, TEXT, Server, fails, reply_to, says
 
 from scenewright.errors import InputError, ScenewrightError
 from scenewright.roads.load import load_map
-from scenewright.translate.model.choose import model_named
-from scenewright.translate.model.keys import key_for, scrubbed
+from scenewright.translate.model.choose import key_for, model_named, scrubbed
 from scenewright.translate.model.settings import TranslatorSettings
-from scenewright.translate.model.translator import story_by_model
+from scenewright.translate.model.translator import understand_by_model
 
 
 def ring(monkeypatch: pytest.MonkeyPatch, get: Callable[[str, str], str | None]) -> None:
@@ -71,7 +70,7 @@ def asked(server: Server, who: str, folder: Path) -> str:
     model = model_named(who, settings)
     assert model is not None
     try:
-        told = story_by_model(TEXT, load_map("t_intersection"), "mine", model, settings)
+        told = understand_by_model(TEXT, load_map("t_intersection"), "mine", model, settings)
     except ScenewrightError as error:
         return f"{said} {error} {error.as_dict()}"
     return f"{said} {told}"

@@ -8,7 +8,8 @@ import pytest
 
 from scenewright.errors import Span
 from scenewright.translate import story as st
-from scenewright.translate.model.measured import Measured
+from scenewright.translate.model.heard import Heard
+from scenewright.translate.model.measured import Measured, read_amounts
 from scenewright.translate.model.schema import Claim, locate
 
 CALLED = {0: ("The ego", "the ego"), 1: ("the van", "A van")}
@@ -32,7 +33,9 @@ def faults(text: str, value: str, unit: str, words: str, owned: str = "", **slot
         "quote": quote(text, text),
         **slots,
     }
-    return "; ".join(Measured(claim, text).measure(st.Measure(**given)))  # type: ignore[arg-type]
+    checked = Measured(claim, text, Heard(text, CALLED))
+    found = [] if amount is None else [*checked.amount(amount, quote(words, text))]
+    return "; ".join([*found, *checked.measure(st.Measure(**given), quote(text, text))])  # type: ignore[arg-type]
 
 
 SPEED, GAP = st.Quantity.SPEED, st.Quantity.GAP
@@ -79,3 +82,25 @@ def test_assumption_owns_to_a_unit_that_is_unsaid() -> None:
     assert "does not say 15 m" in faults(text, "15", "m", "15", **STOP_LINE)
     assert faults(text, "15", "m", "15", owned="15 is in metres", **STOP_LINE) == ""
     assert faults(text, "16", "m", "15", owned="16 is in metres", **STOP_LINE) != ""
+
+
+@pytest.mark.parametrize(
+    ("words", "value", "unit"),
+    [
+        ("25 m", "25", "m"), ("sixty feet", "60", "ft"), ("sixty-five metres", "65", "m"), ("1.5 m/s²", "3/2", "m/s^2"),
+        ("half a second", "1/2", "s"), ("two and a half seconds", "5/2", "s"), ("a hundred and twenty m", "120", "m"),
+        ("2½ s", "5/2", "s"), ("½ s", "1/2", "s"), ("1,200 m", "1200", "m"), ("2,5 s", "5/2", "s"),
+        ("30-mph", "30", "mph"), ("50 kilometres per hour", "50", "km/h"), ("-3 m/s^2", "3", "m/s^2"),
+        ("4 metres per second squared", "4", "m/s^2"), ("10/3 min", "10/3", "min"), ("just before", "5", "m"),
+        ("a second", "1", "s"),
+    ],
+)  # fmt: skip
+def test_numbers_and_units_in_many_words(words: str, value: str, unit: str) -> None:
+    assert (Fraction(value), unit) in read_amounts(words)
+
+
+def test_parameters_numbers_without_units_and_nothing() -> None:
+    assert set(read_amounts("{hero_gap_m}")) == {("hero_gap_m", "m")}
+    assert set(read_amounts("about 20")) == {(Fraction(20), None)}
+    assert list(read_amounts("brakes")) == []
+    assert (Fraction(4), "m/s") not in read_amounts("4 metres per second squared")

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import json
 import re
+from pathlib import Path
 
 import pytest
 from talk import TEXT, Said
 
 from scenewright.errors import ScenewrightError, TranslationError
 from scenewright.roads.load import load_map
+from scenewright.roads.routes import all_routes, find_routes
 from scenewright.translate.model import prompt
 from scenewright.translate.model.schema import locate, read_reply, sheet
 from scenewright.translate.model.settings import TranslatorSettings
-from scenewright.translate.model.translator import story_by_model
+from scenewright.translate.model.translator import understand_by_model
 
 MAP = load_map("t_intersection")
 
@@ -24,10 +26,10 @@ def test_examples_hold_as_replies_must(text: str, reply: dict[str, object]) -> N
     if "refusal" in reply:
         assert locate(read_reply(json.dumps(reply)).refusal.words, text)
         with pytest.raises(TranslationError, match="refuses the text"):
-            story_by_model(text, MAP, "example", model, TranslatorSettings())
+            understand_by_model(text, MAP, "example", model, TranslatorSettings())
         return
-    told = story_by_model(text, MAP, "example", model, TranslatorSettings(repairs=0))
-    assert len(told.calls) == 1
+    understand_by_model(text, MAP, "example", model, TranslatorSettings(repairs=0))
+    assert len(model.calls) == 1
 
 
 def test_examples_show_every_kind_of_reply() -> None:
@@ -72,3 +74,21 @@ def test_fault_and_answers_go_back_in_plain_words() -> None:
 
 def test_version_tells_two_prompts_apart() -> None:
     assert re.fullmatch(rf"{prompt.PROMPT_VERSION} \([0-9a-f]{{12}}\)", prompt.fingerprint(MAP))
+
+
+def test_map_is_told_as_it_is() -> None:
+    told = prompt.map_facts(MAP)
+    ways = re.findall(
+        r"^- \d+: from the (\w+), heading (\w)\w+, (?:turns )?(\w+)[ ,].*?the (\w+), then (\w)", told, re.MULTILINE
+    )
+    assert len(ways) == len(all_routes(MAP)) == 6
+    for origin, heading, turn, destination, end in ways:
+        kinds = find_routes(MAP, origin_kind=origin, turn=turn, destination_kind=destination)  # type: ignore[arg-type]
+        assert any((each.headings[0], each.headings[-1]) == (heading.upper(), end.upper()) for each in kinds)
+    assert "come together into one lane" in told
+
+
+def test_large_map_is_cut_and_said_to_be(shared_dir: Path) -> None:
+    told = prompt.map_facts(load_map(shared_dir / "maps" / "carla" / "Town01.xodr"))
+    assert "more, which this list leaves out" in told
+    assert len(told) < 20_000

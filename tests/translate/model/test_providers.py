@@ -28,7 +28,8 @@ from scenewright.roads.load import load_map
 from scenewright.translate.model.choose import model_named
 from scenewright.translate.model.exchange import GaveUpError
 from scenewright.translate.model.settings import TranslatorSettings
-from scenewright.translate.model.translator import Told, story_by_model
+from scenewright.translate.model.translator import understand_by_model
+from scenewright.translate.understand import Understanding
 
 MAP = load_map("t_intersection")
 
@@ -40,17 +41,17 @@ def in_a_hurry(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def translate(
     server: Server, *acts: Act, who: str = "openai-compatible:tiny", text: str = TEXT, **options: Any
-) -> Told:
+) -> Understanding:
     server.does(*acts)
     settings = TranslatorSettings(**{"base_url": server.address, "timeout_s": 20.0, **options})
     return told_by(who, settings, text)
 
 
-def told_by(who: str, settings: TranslatorSettings | None = None, text: str = TEXT) -> Told:
+def told_by(who: str, settings: TranslatorSettings | None = None, text: str = TEXT) -> Understanding:
     settings = settings or TranslatorSettings()
     model = model_named(who, settings)
     assert model is not None
-    return story_by_model(text, MAP, "mine", model, settings)
+    return understand_by_model(text, MAP, "mine", model, settings)
 
 
 def fault_of(server: Server, *acts: Act, **options: Any) -> ScenewrightError:
@@ -116,8 +117,8 @@ def test_every_provider_speaks_its_own_protocol(
     translation = translate(server, speaks(GOOD), who=f"{provider}:some", base_url=root)
     assert len(translation.story.deeds) == 2
     assert server.paths == [path]
-    assert [usage.output_tokens for usage in translation.calls] == [300 if speaks is says else 5]
-    assert f"{provider}:some" in translation.notes[-1]
+    assert translation.translator == f"{provider}:some"
+    assert f"and {300 if speaks is says else 5} out" in translation.notes[-1]
     # Headers carry the key, and nothing else does.
     assert KEY in json.dumps(server.headers)
     assert KEY not in json.dumps(server.asked) + server.paths[0]
@@ -201,7 +202,7 @@ def test_nobody_listens(server: Server) -> None:
 
 def test_long_reply_within_the_bounds_of_http_goes_back_to_the_model(server: Server) -> None:
     translation = translate(server, says("{" + "x" * 500_000), says())
-    assert len(translation.calls) == 2
+    assert ": 2 calls" in translation.notes[-1]
     returned = server.asked[1]["messages"][2]["content"]
     assert len(returned) <= 20_000, "what goes back is cut: a flood is not paid for twice"
 
@@ -214,7 +215,7 @@ def test_response_that_is_no_response(server: Server, body: bytes) -> None:
 
 def test_invalid_json_is_sent_back_and_mended(server: Server) -> None:
     translation = translate(server, says('{"story": {"actors": '), says())
-    assert len(translation.calls) == 2
+    assert ": 2 calls" in translation.notes[-1]
     last = server.asked[1]["messages"][-1]["content"]
     assert "Your reply was refused" in last
     assert "no JSON object that can be read" in last
@@ -248,7 +249,7 @@ def test_server_that_takes_no_schema_is_asked_without(server: Server) -> None:
 
 
 def test_reply_cut_off_at_the_limit_of_tokens_is_sent_back(server: Server) -> None:
-    assert len(translate(server, says(GOOD[:200], finish="length"), says()).calls) == 2
+    assert ": 2 calls" in translate(server, says(GOOD[:200], finish="length"), says()).notes[-1]
     assert "too long, or cut off" in server.asked[1]["messages"][-1]["content"]
     fault = fault_of(server, says(GOOD[:200], finish="length"), repairs=0, max_tokens=123)
     assert "cut off" in str(fault.found)
@@ -279,7 +280,7 @@ def test_call_of_a_tool_has_no_effect(server: Server, tmp_path: Path) -> None:
         "function": {"name": "shell", "arguments": f'{{"cmd": "touch {tmp_path}/x"}}'},
     }
     translation = translate(server, says(None, tool_calls=[call], finish="tool_calls"), says())
-    assert len(translation.calls) == 2
+    assert ": 2 calls" in translation.notes[-1]
     assert not list(tmp_path.iterdir())
 
 
@@ -317,7 +318,7 @@ def test_missing_library_is_told_with_how_to_get_it(server: Server, monkeypatch:
 def test_inside_an_event_loop_too(server: Server) -> None:
     import asyncio
 
-    async def notebook() -> Told:
+    async def notebook() -> Understanding:
         return translate(server, says())
 
     assert len(asyncio.run(notebook()).story.deeds) == 2

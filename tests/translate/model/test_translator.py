@@ -3,24 +3,39 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from typing import Any
 
 import pytest
 from talk import GOOD, QUESTION, STORY, TEXT, Said, reply_to
 
-from scenewright.errors import TranslationError
+from scenewright.errors import InputError, TranslationError
 from scenewright.roads.load import load_map
 from scenewright.translate import story as st
-from scenewright.translate.compile import compile_story
 from scenewright.translate.model.settings import TranslatorSettings
-from scenewright.translate.model.translator import NOT_AS_TOLD, Told, story_by_model
-from scenewright.translate.ways import put_on_map
+from scenewright.translate.model.translator import understand_by_model
+from scenewright.translate.questions import OpenQuestionsError
+from scenewright.translate.understand import Understanding
 
 MAP = load_map("t_intersection")
 
 
-def told(model: Said, text: str = TEXT, **options: Any) -> Told:
-    return story_by_model(text, MAP, "mine", model, TranslatorSettings(**options))
+def told(model: Said, text: str = TEXT, **options: Any) -> Understanding:
+    return understand_by_model(text, MAP, "mine", model, TranslatorSettings(**options))
+
+
+def left(result: Understanding) -> list[str]:
+    """Return what is open but for the way of the truck, which the map asks about."""
+    return [each.slot for each in result.questions if each.slot != "way of truck"]
+
+
+def choose(number: int) -> Callable[[st.Question], str]:
+    """Return somebody who takes the alternative of this number, but lets the truck go straight on."""
+    return lambda question: question.alternatives[0 if question.slot == "way of truck" else number]
+
+
+def given(result: Understanding) -> dict[str, str]:
+    return {slot: answer for slot, answer in result.answers.items() if slot != "way of truck"}
 
 
 def said(**more: Any) -> str:
@@ -29,8 +44,7 @@ def said(**more: Any) -> str:
 
 def test_story_makes_a_program_whose_parts_point_at_their_words() -> None:
     result = told(Said([GOOD]))
-    program = compile_story(put_on_map(result.story, MAP), TEXT)
-    sources = [each.source.excerpt(TEXT) for each in program.constraints if each.source]
+    sources = [each.source.excerpt(TEXT) for each in result.program.constraints if each.source]
     assert "the truck is 20 m short of the conflict point" in sources
     assert [deed.verb for deed in result.story.deeds] == ["drive on", "brake"]
     assert result.answers == {}
@@ -78,17 +92,19 @@ def test_moment_of_the_ego_that_the_reply_forgot_is_the_egos() -> None:
 
 # -- questions ------------------------------------------------------------------------------------------------------
 def test_default_is_taken_and_the_question_stays_open() -> None:
-    result = told(Said([said(questions=[QUESTION])]))
-    assert [(each.slot, each.default) for each in result.story.questions] == [("where", 0)]
-    assert len(result.calls) == 1
+    model = Said([said(questions=[QUESTION])])
+    result = told(model)
+    assert left(result) == ["where"]
+    assert result.all_answers["where"] == "5 m before"
+    assert len(model.calls) == 1
 
 
-@pytest.mark.parametrize("how", [{"ask": lambda question: question.alternatives[1]}, {"answers": {"where": "at it"}}])
+@pytest.mark.parametrize("how", [{"ask": choose(1)}, {"answers": {"where": "at it"}}])
 def test_other_answer_goes_back_to_the_model(how: dict[str, Any]) -> None:
     model = Said([said(questions=[QUESTION]), GOOD])
     result = told(model, **how)
     assert "- Where does the truck stop? at it" in model.calls[1].messages[-1].content
-    assert (result.answers, result.story.questions, len(result.calls)) == ({"where": "at it"}, (), 2)
+    assert (given(result), left(result), len(model.calls)) == ({"where": "at it"}, [], 2)
 
 
 def test_answer_that_the_story_took_already_needs_no_call() -> None:
@@ -98,9 +114,50 @@ def test_answer_that_the_story_took_already_needs_no_call() -> None:
         asked.append(question)
         return question.alternatives[0]
 
-    result = told(Said([said(questions=[QUESTION])]), ask=ask)
-    assert [each.quote and each.quote.text for each in asked] == ["to a stop 5 m before"]
-    assert (result.answers, result.story.questions, len(result.calls)) == ({"where": "5 m before"}, (), 1)
+    model = Said([said(questions=[QUESTION])])
+    result = told(model, ask=ask)
+    assert [each.quote and each.quote.text for each in asked] == ["to a stop 5 m before", "A truck"]
+    assert (given(result), left(result), len(model.calls)) == ({"where": "5 m before"}, [], 1)
+
+
+MORE = {**QUESTION, "slot": "when", "text": "When does it stop?", "alternatives": ["soon", "late"], "default": "soon"}
+
+
+def test_all_answers_go_back_at_once_and_are_asked_for_no_more() -> None:
+    """Whether they come one by one or together; a reply that repeats a question does not ask it again."""
+    both = {"where": "at it", "when": "late"}
+    for how in ({"ask": choose(1)}, {"answers": both}):
+        model = Said([said(questions=[QUESTION, MORE]), said(questions=[QUESTION])])
+        result = told(model, **how)
+        assert "? at it\n- When does it stop? late\n" in model.calls[1].messages[-1].content
+        assert [message.role for message in model.calls[1].messages] == ["system", "user", "assistant", "user"]
+        assert (given(result), left(result), len(model.calls)) == (both, [], 2)
+
+
+def test_one_of_two_questions_answered_leaves_the_other_open() -> None:
+    model = Said([said(questions=[QUESTION, MORE]), said(questions=[MORE])])
+    result = told(model, answers={"where": "at it"})
+    assert (left(result), len(model.calls)) == (["when"], 2)
+    result = told(Said([said(questions=[QUESTION, MORE])]), answers={"where": "5 m before"})
+    assert left(result) == ["when"]
+
+
+def test_question_that_an_answer_opens_is_asked_too() -> None:
+    model = Said([said(questions=[QUESTION]), said(questions=[MORE]), GOOD])
+    result = told(model, ask=choose(1))
+    assert given(result) == {"where": "at it", "when": "late"}
+    assert "late" in model.calls[2].messages[-1].content
+
+
+@pytest.mark.parametrize(("answers", "fault"), [({"where": "elsewhere"}, "no answer to"), ({"x": "y"}, "no question")])
+def test_answer_that_is_none_is_told(answers: dict[str, str], fault: str) -> None:
+    with pytest.raises(InputError, match=fault):
+        told(Said([said(questions=[QUESTION])]), answers=answers)
+
+
+def test_strictness_refuses_what_is_open() -> None:
+    with pytest.raises(OpenQuestionsError):
+        told(Said([said(questions=[QUESTION])]), strict=True)
 
 
 # -- second opinion -------------------------------------------------------------------------------------------------
@@ -112,18 +169,18 @@ def test_second_opinion_is_blind_and_agrees() -> None:
     assert "When the ego is 12 m before the stop line" in user.content
     assert "story" not in system.content + user.content
     assert any("no differences" in note for note in result.notes)
-    assert result.story.questions == ()
+    assert left(result) == []
 
 
 def test_difference_is_a_question_and_a_no_goes_back() -> None:
     differs = '{"differences": ["The first has a truck, the other a car."]}'
     result = told(Said([GOOD, differs]), second_opinion=True)
-    assert "The first has a truck" in result.story.questions[0].text
+    assert "The first has a truck" in result.questions[0].text
     model = Said([GOOD, differs, GOOD])
-    result = told(model, second_opinion=True, ask=lambda question: NOT_AS_TOLD)
+    result = told(model, second_opinion=True, ask=choose(1))
     assert "The first has a truck" in model.calls[2].messages[-1].content
-    assert len(result.calls) == 3
-    assert result.story.questions == ()
+    assert len(model.calls) == 3
+    assert left(result) == []
 
 
 @pytest.mark.parametrize("reply", ["I agree.", '{"differences": 3}', "{}", "[" * 9999])

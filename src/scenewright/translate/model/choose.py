@@ -1,21 +1,34 @@
-"""Which model is asked: the one that is named, else the one that the environment or the settings file configures.
+"""Which model is asked, and with which key: what is named, else what the environment or the settings file configures.
 
 What enters: the name of a translator, settings. What leaves: a `Model` of which nothing has been asked yet; what there
-is, for `scenewright models`. Keys are looked for, and never told.
+is, for `scenewright models`; keys, from the environment or a keyring, and `scrubbed` texts. Keys are in no option, no
+file of ours, no message.
 """
 
 from __future__ import annotations
 
 import os
+import re
 import tomllib
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 
 from scenewright.errors import InputError, Place
 from scenewright.translate.model.exchange import Answer, Call, Message, Model
-from scenewright.translate.model.keys import KEY_VARIABLES
 from scenewright.translate.model.settings import TranslatorSettings
 
+# By provider: where its key is looked for, in this order. `openai-compatible` has one of its own: the key of a provider
+# never goes to another server because both speak one protocol.
+KEY_VARIABLES: dict[str, tuple[str, ...]] = {
+    "openai": ("OPENAI_API_KEY",),
+    "anthropic": ("ANTHROPIC_API_KEY",),
+    "google": ("GOOGLE_API_KEY", "GEMINI_API_KEY"),
+    "openai-compatible": ("SCENEWRIGHT_API_KEY",),
+}
+_SHORTEST = 4  # a shorter "key", such as the "x" of a local server, would blot out half of every message
+_SEEN: set[str] = set()  # the keys that were given out
+_LOOKS_LIKE_A_KEY = re.compile(r"\b(?:sk|pk|AIza|gsk|xai)[-_][\w-]{6,}|\bAIza[\w-]{20,}|(?i:\bbearer\s+[\w.~+/=-]{6,})")
 AUTO, OFFLINE, FILES = "auto", "offline", "files"
 TRANSLATORS = f"{AUTO}, {OFFLINE}, {', '.join(f'{each}:NAME' for each in KEY_VARIABLES)} or files:DIR"
 TRANSLATOR_VARIABLE, BASE_URL_VARIABLE = "SCENEWRIGHT_TRANSLATOR", "SCENEWRIGHT_BASE_URL"
@@ -77,16 +90,16 @@ def model_named(translator: str, settings: TranslatorSettings) -> Model | None:
     if not (known and name):
         message = f"{provider} is named without a model" if known else f"there is no translator {translator}"
         raise InputError(message, found=translator, expected=TRANSLATORS, fix=f"--translator {OFFLINE}")
-    from scenewright.translate.model.files import FilesModel, Recording, Replayed
+    from scenewright.translate.model.files import answering_by_files, recording, replayed
     from scenewright.translate.model.providers import ServedModel
 
     address = settings.base_url or (configured().base_url if provider == "openai-compatible" else None)
-    model: Model = ServedModel(provider, name, address, settings.timeout_s, settings.max_tokens)
-    if provider == FILES:
-        model = FilesModel(Path(name), settings.reply_wait_s)
+    served = ServedModel(provider, name, address, settings.timeout_s, settings.max_tokens)
+    by_files = provider == FILES
+    model = answering_by_files(Path(name), settings.reply_wait_s) if by_files else Model(served.name, served.reply)
     if settings.replay is not None:
-        return Replayed(model.name, settings.replay)
-    return model if settings.record is None else Recording(model, settings.record)
+        return replayed(model.name, settings.replay)
+    return model if settings.record is None else recording(model, settings.record)
 
 
 def tried(found: Configured) -> Answer | None:
@@ -96,3 +109,34 @@ def tried(found: Configured) -> Answer | None:
         return None
     said = Message("system", "This is a trial of the connection."), Message("user", "Reply with the word: ready")
     return model.reply(Call(said, "", 1, ""))
+
+
+# -- keys -------------------------------------------------------------------------------------------------------------
+def key_for(provider: str) -> str | None:
+    """Return the key of `provider`: from the environment, else from a keyring; None where a local server needs none.
+
+    Raises InputError where there is no key and one is needed.
+    """
+    names = KEY_VARIABLES[provider]
+    found = next(filter(None, (os.environ.get(name, "").strip() for name in names)), None) or _from_keyring(provider)
+    if found is None and provider != "openai-compatible":
+        expected = f"{' or '.join(names)} in the environment, or {provider} under scenewright in a keyring"
+        fix = f"export {names[0]}=..., or translate with --translator offline"
+        raise InputError(f"there is no key for {provider}", expected=expected, fix=fix)
+    _SEEN.add(found or "")
+    return found
+
+
+def scrubbed(text: str) -> str:
+    """Return `text` without any key: neither those that were given out nor what looks like one."""
+    for value in _SEEN:
+        text = text.replace(value, "[key]") if len(value) >= _SHORTEST else text
+    return _LOOKS_LIKE_A_KEY.sub("[key]", text)
+
+
+def _from_keyring(provider: str) -> str | None:
+    """Return the key from the system's keyring, where the package `keyring` is installed and has one."""
+    try:
+        return import_module("keyring").get_password("scenewright", provider) or None
+    except Exception:  # no such package, no keyring on this machine, a locked one: no key from there
+        return None

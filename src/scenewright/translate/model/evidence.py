@@ -7,14 +7,15 @@ deeds, orders and what holds are checked here, amounts and measures in `measured
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
-from itertools import pairwise
+from collections.abc import Callable, Iterator, Sequence, Set
+from itertools import chain, pairwise
+from typing import Any
 
-from scenewright.errors import TranslationError
+from scenewright.errors import Span, TranslationError
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
-from scenewright.translate.compile import COMPASS, amounts_of
-from scenewright.translate.model.heard import Heard, lies_in, people
+from scenewright.translate.compile import COMPASS
+from scenewright.translate.model.heard import Heard, lies_in, meets, people, words_in
 from scenewright.translate.model.measured import STANDS, Measured, meaning
 from scenewright.translate.model.schema import Claim, locate
 from scenewright.translate.phrases import COMPASS_WORDS, DOES
@@ -29,10 +30,12 @@ _HOW = {
 # Whether what stands before such a word is earlier than what follows it.
 _FIRST = {"before": True, "no later than": True, "ahead": True, "after": False, "when": False, "until": False}
 
+Said = Set[int | str]  # who is spoken of, by number, and words
+
 
 def check_evidence(claim: Claim, text: str) -> None:
     """Raise TranslationError, with every fault in it, where the words do not say what a reply claims of them."""
-    faults = list(dict.fromkeys(_Evidence(claim, text).faults()))
+    faults = list(dict.fromkeys(_Evidence(claim, text, Heard(text, claim.called)).faults()))
     if faults:
         raise TranslationError(
             "the story and the words that it quotes do not match",
@@ -43,20 +46,21 @@ def check_evidence(claim: Claim, text: str) -> None:
 
 class _Evidence(Measured):
     def faults(self) -> Iterator[str]:
+        """Yield what the words say against the story, and what of them it leaves out."""
         story = self.claim.story
         for actor in story.actors:
             yield from self._actor(actor)
             yield from self._way(actor, self.claim.ways.get(actor.id))
         for number, moment in enumerate(story.moments):
             yield from self._time(number, moment)
-            for condition in moment.conditions:
-                yield from self.condition(condition)
-        for deed in story.deeds:
-            yield from self._deed(deed)
-        for order in story.orders:
-            yield from self._order(order)
-        for hold in story.holds:
-            yield from self._hold(hold)
+        checks: dict[Any, tuple[str, Callable[[Any, st.Quote], Iterator[str]]]] = {
+            st.Amount: ("unit", self.amount), st.Measure: ("quantity", self.measure), st.Deed: ("verb", self._deed),
+            st.Order: ("op", self._order), st.Hold: ("how", self._hold),
+        }  # fmt: skip
+        for kind, (slot, check) in checks.items():
+            for part in st.within(story, kind):
+                none = f"no words are quoted for the {kind.__name__} '{getattr(part, slot)}'"
+                yield from check(part, part.quote) if part.quote else [none]
         yield from self._used_up()
 
     # -- who ----------------------------------------------------------------------------------------------------------
@@ -78,9 +82,7 @@ class _Evidence(Measured):
                 yield f"no words are quoted for '{each.kind}' of {actor.name}"
                 continue
             said = self.heard.within(each.quote.span)
-            own = [
-                chunk for chunk in said if chunk.kind == "relation" or (chunk.kind, chunk.value) == ("side", each.kind)
-            ]
+            own = [one for one in said if one.kind == "relation" or (one.kind, one.value) == ("side", each.kind)]
             yield from self.says(each.quote, own, each.kind, actor.id, other=each.of)
 
     def _way(self, actor: st.Actor, quote: st.Quote | None) -> Iterator[str]:
@@ -125,7 +127,6 @@ class _Evidence(Measured):
 
     def _time(self, number: int, moment: st.Moment) -> Iterator[str]:
         """Check that a moment's time is told with what is so then."""
-        yield from self.amount(moment.time)
         quote = moment.time.quote if moment.time else None
         if quote is not None:
             sentence, own, index = self.heard.sentence(quote.start)
@@ -134,16 +135,11 @@ class _Evidence(Measured):
             if near and sentence not in near:
                 yield f"'{quote.text}' is not told with what is so then: say it as an order from start"
 
-    def _deed(self, deed: st.Deed) -> Iterator[str]:
+    def _deed(self, deed: st.Deed, quote: st.Quote) -> Iterator[str]:
         for measure in deed.throughout:
-            yield from self.measure(measure)
             if measure.actor != deed.actor:
                 yield f"`throughout` of a deed of {self.name(deed.actor)} is of {self.name(measure.actor)}: use `holds`"
-        quote, others = deed.quote, self.claim.story.deeds_of(deed.actor)
-        if quote is None:
-            yield f"no words are quoted for '{deed.verb}' of {self.name(deed.actor)}"
-            return
-        said = self.heard.within(quote.span)
+        said, others = self.heard.within(quote.span), self.claim.story.deeds_of(deed.actor)
         verbs = [each for each in said if each.kind in ("deed", "state", "event", "order")]
         stopped = any(each.ends == deed.begins and each.verb == st.Verb.BRAKE for each in others)
         if deed.verb == st.Verb.DRIVE and all(meaning(each) != deed.verb for each in verbs):
@@ -153,12 +149,8 @@ class _Evidence(Measured):
         elif deed.verb in set(st.Verb) and not (deed.verb == st.Verb.STAND and stopped and STANDS.search(quote.text)):
             yield from self.says(quote, verbs, deed.verb, deed.actor, *DOES[deed.verb])
 
-    def _order(self, order: st.Order) -> Iterator[str]:
-        yield from self.amount(order.margin)
-        story, quote = self.claim.story, order.quote
-        if quote is None:
-            yield "no words are quoted for an order"
-            return
+    def _order(self, order: st.Order, quote: st.Quote) -> Iterator[str]:
+        story = self.claim.story
         if order.margin is not None:
             yield from self.bound(order.op, quote, order.margin)
         for knots in (story.knots_of(actor.id) for actor in story.actors):
@@ -177,48 +169,37 @@ class _Evidence(Measured):
         elif not fits:
             yield from self.silent(quote, "does not say which moment is first", "before", "after", "first")
 
-    def _words_of(self, moment: int) -> set[str]:
+    def _words_of(self, moment: int) -> Said:
         """Return who and what a moment is about, as words that may be used to speak of it."""
         told = list(self._told_at(moment))
-        who = {f"#{each}" for people_of, _ in told for each in people_of}
-        return who | {word for _, quote in told if quote for word in re.findall(r"\w+", quote.text.lower())}
+        return words_in(*(quote.text for _, quote in told if quote)).union(*(who for who, _ in told))
 
-    def _told_first(self, quote: st.Quote) -> tuple[set[str], set[str]]:
+    def _told_first(self, quote: st.Quote) -> tuple[Said, Said]:
         """Return who and what is first and second by the words for an order; empty sets where there are none."""
         said = self.heard.within(quote.span)
         for place, each in enumerate(said):
             follows = said[place + 1].kind if place + 1 < len(said) else ""
             if each.kind == "order":  # "goes first", "lets it go first"
-                who = [other for other in said[:place] if other.kind in ("who", "pronoun")][-1:]
-                first = {word for word in self._spoken(who) if word[0] == "#"}
-                return first, {f"#{actor.id}" for actor in self.claim.story.actors if first} - first
+                first = self._people([other for other in said[:place] if other.kind in ("who", "pronoun")][-1:])
+                return first, {actor.id for actor in self.claim.story.actors if first} - first
             if each.value in _FIRST and follows in ("who", "pronoun"):
-                ends = [
-                    number
-                    for number, other in enumerate(said)
-                    if number > place + 1 and other.kind in ("comma", "pronoun")
-                ]
-                end = ends[0] if ends and place < 2 else len(said)  # "Once the ego is through, ..."
-                inner, outer = self._spoken(said[place + 1 : end]), self._spoken([*said[:place], *said[end:]])
-                if not any(word[0] == "#" for word in outer):
-                    outer |= {f"#{who}" for who in self.heard.subjects(quote.start)}
-                return (outer, inner) if _FIRST[each.value] else (inner, outer)
+                cuts = [at for at in range(place + 2, len(said)) if said[at].kind in ("comma", "pronoun")]
+                end = cuts[0] if cuts and place < 2 else len(said)  # "Once the ego is through, ..."
+                inner, outer = said[place + 1 : end], [*said[:place], *said[end:]]
+                after = self._people(inner) | words_in(*(other.text for other in inner))
+                others = self._people(outer) or self.heard.subjects(quote.start)
+                before = others | words_in(*(other.text for other in outer))
+                return (before, after) if _FIRST[each.value] else (after, before)
         return set(), set()
 
-    def _spoken(self, chunks: Sequence[Chunk]) -> set[str]:
-        its = [self.heard.subjects(each.start) for each in chunks if each.kind == "pronoun"]
-        found = {f"#{who}" for who in people(*chunks).union(*its)}
-        return found | {word for each in chunks for word in re.findall(r"\w+", each.text.lower())}
+    def _people(self, chunks: Sequence[Chunk]) -> set[int]:
+        its = (self.heard.subjects(each.start) for each in chunks if each.kind == "pronoun")
+        return people(*chunks).union(*its)
 
-    def _hold(self, hold: st.Hold) -> Iterator[str]:
-        yield from self.condition(hold.condition)
+    def _hold(self, hold: st.Hold, quote: st.Quote) -> Iterator[str]:
         offsets = [point.offset for point in (hold.start, hold.end) if point.offset]
-        for offset in offsets:
-            yield from self.amount(offset)
-        quote, starts = hold.quote, [each.quote.start for each in offsets if each.quote]
-        if quote is None:
-            yield f"no words are quoted for what holds {hold.how}"
-        elif starts != sorted(starts) or not all(quote.start <= at < quote.end for at in starts):
+        starts = [each.quote.start for each in offsets if each.quote]
+        if starts != sorted(starts) or not all(quote.start <= at < quote.end for at in starts):
             yield f"'{quote.text}' does not tell the times of `start` and `end` in this order"
         elif not re.search(_HOW[hold.how], quote.text) or (hold.how != "never" and "never" in quote.text.lower()):
             yield from self.silent(quote, f"does not say '{hold.how}'", hold.how)
@@ -226,42 +207,38 @@ class _Evidence(Measured):
     # -- all of the text ----------------------------------------------------------------------------------------------
     def _used_up(self) -> Iterator[str]:
         story = self.claim.story
-        amounts = [each.quote for each in amounts_of(story) if each.quote]
         told = [*(quote.span for quote in story.asides), *(span for span, _ in self.claim.owned if span)]
-        names = [word for own in self.claim.called.values() for word in own]
-        names += [lane for actor in story.actors for lane in actor.way.lanes]
+        names = [*chain(*self.claim.called.values()), *chain(*(actor.way.lanes for actor in story.actors))]
         named = [span for name in names for span in locate(name, self.text)]
-        events: list[st.Order | st.Hold] = [*story.orders, *story.holds]
-        ordered = [each.quote.span for each in events if each.quote]
-        deeds = [(deed.verb, deed.quote.span) for deed in story.deeds if deed.quote]
-        longer = [*ordered, *(span for _, span in deeds)]
-        declared = [
-            self.heard.sentence(span.start)[0] for each in story.parameters for span in locate(each.name, self.text)
-        ]
+        amounts, ordered = self._spans(st.Amount), [*self._spans(st.Order), *self._spans(st.Hold)]
+        longer = [*ordered, *self._spans(st.Deed)]
+        declared = [span for each in story.parameters for span in locate(each.name, self.text)]
+        declared_in = {self.heard.sentence(span.start)[0] for span in declared}
         for each in (chunk for own in self.heard.said for chunk in own if chunk.kind in ("amount", "no unit")):
-            again = lies_in(each.start, each.end, longer) and any(
-                self.text.startswith(quote.text, each.start) for quote in amounts
-            )
-            used = again or lies_in(each.start, each.end, [*told, *named])
-            used = used or any(quote.start < each.end and each.start < quote.end for quote in amounts)
-            owned = any(
-                re.search(rf"(?<![\w.]){re.escape(each.text)}(?!\w|\.\d)", said) for _, said in self.claim.owned
-            )
-            if not (used or owned or self.heard.sentence(each.start)[0] in declared):
+            used = lies_in(each.start, each.end, [*told, *named]) or meets(each.start, each.end, amounts)
+            again = (self.text.startswith(span.excerpt(self.text), each.start) for span in amounts)
+            used = used or (lies_in(each.start, each.end, longer) and any(again))
+            word = rf"(?<![\w.]){re.escape(each.text)}(?!\w|\.\d)"
+            used = used or any(re.search(word, said) for _, said in self.claim.owned)
+            if not (used or self.heard.sentence(each.start)[0] in declared_in):
                 yield f"'{each.text}' of the text is in no amount and no aside"
-        quotes = [quote.span for number in range(len(story.moments)) for _, quote in self._told_at(number) if quote]
-        spans = [*self.claim.read, *told, *named, *longer, *quotes]
+        spans = [*self.claim.read, *told, *named, *(quote.span for quote in st.within(story, st.Quote))]
         for own in self.heard.said:
             where = self.text[own[0].start : own[-1].end]
-            if len(own) > 1 and not any(each.start < own[-1].end and own[0].start < each.end for each in spans):
+            if len(own) > 1 and not meets(own[0].start, own[-1].end, spans):
                 yield f"no reading and no slot tells of '{where}'"
             for place, chunk in enumerate(own):
-                quotes = [*told, *(span for verb, span in deeds if verb == meaning(chunk))]
                 # "It begins to brake 2 s after ...": an order speaks of a deed that is told elsewhere.
-                quotes += ordered if own[max(place - 1, 0)].kind == "phase" else []
+                elsewhere = ordered if own[max(place - 1, 0)].kind == "phase" else []
+                quotes = [*told, *elsewhere, *self._spans(st.Deed, meaning(chunk))]
                 used = chunk.kind != "deed" or lies_in(chunk.start, chunk.end, quotes)
                 if not (used or self._is_background(own, place)):
                     yield f"'{chunk.text}' in '{where}' is in the words of no such deed and no aside"
+
+    def _spans(self, kind: Any, verb: str = "") -> list[Span]:
+        """Return the stretches that parts of a kind quote; of deeds, those of a verb where one is given."""
+        parts = (each for each in st.within(self.claim.story, kind) if each.quote)
+        return [each.quote.span for each in parts if not verb or each.verb == verb]
 
     def _is_background(self, own: list[Chunk], place: int) -> bool:
         """Whether a deed is told as a moment or a wish, or of the ego."""
@@ -275,6 +252,6 @@ class _Evidence(Measured):
         return EGO in self.heard.subjects(own[place].start)
 
 
-def _weight(words: set[str]) -> int:
+def _weight(said: Said) -> int:
     """Return how much words tell that two ways of saying have in common: who it is tells more than all others."""
-    return sum(100 if word[0] == "#" else 1 for word in words)
+    return sum(100 if isinstance(each, int) else 1 for each in said)

@@ -1,15 +1,15 @@
 """One exchange with a model: the messages that go out, the text that comes back, and the key both are kept under.
 
-What enters: messages. What leaves: data classes, and the protocol that every kind of model meets. Nothing is sent here.
+What enters: messages. What leaves: data classes, among them whoever answers. Nothing is sent here.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal, Protocol
+from typing import Any, Literal
 
 from scenewright.errors import TranslationError
 
@@ -67,19 +67,16 @@ class Answer:
     usage: Usage = Usage()
 
 
-class Model(Protocol):
+@dataclass(frozen=True, slots=True)
+class Model:
     """Whoever answers: a provider's server, a person with an editor, a recording."""
 
-    @property
-    def name(self) -> str:
-        """Return what the user calls it, such as ``openai:NAME``; never a key or an address."""
-
-    def reply(self, call: Call) -> Answer:
-        """Return the answer to `call`; raises TranslationError where none is to be had."""
+    name: str  # what the user calls it, such as ``openai:NAME``; never a key or an address
+    reply: Callable[[Call], Answer]  # raises TranslationError where none is to be had
 
 
-def key_of(model: Model, call: Call) -> str:
+def key_of(model: str, call: Call) -> str:
     """Return what an exchange is kept under: the same messages to the same model share it."""
     said = [[message.role, message.content] for message in call.messages]
-    data = json.dumps([model.name, said], ensure_ascii=False)
+    data = json.dumps([model, said], ensure_ascii=False)
     return hashlib.sha256(data.encode("utf-8", "surrogatepass")).hexdigest()[:24]

@@ -10,7 +10,7 @@ import hashlib
 import json
 import os
 import time
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 
 from scenewright.errors import OutputError, Place, TranslationError
@@ -25,79 +25,60 @@ class NoReplyYetError(GaveUpError):
     """A request lies in the folder, and its reply does not."""
 
 
-@dataclass(frozen=True, slots=True)
-class FilesModel:
-    """Whoever answers by files in `folder`; waits `wait_s` (s) for each reply."""
+def answering_by_files(folder: Path, wait_s: float = 0.0) -> Model:
+    """Return whoever answers by files in `folder`, and waits `wait_s` (s) for each reply.
 
-    folder: Path
-    wait_s: float = 0.0
-    name: str = "files"
+    It leaves ``KEY.request.json``, and reads ``KEY.reply.json`` or ``KEY.reply.txt``. Raises `NoReplyYetError` where
+    neither is there in time; the same call finds the reply later.
+    """
 
-    def reply(self, call: Call) -> Answer:
-        """Leave ``KEY.request.json``, and read ``KEY.reply.json`` or ``KEY.reply.txt``.
-
-        Raises `NoReplyYetError` where neither is there in time; the same call finds the reply later.
-        """
-        key = _leave(self.folder, self, call)
-        until = time.monotonic() + self.wait_s
-        while (text := _reply(self.folder, key)) is None:
+    def reply(call: Call) -> Answer:
+        key = _leave(folder, "files", call)
+        until = time.monotonic() + wait_s
+        while (text := _reply(folder, key)) is None:
             if (left := until - time.monotonic()) <= 0:
-                place, message = (
-                    Place(str(self.folder / f"{key}.request.json")),
-                    f"there is no reply yet to request {key}",
-                )
+                place = Place(str(folder / f"{key}.request.json"))
                 either = f"the reply, as JSON in {key}.reply.json or as a model's own text in {key}.reply.txt"
                 fix = "write it there and run the same command again, or wait for it with --reply-wait SECONDS"
-                raise NoReplyYetError(message, place=place, expected=either, fix=fix)
+                raise NoReplyYetError(f"there is no reply yet to request {key}", place=place, expected=either, fix=fix)
             time.sleep(min(_LOOK_EVERY_S, left))
         return Answer(text)
 
+    return Model("files", reply)
 
-@dataclass(frozen=True, slots=True)
-class Recording:
-    """A model whose exchanges are kept in `folder`, as files of the same form."""
 
-    model: Model
-    folder: Path
+def recording(model: Model, folder: Path) -> Model:
+    """Return `model` with its exchanges kept in `folder`, as files of the same form."""
 
-    @property
-    def name(self) -> str:
-        """Return the name of the model that answers."""
-        return self.model.name
-
-    def reply(self, call: Call) -> Answer:
-        """Return the model's answer, and keep it with the call."""
-        answer = self.model.reply(call)
-        _write(self.folder / f"{_leave(self.folder, self, call)}.reply.txt", answer.text)
+    def reply(call: Call) -> Answer:
+        answer = model.reply(call)
+        _write(folder / f"{_leave(folder, model.name, call)}.reply.txt", answer.text)
         return answer
 
+    return Model(model.name, reply)
 
-@dataclass(frozen=True, slots=True)
-class Replayed:
-    """A model that says again what `folder` holds of it, and nothing else; it asks nobody."""
 
-    name: str
-    folder: Path
+def replayed(name: str, folder: Path) -> Model:
+    """Return a model that says again what `folder` holds of `name`, and nothing else; it asks nobody."""
 
-    def reply(self, call: Call) -> Answer:
-        """Return what was answered when this call was recorded; raises TranslationError where it was not."""
-        if (text := _reply(self.folder, key_of(self, call))) is not None:
+    def reply(call: Call) -> Answer:
+        if (text := _reply(folder, key_of(name, call))) is not None:
             return Answer(text)
-        expected = f"a record of {self.name} for this text, map and prompt (version {PROMPT_VERSION})"
-        fix = "record it once with --record DIR in place of --replay DIR"
-        raise TranslationError(
-            "this exchange was not recorded", place=Place(str(self.folder)), expected=expected, fix=fix
-        )
+        expected = f"a record of {name} for this text, map and prompt (version {PROMPT_VERSION})"
+        message, fix = "this exchange was not recorded", "record it once with --record DIR in place of --replay DIR"
+        raise TranslationError(message, place=Place(str(folder)), expected=expected, fix=fix)
+
+    return Model(name, reply)
 
 
-def _leave(folder: Path, model: Model, call: Call) -> str:
+def _leave(folder: Path, model: str, call: Call) -> str:
     """Write a request with all that whoever answers needs; return the key that it is kept under."""
     key = key_of(model, call)
     # The instructions are the same for all texts on a map: whoever answers many reads them once, here.
     instructions = next((each.content for each in call.messages if each.role == "system"), "")
     shared = f"{hashlib.sha256(instructions.encode()).hexdigest()[:12]}.instructions.md"
     _write(folder / shared, instructions)
-    request = {"schema_version": SCHEMA_VERSION, "key": key, "prompt_version": PROMPT_VERSION, "model": model.name,
+    request = {"schema_version": SCHEMA_VERSION, "key": key, "prompt_version": PROMPT_VERSION, "model": model,
                "attempt": call.attempt, "map": call.map_name, "description": call.description,
                "messages": [asdict(message) for message in call.messages], "instructions_file": shared,
                "reply_schema": call.schema, "reply_file": f"{key}.reply.json"}  # fmt: skip
@@ -114,10 +95,8 @@ def _reply(folder: Path, key: str) -> str | None:
         except (FileNotFoundError, NotADirectoryError):
             continue
         except OSError as error:
-            fix = "make it readable"
-            raise TranslationError(
-                "a reply cannot be read", place=Place(str(path)), found=str(error), fix=fix
-            ) from None
+            message, place = "a reply cannot be read", Place(str(path))
+            raise TranslationError(message, place=place, found=str(error), fix="make it readable") from None
         if raw.strip():
             return raw.decode("utf-8", errors="replace")
     return None

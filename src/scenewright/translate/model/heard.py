@@ -6,6 +6,7 @@ words do not tell. Words that nobody knows are no fault: they only leave more op
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -30,6 +31,16 @@ def lies_in(start: int, end: int, spans: Sequence[Span]) -> bool:
     return any(each.start <= start and end <= each.end for each in spans)
 
 
+def meets(start: int, end: int, spans: Sequence[Span | Chunk]) -> bool:
+    """Whether a stretch has something in common with one of `spans`."""
+    return any(each.start < end and start < each.end for each in spans)
+
+
+def words_in(*texts: str) -> set[str]:
+    """Return the words of texts, whatever their case."""
+    return set(re.findall(r"\w+", " ".join(texts).lower()))
+
+
 def _is_head(own: Sequence[Chunk], at: int) -> bool:
     """Whether a name or "it" is whom a clause speaks of: it stands at its beginning."""
     if own[at].kind != "who" and (own[at].kind, own[at].value) != ("pronoun", "it"):
@@ -48,7 +59,7 @@ class Heard:
     """The chunks of a text by sentence; a name of somebody is of kind ``who``, its value the numbers of whose it is."""
 
     text: str
-    called: Mapping[int, tuple[str, ...]]
+    called: Mapping[int, Sequence[str]]
     said: list[list[Chunk]] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -58,7 +69,7 @@ class Heard:
                 named.setdefault((span.start, span.end), set()).add(number)
         taken: list[Chunk] = []
         for start, end in sorted(named, key=lambda each: each[0] - each[1]):  # the longest first
-            if not any(start < other.end and other.start < end for other in taken):
+            if not meets(start, end, taken):
                 value = " ".join(map(str, sorted(named[start, end])))
                 taken.append(Chunk("who", value, start, end, self.text[start:end]))
         self.said = []
@@ -66,7 +77,7 @@ class Heard:
             chunks = [each for chunk in plain for each in (*chunk.traits, chunk)]
             own_names = [each for each in taken if each.end >= chunks[0].start and each.start < chunks[-1].end]
             kept = [chunk for chunk in chunks if chunk.kind not in ("actor", "name", "unknown")
-                    or not any(each.start < chunk.end and chunk.start < each.end for each in own_names)]  # fmt: skip
+                    or not meets(chunk.start, chunk.end, own_names)]  # fmt: skip
             self.said.append(sorted([*kept, *own_names], key=lambda chunk: (chunk.start, -chunk.end)))
 
     def within(self, span: Span) -> list[Chunk]:
@@ -92,11 +103,8 @@ class Heard:
         """Return the place that an amount is counted to: the nearest, in its own clause and after it where there is."""
         (_, own, _), near = self.sentence(at), self.clause(at)
         places = [each for each in own if each.kind == "place"]
-        return (
-            min(places, key=lambda each: (each not in near, each.start < at, abs(each.start - at))).value
-            if places
-            else None
-        )
+        places.sort(key=lambda each: (each not in near, each.start < at, abs(each.start - at)))
+        return places[0].value if places else None
 
     def subjects(self, at: int) -> set[int]:
         """Return who may be spoken of at a place: the nearest, whom the clause is of before others."""
@@ -112,16 +120,12 @@ class Heard:
             side = own[place - 1] if place and own[place - 1].kind == "side" else None
             of_place = place > 1 and own[place - 2].kind == "place" and side is not None and side.value != "for"
             told = side is not None and side.value not in _NOT_OF_WHOM and not of_place  # "3 s for the ego"
-            object_ = (
-                own[index].amount is not None and place == index - 1 and side is None
-            )  # "sees the hero 20 m before"
-            behind = place > index
-            head = _is_head(own, place)
-            return not object_, behind and not (told and place < end), place < start, not head, abs(place - index)
+            seen = own[index].amount is not None and place == index - 1 and side is None  # "sees the hero 20 m before"
+            behind, head = place > index, _is_head(own, place)
+            return not seen, behind and not (told and place < end), place < start, not head, abs(place - index)
 
-        found = min(
-            (place for place, each in enumerate(own) if each.kind == "who" or _is_head(own, place)), key=rank, default=0
-        )
+        named = (place for place, each in enumerate(own) if each.kind == "who" or _is_head(own, place))
+        found = min(named, key=rank, default=0)
         if own[found].kind == "who":
             return people(own[found])
         # "It", or nobody: those named before in the sentence, and everybody of the nearest one that names anybody.

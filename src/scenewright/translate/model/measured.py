@@ -12,18 +12,19 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
 
+from scenewright.program.arithmetic import JUST_BEFORE_M
 from scenewright.translate import story as st
-from scenewright.translate.model.amounts import read_amounts
 from scenewright.translate.model.heard import Heard, people
 from scenewright.translate.model.schema import Claim
 from scenewright.translate.phrases import BOUNDS, PLACES
-from scenewright.translate.read.chunks import Chunk
-from scenewright.units import format_fraction
+from scenewright.translate.phrases import amount as phrase_of
+from scenewright.translate.read.chunks import Chunk, sentences, vocabulary
 
 STANDS = re.compile(r"(?i)\b(?:st[oa]\w*|halt\w*|rests?|wait\w*|parked|zero)\b")
 _BARE: dict[str, st.Operator] = {"past": ">", "at or past": ">=", "at or before": "<=", "before": "<"}
 _FAST = {"faster": (">", ">="), "slower": ("<", "<="), "as fast as": ("==", ">=", "<=")}
 _SLOWING = {"brake": True, "stop": True, "deceleration": True, "speed up": False, "acceleration": False}
+_SHARES = {"half": ".5", "quarter": ".25", "¼": ".25", "½": ".5", "¾": ".75"}
 _DOES = {"stop": st.Verb.BRAKE, "stands": st.Verb.STAND, "drives": st.Verb.DRIVE}
 
 
@@ -38,11 +39,8 @@ class Measured:
 
     claim: Claim
     text: str
-    heard: Heard = field(init=False)
+    heard: Heard
     nameless: dict[str, int] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        self.heard = Heard(self.text, self.claim.called)
 
     def name(self, actor: int) -> str:
         """Return what the reply calls somebody."""
@@ -81,24 +79,17 @@ class Measured:
             yield from self.silent(quote, f"does not say '{value}' of {self.name(actor)}", *more, value)
 
     # -- amounts ------------------------------------------------------------------------------------------------------
-    def amount(self, amount: st.Amount | None) -> Iterator[str]:
+    def amount(self, amount: st.Amount, quote: st.Quote) -> Iterator[str]:
         """Check that the words of an amount are its number and its unit."""
-        if amount is None:
-            return
-        value = amount.name or abs(amount.value or 0)
-        told = amount.name or f"{format_fraction(amount.value or Fraction(0))} {amount.unit}"
-        if amount.quote is None:
-            yield f"no words are quoted for {told}"
-            return
-        read = list(read_amounts(amount.quote.text))
-        stands = value == 0 and amount.dimension == "speed"
+        value, told = amount.name or abs(amount.value or 0), phrase_of(amount)
+        read, stands = list(read_amounts(quote.text)), value == 0 and amount.dimension == "speed"
         if (value, amount.unit) in read:
             return
         if amount.name or (read and (value, None) not in read):
-            yield f"'{amount.quote.text}' is not {told}"
-        elif not (stands and STANDS.search(amount.quote.text)):
-            about = ("stop", "stand") if stands else (format_fraction(amount.value or Fraction(0)),)
-            yield from self.silent(amount.quote, f"does not say {told}", told, *about)
+            yield f"'{quote.text}' is not {told}"
+        elif not (stands and STANDS.search(quote.text)):
+            about = ("stop", "stand") if stands else (told.split()[0],)
+            yield from self.silent(quote, f"does not say {told}", told, *about)
 
     def bound(self, op: st.Operator, quote: st.Quote, amount: st.Amount) -> Iterator[str]:
         """Check a bound: the words for it stand before the amount."""
@@ -112,18 +103,9 @@ class Measured:
             yield from self.silent(quote, f"has no bound ({op}) but the amount itself (==)", BOUNDS[op].strip())
 
     # -- measures -----------------------------------------------------------------------------------------------------
-    def condition(self, condition: st.Condition) -> Iterator[str]:
-        """Check every measure of a condition."""
-        for each in st.atoms(condition):
-            yield from self.measure(each)
-
-    def measure(self, measure: st.Measure) -> Iterator[str]:
-        """Check one measure: its amount, who and where, how it compares."""
-        quote, amount = measure.quote, measure.amount
-        yield from self.amount(amount)
-        if quote is None:
-            yield f"no words are quoted for the {measure.quantity} of {self.name(measure.actor)}"
-            return
+    def measure(self, measure: st.Measure, quote: st.Quote) -> Iterator[str]:
+        """Check one measure: who and where, how it compares."""
+        amount = measure.amount
         at = amount.quote.start if amount is not None and amount.quote is not None else None
         near, whole = self.heard.clause(quote.start if at is None else at), self.heard.within(quote.span)
         said = [each for each in whole if each in near]
@@ -196,3 +178,40 @@ class Measured:
             opposed = measure.opposite is not (factor == "slower")
             if measure.op not in _FAST.get(factor, ()) if measure.amount is None else factor and opposed:
                 yield from self.silent(quote, f"says {factor or 'neither faster nor slower'}", "faster", "slower")
+
+
+# -- amounts in words -----------------------------------------------------------------------------------------------
+def read_amounts(words: str) -> Iterator[tuple[Fraction | str, str | None]]:
+    """Yield the numbers (without their signs) and parameters that words can be read as, each with its unit.
+
+    Examples
+    --------
+    >>> [(value, unit) for value, unit in read_amounts("twenty-five metres")]
+    [(Fraction(25, 1), 'm')]
+    """
+    plain = _in_digits(words)
+    for reading in {plain.replace(",", "."), plain.replace(",", "")}:  # a decimal comma, or one between thousands
+        for chunk in (chunk for sentence in sentences(reading) for chunk in sentence):
+            if chunk.amount is not None:
+                yield chunk.amount.name or abs(chunk.amount.value or Fraction(0)), chunk.amount.unit
+            elif chunk.kind == "no unit" and chunk.value[-1].isdigit():
+                yield abs(Fraction(chunk.value)), None
+            elif chunk.kind == "near":
+                yield Fraction(JUST_BEFORE_M), "m"
+
+
+def _in_digits(words: str) -> str:
+    """Return words with their numbers in digits: "two and a half seconds" as "2.5 seconds"."""
+    known = {**{word: str(number) for word, number in vocabulary().numbers.items()}, **_SHARES, "hundred": "100"}
+    word = rf"(?:\b(?:{'|'.join(known)})\b|[¼½¾])"
+
+    def value(match: re.Match[str]) -> str:
+        total = Fraction(0)
+        for said in re.findall(rf"(?i)\d+|{word}", match[0]):
+            size = Fraction(known.get(said.lower(), said))
+            total = max(total, Fraction(1)) * 100 if said.lower() == "hundred" else total + size
+        return f"{float(total):g}"
+
+    run = rf"(?i)(?:\ban? )?(?:\d+|{word})(?:(?:[\s-]|\band\b|\ban?\b)*{word})+|[¼½¾]|\b(?:half|quarter)\b"
+    said = re.sub(run, value, words)
+    return re.sub(r"(?i)(?<=\d) (?:of )?an? (?=\w)|^an? (?=\w+$)", lambda at: " " if at.start() else "1 ", said)

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
 from scenewright.errors import InputError, MissingExtraError, ScenewrightError, TranslationError
+from scenewright.translate.model.choose import KEY_VARIABLES, key_for, scrubbed
 from scenewright.translate.model.exchange import CUT_OFF, Answer, Call, GaveUpError, Usage
-from scenewright.translate.model.keys import KEY_VARIABLES, key_for, scrubbed
 from scenewright.translate.model.settings import DEFAULT_MAX_TOKENS, DEFAULT_TIMEOUT_S
 
 if TYPE_CHECKING:
@@ -173,12 +173,13 @@ def _run(asked: Coroutine[Any, Any, Answer]) -> Answer:
 def _history(call: Call) -> list[ModelMessage]:
     from pydantic_ai.messages import ModelRequest, ModelResponse, SystemPromptPart, TextPart, UserPromptPart
 
-    made: dict[str, Any] = {
-        "system": lambda said: ModelRequest([SystemPromptPart(said)]),
-        "user": lambda said: ModelRequest([UserPromptPart(said)]),
-        "assistant": lambda said: ModelResponse([TextPart(said)]),
-    }
-    return [made[message.role](message.content) for message in call.messages]
+    asked = {"system": SystemPromptPart, "user": UserPromptPart}
+    return [
+        ModelRequest([asked[each.role](each.content)])
+        if each.role in asked
+        else ModelResponse([TextPart(each.content)])
+        for each in call.messages
+    ]
 
 
 def _line(text: str) -> str:

@@ -19,7 +19,7 @@ from importlib.resources import files
 from types import UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, create_model
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, create_model
 
 from scenewright.errors import Span, TranslationError
 from scenewright.program.types import AreaKind, Parameter
@@ -46,7 +46,7 @@ _WORDS: dict[tuple[Any, str], Any] = {
     (st.Way, "heading"): Literal[tuple(COMPASS)], (st.Way, "destination_heading"): Literal[tuple(COMPASS)],
     (st.Way, "turn"): Literal[tuple(TURNS)], (st.Way, "origin"): AreaKind, (st.Way, "destination"): AreaKind,
 }  # fmt: skip
-_KNOWN: dict[tuple[Any, str], tuple[str, ...]] = {
+KNOWN: dict[tuple[Any, str], tuple[str, ...]] = {
     (st.Actor, "kind"): DRIVEN, (st.Deed, "verb"): tuple(st.Verb), (st.Relation, "kind"): tuple(BEARINGS),
 }  # fmt: skip
 
@@ -58,7 +58,16 @@ def _plain(value: object) -> object:
     return str(value) if isinstance(value, int | float) and not isinstance(value, bool) else value
 
 
+def _fraction(digits: str) -> Fraction:
+    # No exponents: their exact value could fill the memory.
+    plain = len(digits) <= DIGITS and re.fullmatch(r"-?[0-9]+(\.[0-9]+|/0*[1-9][0-9]*)?", digits)
+    if not plain or not is_size_of_a_scenario(Fraction(digits)):
+        raise ValueError(f"'{digits[:DIGITS]}' is no number in digits of a size that a test has")
+    return Fraction(digits)
+
+
 Words = Annotated[str, BeforeValidator(_plain)]
+Digits = Annotated[Words, AfterValidator(_fraction)]
 _Slots = Mapping[str, tuple[Any, Any]]
 _MORE: dict[Any, _Slots] = {
     st.Actor: {"called": (list[Words], ...)}, st.Moment: {"name": (Words, ...)}, st.Way: {"words": (Words, "")},
@@ -109,7 +118,7 @@ def _kind(hint: Any, depth: int, slot: tuple[Any, str]) -> Any:
     if origin is tuple:
         return list[_kind(parts[0], depth, slot)]  # type: ignore[misc]
     if hint in (str, int, Fraction):  # numbers of actors and moments are names; a number is written in digits
-        return _WORDS.get(slot, Words)
+        return Digits if hint is Fraction else _WORDS.get(slot, Words)
     return form_of(hint, depth) if hasattr(hint, "__dataclass_fields__") else hint
 
 
@@ -135,7 +144,7 @@ def sheet() -> str:
         form: Any = form_of(part) if hasattr(part, "__dataclass_fields__") else part
         lines.append(f"\n{part.__name__}")
         for name, slot in form.model_fields.items():
-            words = [json.dumps(word) for word in _KNOWN.get((part, name), ())] or [_shown(slot.annotation)]
+            words = [json.dumps(word) for word in KNOWN.get((part, name), ())] or [_shown(slot.annotation)]
             lines.append(f"- {name}: {' | '.join(words)}. {slot.description or ''}".rstrip())
     return "\n".join(lines).strip()
 
@@ -195,44 +204,40 @@ def _object_in(text: str) -> object:
 
 
 # -- from names and words to numbers and positions ------------------------------------------------------------------
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Claim:
     """A story as a reply claims it, with what it quotes beside the quotes of the story itself."""
 
     story: st.Story
-    called: dict[int, tuple[str, ...]] = field(default_factory=dict)  # by actor, the words by which the text names it
-    ways: dict[int, st.Quote] = field(default_factory=dict)  # by actor, the stretch that tells its way
-    owned: list[tuple[Span | None, str]] = field(default_factory=list)  # what assumptions and questions quote and say
-    read: list[Span] = field(default_factory=list)  # the stretches of the readings
+    called: Mapping[int, Sequence[str]] = field(default_factory=dict)  # by actor, the words by which the text names it
+    ways: Mapping[int, st.Quote] = field(default_factory=dict)  # by actor, the stretch that tells its way
+    owned: Sequence[tuple[Span | None, str]] = ()  # what assumptions and questions quote and say
+    read: Sequence[Span] = ()  # the stretches of the readings
 
 
 def claim_of(reply: Any, text: str) -> Claim:
     """Return what a reply claims; raises TranslationError where a name is nobody's, or words are not in `text`."""
-    reader = _Reader(text, reply.story)
-    claim = Claim(reader.build(st.Story, reply.story, None))
-    for number, actor in enumerate(reply.story.actors):
-        claim.called[number] = tuple(actor.called)
-        if quote := reader.quote(actor.way.words):
-            claim.ways[number] = quote
-    for each in (*reply.story.assumptions, *reply.story.questions):
-        quote = reader.quote(each.words)
-        said = getattr(each, "says", "") or f"{each.text} {' '.join(each.alternatives)}"
-        claim.owned.append((quote.span if quote else None, said))
-    claim.read = [quote.span for each in reply.readings if (quote := reader.quote(each.words))]
+    form, reader = reply.story, _Reader(text, reply.story)
+    story = reader.part(form)
+    ways = {number: quote for number, each in enumerate(form.actors) if (quote := reader.quote(each.way.words))}
+    said = [(each.words, each.says) for each in form.assumptions]
+    said += [(each.words, f"{each.text} {' '.join(each.alternatives)}") for each in form.questions]
+    owned = [(quote.span if (quote := reader.quote(words)) else None, says) for words, says in said]
+    read = [quote.span for each in reply.readings if (quote := reader.quote(each.words))]
     if reader.faults:
         raise TranslationError(
             "the story does not hold together",
             found="; ".join(dict.fromkeys(reader.faults)),
             expected="names that are given in `actors` and `moments`, words copied letter by letter",
         )
-    return claim
+    return Claim(story, {number: each.called for number, each in enumerate(form.actors)}, ways, owned, read)
 
 
 @dataclass(slots=True)
 class _Reader:
     text: str
     form: Any
-    names: dict[str, dict[str, int]] = field(default_factory=dict)
+    names: dict[str, list[str]] = field(default_factory=dict)
     faults: list[str] = field(default_factory=list)
     said: dict[tuple[str, Span | None], int] = field(default_factory=dict)
 
@@ -240,59 +245,43 @@ class _Reader:
         if all(each.name != "start" for each in self.form.moments):
             self.form.moments.insert(0, form_of(st.Moment)(name="start"))
         for what, forms, first in (("actor", self.form.actors, "ego"), ("moment", self.form.moments, "start")):
-            names = [each.name for each in forms]
-            self.names[what] = {name: number for number, name in enumerate(names)}
-            if len(self.names[what]) < len(names) or names[:1] != [first]:
+            names = self.names[what] = [each.name for each in forms]
+            if len(set(names)) < len(names) or names[:1] != [first]:
                 self.faults.append(f"each {what} has a name of its own, and '{first}' is the first: {', '.join(names)}")
 
-    def build(self, cls: Any, form: Any, within: Span | None) -> Any:
+    def part(self, form: Any, within: Span | None = None) -> Any:
         """Return the part of the story that a form fills; `within` is the stretch that an amount is quoted from."""
-        quote = None
-        if "words" in type(form).model_fields and cls is not st.Way:
-            quote = self.quote(form.words, within if cls is st.Amount else None)
-        inner, values = quote.span if quote else None, dict[str, Any]()
-        made: dict[str, Any] = {
-            "quote": lambda: self._mention(form.called) if cls is st.Actor else quote,
-            "id": lambda: self.names["actor"][form.name],
-            "asides": lambda: tuple(filter(None, map(self.quote, form.asides))),
-            "assumptions": lambda: tuple(assumption.says for assumption in form.assumptions),
-        }
+        cls: Any = getattr(st, type(form).__name__.rstrip("0123456789"))
+        slots, made = [each.name for each in fields(cls) if each.name not in OURS.get(cls, ())], dict[str, Any]()
+        if "quote" in slots:
+            made["quote"] = self.quote(form.words, within if cls is st.Amount else None)
+        inner = quote.span if (quote := made.get("quote")) else None
+        if cls is st.Actor:
+            made |= {"id": self.names["actor"].index(form.name), "quote": self._mention(form.called)}
         if cls is st.Question:
-            made["default"] = lambda: self._default(form)
-        for each in fields(cls):
-            if each.name in made:
-                values[each.name] = made[each.name]()
-            elif each.name not in OURS.get(cls, ()):
-                values[each.name] = self._value(_hints(cls)[each.name], getattr(form, each.name), inner, each.name)
+            made["default"] = self._default(form)
         if cls is st.Amount:
             self._check_amount(form)
-        return cls(**values)
+        filled = {slot: self._value(getattr(form, slot), slot, _hints(cls)[slot], inner) for slot in slots
+                  if slot not in made}  # fmt: skip
+        return cls(**made, **filled)
 
-    def _value(self, hint: Any, value: Any, within: Span | None, slot: str) -> Any:
-        if get_origin(hint) in (Union, UnionType):
-            name = type(value).__name__.rstrip("0123456789")
-            kinds = [each for each in get_args(hint) if each is not type(None)]
-            hint = next((each for each in kinds if getattr(each, "__name__", "") == name), kinds[0])
-        if value is None:
-            return None
-        if get_origin(hint) is tuple:
-            return tuple(self._value(get_args(hint)[0], each, within, slot) for each in value)
-        if hint is int:
-            what = "actor" if slot in PEOPLE else "moment"
-            if value not in self.names[what]:
-                self.faults.append(f"there is no {what} '{value}' ({slot}); there are: {', '.join(self.names[what])}")
-            return self.names[what].get(value, 0)
-        if hint is Fraction:
-            return self._fraction(value)
-        return self.build(hint, value, within) if is_dataclass(hint) else value
-
-    def _fraction(self, digits: str) -> Fraction:
-        # No exponents: their exact value could fill the memory.
-        plain = len(digits) <= DIGITS and re.fullmatch(r"-?[0-9]+(\.[0-9]+|/0*[1-9][0-9]*)?", digits)
-        value = Fraction(digits) if plain else Fraction(0)
-        if not plain or not is_size_of_a_scenario(value):
-            self.faults.append(f"'{digits[:DIGITS]}' is no number in digits of a size that a test has")
-        return value
+    def _value(self, value: Any, slot: str, hint: Any, within: Span | None) -> Any:
+        if isinstance(value, list):
+            return tuple(self._value(each, slot, hint, within) for each in value)
+        if isinstance(value, Assumption):
+            return value.says
+        if isinstance(value, BaseModel):
+            return self.part(value, within)
+        if st.Quote in get_args(hint):
+            return self.quote(value)
+        if value is None or int not in (hint, *get_args(hint)):
+            return value
+        what = "actor" if slot in PEOPLE else "moment"
+        if value not in self.names[what]:
+            self.faults.append(f"there is no {what} '{value}' ({slot}); there are: {', '.join(self.names[what])}")
+            return 0
+        return self.names[what].index(value)
 
     def _check_amount(self, form: Any) -> None:
         unit = unit_of_name(form.name or "")
