@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from scenewright.errors import InputError, Place
 from scenewright.program.check import check_program
@@ -15,7 +16,9 @@ from scenewright.program.limits import TEXT_CHARACTERS
 from scenewright.program.types import DEFAULT_MAP, Program
 from scenewright.roads.load import load_map
 from scenewright.translate.model.settings import TranslatorSettings
-from scenewright.translate.understand import OFFLINE, Understanding, understand
+
+if TYPE_CHECKING:
+    from scenewright.translate.understand import Understanding
 
 
 def read_scenario(
@@ -55,6 +58,8 @@ def read_scenario(
 def _understanding(
     text: str, name: str, translator: str, map_name: str | None, settings: TranslatorSettings
 ) -> Understanding:
+    from scenewright.translate.understand import OFFLINE, understand  # a program needs no reader
+
     on = load_map(map_name) if map_name else None
     if translator != OFFLINE:
         from scenewright.translate.model.choose import model_named
