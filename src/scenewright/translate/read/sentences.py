@@ -122,6 +122,9 @@ class _Sentence:
             if rest or does:
                 story.refuse("it is not said what is done")
             return
+        acts = next((at for at, each in enumerate(items) if each.deed), 0)
+        if when is not None and not any(each.is_event for each in items[:acts]):
+            when, items = [*when, *items[:acts]], items[acts:]  # "when ..., the hero is 20 m before it and brakes"
         first = items[0] if items else Clause(story.quote)
         tells_time = any(each.link in _ORDERS for each in rest) or "after the start" in first.times
         # "The hero begins to brake 2 s after ..." speaks of a deed that was told before.
