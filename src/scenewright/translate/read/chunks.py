@@ -80,7 +80,8 @@ class Vocabulary:
 def vocabulary() -> Vocabulary:
     """Return the words of the domain."""
     table = tomllib.loads(files("scenewright.translate.read").joinpath("words.toml").read_text(encoding="utf-8"))
-    units = {word: symbol for symbol, said in table.pop("unit").items() for word in said.split(" | ")}
+    units = {symbol: symbol for symbol in UNITS}
+    units |= {word: symbol for symbol, said in table.pop("unit").items() for word in said.split(" | ")}
     numbers = {word: Fraction(number) for number, word in enumerate(_NUMBERS.split())}
     numbers |= {word: Fraction(10 * tens) for tens, word in enumerate(_TENS.split(), start=2)}
     lookalikes = frozenset(table.pop("lookalike")["words"].split())
