@@ -20,8 +20,9 @@ from scenewright.program.linear import Linear, linear
 from scenewright.program.structure import knots_of, read_structure, synchronised
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
-from scenewright.translate.compile import COMPASS, PIECES, TURNS, UNNAMED, amounts_of, kind_of
-from scenewright.translate.measures import difference, measure_of, right_side, untold
+from scenewright.translate.compile import PIECES, TURNS, UNNAMED, amounts_of, kind_of, route_of
+from scenewright.translate.measures import difference, measure_of, right_side
+from scenewright.translate.phrases import untold
 
 _VERBS = {piece: verb for verb, piece in PIECES.items()}
 Key = tuple[int, str]
@@ -47,14 +48,9 @@ def way_of(route: pt.RouteSpec) -> st.Way:
     match route:
         case pt.LanesRoute(lanes=lanes):
             return st.Way(lanes=lanes)
-        case pt.HeadingsRoute(headings=(heading,)):
-            return st.Way(heading=heading, turn="straight")
-        case pt.HeadingsRoute(headings=(first, second) as headings):
-            turned = (COMPASS.index(second) - COMPASS.index(first)) % 4
-            turn = next((name for name, quarters in TURNS.items() if quarters == turned and quarters), None)
-            return st.Way(heading=first, turn=turn) if turn else st.Way(headings=headings)
         case pt.HeadingsRoute(headings=headings):
-            return st.Way(headings=headings)
+            short = (st.Way(heading=headings[0], turn=turn) for turn in TURNS)
+            return next((each for each in short if route_of(each) == route), st.Way(headings=headings))
         case pt.IntentRoute():
             return st.Way(route.origin, route.origin_heading, route.turn, route.destination, route.destination_heading)
 

@@ -12,7 +12,8 @@ from fractions import Fraction
 from typing import TypeGuard
 
 from scenewright.errors import TranslationError
-from scenewright.program.expressions import LANDMARKS
+from scenewright.program.expressions import LANDMARKS, Node
+from scenewright.program.printer import print_expression
 from scenewright.program.types import EGO, PieceKind
 from scenewright.translate import story as st
 from scenewright.translate.compile import PIECES
@@ -53,13 +54,15 @@ def does(piece: PieceKind, before: int = 0) -> str:
     return f"{verb} for the {ORDINALS[before]} time" if 0 < before < len(ORDINALS) else verb
 
 
+_BY_HAND = "write it as a program: see docs/program.md"
 # What to do about words that are not understood: there is a sentence for everything, and models read the others.
 OTHERWISE = "say it in plainer words, as in docs/english.md, or let a model read it: --translator PROVIDER:NAME"
 
 
-def untold(what: str) -> TranslationError:
-    """Return the error for a story that the controlled English has no words for."""
-    return TranslationError(f"there are no words yet for {what}", fix="write it as a program: see docs/program.md")
+def untold(what: str, fix: str = _BY_HAND, of: Node | None = None) -> TranslationError:
+    """Return the error for what a story, or the controlled English, has no words for; `of` a program."""
+    found = None if of is None else print_expression(of)
+    return TranslationError(f"{what} cannot be told in words yet", found=found, fix=fix)
 
 
 def amount(of: st.Amount) -> str:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from fractions import Fraction
 
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
@@ -52,7 +51,7 @@ def _attach(taken: Taken) -> None:
         if target.place is None and target.other is None:
             target.other = taken.people.whom(target.chunk, clause.subject)
     if "stands" in taken.states:
-        taken.measure(last, st.Measure(IT, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s")))
+        taken.measure(last, st.standstill(IT))
     for name in sorted(taken.states & {"turn_start", "turn_end"}):
         taken.measure(last, st.Measure(IT, st.Quantity.PLACE, "==", None, st.Place(name)))
     for at, op, chunk in taken.amounts:

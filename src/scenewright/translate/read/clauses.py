@@ -157,7 +157,7 @@ class Taken:
             case "ordinal":
                 clause.ordinal = int(value)
             case "standstill" | "open" | "kept" | "order" | "yields" | "insists":
-                clause.flags.add("standstill" if chunk.kind == "standstill" else value)
+                clause.flags.add(value)
             case "link" if value == "start":
                 clause.flags.add("start")
             case "relation" if value in ("ahead", "behind") and self.peek(-1)[0] == "amount":

@@ -129,7 +129,7 @@ class Narrative(Cast):
             if item.is_event and "has" in item.notes:  # "once the ego has passed it": then, or sooner
                 item.measures = [replace(each, op=">=") for each in item.measures]
             if until is not None and (item.deed, item.subject) == ("stop", until):  # "until it comes to a stop"
-                item.deed, item.measures = None, [standstill(until), *item.measures]
+                item.deed, item.measures = None, [st.standstill(until), *item.measures]
         events = [item for item in items if item.deed is not None]
         conditions = self.conditions([item for item in items if item not in events], "times")
         if not conditions and not any(each.deed or each.times for each in items):
@@ -225,7 +225,7 @@ class Narrative(Cast):
         if before is None:
             moment = self.new_moment() if moment is None and "then" in leads else moment
             if moment is not None and moment != st.START:
-                waits = verb != st.Verb.BRAKE and standstill(actor) in self.conditions_at[st.START]
+                waits = verb != st.Verb.BRAKE and st.standstill(actor) in self.conditions_at[st.START]
                 first = st.Verb.STAND if waits else st.Verb.DRIVE
                 self.doings.append(Doing(actor, first, st.START, moment, quote=self.quote))
                 self.assumptions += [f"{self.actor(actor).name} stands still until then"] * waits
@@ -240,7 +240,7 @@ class Narrative(Cast):
     def _go_on(self, before: Doing, verb: str, moment: int | None, leads: set[str]) -> int:
         """Return where a deed begins after one whose end is known; what lies between is standing or driving on."""
         assert before.ends is not None
-        stands = standstill(before.actor) in self.conditions_at[before.ends]
+        stands = st.standstill(before.actor) in self.conditions_at[before.ends]
         waits = (
             stands
             and verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)
@@ -266,8 +266,3 @@ class Narrative(Cast):
 def steady(actor: int, quote: st.Quote) -> st.Measure:
     """Return that somebody keeps its speed, whichever that is."""
     return st.Measure(actor, st.Quantity.RATE, "==", st.Amount(Fraction(0), "m/s^2"), quote=quote)
-
-
-def standstill(actor: int) -> st.Measure:
-    """Return that somebody stands."""
-    return st.Measure(actor, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s"))

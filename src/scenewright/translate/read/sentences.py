@@ -18,7 +18,7 @@ from scenewright.translate.read.chunks import Chunk, sentences
 from scenewright.translate.read.clauses import PEOPLE, Clause
 from scenewright.translate.read.items import Segment, items_of, parted, segments_of
 from scenewright.translate.read.labels import take_labels
-from scenewright.translate.read.narrative import COURTESIES, Doing, Narrative, standstill, steady
+from scenewright.translate.read.narrative import COURTESIES, Doing, Narrative, steady
 
 _ORDERS = ("before", "after", "no later than")
 _HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
@@ -281,7 +281,7 @@ class _Sentence:
     def _shares(self, clause: Clause) -> tuple[list[st.Measure], list[st.Measure], list[st.Measure]]:
         """Return what a deed's own clause says of its beginning, of the deed throughout, and of its end."""
         rests = clause.deed == "stop" or "standstill" in clause.flags
-        begins, held, ends = list[st.Measure](), list[st.Measure](), [standstill(clause.subject or EGO)][: int(rests)]
+        begins, held, ends = list[st.Measure](), list[st.Measure](), [st.standstill(clause.subject or EGO)] * rests
         for measure in clause.measures:
             fast = measure.quantity is st.Quantity.SPEED
             if rests and measure.quantity is st.Quantity.ARRIVAL:
@@ -307,7 +307,7 @@ class _Sentence:
         elif ends:
             doing.ends = story.new_moment(ends)
         elif doing.verb == st.Verb.BRAKE and "while" not in clause.flags and doing.duration is None:
-            doing.ends = story.new_moment([standstill(doing.actor)])
+            doing.ends = story.new_moment([st.standstill(doing.actor)])
             story.assumptions.append(f"{story.actor(doing.actor).name} brakes to a standstill")
         if doing.ends is not None:
             story.ego_comes(doing.ends)
