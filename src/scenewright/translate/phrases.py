@@ -14,7 +14,7 @@ from typing import TypeGuard
 from scenewright.errors import TranslationError
 from scenewright.program.expressions import LANDMARKS, Node
 from scenewright.program.printer import print_expression
-from scenewright.program.types import EGO, PieceKind
+from scenewright.program.types import PieceKind
 from scenewright.translate import story as st
 from scenewright.translate.compile import PIECES
 from scenewright.units import format_fraction
@@ -199,11 +199,6 @@ class Phrases:
             way.destination_heading and f"is then headed {COMPASS_WORDS[way.destination_heading]}",
         )
         return listed([each for each in parts if each] or ["has an open way"])
-
-
-def speaks_of_ego(conditions: Sequence[st.Condition]) -> bool:
-    """Whether something is asked of the ego."""
-    return any(EGO in st.people_in(condition) for condition in conditions)
 
 
 def _is_where(condition: st.Condition, actor: int) -> TypeGuard[st.Measure]:

@@ -13,7 +13,6 @@ from fractions import Fraction
 from scenewright.program.manner import USUAL, Manner
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.translate import story as st
-from scenewright.translate.phrases import speaks_of_ego
 from scenewright.translate.read.cast import Cast
 from scenewright.translate.read.clauses import Clause
 
@@ -40,7 +39,7 @@ class Narrative(Cast):
     conditions_at: list[list[st.Condition]] = field(default_factory=lambda: [[]])  # by moment
     times: dict[int, st.Amount] = field(default_factory=dict)
     quotes: list[st.Quote | None] = field(default_factory=lambda: [None])
-    ego: list[int] = field(default_factory=list)
+    ego: tuple[int, ...] | None = None  # the moments that it comes through, where a text lists them
     doings: list[Doing] = field(default_factory=list)
     orders: list[st.Order] = field(default_factory=list)
     holds: list[st.Hold] = field(default_factory=list)
@@ -66,16 +65,25 @@ class Narrative(Cast):
                 doing.ends = self.new_moment()
             if doing.duration is not None:
                 self.orders.append(st.Order(doing.begins, doing.ends, *doing.duration, doing.quote))
-        return st.Story(
+        story = st.Story(
             tuple(sorted(self.actors, key=lambda actor: actor.id)),
             tuple(st.Moment(tuple(own), self.times.get(number), self.quotes[number])
                   for number, own in enumerate(self.conditions_at)),
-            tuple(self.ego),
+            (),
             tuple(st.Deed(each.actor, each.verb, each.begins, each.ends or st.START, tuple(each.throughout), each.quote)
                   for each in self.doings),
             tuple(self.orders), tuple(self.holds), tuple(self.parameters), self.manner, self.map_name, self.title,
-            tuple(self.asides), tuple(self.assumptions), tuple(self.questions),
+            tuple(self.asides), tuple(self.assumptions),
         )  # fmt: skip
+        ego = st.comes_through(story, range(len(story.moments)), self._ego_comes) if self.ego is None else self.ego
+        return replace(story, ego=ego, questions=tuple(self.questions))
+
+    def _ego_comes(self, moment: int) -> bool:
+        """Ask whether the ego comes through a moment after those that were told before."""
+        quote = self.quotes[moment] or self.quote
+        later, either = "it comes after the ego's moments that were told before", "it may come before or after them"
+        asked = f"How does this moment lie to the ego's others: {quote.text}"
+        return self.ask(f"ego {quote.start}", asked, [either, later], 0, quote) == later
 
     def _check(self, who: int | None, courtesy: str, quote: st.Quote) -> None:
         """Refuse a courtesy that no deed bears out."""
@@ -175,8 +183,7 @@ class Narrative(Cast):
             return moment
         if clause.subject != EGO:
             self.refuse("nothing was told of this event before", clause.quote)
-        self.ego.append(self.new_moment(clause.measures))
-        return self.ego[-1]
+        return self.new_moment(clause.measures)
 
     def tell(self, clause: Clause) -> None:
         """Take what a clause says of somebody's way, and leave the rest."""
@@ -198,24 +205,6 @@ class Narrative(Cast):
     def is_owned(self, moment: int) -> bool:
         """Whether somebody begins or ends a deed at a moment."""
         return any(moment in self.knots(actor.id) for actor in self.actors)
-
-    def ego_comes(self, moment: int) -> None:
-        """Note that the ego comes through a moment that asks something of it, after those that were told before."""
-        owned = self.is_owned(moment)
-        timed = moment in self.times and not owned
-        if moment in self.ego or moment == st.START or timed or not speaks_of_ego(self.conditions_at[moment]):
-            return
-        if owned and self.ego and not any({self.ego[-1], moment} <= self.knots(actor.id) for actor in self.actors):
-            later, either = "it comes after the ego's moments that were told before", "it may come before or after them"
-            asked = f"How does this moment lie to the ego's others: {self.quote.text}"
-            if self.ask(f"ego {self.quote.start}", asked, [either, later], 0, self.quote) == either:
-                return
-        self.ego.append(moment)
-
-    def ego_order(self, moments: list[int]) -> None:
-        """Take the moments that the ego comes through, as a text lists them: nothing is open about them."""
-        self.ego = moments
-        self.questions = [each for each in self.questions if not each.slot.startswith("ego ")]
 
     def begin(self, actor: int, verb: str, moment: int | None, leads: set[str]) -> Doing:
         """Let somebody begin a deed at a moment, or where the last one ended."""

@@ -140,7 +140,6 @@ class _Sentence:
             if moment not in story.times and not story.is_owned(moment):
                 story.pending = moment
             story.add(moment, story.conditions(items))
-            story.ego_comes(moment)
             self._orders(moment, rest)
         elif tells_time:
             if len(items) > 1:
@@ -218,7 +217,7 @@ class _Sentence:
         elif "meanwhile" in self.leads and story.doings and len(measures) == len(conditions):
             story.doings[-1].throughout += measures
         elif "later" in self.leads:
-            story.ego.append(story.new_moment(conditions))
+            story.new_moment(conditions)
         elif "start" in self.leads or not (story.doings or self.leads - {"meanwhile"}):
             story.add(st.START, conditions)
         else:
@@ -258,7 +257,6 @@ class _Sentence:
         doing = story.begin(clause.subject, verb, moment, self.leads)
         story.subject = clause.subject
         story.add(doing.begins, begins)
-        story.ego_comes(doing.begins)
         doing.throughout += [*held, *([clause.rate] if clause.rate else [])]
         rests = clause.deed == "stop" or "standstill" in clause.flags
         doing.duration = None if rests else clause.times.get("for")
@@ -309,8 +307,6 @@ class _Sentence:
         elif doing.verb == st.Verb.BRAKE and "while" not in clause.flags and doing.duration is None:
             doing.ends = story.new_moment([st.standstill(doing.actor)])
             story.assumptions.append(f"{story.actor(doing.actor).name} brakes to a standstill")
-        if doing.ends is not None:
-            story.ego_comes(doing.ends)
 
     def _event_of(self, chunks: list[Chunk]) -> int:
         """Return the moment of the one event that chunks tell."""
@@ -361,4 +357,4 @@ class _Sentence:
                 events.append([])
             elif chunk.kind not in ("comma", "nothing"):
                 events[-1].append(chunk)
-        self.story.ego_order([self._event_of(chunks) for chunks in events if chunks])
+        self.story.ego = tuple(self._event_of(chunks) for chunks in events if chunks)
