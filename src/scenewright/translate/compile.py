@@ -76,11 +76,6 @@ def route_of(way: st.Way) -> pt.RouteSpec:
     return pt.IntentRoute(way.origin, way.turn, way.destination, way.heading, way.destination_heading)  # type: ignore[arg-type]
 
 
-def kind_of(name: str) -> str:
-    """Return what somebody is by the name alone; a program says no more."""
-    return name if name in DRIVEN else "car"
-
-
 def refused(what: str, fix: str, quote: st.Quote | None = None) -> TranslationError:
     """Return the error that names what the program language does not know, and the nearest thing that it does."""
     return TranslationError(f"{what} cannot be said in a program yet", found=quote.text if quote else None, fix=fix)
@@ -184,10 +179,9 @@ class _Compiler:
             return None
         if actor in self.story.owners(moment):
             return ex.Knot(self._knot(actor, moment))
-        instant = self._instant(moment)
-        return instant if isinstance(instant, ex.Elapsed | ex.Number) else None
+        return self._instant(moment)
 
-    def _instant(self, moment: int) -> ex.Term:
+    def _instant(self, moment: int) -> ex.Elapsed | ex.Number:
         owners = self.story.owners(moment)
         if owners:
             return ex.Elapsed(owners[-1], self._knot(owners[-1], moment))

@@ -20,7 +20,7 @@ from scenewright.program.linear import Linear, linear
 from scenewright.program.structure import knots_of, read_structure, synchronised
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
-from scenewright.translate.compile import PIECES, TURNS, UNNAMED, amounts_of, kind_of, route_of
+from scenewright.translate.compile import DRIVEN, PIECES, TURNS, UNNAMED, amounts_of, route_of
 from scenewright.translate.measures import difference, measure_of, right_side
 from scenewright.translate.phrases import untold
 
@@ -97,8 +97,8 @@ class Decompiled:
             raise untold("actors that are not numbered one after the other", "number them 0, 1, 2")
         taken = dict.fromkeys(each for own in self.taken.values() for _, each in own)
         story = st.Story(
-            tuple(st.Actor(each.id, "ego" if each.is_ego else each.name, way_of(each.route), kind_of(each.name))
-                  for each in program.actors),
+            tuple(st.Actor(each.id, "ego" if each.is_ego else each.name, way_of(each.route),
+                           each.name if each.name in DRIVEN else "car") for each in program.actors),
             tuple(st.Moment(tuple(dict.fromkeys(own)), self._times.get(number))
                   for number, own in enumerate(self._conditions)),
             tuple(self.moment_of[EGO, knot] for knot in program.ego.sketch.knots[1:] if (EGO, knot) in self.moment_of),
@@ -211,7 +211,6 @@ class Decompiled:
         moment = instants[0][0] if instants else st.START
         return st.Point(moment) if offset.value == 0 else st.Point(moment, offset, earlier)
 
-    # -- conditions ---------------------------------------------------------------------------------------------------
     def _condition(self, formula: ex.Formula) -> st.Condition:
         match formula:
             case ex.Compare():
@@ -225,7 +224,6 @@ class Decompiled:
             case ex.Temporal():
                 raise untold("an interval inside another condition", "ask for it by itself", formula)
 
-    # -- moments and amounts ------------------------------------------------------------------------------------------
     def _moments_in(self, formula: ex.Formula) -> set[int]:
         states = (node for node in ex.walk(formula) if isinstance(node, ex.State | ex.Derived))
         return {self._moment(state.actor, state.at) for state in states if state.at is not None}

@@ -90,7 +90,6 @@ def _place(landmark: ex.Landmark, actor: int, program: pt.Program) -> st.Place:
     return st.Place(landmark.name, None if owner == actor else owner, None if usual else landmark.other)
 
 
-# -- amounts --------------------------------------------------------------------------------------------------------
 def difference(compare: ex.Compare) -> Linear:
     """Return what a comparison holds against zero."""
     return linear(compare.left).minus(linear(compare.right))

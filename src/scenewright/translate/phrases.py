@@ -39,13 +39,7 @@ DOES: dict[str, tuple[str, str, str]] = {
 }
 NO_GAP = st.Amount(Fraction(0), "m")
 ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
-_WITHOUT_AMOUNT: dict[st.Operator, tuple[str, str]] = {  # of a place, and of a speed beside that of somebody else
-    "==": ("is at", "as fast as"),
-    ">=": ("is at or past", "at least as fast as"),
-    ">": ("is past", "faster than"),
-    "<=": ("is at or before", "at most as fast as"),
-    "<": ("is before", "slower than"),
-}
+SIDES: dict[st.Operator, str] = {"==": "at", ">=": "at or past", ">": "past", "<=": "at or before", "<": "before"}
 
 
 def does(piece: PieceKind, before: int = 0) -> str:
@@ -160,7 +154,8 @@ class Phrases:
             case st.Quantity.SPEED if measure.other is not None:
                 whom = self.name(measure.other)
                 if measure.amount is None:
-                    return f"drives {_WITHOUT_AMOUNT[measure.op][1]} {whom}"
+                    fast = {">": "faster than", "<": "slower than"}.get(measure.op, f"{BOUNDS[measure.op]}as fast as")
+                    return f"drives {fast} {whom}"
                 return f"drives {bound} {'slower' if measure.opposite else 'faster'} than {whom}"
             case st.Quantity.SPEED:
                 if measure == st.standstill(measure.actor):
@@ -182,7 +177,8 @@ class Phrases:
             return f"is {bound} {'past' if measure.opposite else 'before'} {self.place(place)}"
         if measure.op == "==" and place in TURNING:
             return TURNING[place]
-        return f"{'passes' if passing and measure.op == '==' else _WITHOUT_AMOUNT[measure.op][0]} {self.place(place)}"
+        does = "passes" if passing and measure.op == "==" else f"is {SIDES[measure.op]}"
+        return f"{does} {self.place(place)}"
 
     def way(self, way: st.Way) -> str:
         """Return how somebody drives."""
@@ -203,6 +199,6 @@ class Phrases:
 
 def _is_where(condition: st.Condition, actor: int) -> TypeGuard[st.Measure]:
     """Whether a condition puts somebody at one place, which is not an event of its turn."""
-    if not isinstance(condition, st.Measure) or condition.quantity is not st.Quantity.PLACE or condition.op != "==":
+    if not isinstance(condition, st.Measure) or (condition.amount is None and condition.place in TURNING):
         return False
-    return condition.actor == actor and not (condition.amount is None and condition.place in TURNING)
+    return (condition.actor, condition.quantity, condition.op) == (actor, st.Quantity.PLACE, "==")

@@ -12,7 +12,6 @@ from itertools import pairwise
 from scenewright.program.manner import NUMBERS, unit_of
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.translate import story as st
-from scenewright.translate.compile import amounts_of
 from scenewright.translate.phrases import DOES, ORDINALS, Phrases, amount, bounded, listed, sentence, untold
 from scenewright.units import SI_SYMBOL, format_fraction
 
@@ -92,9 +91,6 @@ class Teller:
                 self._say(f"Manner: {name} is {format_fraction(value)} {SI_SYMBOL[unit_of(name).dimension]}.")
 
     def _parameter(self, parameter: Parameter) -> None:
-        """Tell a parameter of which more is known than the amounts that go by its name."""
-        if parameter == Parameter(parameter.name) and parameter.name in {each.name for each in amounts_of(self.story)}:
-            return
         unit = parameter.unit.symbol
         text = f"{parameter.name} is "
         text += "open" if parameter.value is None else f"{format_fraction(parameter.value)} {unit}"
@@ -130,7 +126,6 @@ class Teller:
     def _is_of_deeds(self, moment: int) -> bool:
         return any(moment in (deed.begins, deed.ends) for deed in self.story.deeds)
 
-    # -- moments ------------------------------------------------------------------------------------------------------
     def _pure(self, moment: int) -> None:
         """Tell a moment at which nobody begins or ends a deed."""
         conditions, time = self.story.moments[moment].conditions, self.story.moments[moment].time
@@ -178,7 +173,6 @@ class Teller:
                     self._say(f"When {self.event(moment)}, {self.phrases.clause(each)}.", each)
         self.fresh.clear()
 
-    # -- deeds --------------------------------------------------------------------------------------------------------
     def _deed(self, deed: st.Deed) -> None:
         chain = self.story.deeds_of(deed.actor)
         index = chain.index(deed)
@@ -229,7 +223,6 @@ class Teller:
         at_rest = st.standstill(deed.actor) in self.story.moments[deed.begins].conditions
         return "Then at once " if moving and at_rest else "Then ", False
 
-    # -- events, orders, holds ----------------------------------------------------------------------------------------
     def event(self, moment: int) -> str:
         """Return the words that a moment is known by."""
         conditions = self.story.moments[moment].conditions

@@ -11,13 +11,12 @@ from dataclasses import replace
 
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
+from scenewright.translate.phrases import SIDES
 from scenewright.translate.read.cast import Cast
 from scenewright.translate.read.chunks import Chunk
 from scenewright.translate.read.clauses import IT, Clause, Taken, Target
 
-_BARE: dict[str, st.Operator] = {  # a side and a place, without an amount
-    "at": "==", "to": "==", "at or past": ">=", "past": ">", "at or before": "<=", "before": "<", "behind": "<",
-}  # fmt: skip
+_BARE = {side: op for op, side in SIDES.items()} | {"to": "==", "behind": "<"}  # a side and a place, without an amount
 _TO_PLACE = ("before", "behind", "from", "to", "ahead", "of")
 # What is asked for, by whether the amount is a time; and the sides on which the other one may stand.
 _TO_ACTOR = {

@@ -66,7 +66,7 @@ class Narrative(Cast):
             if doing.duration is not None:
                 self.orders.append(st.Order(doing.begins, doing.ends, *doing.duration, doing.quote))
         story = st.Story(
-            tuple(sorted(self.actors, key=lambda actor: actor.id)),
+            tuple(self.actors[number] for number in sorted(self.actors)),
             tuple(st.Moment(tuple(own), self.times.get(number), self.quotes[number])
                   for number, own in enumerate(self.conditions_at)),
             (),
@@ -198,13 +198,9 @@ class Narrative(Cast):
             self.driving.add(clause.subject)
         clause.facts, clause.relations, clause.flags = {}, [], clause.flags - {"way", "headed"}
 
-    def knots(self, actor: int) -> set[int | None]:
-        """Return the moments at which somebody begins or ends a deed."""
-        return {each for doing in self.doings if doing.actor == actor for each in (doing.begins, doing.ends)}
-
     def is_owned(self, moment: int) -> bool:
         """Whether somebody begins or ends a deed at a moment."""
-        return any(moment in self.knots(actor.id) for actor in self.actors)
+        return any(moment in (doing.begins, doing.ends) for doing in self.doings)
 
     def begin(self, actor: int, verb: str, moment: int | None, leads: set[str]) -> Doing:
         """Let somebody begin a deed at a moment, or where the last one ended."""

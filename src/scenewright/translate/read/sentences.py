@@ -201,7 +201,8 @@ class _Sentence:
             story.tell(item)
             if item.subject is not None:
                 story.subject = item.subject
-                if "kept" in item.flags and story.knots(item.subject):  # "brakes and keeps its speed"
+                acts = any(doing.actor == item.subject for doing in story.doings)
+                if "kept" in item.flags and acts:  # "brakes and keeps its speed"
                     story.refuse("it is not clear when a speed is kept", item.quote, "say it before what is done")
                 story.kept += [(item.subject, item.quote)] * ("kept" in item.flags)
                 item.flags -= {"kept"}
