@@ -15,7 +15,6 @@ from scenewright.program import expressions as ex
 from scenewright.program import types as pt
 from scenewright.program.arithmetic import combine, negate
 from scenewright.program.check import check_program
-from scenewright.program.types import EGO
 from scenewright.translate import story as st
 from scenewright.translate.stretches import clause_around
 
@@ -91,7 +90,7 @@ def _check_known(story: st.Story) -> None:
     for deed in story.deeds:
         if deed.verb not in set(st.Verb):
             raise refused(f"'{deed.verb}'", f"what somebody may do: {', '.join(st.Verb)}", deed.quote)
-        if deed.actor == EGO:
+        if deed.actor == pt.EGO:
             raise refused("a deed of the ego", "the policy under test drives it; say what the others do", deed.quote)
     for hero in story.heroes:
         own = [deed for deed in story.deeds if deed.actor == hero.id]
@@ -108,10 +107,10 @@ def amounts_of(story: st.Story) -> list[st.Amount]:
 def _sketch(story: st.Story, actor: int) -> pt.Sketch:
     knots = story.knots_of(actor)
     pieces = [pt.PieceKind.GO] * (len(knots) - 1)
-    if actor != EGO:
+    if actor != pt.EGO:
         pieces = [PIECES[st.Verb(deed.verb)] for deed in story.deeds_of(actor)]
     # The ego, and whoever does nothing of its own, drives on after the last moment that it shares.
-    if not pieces or (actor == EGO and len(story.owners(knots[-1])) > 1):
+    if not pieces or (actor == pt.EGO and len(story.owners(knots[-1])) > 1):
         pieces.append(pt.PieceKind.GO)
     return pt.Sketch(tuple(f"t{number}" for number in range(len(pieces) + 1)), tuple(pieces))
 

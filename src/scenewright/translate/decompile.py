@@ -18,7 +18,6 @@ from scenewright.program import expressions as ex
 from scenewright.program import types as pt
 from scenewright.program.linear import Linear, linear
 from scenewright.program.structure import knots_of, read_structure, synchronised
-from scenewright.program.types import EGO
 from scenewright.translate import story as st
 from scenewright.translate.compile import DRIVEN, PIECES, TURNS, UNNAMED, amounts_of, route_of
 from scenewright.translate.measures import difference, measure_of, right_side
@@ -101,7 +100,7 @@ class Decompiled:
                            each.name if each.name in DRIVEN else "car") for each in program.actors),
             tuple(st.Moment(tuple(dict.fromkeys(own)), self._times.get(number))
                   for number, own in enumerate(self._conditions)),
-            tuple(self.moment_of[EGO, knot] for knot in program.ego.sketch.knots[1:] if (EGO, knot) in self.moment_of),
+            tuple(moment for (actor, _), moment in self.moment_of.items() if actor == pt.EGO and moment != st.START),
             tuple(self._deeds()),
             tuple(each for each in taken if isinstance(each, st.Order) and each != self._fixed(each.second)),
             tuple(each for each in taken if isinstance(each, st.Hold)),
@@ -174,7 +173,7 @@ class Decompiled:
         sketch = self.program.actor(piece.actor).sketch
         index = sketch.piece_index(piece.at.name)
         measure = measure_of(ex.with_state(compare, piece, replace(piece, at=None)), self.program)
-        if piece.actor == EGO or measure is None or measure.other is not None:
+        if piece.actor == pt.EGO or measure is None or measure.other is not None:
             raise untold("this condition on a piece", "ask for it from one moment until another", compare)
         measure = replace(measure, quote=self._quote)
         if sketch.pieces[index] is not pt.PieceKind.STOP or measure != st.standstill(piece.actor):

@@ -28,20 +28,11 @@ def read_scenario(
 ) -> tuple[Program, Understanding | None]:
     """Return the program that `source` stands for: a file (`.txt`, `.scene`), a description, or the text of a program.
 
-    Parameters
-    ----------
-    translator
-        ``auto`` (the model that is configured, else offline), ``offline``, ``PROVIDER:MODEL`` or ``files:DIR``; asked
-        only where `source` is a description.
-    map_name
-        The map that a description is about; the one that it names, or the T intersection that is shipped, where None.
-    settings
-        What a translator may do and has to keep; defaults where None.
+    A description is read by `translator`: ``auto`` (the model that is configured, else offline), ``offline``,
+    ``PROVIDER:MODEL`` or ``files:DIR``. It is about the map `map_name`; where that is None about the one that it names,
+    or the T intersection that is shipped. `settings` say what a translator may do and has to keep.
 
-    Raises
-    ------
-    TranslationError, ProgramError, InputError, MapError
-        Where it cannot be read or understood.
+    Raises `TranslationError`, `ProgramError`, `InputError` or `MapError` where it cannot be read or understood.
     """
     text, name = text_of(source)
     if is_program(text):
@@ -50,16 +41,10 @@ def read_scenario(
         program = parse_program(text, name)
         check_program(program, text, name)
         return program, None
-    understanding = _understanding(text, name, translator, map_name, settings or TranslatorSettings())
-    return understanding.program, understanding
-
-
-def _understanding(
-    text: str, name: str, translator: str, map_name: str | None, settings: TranslatorSettings
-) -> Understanding:
     check_description(text, name)
+    settings = settings or TranslatorSettings()
     read = partial(understand, text, strict=settings.strict, name=name, ask=settings.ask)
-    on = load_map(map_name) if map_name else None
+    on, found = load_map(map_name) if map_name else None, None
     if translator != OFFLINE:
         from scenewright.translate.model.choose import model_named
 
@@ -71,8 +56,9 @@ def _understanding(
             open_ones = {slot: answer for slot, answer in settings.answers.items() if slot not in told.answers}
             found = read(on, open_ones, read_with=lambda _: told.story)
             answers = {**told.answers, **found.answers}
-            return replace(found, translator=model.name, notes=told.notes, answers=answers)
-    return read(on, settings.answers)
+            found = replace(found, translator=model.name, notes=told.notes, answers=answers)
+    found = found or read(on, settings.answers)
+    return found.program, found
 
 
 def is_program(text: str) -> bool:

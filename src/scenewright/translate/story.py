@@ -271,9 +271,9 @@ class Story:
         own = {deed.begins: deed for deed in self.deeds if deed.actor == actor}
         chain: list[Deed] = []
         at = START
-        while at in own and len(chain) < len(own):
-            chain.append(own[at])
-            at = own[at].ends
+        while (deed := own.pop(at, None)) is not None:
+            chain.append(deed)
+            at = deed.ends
         return tuple(chain)
 
     def knots_of(self, actor: int) -> tuple[int, ...]:
@@ -307,11 +307,9 @@ def standstill(actor: int) -> Measure:
     return Measure(actor, Quantity.SPEED, "==", Amount(Fraction(0), "m/s"))
 
 
-def is_event(condition: Condition) -> TypeGuard[Measure]:
+def is_event(each: Condition) -> TypeGuard[Measure]:
     """Whether a condition is that somebody comes to a place: nobody drives backwards, so it happens once."""
-    if not isinstance(condition, Measure):
-        return False
-    return condition.quantity is Quantity.PLACE and condition.op == "==" and condition.amount is None
+    return isinstance(each, Measure) and (each.quantity, each.op, each.amount) == (Quantity.PLACE, "==", None)
 
 
 def people_in(condition: Condition) -> set[int]:

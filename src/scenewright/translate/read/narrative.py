@@ -36,9 +36,7 @@ class Doing:
 class Narrative(Cast):
     """The story so far."""
 
-    conditions_at: list[list[st.Condition]] = field(default_factory=lambda: [[]])  # by moment
-    times: dict[int, st.Amount] = field(default_factory=dict)
-    quotes: list[st.Quote | None] = field(default_factory=lambda: [None])
+    moments: list[st.Moment] = field(default_factory=lambda: [st.Moment()])
     ego: tuple[int, ...] | None = None  # the moments that it comes through, where a text lists them
     doings: list[Doing] = field(default_factory=list)
     orders: list[st.Order] = field(default_factory=list)
@@ -67,8 +65,7 @@ class Narrative(Cast):
                 self.orders.append(st.Order(doing.begins, doing.ends, *doing.duration, doing.quote))
         story = st.Story(
             tuple(self.actors[number] for number in sorted(self.actors)),
-            tuple(st.Moment(tuple(own), self.times.get(number), self.quotes[number])
-                  for number, own in enumerate(self.conditions_at)),
+            tuple(self.moments),
             (),
             tuple(st.Deed(each.actor, each.verb, each.begins, each.ends or st.START, tuple(each.throughout), each.quote)
                   for each in self.doings),
@@ -80,7 +77,7 @@ class Narrative(Cast):
 
     def _ego_comes(self, moment: int) -> bool:
         """Ask whether the ego comes through a moment after those that were told before."""
-        quote = self.quotes[moment] or self.quote
+        quote = self.moments[moment].quote or self.quote
         later, either = "it comes after the ego's moments that were told before", "it may come before or after them"
         asked = f"How does this moment lie to the ego's others: {quote.text}"
         return self.ask(f"ego {quote.start}", asked, [either, later], 0, quote) == later
@@ -99,24 +96,27 @@ class Narrative(Cast):
             if actor == EGO or first is not None:
                 self.refuse("it is not clear until when a speed is kept", quote)
             first = self.begin(actor, st.Verb.DRIVE, None, set())
-        speeds = [each for each in self.conditions_at[st.START] if isinstance(each, st.Measure) and each.actor == actor
-                  and (each.quantity, each.op, each.other) == (st.Quantity.SPEED, "==", None)]  # fmt: skip
+        own = (
+            each for each in self.moments[st.START].conditions if isinstance(each, st.Measure) and each.actor == actor
+        )
+        speeds = [each for each in own if (each.quantity, each.op, each.other) == (st.Quantity.SPEED, "==", None)]
         first.throughout.append(speeds[0] if len(speeds) == 1 else steady(actor, quote))
 
     def new_moment(self, conditions: Sequence[st.Condition] = ()) -> int:
         """Add a moment and return its number."""
-        self.conditions_at.append(list(conditions))
-        self.quotes.append(self.quote)
-        return len(self.conditions_at) - 1
+        self.moments.append(st.Moment(tuple(conditions), None, self.quote))
+        return len(self.moments) - 1
 
     def add(self, moment: int, conditions: Sequence[st.Condition]) -> None:
         """Let more be so at a moment."""
-        self.conditions_at[moment] += [each for each in conditions if each not in self.conditions_at[moment]]
+        told = self.moments[moment]
+        self.moments[moment] = replace(told, conditions=tuple(dict.fromkeys((*told.conditions, *conditions))))
 
     def _moment_with(self, conditions: Sequence[st.Condition], one: bool = False) -> int | None:
         """Return the moment that is known by an event among these conditions, by any `one` of them, or by all."""
-        for number, own in enumerate(self.conditions_at[1:], start=1):
-            if (own and own == conditions) or any(each in own and (one or st.is_event(each)) for each in conditions):
+        for number, moment in enumerate(self.moments[1:], start=1):
+            own = moment.conditions
+            if (own and [*own] == conditions) or any(each in own and (one or st.is_event(each)) for each in conditions):
                 return number
         return None
 
@@ -158,8 +158,8 @@ class Narrative(Cast):
         if clause.times.keys() != {"after the start"}:
             self.refuse("it is not clear what lasts so long", clause.quote)
         op, time = clause.times["after the start"]
-        if op == "==" and moment not in self.times:
-            self.times[moment] = time
+        if op == "==" and self.moments[moment].time is None:
+            self.moments[moment] = replace(self.moments[moment], time=time)
         else:
             self.orders.append(st.Order(st.START, moment, op, time, self.quote))
 
@@ -210,7 +210,7 @@ class Narrative(Cast):
         if before is None:
             moment = self.new_moment() if moment is None and "then" in leads else moment
             if moment is not None and moment != st.START:
-                waits = verb != st.Verb.BRAKE and st.standstill(actor) in self.conditions_at[st.START]
+                waits = verb != st.Verb.BRAKE and st.standstill(actor) in self.moments[st.START].conditions
                 first = st.Verb.STAND if waits else st.Verb.DRIVE
                 self.doings.append(Doing(actor, first, st.START, moment, quote=self.quote))
                 self.assumptions += [f"{self.actor(actor).name} stands still until then"] * waits
@@ -225,7 +225,7 @@ class Narrative(Cast):
     def _go_on(self, before: Doing, verb: str, moment: int | None, leads: set[str]) -> int:
         """Return where a deed begins after one whose end is known; what lies between is standing or driving on."""
         assert before.ends is not None
-        stands = st.standstill(before.actor) in self.conditions_at[before.ends]
+        stands = st.standstill(before.actor) in self.moments[before.ends].conditions
         waits = (
             stands
             and verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)

@@ -137,7 +137,7 @@ class _Sentence:
             if first.subject == EGO and first.is_event and not timed:
                 story.refuse("the ego is driven by the policy under test", fix="say what the others do then")
             moment = story.moment(when)
-            if moment not in story.times and not story.is_owned(moment):
+            if story.moments[moment].time is None and not story.is_owned(moment):
                 story.pending = moment
             story.add(moment, story.conditions(items))
             self._orders(moment, rest)
@@ -243,7 +243,7 @@ class _Sentence:
             held.append(steady(clause.subject, clause.quote))
         drives_on = bool(begins) and clause.deed != st.Verb.STAND  # "it brakes 15 m before the stop line"
         if clause.deed == "turn":
-            told = [] if moment is None else story.conditions_at[moment]
+            told = () if moment is None else story.moments[moment].conditions
             if not any(isinstance(each, st.Measure) and each.actor == clause.subject and each.place for each in told):
                 begins.append(
                     self._at(clause.subject, "turn_start")
