@@ -15,7 +15,6 @@ from scenewright.program import expressions as ex
 from scenewright.program import types as pt
 from scenewright.program.arithmetic import combine, negate
 from scenewright.program.check import check_program
-from scenewright.program.types import EGO
 from scenewright.translate import story as st
 from scenewright.translate.stretches import clause_around
 
@@ -76,11 +75,6 @@ def route_of(way: st.Way) -> pt.RouteSpec:
     return pt.IntentRoute(way.origin, way.turn, way.destination, way.heading, way.destination_heading)  # type: ignore[arg-type]
 
 
-def kind_of(name: str) -> str:
-    """Return what somebody is by the name alone; a program says no more."""
-    return name if name in DRIVEN else "car"
-
-
 def refused(what: str, fix: str, quote: st.Quote | None = None) -> TranslationError:
     """Return the error that names what the program language does not know, and the nearest thing that it does."""
     return TranslationError(f"{what} cannot be said in a program yet", found=quote.text if quote else None, fix=fix)
@@ -96,7 +90,7 @@ def _check_known(story: st.Story) -> None:
     for deed in story.deeds:
         if deed.verb not in set(st.Verb):
             raise refused(f"'{deed.verb}'", f"what somebody may do: {', '.join(st.Verb)}", deed.quote)
-        if deed.actor == EGO:
+        if deed.actor == pt.EGO:
             raise refused("a deed of the ego", "the policy under test drives it; say what the others do", deed.quote)
     for hero in story.heroes:
         own = [deed for deed in story.deeds if deed.actor == hero.id]
@@ -113,10 +107,10 @@ def amounts_of(story: st.Story) -> list[st.Amount]:
 def _sketch(story: st.Story, actor: int) -> pt.Sketch:
     knots = story.knots_of(actor)
     pieces = [pt.PieceKind.GO] * (len(knots) - 1)
-    if actor != EGO:
+    if actor != pt.EGO:
         pieces = [PIECES[st.Verb(deed.verb)] for deed in story.deeds_of(actor)]
     # The ego, and whoever does nothing of its own, drives on after the last moment that it shares.
-    if not pieces or (actor == EGO and len(story.owners(knots[-1])) > 1):
+    if not pieces or (actor == pt.EGO and len(story.owners(knots[-1])) > 1):
         pieces.append(pt.PieceKind.GO)
     return pt.Sketch(tuple(f"t{number}" for number in range(len(pieces) + 1)), tuple(pieces))
 
@@ -184,10 +178,9 @@ class _Compiler:
             return None
         if actor in self.story.owners(moment):
             return ex.Knot(self._knot(actor, moment))
-        instant = self._instant(moment)
-        return instant if isinstance(instant, ex.Elapsed | ex.Number) else None
+        return self._instant(moment)
 
-    def _instant(self, moment: int) -> ex.Term:
+    def _instant(self, moment: int) -> ex.Elapsed | ex.Number:
         owners = self.story.owners(moment)
         if owners:
             return ex.Elapsed(owners[-1], self._knot(owners[-1], moment))

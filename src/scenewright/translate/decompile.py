@@ -18,10 +18,10 @@ from scenewright.program import expressions as ex
 from scenewright.program import types as pt
 from scenewright.program.linear import Linear, linear
 from scenewright.program.structure import knots_of, read_structure, synchronised
-from scenewright.program.types import EGO
 from scenewright.translate import story as st
-from scenewright.translate.compile import COMPASS, PIECES, TURNS, UNNAMED, amounts_of, kind_of
-from scenewright.translate.measures import difference, measure_of, right_side, untold
+from scenewright.translate.compile import DRIVEN, PIECES, TURNS, UNNAMED, amounts_of, route_of
+from scenewright.translate.measures import difference, measure_of, right_side
+from scenewright.translate.phrases import untold
 
 _VERBS = {piece: verb for verb, piece in PIECES.items()}
 Key = tuple[int, str]
@@ -47,14 +47,9 @@ def way_of(route: pt.RouteSpec) -> st.Way:
     match route:
         case pt.LanesRoute(lanes=lanes):
             return st.Way(lanes=lanes)
-        case pt.HeadingsRoute(headings=(heading,)):
-            return st.Way(heading=heading, turn="straight")
-        case pt.HeadingsRoute(headings=(first, second) as headings):
-            turned = (COMPASS.index(second) - COMPASS.index(first)) % 4
-            turn = next((name for name, quarters in TURNS.items() if quarters == turned and quarters), None)
-            return st.Way(heading=first, turn=turn) if turn else st.Way(headings=headings)
         case pt.HeadingsRoute(headings=headings):
-            return st.Way(headings=headings)
+            short = (st.Way(heading=headings[0], turn=turn) for turn in TURNS)
+            return next((each for each in short if route_of(each) == route), st.Way(headings=headings))
         case pt.IntentRoute():
             return st.Way(route.origin, route.origin_heading, route.turn, route.destination, route.destination_heading)
 
@@ -101,11 +96,11 @@ class Decompiled:
             raise untold("actors that are not numbered one after the other", "number them 0, 1, 2")
         taken = dict.fromkeys(each for own in self.taken.values() for _, each in own)
         story = st.Story(
-            tuple(st.Actor(each.id, "ego" if each.is_ego else each.name, way_of(each.route), kind_of(each.name))
-                  for each in program.actors),
+            tuple(st.Actor(each.id, "ego" if each.is_ego else each.name, way_of(each.route),
+                           each.name if each.name in DRIVEN else "car") for each in program.actors),
             tuple(st.Moment(tuple(dict.fromkeys(own)), self._times.get(number))
                   for number, own in enumerate(self._conditions)),
-            tuple(self.moment_of[EGO, knot] for knot in program.ego.sketch.knots[1:] if (EGO, knot) in self.moment_of),
+            tuple(moment for (actor, _), moment in self.moment_of.items() if actor == pt.EGO and moment != st.START),
             tuple(self._deeds()),
             tuple(each for each in taken if isinstance(each, st.Order) and each != self._fixed(each.second)),
             tuple(each for each in taken if isinstance(each, st.Hold)),
@@ -178,7 +173,7 @@ class Decompiled:
         sketch = self.program.actor(piece.actor).sketch
         index = sketch.piece_index(piece.at.name)
         measure = measure_of(ex.with_state(compare, piece, replace(piece, at=None)), self.program)
-        if piece.actor == EGO or measure is None or measure.other is not None:
+        if piece.actor == pt.EGO or measure is None or measure.other is not None:
             raise untold("this condition on a piece", "ask for it from one moment until another", compare)
         measure = replace(measure, quote=self._quote)
         if sketch.pieces[index] is not pt.PieceKind.STOP or measure != st.standstill(piece.actor):
@@ -215,7 +210,6 @@ class Decompiled:
         moment = instants[0][0] if instants else st.START
         return st.Point(moment) if offset.value == 0 else st.Point(moment, offset, earlier)
 
-    # -- conditions ---------------------------------------------------------------------------------------------------
     def _condition(self, formula: ex.Formula) -> st.Condition:
         match formula:
             case ex.Compare():
@@ -229,7 +223,6 @@ class Decompiled:
             case ex.Temporal():
                 raise untold("an interval inside another condition", "ask for it by itself", formula)
 
-    # -- moments and amounts ------------------------------------------------------------------------------------------
     def _moments_in(self, formula: ex.Formula) -> set[int]:
         states = (node for node in ex.walk(formula) if isinstance(node, ex.State | ex.Derived))
         return {self._moment(state.actor, state.at) for state in states if state.at is not None}

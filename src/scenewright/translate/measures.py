@@ -9,14 +9,13 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 
-from scenewright.errors import TranslationError
 from scenewright.program import expressions as ex
 from scenewright.program import types as pt
 from scenewright.program.linear import Atom, Linear, linear
-from scenewright.program.printer import print_expression
 from scenewright.program.resolve import usual_partner
 from scenewright.translate import story as st
 from scenewright.translate.compile import DERIVED, counted_down
+from scenewright.translate.phrases import untold
 from scenewright.units import SI_SYMBOL, UNITS, Dimension, format_fraction, unit_of_name
 
 _QUANTITIES = {kind: quantity for quantity, kind in DERIVED.items()}
@@ -91,7 +90,6 @@ def _place(landmark: ex.Landmark, actor: int, program: pt.Program) -> st.Place:
     return st.Place(landmark.name, None if owner == actor else owner, None if usual else landmark.other)
 
 
-# -- amounts --------------------------------------------------------------------------------------------------------
 def difference(compare: ex.Compare) -> Linear:
     """Return what a comparison holds against zero."""
     return linear(compare.left).minus(linear(compare.right))
@@ -119,9 +117,3 @@ def _in_a_unit(value: Fraction, dimension: Dimension) -> st.Amount:
     is_short = si in plain and len(plain[si].partition(".")[2]) <= _DECIMALS
     found = si if is_short else min(plain, key=lambda symbol: len(plain[symbol]))
     return st.Amount(value / UNITS[found].si_factor, found)
-
-
-def untold(what: str, fix: str, node: ex.Node | None = None) -> TranslationError:
-    """Return the error for what a story cannot tell yet."""
-    found = None if node is None else print_expression(node)
-    return TranslationError(f"{what} cannot be told in words yet", found=found, fix=fix)

@@ -12,8 +12,9 @@ from fractions import Fraction
 from typing import TypeGuard
 
 from scenewright.errors import TranslationError
-from scenewright.program.expressions import LANDMARKS
-from scenewright.program.types import EGO, PieceKind
+from scenewright.program.expressions import LANDMARKS, Node
+from scenewright.program.printer import print_expression
+from scenewright.program.types import PieceKind
 from scenewright.translate import story as st
 from scenewright.translate.compile import PIECES
 from scenewright.units import format_fraction
@@ -38,13 +39,7 @@ DOES: dict[str, tuple[str, str, str]] = {
 }
 NO_GAP = st.Amount(Fraction(0), "m")
 ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
-_WITHOUT_AMOUNT: dict[st.Operator, tuple[str, str]] = {  # of a place, and of a speed beside that of somebody else
-    "==": ("is at", "as fast as"),
-    ">=": ("is at or past", "at least as fast as"),
-    ">": ("is past", "faster than"),
-    "<=": ("is at or before", "at most as fast as"),
-    "<": ("is before", "slower than"),
-}
+SIDES: dict[st.Operator, str] = {"==": "at", ">=": "at or past", ">": "past", "<=": "at or before", "<": "before"}
 
 
 def does(piece: PieceKind, before: int = 0) -> str:
@@ -53,13 +48,15 @@ def does(piece: PieceKind, before: int = 0) -> str:
     return f"{verb} for the {ORDINALS[before]} time" if 0 < before < len(ORDINALS) else verb
 
 
+_BY_HAND = "write it as a program: see docs/program.md"
 # What to do about words that are not understood: there is a sentence for everything, and models read the others.
 OTHERWISE = "say it in plainer words, as in docs/english.md, or let a model read it: --translator PROVIDER:NAME"
 
 
-def untold(what: str) -> TranslationError:
-    """Return the error for a story that the controlled English has no words for."""
-    return TranslationError(f"there are no words yet for {what}", fix="write it as a program: see docs/program.md")
+def untold(what: str, fix: str = _BY_HAND, of: Node | None = None) -> TranslationError:
+    """Return the error for what a story, or the controlled English, has no words for; `of` a program."""
+    found = None if of is None else print_expression(of)
+    return TranslationError(f"{what} cannot be told in words yet", found=found, fix=fix)
 
 
 def amount(of: st.Amount) -> str:
@@ -157,7 +154,8 @@ class Phrases:
             case st.Quantity.SPEED if measure.other is not None:
                 whom = self.name(measure.other)
                 if measure.amount is None:
-                    return f"drives {_WITHOUT_AMOUNT[measure.op][1]} {whom}"
+                    fast = {">": "faster than", "<": "slower than"}.get(measure.op, f"{BOUNDS[measure.op]}as fast as")
+                    return f"drives {fast} {whom}"
                 return f"drives {bound} {'slower' if measure.opposite else 'faster'} than {whom}"
             case st.Quantity.SPEED:
                 if measure == st.standstill(measure.actor):
@@ -179,7 +177,8 @@ class Phrases:
             return f"is {bound} {'past' if measure.opposite else 'before'} {self.place(place)}"
         if measure.op == "==" and place in TURNING:
             return TURNING[place]
-        return f"{'passes' if passing and measure.op == '==' else _WITHOUT_AMOUNT[measure.op][0]} {self.place(place)}"
+        does = "passes" if passing and measure.op == "==" else f"is {SIDES[measure.op]}"
+        return f"{does} {self.place(place)}"
 
     def way(self, way: st.Way) -> str:
         """Return how somebody drives."""
@@ -198,13 +197,8 @@ class Phrases:
         return listed([each for each in parts if each] or ["has an open way"])
 
 
-def speaks_of_ego(conditions: Sequence[st.Condition]) -> bool:
-    """Whether something is asked of the ego."""
-    return any(EGO in st.people_in(condition) for condition in conditions)
-
-
 def _is_where(condition: st.Condition, actor: int) -> TypeGuard[st.Measure]:
     """Whether a condition puts somebody at one place, which is not an event of its turn."""
-    if not isinstance(condition, st.Measure) or condition.quantity is not st.Quantity.PLACE or condition.op != "==":
+    if not isinstance(condition, st.Measure) or (condition.amount is None and condition.place in TURNING):
         return False
-    return condition.actor == actor and not (condition.amount is None and condition.place in TURNING)
+    return (condition.actor, condition.quantity, condition.op) == (actor, st.Quantity.PLACE, "==")

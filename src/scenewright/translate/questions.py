@@ -64,19 +64,18 @@ class OpenQuestionsError(TranslationError):
         return {**super().as_dict(), "questions": as_data(self.questions)}
 
 
-def check_asked(answers: Iterable[str], asked: Collection[str]) -> None:
-    """Raise InputError where one of `answers` is to none of the questions that were `asked`, by slot."""
+def check_settled(
+    story: Story, answers: Mapping[str, str], asked: Collection[str], strict: bool = False, place: Place | None = None
+) -> None:
+    """Raise where `story` may not be compiled: what is left open must have a default, which `strict` does not allow.
+
+    Raises `OpenQuestionsError` where a question must be answered first, `InputError` where an answer is none to it, or
+    is to none of the questions that were `asked`, by slot.
+    """
     for slot in answers:
         if slot not in asked:
             expected = "; ".join(asked) or "no answers: the text leaves nothing open"
             raise InputError("an answer is to no question", found=slot, expected=expected, fix="correct its name")
-
-
-def settled(story: Story, answers: Mapping[str, str], strict: bool = False, place: Place | None = None) -> Story:
-    """Return `story` where it may be compiled: what is left open has a default, which `strict` does not allow.
-
-    Raises `OpenQuestionsError` where a question must be answered first, `InputError` where an answer is none to it.
-    """
     for each in story.questions:
         if each.slot in answers:  # else it would not be open
             expected = "; ".join(each.alternatives)
@@ -84,7 +83,6 @@ def settled(story: Story, answers: Mapping[str, str], strict: bool = False, plac
     waiting = [each for each in story.questions if strict or each.default is None]
     if waiting:
         raise OpenQuestionsError(waiting, place)
-    return story
 
 
 def defaults_of(story: Story) -> dict[str, str]:

@@ -29,20 +29,11 @@ def read_scenario(
 ) -> tuple[Program, Understanding | None]:
     """Return the program that `source` stands for: a file (`.txt`, `.scene`), a description, or the text of a program.
 
-    Parameters
-    ----------
-    translator
-        ``auto`` (the model that is configured, else offline), ``offline``, ``PROVIDER:MODEL`` or ``files:DIR``; asked
-        only where `source` is a description.
-    map_name
-        The map that a description is about; the one that it names, or the T intersection that is shipped, where None.
-    settings
-        What a translator may do and has to keep; defaults where None.
+    A description is read by `translator`: ``auto`` (the model that is configured, else offline), ``offline``,
+    ``PROVIDER:MODEL`` or ``files:DIR``. It is about the map `map_name`; where that is None about the one that it names,
+    or the T intersection that is shipped. `settings` say what a translator may do and has to keep.
 
-    Raises
-    ------
-    TranslationError, ProgramError, InputError, MapError
-        Where it cannot be read or understood.
+    Raises `TranslationError`, `ProgramError`, `InputError` or `MapError` where it cannot be read or understood.
     """
     text, name = text_of(source)
     if is_program(text):
@@ -51,15 +42,9 @@ def read_scenario(
         program = parse_program(text, name)
         check_program(program, text, name)
         return program, None
-    understanding = _understanding(text, name, translator, map_name, settings or TranslatorSettings())
-    return understanding.program, understanding
-
-
-def _understanding(
-    text: str, name: str, translator: str, map_name: str | None, settings: TranslatorSettings
-) -> Understanding:
     from scenewright.translate.understand import OFFLINE, understand  # a program needs no reader
 
+    settings = settings or TranslatorSettings()
     on = load_map(map_name) if map_name else None
     if translator != OFFLINE:
         from scenewright.translate.model.choose import model_named
@@ -67,8 +52,10 @@ def _understanding(
         if (model := model_named(translator, settings)) is not None:
             from scenewright.translate.model.translator import understand_by_model
 
-            return understand_by_model(text, on or load_map(DEFAULT_MAP), name, model, settings)
-    return understand(text, on, settings.answers, settings.strict, name, settings.ask)
+            found = understand_by_model(text, on or load_map(DEFAULT_MAP), name, model, settings)
+            return found.program, found
+    found = understand(text, on, settings.answers, settings.strict, name, settings.ask)
+    return found.program, found
 
 
 def is_program(text: str) -> bool:

@@ -7,7 +7,7 @@ does not know (a kind of road user, a deed) may stand in it and is refused by na
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
@@ -271,9 +271,9 @@ class Story:
         own = {deed.begins: deed for deed in self.deeds if deed.actor == actor}
         chain: list[Deed] = []
         at = START
-        while at in own and len(chain) < len(own):
-            chain.append(own[at])
-            at = own[at].ends
+        while (deed := own.pop(at, None)) is not None:
+            chain.append(deed)
+            at = deed.ends
         return tuple(chain)
 
     def knots_of(self, actor: int) -> tuple[int, ...]:
@@ -307,11 +307,9 @@ def standstill(actor: int) -> Measure:
     return Measure(actor, Quantity.SPEED, "==", Amount(Fraction(0), "m/s"))
 
 
-def is_event(condition: Condition) -> TypeGuard[Measure]:
+def is_event(each: Condition) -> TypeGuard[Measure]:
     """Whether a condition is that somebody comes to a place: nobody drives backwards, so it happens once."""
-    if not isinstance(condition, Measure):
-        return False
-    return condition.quantity is Quantity.PLACE and condition.op == "==" and condition.amount is None
+    return isinstance(each, Measure) and (each.quantity, each.op, each.amount) == (Quantity.PLACE, "==", None)
 
 
 def people_in(condition: Condition) -> set[int]:
@@ -319,6 +317,23 @@ def people_in(condition: Condition) -> set[int]:
     places = {who for place in within(condition, Place) for who in (place.of, place.partner)}
     measured = {who for each in atoms(condition) for who in (each.actor, each.other)}
     return {who for who in places | measured if who is not None}
+
+
+def comes_through(story: Story, told: Iterable[int], keeps: Callable[[int], bool]) -> tuple[int, ...]:
+    """Return which moments, as they were `told`, the ego comes through where nothing more is said of it.
+
+    Those that ask something of it, and those that are nobody's and have no time. Of one that nobody else comes through
+    after the ego's last it is open whether it comes after that: `keeps` says so.
+    """
+    ways = [story.knots_of(hero.id) for hero in story.heroes]
+    found: list[int] = []
+    for moment in told:
+        here, own = story.moments[moment], [way for way in ways if moment in way]
+        is_asked = any(EGO in people_in(each) for each in here.conditions) if own else here.time is None
+        follows = not (own and found) or any(found[-1] in way[: way.index(moment)] for way in own)
+        if moment != START and is_asked and (follows or keeps(moment)):
+            found.append(moment)
+    return tuple(found)
 
 
 def arranged(story: Story) -> Story:

@@ -6,33 +6,17 @@ with the quotes of what each tells, or a `TranslationError` for the little that 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
 from scenewright.program.manner import NUMBERS, unit_of
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.translate import story as st
-from scenewright.translate.compile import amounts_of
-from scenewright.translate.phrases import (
-    DOES,
-    ORDINALS,
-    Phrases,
-    amount,
-    bounded,
-    listed,
-    sentence,
-    speaks_of_ego,
-    untold,
-)
+from scenewright.translate.phrases import DOES, ORDINALS, Phrases, amount, bounded, listed, sentence, untold
 from scenewright.units import SI_SYMBOL, format_fraction
 
 _LASTING = (st.Verb.DRIVE, st.Verb.STAND)  # deeds that need no end to be told
-_RATES: dict[str, bool] = {
-    st.Verb.BRAKE: True,
-    st.Verb.SPEED_UP: False,
-}  # deeds told with their rate, and whether it is a slowing
-
+_SLOWING: dict[str, bool] = {st.Verb.BRAKE: True, st.Verb.SPEED_UP: False}  # deeds that are told with their rate
 
 Told = tuple[str, tuple[st.Quote, ...]]  # a sentence, and the quotes of what it tells
 
@@ -49,9 +33,7 @@ class Teller:
     story: st.Story
     phrases: Phrases = field(init=False)
     told: list[Told] = field(default_factory=list)
-    known: set[int] = field(default_factory=lambda: {st.START})  # moments that have been told
-    ego: list[int] = field(default_factory=list)  # its moments as a reader finds them
-    open_order: bool = False  # a reader would have to ask how the ego's moments follow each other
+    known: list[int] = field(default_factory=lambda: [st.START])  # moments that have been told
     durations: set[st.Order] = field(default_factory=set)
     fresh: list[int] = field(default_factory=list)  # moments of which the joined conditions have not been told
     begun: list[st.Deed] = field(default_factory=list)  # deeds that have been told
@@ -84,7 +66,7 @@ class Teller:
                     self._introduce(moment)
         for hold in story.holds:
             self._say(sentence(self.hold(hold)), hold)
-        if tuple(self.ego) != story.ego or self.open_order:
+        if st.comes_through(story, self.known, lambda moment: moment not in story.ego) != story.ego:
             events = [self.event(moment) for moment in story.ego] or ["nothing"]
             self._say(f"In the ego's order: {', then '.join(events)}.")
         return self.told
@@ -109,9 +91,6 @@ class Teller:
                 self._say(f"Manner: {name} is {format_fraction(value)} {SI_SYMBOL[unit_of(name).dimension]}.")
 
     def _parameter(self, parameter: Parameter) -> None:
-        """Tell a parameter of which more is known than the amounts that go by its name."""
-        if parameter == Parameter(parameter.name) and parameter.name in {each.name for each in amounts_of(self.story)}:
-            return
         unit = parameter.unit.symbol
         text = f"{parameter.name} is "
         text += "open" if parameter.value is None else f"{format_fraction(parameter.value)} {unit}"
@@ -147,7 +126,6 @@ class Teller:
     def _is_of_deeds(self, moment: int) -> bool:
         return any(moment in (deed.begins, deed.ends) for deed in self.story.deeds)
 
-    # -- moments ------------------------------------------------------------------------------------------------------
     def _pure(self, moment: int) -> None:
         """Tell a moment at which nobody begins or ends a deed."""
         conditions, time = self.story.moments[moment].conditions, self.story.moments[moment].time
@@ -168,33 +146,16 @@ class Teller:
         return its_own and any(moment in pair and st.START not in pair for pair in pairs)
 
     def _introduce(self, moment: int) -> None:
-        """Note that a moment has been told, and whether a reader finds the ego's next one in it."""
+        """Note that a moment has been told."""
         if moment in self.known:
             return
         conditions = self.story.moments[moment].conditions
-        for other in self.known - {st.START}:
+        for other in self.known[1:]:
             same = set(conditions) & set(self.story.moments[other].conditions)
             if any(st.is_event(each) for each in same) or (conditions and same == set(conditions)):
                 raise untold("two moments at which the same is so")
-        self.known.add(moment)
+        self.known.append(moment)
         self.fresh.append(moment)
-        if self._is_of_deeds(moment):
-            self._ego_comes(moment, [each for each in conditions if isinstance(each, st.Measure)])
-        elif self.story.moments[moment].time is None:
-            self.ego.append(moment)
-
-    def _ego_comes(self, moment: int, conditions: Sequence[st.Condition]) -> None:
-        if moment in self.ego or not speaks_of_ego(conditions):
-            return
-        if self.ego and not self._comes_after(self.ego[-1], moment):
-            self.open_order = True
-        else:
-            self.ego.append(moment)
-
-    def _comes_after(self, earlier: int, later: int) -> bool:
-        """Whether what has been told of one actor says so."""
-        told = {(deed.actor, deed.begins) for deed in self.begun} | {(deed.actor, deed.ends) for deed in self.ended}
-        return any({(hero.id, earlier), (hero.id, later)} <= told for hero in self.story.heroes)
 
     def _items(self, moment: int, it: int | None = None) -> list[str]:
         """Return what is so at a moment, as clauses; only its name where it has been told."""
@@ -207,20 +168,17 @@ class Teller:
 
     def _compounds(self) -> None:
         for moment in self.fresh:
-            conditions = self.story.moments[moment].conditions
-            for each in conditions:
+            for each in self.story.moments[moment].conditions:
                 if isinstance(each, st.Compound):
                     self._say(f"When {self.event(moment)}, {self.phrases.clause(each)}.", each)
-                    self._ego_comes(moment, conditions)
         self.fresh.clear()
 
-    # -- deeds --------------------------------------------------------------------------------------------------------
     def _deed(self, deed: st.Deed) -> None:
         chain = self.story.deeds_of(deed.actor)
         index = chain.index(deed)
         waits = deed.verb in _LASTING and deed != chain[-1]  # its end is told with what follows
         lead, begins = self._begin(deed, chain, index)
-        slowing = _RATES.get(deed.verb)
+        slowing = _SLOWING.get(deed.verb)
         rates = (each for each in deed.throughout if each.quantity is st.Quantity.RATE and each.opposite is slowing)
         rate = next(rates, None)
         held = [each for each in deed.throughout if each is not rate]
@@ -265,7 +223,6 @@ class Teller:
         at_rest = st.standstill(deed.actor) in self.story.moments[deed.begins].conditions
         return "Then at once " if moving and at_rest else "Then ", False
 
-    # -- events, orders, holds ----------------------------------------------------------------------------------------
     def event(self, moment: int) -> str:
         """Return the words that a moment is known by."""
         conditions = self.story.moments[moment].conditions

@@ -17,7 +17,7 @@ from scenewright.roads.load import load_map
 from scenewright.roads.model import RoadMap
 from scenewright.translate.compile import compile_story
 from scenewright.translate.lines import Line, lines_of_program, lines_of_story
-from scenewright.translate.questions import as_data, check_asked, defaults_of, settled
+from scenewright.translate.questions import as_data, check_settled, defaults_of
 from scenewright.translate.read.sentences import read
 from scenewright.translate.story import Question, Story
 from scenewright.translate.ways import put_on_map
@@ -88,28 +88,14 @@ def understand(
     ask: Ask | None = None,
     read_with: Callable[[Answers], Story] | None = None,
 ) -> Understanding:
-    """Return what `text` says on a map: the one that it names itself where it does.
+    """Return what `text`, called `name` in messages, says on a map: the one that it names itself where it does.
 
-    Parameters
-    ----------
-    answers
-        What is answered already, by slot.
-    strict
-        Refuse what is left open even where there is a default.
-    name
-        What to call the text in messages.
-    ask
-        Asked about one open question after another; None where nobody can be asked.
-    read_with
-        Makes the story, with the answers that are known: after every answer again, which may open or close other
-        questions. The offline reader where None.
+    `answers` are those that are known already, by slot; `ask` is asked about one open question after another. Before
+    and after every answer `read_with` makes the story with those that are given: the offline reader where it is None.
+    `strict` refuses what is left open even where there is a default.
 
-    Raises
-    ------
-    TranslationError
-        Where it cannot be read, fits no way on the map, or leaves open what has no default (with `strict`: anything).
-    InputError
-        Where an answer is none to its question, or to no question that the text asks.
+    Raises `TranslationError` where it cannot be read, fits no way on the map, or leaves open what has no default;
+    `InputError` where an answer is none to its question, or to no question that the text asks.
 
     Examples
     --------
@@ -131,8 +117,7 @@ def understand(
         if not found and (ask is None or not waiting):
             break
         given |= found or ({waiting[0].slot: ask(waiting[0])} if ask else {})
-    check_asked(known, asked)
-    story = settled(story, given, strict, Place(name, text))
+    check_settled(story, {**known, **given}, asked, strict, Place(name, text))
     try:
         return Understanding(text, story, compile_story(story, text), answers=given)
     except TranslationError as error:  # of something that no program says yet, in the words that say it

@@ -15,6 +15,7 @@ from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route, all_routes, find_routes
 from scenewright.translate import story as st
 from scenewright.translate.compile import COMPASS, route_of
+from scenewright.translate.decompile import way_of
 from scenewright.translate.phrases import NO_GAP, TURNING, Phrases, sentence
 
 _INSTEAD = "it passes the conflict point"
@@ -112,10 +113,7 @@ def _way(route: Route, road_map: RoadMap) -> st.Way:
     """Return the shortest facts that this route alone meets."""
     if len(find_routes(road_map, headings=route.headings)) > 1:
         return st.Way(lanes=route.lanes)
-    heading, turn = route.headings[0], str(route.turn)
-    plain = st.Way(heading=heading, turn=turn)
-    same = isinstance(made := route_of(plain), HeadingsRoute) and made.headings == route.headings
-    return plain if same else st.Way(headings=route.headings)
+    return way_of(HeadingsRoute(route.headings))
 
 
 def _which(actor: st.Actor, found: list[st.Way], phrases: Phrases) -> st.Question:

@@ -8,24 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from fractions import Fraction
 
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
+from scenewright.translate.phrases import SIDES
 from scenewright.translate.read.cast import Cast
 from scenewright.translate.read.chunks import Chunk
 from scenewright.translate.read.clauses import IT, Clause, Taken, Target
 
-_BARE: dict[str, st.Operator] = {  # a side and a place, without an amount
-    "at": "==", "to": "==", "at or past": ">=", "past": ">", "at or before": "<=", "before": "<", "behind": "<",
-}  # fmt: skip
+_BARE = {side: op for op, side in SIDES.items()} | {"to": "==", "behind": "<"}  # a side and a place, without an amount
 _TO_PLACE = ("before", "behind", "from", "to", "ahead", "of")
-# What is asked for, by whether the amount is a time; and the sides on which the other one may stand.
-_TO_ACTOR = {
-    (None, False): st.Quantity.GAP, ("gap", False): st.Quantity.GAP, (None, True): st.Quantity.HEADWAY,
-    ("headway", True): st.Quantity.HEADWAY, ("time to collision", True): st.Quantity.COLLISION,
-}  # fmt: skip
-_SIDES_OF_ACTORS = {
+_SIDES_OF_ACTORS = {  # by what is asked for: the sides on which the other one may stand
     None: ("behind", "ahead"), "gap": ("behind", "ahead", "to"), "headway": ("behind", "to"),
     "time to collision": ("behind", "with", "to"),
 }  # fmt: skip
@@ -52,7 +45,7 @@ def _attach(taken: Taken) -> None:
         if target.place is None and target.other is None:
             target.other = taken.people.whom(target.chunk, clause.subject)
     if "stands" in taken.states:
-        taken.measure(last, st.Measure(IT, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s")))
+        taken.measure(last, st.standstill(IT))
     for name in sorted(taken.states & {"turn_start", "turn_end"}):
         taken.measure(last, st.Measure(IT, st.Quantity.PLACE, "==", None, st.Place(name)))
     for at, op, chunk in taken.amounts:
@@ -149,11 +142,11 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk) -> None:
             raise taken.left_over(target.chunk)
         taken.measure(chunk, st.Measure(IT, quantity, op, amount, place, opposite=past))
         return
-    asked, fits = _TO_ACTOR.get((taken.quantity, is_time)), side in _SIDES_OF_ACTORS.get(taken.quantity, ())
-    if asked is None or target.other is None or not fits:
+    asked, fits = taken.quantity or ("headway" if is_time else "gap"), side in _SIDES_OF_ACTORS.get(taken.quantity, ())
+    if target.other is None or not fits or is_time is (asked == "gap"):
         raise taken.left_over(target.chunk)
     behind = side == "ahead"  # it is the other one that is behind
-    if asked is st.Quantity.GAP and side == "to":
+    if asked == "gap" and side == "to":
         behind = taken.people.rear(clause.subject or EGO, target.other, chunk.quote) == target.other
     one, other = (target.other, IT) if behind else (IT, target.other)
-    taken.measure(chunk, st.Measure(one, asked, op, amount, other=other))
+    taken.measure(chunk, st.Measure(one, st.Quantity(asked), op, amount, other=other))

@@ -12,7 +12,6 @@ from typing import Any, NoReturn
 from scenewright.errors import UnknownWordsError
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
-from scenewright.translate.compile import DRIVEN, kind_of
 from scenewright.translate.phrases import OTHERWISE
 from scenewright.translate.read.chunks import Chunk, nearest_words, word_as
 
@@ -26,7 +25,7 @@ class Cast:
 
     text: str
     answers: Mapping[str, str] = field(default_factory=dict)
-    actors: list[st.Actor] = field(default_factory=list)
+    actors: dict[int, st.Actor] = field(default_factory=dict)
     known_by: dict[int, set[str]] = field(default_factory=dict)  # the words that somebody was described with
     assumptions: list[str] = field(default_factory=list)
     questions: list[st.Question] = field(default_factory=list)
@@ -53,7 +52,7 @@ class Cast:
 
     def whom(self, chunk: Chunk, subject: int | None) -> int:
         """Return the one that "it" means who is not the subject."""
-        others = set(self.mentioned) - {subject} or {actor.id for actor in self.actors} - {subject}
+        others = set(self.mentioned) - {subject} or set(self.actors) - {subject}
         if len(others) != 1:
             self.refuse("it is not clear who is meant", chunk.quote)
         return others.pop()
@@ -66,7 +65,7 @@ class Cast:
 
     def pair(self, chunk: Chunk) -> tuple[int, int]:
         """Return the ego and the only other one, whom "both" and "they" mean."""
-        if len(self.heroes) != 1 or not any(each.id == EGO for each in self.actors):
+        if len(self.heroes) != 1 or EGO not in self.actors:
             self.refuse(f"it is not clear who '{chunk.text}' are", chunk.quote, "name them")
         return EGO, self.heroes[0].id
 
@@ -74,7 +73,7 @@ class Cast:
         """Return who of two drives behind the other: as was said, else the first, which is a question."""
         if one == other:
             self.refuse("one and the same is named twice", quote)
-        for actor in self.actors:
+        for actor in self.actors.values():
             for relation in actor.relations:
                 if {actor.id, relation.of} == {one, other} and relation.kind in ("ahead", "behind"):
                     return actor.id if relation.kind == "behind" else relation.of
@@ -129,33 +128,31 @@ class Cast:
 
     def _free_name(self, name: str, words: set[str]) -> str:
         """Return a name that nobody has: that of its kind, with what describes it, with a number."""
-        taken = {each.name for each in self.actors}
+        taken = {each.name for each in self.actors.values()}
         described = " ".join((*sorted(words), name))
         names = (name, described, *(f"{described} {number}" for number in range(2, len(taken) + 3)))
         return next(each for each in names if each not in taken)
 
     def _called(self, chunk: Chunk, name: str, kind: str) -> int:
-        for actor in self.actors:
+        for actor in self.actors.values():
             if actor.name == name:
                 return actor.id
-        heroes = [each.id for each in self.heroes]
-        number = EGO if name == "ego" and chunk.kind == "actor" else max(heroes, default=0) + 1
+        number = EGO if name == "ego" and chunk.kind == "actor" else max(self.actors, default=0) + 1
         kind = "car" if kind in ("hero", "ego") else kind
-        self.actors.append(st.Actor(number, name, st.Way(), kind_of(kind) if kind in DRIVEN else kind, (), chunk.quote))
+        self.actors[number] = st.Actor(number, name, st.Way(), kind, (), chunk.quote)
         self.known_by.setdefault(number, set())
         return number
 
     @property
     def heroes(self) -> list[st.Actor]:
         """Everybody but the ego."""
-        return [actor for actor in self.actors if actor.id != EGO]
+        return [actor for number, actor in self.actors.items() if number != EGO]
 
     def actor(self, number: int) -> st.Actor:
         """Return somebody by number; the ego may not have been named yet."""
-        found = [actor for actor in self.actors if actor.id == number]
-        if not found:
+        if number not in self.actors:
             raise UnknownWordsError("the text does not say who is under test", fix="call it the ego")
-        return found[0]
+        return self.actors[number]
 
     def tell_way(self, number: int, facts: Mapping[str, str], turns_then: bool = False) -> None:
         """Add facts of somebody's way; who went straight until then may turn at a moment."""
@@ -170,19 +167,19 @@ class Cast:
                 self.refuse(f"two things are said of the way of {actor.name}")
             fact: dict[str, Any] = {name: whole}
             way = replace(way, **fact)
-        self._change(replace(actor, way=way))
+        self.actors[number] = replace(actor, way=way)
 
     def go_straight(self) -> None:
         """Let who drives and is not said to turn go straight on, unless it drives in one line with who turns."""
-        for actor in self.actors:
+        for actor in [*self.actors.values()]:
             near = [self.actor(each.of) for each in actor.relations if each.kind != "oncoming"]
-            near += [other for other in self.actors
+            near += [other for other in self.actors.values()
                      if any(each.of == actor.id and each.kind != "oncoming" for each in other.relations)]  # fmt: skip
             way, ways = actor.way, [each.way for each in near if not actor.way.heading]
             told = any(each.origin == "driveway" or each.turn not in (None, "straight") for each in (way, *ways))
             driving = {actor.id, *(each.id for each in near)} & self.driving
             if driving and not (told or way.turn or way.destination or way.headings or way.lanes):
-                self._change(replace(actor, way=replace(way, turn="straight")))
+                self.actors[actor.id] = replace(actor, way=replace(way, turn="straight"))
                 self.assumptions.append(f"{actor.name} goes straight on")
 
     def relate(self, number: int, *relations: st.Relation) -> None:
@@ -192,10 +189,7 @@ class Cast:
             relations = tuple(replace(each, of=self.heroes[0].id) for each in relations)
         if any(each.of == number for each in relations):
             self.refuse("it is not clear whose way this is", relations[0].quote)
-        self._change(replace(actor, relations=tuple(dict.fromkeys((*actor.relations, *relations)))))
-
-    def _change(self, changed: st.Actor) -> None:
-        self.actors = [changed if each.id == changed.id else each for each in self.actors]
+        self.actors[number] = replace(actor, relations=tuple(dict.fromkeys((*actor.relations, *relations))))
 
     def ask(self, slot: str, text: str, alternatives: list[str], default: int | None, quote: st.Quote) -> str:
         """Return the answer to a question; its default, or nothing, where it is noted as open."""

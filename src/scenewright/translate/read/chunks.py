@@ -80,7 +80,8 @@ class Vocabulary:
 def vocabulary() -> Vocabulary:
     """Return the words of the domain."""
     table = tomllib.loads(files("scenewright.translate.read").joinpath("words.toml").read_text(encoding="utf-8"))
-    units = {word: symbol for symbol, said in table.pop("unit").items() for word in said.split(" | ")}
+    units = {symbol: symbol for symbol in UNITS}
+    units |= {word: symbol for symbol, said in table.pop("unit").items() for word in said.split(" | ")}
     numbers = {word: Fraction(number) for number, word in enumerate(_NUMBERS.split())}
     numbers |= {word: Fraction(10 * tens) for tens, word in enumerate(_TENS.split(), start=2)}
     lookalikes = frozenset(table.pop("lookalike")["words"].split())
@@ -196,29 +197,22 @@ def _lanes(text: str, at: int) -> Chunk | None:
 def _amount(text: str, match: re.Match[str]) -> Chunk | None:
     """Return a number, a number word or a parameter, with its unit."""
     known = vocabulary()
-    start, end = match.span()
     name = match["braced"] or match["snake"]
-    number = match["number"] or (str(known.numbers.get((match["word"] or "").lower(), "")) or None)
-    if not name and number is None:
-        return None
-    unit = known.unit_pattern.match(text, end)
+    number = match["number"] or known.numbers.get((match["word"] or "").lower())
+    unit = known.unit_pattern.match(text, match.end())
     symbol = None if unit is None else known.units[unit[1].lower() if unit[1].lower() in known.units else unit[1]]
-    if match["word"] and symbol is None:
+    if not name and (number is None or (match["word"] and symbol is None)):
         return None  # "one" of them
-    if unit is not None:
-        end = unit.end()
-    quote = Quote(start, end, text[start:end])
+    own = None if symbol is None else UNITS[symbol]
     if name:
-        own = unit_of_name(name)
+        told, own = own, unit_of_name(name)
         if own is None and symbol in _SUFFIX:
-            name, own = name + _SUFFIX[symbol], UNITS[symbol]
-        if own is None or (symbol is not None and UNITS[symbol].dimension != own.dimension):
-            return Chunk("no unit", name, start, end, quote.text)
-        return Chunk("amount", quote.text, start, end, quote.text, Amount(None, own.symbol, name, quote))
-    assert number is not None
-    if symbol is None:
-        return Chunk("no unit", number, start, end, quote.text)
-    return Chunk("amount", quote.text, start, end, quote.text, Amount(Fraction(number), symbol, None, quote))
+            name, own = name + _SUFFIX[symbol], told
+        own = None if own is None or (told is not None and told.dimension != own.dimension) else own
+    quote = Quote(match.start(), end := (unit or match).end(), text[match.start() : end])
+    amount = None if own is None else Amount(None if name else Fraction(number or 0), own.symbol, name, quote)
+    kind = "no unit" if amount is None else "amount"
+    return Chunk(kind, name or str(number), quote.start, end, quote.text, amount)
 
 
 def _phrase(text: str, tokens: list[re.Match[str]], said: list[str], index: int) -> Chunk | None:

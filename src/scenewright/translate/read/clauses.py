@@ -38,15 +38,8 @@ _INITIAL = (("at", "link", "start"), ("with", "link", "start"))  # "with an init
 class Clause:
     """What one clause says.
 
-    Attributes
-    ----------
-    joined
-        Conditions that "either", "both", "if" and "it is not so that" join, of whomever they are.
-    flags
-        ``standstill``, ``while`` (the end is open), ``to`` a speed, ``first``, ``start``, ``kept`` (its speed),
-        ``way`` (it is open), ``falls`` (an amount that is reached), ``yields``, ``insists``.
-    notes
-        How it says it, which is no meaning of its own: ``event`` (something is passed), ``wanted`` (a wish).
+    `flags` are: ``standstill``, ``while`` (the end is open), ``to`` a speed, ``first``, ``start``, ``kept`` (its
+    speed), ``way`` (it is open), ``falls`` (an amount that is reached), ``yields``, ``insists``.
     """
 
     quote: st.Quote
@@ -55,13 +48,13 @@ class Clause:
     phase: str | None = None
     ordinal: int = 0
     measures: list[st.Measure] = field(default_factory=list)
-    joined: list[st.Compound] = field(default_factory=list)
+    joined: list[st.Compound] = field(default_factory=list)  # by "either", "both", "if": of whomever they are
     rate: st.Measure | None = None
     times: dict[str, tuple[st.Operator, st.Amount]] = field(default_factory=dict)
     facts: dict[str, str] = field(default_factory=dict)
     flags: set[str] = field(default_factory=set)
     relations: list[st.Relation] = field(default_factory=list)
-    notes: set[str] = field(default_factory=set)
+    notes: set[str] = field(default_factory=set)  # how it is said, which is no meaning: as an ``event``, as ``wanted``
 
     def says_more_than(self, *expected: str) -> bool:
         """Whether anything but these attributes is filled: what carries meaning must be used up."""
@@ -157,7 +150,7 @@ class Taken:
             case "ordinal":
                 clause.ordinal = int(value)
             case "standstill" | "open" | "kept" | "order" | "yields" | "insists":
-                clause.flags.add("standstill" if chunk.kind == "standstill" else value)
+                clause.flags.add(value)
             case "link" if value == "start":
                 clause.flags.add("start")
             case "relation" if value in ("ahead", "behind") and self.peek(-1)[0] == "amount":
@@ -346,7 +339,8 @@ class Taken:
     def road(self, side: str) -> bool:
         """Take the road, the lane or the direction behind a side, where one is: "from the east", "into the road"."""
         kind = self.peek()[0]
-        if side in ("from", "into", "to", "at") and self.is_lane():
+        is_lane = (kind, self.peek(2)[0]) == ("heading", "area")  # "the westbound lane" is no direction to come from
+        if is_lane and side in ("from", "into", "to", "at") and self.chunks[self.at + 1].text.lower().endswith("bound"):
             self.at += 2
             self.fact("destination_heading" if side == "into" else "heading", self.chunks[self.at - 1])
             self.area(self.chunks[self.at], side)
@@ -359,11 +353,6 @@ class Taken:
         else:
             return False
         return True
-
-    def is_lane(self) -> bool:
-        """Whether "the westbound lane" follows, which is no direction to come from."""
-        lane = (self.peek()[0], self.peek(2)[0]) == ("heading", "area")
-        return lane and self.chunks[self.at + 1].text.lower().endswith("bound")
 
     def headed(self, chunk: Chunk, back: bool = False) -> None:
         """Take a heading, of the way before or after its turn; `back` is where somebody comes from."""

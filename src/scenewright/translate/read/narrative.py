@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import takewhile
 
 from scenewright.program.manner import USUAL, Manner
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.translate import story as st
-from scenewright.translate.phrases import speaks_of_ego
 from scenewright.translate.read.cast import Cast
 from scenewright.translate.read.clauses import Clause
 
@@ -37,10 +37,8 @@ class Doing:
 class Narrative(Cast):
     """The story so far."""
 
-    conditions_at: list[list[st.Condition]] = field(default_factory=lambda: [[]])  # by moment
-    times: dict[int, st.Amount] = field(default_factory=dict)
-    quotes: list[st.Quote | None] = field(default_factory=lambda: [None])
-    ego: list[int] = field(default_factory=list)
+    moments: list[st.Moment] = field(default_factory=lambda: [st.Moment()])
+    ego: tuple[int, ...] | None = None  # the moments that it comes through, where a text lists them
     doings: list[Doing] = field(default_factory=list)
     orders: list[st.Order] = field(default_factory=list)
     holds: list[st.Hold] = field(default_factory=list)
@@ -66,16 +64,24 @@ class Narrative(Cast):
                 doing.ends = self.new_moment()
             if doing.duration is not None:
                 self.orders.append(st.Order(doing.begins, doing.ends, *doing.duration, doing.quote))
-        return st.Story(
-            tuple(sorted(self.actors, key=lambda actor: actor.id)),
-            tuple(st.Moment(tuple(own), self.times.get(number), self.quotes[number])
-                  for number, own in enumerate(self.conditions_at)),
-            tuple(self.ego),
+        story = st.Story(
+            tuple(self.actors[number] for number in sorted(self.actors)),
+            tuple(self.moments),
+            (),
             tuple(st.Deed(each.actor, each.verb, each.begins, each.ends or st.START, tuple(each.throughout), each.quote)
                   for each in self.doings),
             tuple(self.orders), tuple(self.holds), tuple(self.parameters), self.manner, self.map_name, self.title,
-            tuple(self.asides), tuple(self.assumptions), tuple(self.questions),
+            tuple(self.asides), tuple(self.assumptions),
         )  # fmt: skip
+        ego = st.comes_through(story, range(len(story.moments)), self._ego_comes) if self.ego is None else self.ego
+        return replace(story, ego=ego, questions=tuple(self.questions))
+
+    def _ego_comes(self, moment: int) -> bool:
+        """Ask whether the ego comes through a moment after those that were told before."""
+        quote = self.moments[moment].quote or self.quote
+        later, either = "it comes after the ego's moments that were told before", "it may come before or after them"
+        asked = f"How does this moment lie to the ego's others: {quote.text}"
+        return self.ask(f"ego {quote.start}", asked, [either, later], 0, quote) == later
 
     def _check(self, who: int | None, courtesy: str, quote: st.Quote) -> None:
         """Refuse a courtesy that no deed bears out."""
@@ -85,30 +91,36 @@ class Narrative(Cast):
             self.refuse("it is not said what is done to yield, or instead", quote, "say where it stops or passes")
 
     def _keep(self, actor: int, quote: st.Quote) -> None:
-        """Let somebody keep its first speed until its first deed, throughout where it has none."""
+        """Let somebody keep its first speed while it drives on: until its first other deed, if it has one."""
         first = next((doing for doing in self.doings if doing.actor == actor), None)
         if first is None or first.verb != st.Verb.DRIVE or first.begins != st.START:
             if actor == EGO or first is not None:
                 self.refuse("it is not clear until when a speed is kept", quote)
             first = self.begin(actor, st.Verb.DRIVE, None, set())
-        speeds = [each for each in self.conditions_at[st.START] if isinstance(each, st.Measure) and each.actor == actor
-                  and (each.quantity, each.op, each.other) == (st.Quantity.SPEED, "==", None)]  # fmt: skip
-        first.throughout.append(speeds[0] if len(speeds) == 1 else steady(actor, quote))
+        own = (
+            each for each in self.moments[st.START].conditions if isinstance(each, st.Measure) and each.actor == actor
+        )
+        speeds = [each for each in own if (each.quantity, each.op, each.other) == (st.Quantity.SPEED, "==", None)]
+        kept = speeds[0] if len(speeds) == 1 else steady(actor, quote)
+        deeds = (doing for doing in self.doings if doing.actor == actor)
+        for doing in takewhile(lambda each: each.verb == st.Verb.DRIVE, deeds):  # "goes first" is no change of speed
+            doing.throughout += [] if doing.throughout else [kept]
 
     def new_moment(self, conditions: Sequence[st.Condition] = ()) -> int:
         """Add a moment and return its number."""
-        self.conditions_at.append(list(conditions))
-        self.quotes.append(self.quote)
-        return len(self.conditions_at) - 1
+        self.moments.append(st.Moment(tuple(conditions), None, self.quote))
+        return len(self.moments) - 1
 
     def add(self, moment: int, conditions: Sequence[st.Condition]) -> None:
         """Let more be so at a moment."""
-        self.conditions_at[moment] += [each for each in conditions if each not in self.conditions_at[moment]]
+        told = self.moments[moment]
+        self.moments[moment] = replace(told, conditions=tuple(dict.fromkeys((*told.conditions, *conditions))))
 
     def _moment_with(self, conditions: Sequence[st.Condition], one: bool = False) -> int | None:
         """Return the moment that is known by an event among these conditions, by any `one` of them, or by all."""
-        for number, own in enumerate(self.conditions_at[1:], start=1):
-            if (own and own == conditions) or any(each in own and (one or st.is_event(each)) for each in conditions):
+        for number, moment in enumerate(self.moments[1:], start=1):
+            own = moment.conditions
+            if (own and [*own] == conditions) or any(each in own and (one or st.is_event(each)) for each in conditions):
                 return number
         return None
 
@@ -129,7 +141,7 @@ class Narrative(Cast):
             if item.is_event and "has" in item.notes:  # "once the ego has passed it": then, or sooner
                 item.measures = [replace(each, op=">=") for each in item.measures]
             if until is not None and (item.deed, item.subject) == ("stop", until):  # "until it comes to a stop"
-                item.deed, item.measures = None, [standstill(until), *item.measures]
+                item.deed, item.measures = None, [st.standstill(until), *item.measures]
         events = [item for item in items if item.deed is not None]
         conditions = self.conditions([item for item in items if item not in events], "times")
         if not conditions and not any(each.deed or each.times for each in items):
@@ -150,8 +162,8 @@ class Narrative(Cast):
         if clause.times.keys() != {"after the start"}:
             self.refuse("it is not clear what lasts so long", clause.quote)
         op, time = clause.times["after the start"]
-        if op == "==" and moment not in self.times:
-            self.times[moment] = time
+        if op == "==" and self.moments[moment].time is None:
+            self.moments[moment] = replace(self.moments[moment], time=time)
         else:
             self.orders.append(st.Order(st.START, moment, op, time, self.quote))
 
@@ -175,8 +187,7 @@ class Narrative(Cast):
             return moment
         if clause.subject != EGO:
             self.refuse("nothing was told of this event before", clause.quote)
-        self.ego.append(self.new_moment(clause.measures))
-        return self.ego[-1]
+        return self.new_moment(clause.measures)
 
     def tell(self, clause: Clause) -> None:
         """Take what a clause says of somebody's way, and leave the rest."""
@@ -191,31 +202,9 @@ class Narrative(Cast):
             self.driving.add(clause.subject)
         clause.facts, clause.relations, clause.flags = {}, [], clause.flags - {"way", "headed"}
 
-    def knots(self, actor: int) -> set[int | None]:
-        """Return the moments at which somebody begins or ends a deed."""
-        return {each for doing in self.doings if doing.actor == actor for each in (doing.begins, doing.ends)}
-
     def is_owned(self, moment: int) -> bool:
         """Whether somebody begins or ends a deed at a moment."""
-        return any(moment in self.knots(actor.id) for actor in self.actors)
-
-    def ego_comes(self, moment: int) -> None:
-        """Note that the ego comes through a moment that asks something of it, after those that were told before."""
-        owned = self.is_owned(moment)
-        timed = moment in self.times and not owned
-        if moment in self.ego or moment == st.START or timed or not speaks_of_ego(self.conditions_at[moment]):
-            return
-        if owned and self.ego and not any({self.ego[-1], moment} <= self.knots(actor.id) for actor in self.actors):
-            later, either = "it comes after the ego's moments that were told before", "it may come before or after them"
-            asked = f"How does this moment lie to the ego's others: {self.quote.text}"
-            if self.ask(f"ego {self.quote.start}", asked, [either, later], 0, self.quote) == either:
-                return
-        self.ego.append(moment)
-
-    def ego_order(self, moments: list[int]) -> None:
-        """Take the moments that the ego comes through, as a text lists them: nothing is open about them."""
-        self.ego = moments
-        self.questions = [each for each in self.questions if not each.slot.startswith("ego ")]
+        return any(moment in (doing.begins, doing.ends) for doing in self.doings)
 
     def begin(self, actor: int, verb: str, moment: int | None, leads: set[str]) -> Doing:
         """Let somebody begin a deed at a moment, or where the last one ended."""
@@ -225,7 +214,7 @@ class Narrative(Cast):
         if before is None:
             moment = self.new_moment() if moment is None and "then" in leads else moment
             if moment is not None and moment != st.START:
-                waits = verb != st.Verb.BRAKE and standstill(actor) in self.conditions_at[st.START]
+                waits = verb != st.Verb.BRAKE and st.standstill(actor) in self.moments[st.START].conditions
                 first = st.Verb.STAND if waits else st.Verb.DRIVE
                 self.doings.append(Doing(actor, first, st.START, moment, quote=self.quote))
                 self.assumptions += [f"{self.actor(actor).name} stands still until then"] * waits
@@ -240,7 +229,7 @@ class Narrative(Cast):
     def _go_on(self, before: Doing, verb: str, moment: int | None, leads: set[str]) -> int:
         """Return where a deed begins after one whose end is known; what lies between is standing or driving on."""
         assert before.ends is not None
-        stands = standstill(before.actor) in self.conditions_at[before.ends]
+        stands = st.standstill(before.actor) in self.moments[before.ends].conditions
         waits = (
             stands
             and verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)
@@ -266,8 +255,3 @@ class Narrative(Cast):
 def steady(actor: int, quote: st.Quote) -> st.Measure:
     """Return that somebody keeps its speed, whichever that is."""
     return st.Measure(actor, st.Quantity.RATE, "==", st.Amount(Fraction(0), "m/s^2"), quote=quote)
-
-
-def standstill(actor: int) -> st.Measure:
-    """Return that somebody stands."""
-    return st.Measure(actor, st.Quantity.SPEED, "==", st.Amount(Fraction(0), "m/s"))

@@ -18,7 +18,7 @@ from scenewright.translate.read.chunks import Chunk, sentences
 from scenewright.translate.read.clauses import PEOPLE, Clause
 from scenewright.translate.read.items import Segment, items_of, parted, segments_of
 from scenewright.translate.read.labels import take_labels
-from scenewright.translate.read.narrative import COURTESIES, Doing, Narrative, standstill, steady
+from scenewright.translate.read.narrative import COURTESIES, Doing, Narrative, steady
 
 _ORDERS = ("before", "after", "no later than")
 _HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
@@ -140,10 +140,9 @@ class _Sentence:
             if first.subject == EGO and first.is_event and not timed:
                 story.refuse("the ego is driven by the policy under test", fix="say what the others do then")
             moment = story.moment(when)
-            if moment not in story.times and not story.is_owned(moment):
+            if story.moments[moment].time is None and not story.is_owned(moment):
                 story.pending = moment
             story.add(moment, story.conditions(items))
-            story.ego_comes(moment)
             self._orders(moment, rest)
         elif tells_time:
             if len(items) > 1:
@@ -205,7 +204,8 @@ class _Sentence:
             story.tell(item)
             if item.subject is not None:
                 story.subject = item.subject
-                if "kept" in item.flags and story.knots(item.subject):  # "brakes and keeps its speed"
+                acts = any(doing.actor == item.subject for doing in story.doings)
+                if "kept" in item.flags and acts:  # "brakes and keeps its speed"
                     story.refuse("it is not clear when a speed is kept", item.quote, "say it before what is done")
                 story.kept += [(item.subject, item.quote)] * ("kept" in item.flags)
                 item.flags -= {"kept"}
@@ -221,7 +221,7 @@ class _Sentence:
         elif "meanwhile" in self.leads and story.doings and len(measures) == len(conditions):
             story.doings[-1].throughout += measures
         elif "later" in self.leads:
-            story.ego.append(story.new_moment(conditions))
+            story.new_moment(conditions)
         elif "start" in self.leads or not (story.doings or self.leads - {"meanwhile"}):
             story.add(st.START, conditions)
         else:
@@ -246,7 +246,7 @@ class _Sentence:
             held.append(steady(clause.subject, clause.quote))
         drives_on = bool(begins) and clause.deed != st.Verb.STAND  # "it brakes 15 m before the stop line"
         if clause.deed == "turn":
-            told = [] if moment is None else story.conditions_at[moment]
+            told = () if moment is None else story.moments[moment].conditions
             if not any(isinstance(each, st.Measure) and each.actor == clause.subject and each.place for each in told):
                 begins.append(
                     self._at(clause.subject, "turn_start")
@@ -261,7 +261,6 @@ class _Sentence:
         doing = story.begin(clause.subject, verb, moment, self.leads)
         story.subject = clause.subject
         story.add(doing.begins, begins)
-        story.ego_comes(doing.begins)
         doing.throughout += [*held, *([clause.rate] if clause.rate else [])]
         rests = clause.deed == "stop" or "standstill" in clause.flags
         doing.duration = None if rests else clause.times.get("for")
@@ -284,7 +283,7 @@ class _Sentence:
     def _shares(self, clause: Clause) -> tuple[list[st.Measure], list[st.Measure], list[st.Measure]]:
         """Return what a deed's own clause says of its beginning, of the deed throughout, and of its end."""
         rests = clause.deed == "stop" or "standstill" in clause.flags
-        begins, held, ends = list[st.Measure](), list[st.Measure](), [standstill(clause.subject or EGO)][: int(rests)]
+        begins, held, ends = list[st.Measure](), list[st.Measure](), [st.standstill(clause.subject or EGO)] * rests
         for measure in clause.measures:
             fast = measure.quantity is st.Quantity.SPEED
             if rests and measure.quantity is st.Quantity.ARRIVAL:
@@ -310,10 +309,8 @@ class _Sentence:
         elif ends:
             doing.ends = story.new_moment(ends)
         elif doing.verb == st.Verb.BRAKE and "while" not in clause.flags and doing.duration is None:
-            doing.ends = story.new_moment([standstill(doing.actor)])
+            doing.ends = story.new_moment([st.standstill(doing.actor)])
             story.assumptions.append(f"{story.actor(doing.actor).name} brakes to a standstill")
-        if doing.ends is not None:
-            story.ego_comes(doing.ends)
 
     def _event_of(self, chunks: list[Chunk]) -> int:
         """Return the moment of the one event that chunks tell."""
@@ -364,4 +361,4 @@ class _Sentence:
                 events.append([])
             elif chunk.kind not in ("comma", "nothing"):
                 events[-1].append(chunk)
-        self.story.ego_order([self._event_of(chunks) for chunks in events if chunks])
+        self.story.ego = tuple(self._event_of(chunks) for chunks in events if chunks)
