@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence, Set
-from itertools import chain, pairwise
+from itertools import chain, pairwise, takewhile
 from typing import Any
 
 from scenewright.errors import Span, TranslationError
@@ -211,7 +211,8 @@ class _Evidence(Measured):
         names = [*chain(*self.claim.called.values()), *chain(*(actor.way.lanes for actor in story.actors))]
         named = [span for name in names for span in locate(name, self.text)]
         amounts, ordered = self._spans(st.Amount), [*self._spans(st.Order), *self._spans(st.Hold)]
-        longer = [*ordered, *self._spans(st.Deed)]
+        deeds = [(deed.verb, deed.quote.span) for deed in story.deeds if deed.quote]
+        longer = [*ordered, *(span for _, span in deeds)]
         declared = [span for each in story.parameters for span in locate(each.name, self.text)]
         declared_in = {self.heard.sentence(span.start)[0] for span in declared}
         for each in (chunk for own in self.heard.said for chunk in own if chunk.kind in ("amount", "no unit")):
@@ -230,25 +231,22 @@ class _Evidence(Measured):
             for place, chunk in enumerate(own):
                 # "It begins to brake 2 s after ...": an order speaks of a deed that is told elsewhere.
                 elsewhere = ordered if own[max(place - 1, 0)].kind == "phase" else []
-                quotes = [*told, *elsewhere, *self._spans(st.Deed, meaning(chunk))]
+                quotes = [*told, *elsewhere, *(span for verb, span in deeds if verb == meaning(chunk))]
                 used = chunk.kind != "deed" or lies_in(chunk.start, chunk.end, quotes)
                 if not (used or self._is_background(own, place)):
                     yield f"'{chunk.text}' in '{where}' is in the words of no such deed and no aside"
 
-    def _spans(self, kind: Any, verb: str = "") -> list[Span]:
-        """Return the stretches that parts of a kind quote; of deeds, those of a verb where one is given."""
-        parts = (each for each in st.within(self.claim.story, kind) if each.quote)
-        return [each.quote.span for each in parts if not verb or each.verb == verb]
+    def _spans(self, kind: Any) -> list[Span]:
+        """Return the stretches that parts of a kind quote."""
+        return [each.quote.span for each in st.within(self.claim.story, kind) if each.quote]
 
     def _is_background(self, own: list[Chunk], place: int) -> bool:
         """Whether a deed is told as a moment or a wish, or of the ego."""
-        for each in reversed(own[:place]):
-            if each.kind in ("mood", "negation") or (each.kind == "link" and each.value != "then"):
+        for each in takewhile(lambda each: each.kind != "comma", reversed(own[:place])):
+            if each.kind in ("mood", "negation") or each.value in ("finishes", "before", "after"):
                 return True
-            if each.value in ("finishes", "before", "after"):
+            if each.kind == "link" and each.value != "then":
                 return True
-            if each.kind == "comma":
-                break
         return EGO in self.heard.subjects(own[place].start)
 
 

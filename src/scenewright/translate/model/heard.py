@@ -45,13 +45,11 @@ def _is_head(own: Sequence[Chunk], at: int) -> bool:
     """Whether a name or "it" is whom a clause speaks of: it stands at its beginning."""
     if own[at].kind != "who" and (own[at].kind, own[at].value) != ("pronoun", "it"):
         return False
-    before = at - 1
-    while before >= 0 and own[before].kind in _COLOURS:
-        before -= 1
+    before = next((each for each in reversed(own[:at]) if each.kind not in _COLOURS), None)
     follows = own[at + 1].kind if at + 1 < len(own) else ""
-    if before >= 0 and own[before].kind == "side":
-        return own[before].value in ("before", "after", "with") and follows in (*_PREDICATES, "amount")
-    return before < 0 or own[before].kind in (*_CUTS, *_WHOLE) or follows in _PREDICATES
+    if before and before.kind == "side":
+        return before.value in ("before", "after", "with") and follows in (*_PREDICATES, "amount")
+    return before is None or before.kind in (*_CUTS, *_WHOLE) or follows in _PREDICATES
 
 
 @dataclass(slots=True)

@@ -10,6 +10,7 @@ import asyncio
 import warnings
 from collections.abc import Coroutine, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
@@ -145,19 +146,19 @@ def check_address(provider: str, base_url: str | None) -> None:
     """Raise InputError where an address is missing, is none, or holds a password."""
     if base_url is None and provider != "openai-compatible":
         return
-    fix = "--base-url URL, SCENEWRIGHT_BASE_URL in the environment, or base_url in the settings file"
-    try:
+    sane, secret = False, None
+    with suppress(ValueError):
         parts = urlsplit(base_url or "")
+        secret = parts.username or parts.password
         sane = parts.scheme in ("http", "https") and bool(parts.hostname) and (parts.port or 1) > 0
-        if secret := parts.username or parts.password:
-            fix = f"put the key into {KEY_VARIABLES[provider][0]}"
-    except ValueError:
-        sane, secret = False, None
-    if secret or not sane:
-        message = "an address must not hold a key or a password" if secret else f"there is no address for {provider}"
+    if secret:
+        fix = f"put the key into {KEY_VARIABLES[provider][0]}"
+        raise InputError("an address must not hold a key or a password", fix=fix)
+    if not sane:
+        message, found = f"there is no address for {provider}", scrubbed(base_url or "") or None
         expected = "the address of a server that speaks the protocol, such as http://127.0.0.1:8000/v1"
-        found = None if secret else scrubbed(base_url or "")
-        raise InputError(message, found=found or None, expected=expected, fix=fix)
+        fix = "--base-url URL, SCENEWRIGHT_BASE_URL in the environment, or base_url in the settings file"
+        raise InputError(message, found=found, expected=expected, fix=fix)
 
 
 def _run(asked: Coroutine[Any, Any, Answer]) -> Answer:
