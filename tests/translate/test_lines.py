@@ -8,15 +8,29 @@ from pathlib import Path
 import pytest
 from random_stories import told_stories
 
+from scenewright.errors import Span
 from scenewright.program.text import parse_program
 from scenewright.program.types import Program
 from scenewright.study.benchmark import benchmark_rows
-from scenewright.translate.compile import compile_story
+from scenewright.translate.compile import clause_around, compile_story
 from scenewright.translate.decompile import decompiled
-from scenewright.translate.lines import in_words, lines_of_program, lines_of_story, named, told_constraints, told_knots
+from scenewright.translate.lines import (
+    in_words,
+    lines_of_program,
+    lines_of_story,
+    named,
+    told_constraints,
+    told_knots,
+    words_of,
+)
+from scenewright.translate.story import Quote
 
 ROOT = Path(__file__).resolve().parents[2]
 LETTERS = re.compile(r"\bA\d+[xva(.]|==|<=|>=|\bt\d\b")
+SAID = (
+    "The ego, a van, drives west at 2.5 m/s. When it is 25 m before the stop line and the hero is 4 s away, the hero "
+    "brakes\nto a stop, then it waits."
+)
 TEXT = "It brakes at once."
 PROGRAM = f"""
 description:
@@ -100,3 +114,32 @@ def test_random_stories_have_words_for_each_constraint() -> None:
             each for name, each in told_constraints(whole).items() if name not in untold and LETTERS.search(each)
         ]
         assert lines_of_story(story, "")
+
+
+def quote(words: str) -> Quote:
+    start = SAID.index(words)
+    return Quote(start, start + len(words), words)
+
+
+@pytest.mark.parametrize(
+    ("words", "clause"),
+    [
+        ("25 m", "it is 25 m before the stop line"),
+        ("4 s", "the hero is 4 s away"),
+        ("2.5 m/s", "drives west at 2.5 m/s"),
+        ("a stop", "the hero brakes\nto a stop"),
+        ("25 m before the stop line and the hero", "it is 25 m before the stop line and the hero is 4 s away"),
+        (SAID, SAID.removesuffix(".")),
+    ],
+)
+def test_a_clause_is_found_around_what_is_quoted(words: str, clause: str) -> None:
+    found = clause_around(SAID, quote(words).span)
+    assert found.excerpt(SAID).rstrip(".") == clause
+    assert clause_around(SAID, Span(found.start, found.end)) == found
+
+
+def test_each_stretch_is_told_once_and_in_one_line() -> None:
+    assert words_of([quote("25 m"), quote("stop line"), quote("to a stop")], SAID) == (
+        "it is 25 m before the stop line ... the hero brakes to a stop"
+    )
+    assert words_of([], SAID) == ""

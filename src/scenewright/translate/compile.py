@@ -6,6 +6,7 @@ does not know. It needs no map; `ways` has put the routes in where a text left t
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal
@@ -16,7 +17,6 @@ from scenewright.program import types as pt
 from scenewright.program.arithmetic import combine, negate
 from scenewright.program.check import check_program
 from scenewright.translate import story as st
-from scenewright.translate.stretches import clause_around
 
 PIECES = {
     st.Verb.DRIVE: pt.PieceKind.GO,
@@ -35,6 +35,9 @@ DERIVED: dict[st.Quantity, ex.DerivedKind] = {
     st.Quantity.COLLISION: "ttc",
     st.Quantity.ARRIVAL: "tta",
 }
+_BOUNDARY = re.compile(  # of a clause
+    r"[.;!?,](?=\s|$)|\n\s*\n|\n\s*[-*]\s|\b(?:and|but|when|while|until|then|as soon as|(?<!at )once)\b", re.IGNORECASE
+)
 
 
 def compile_story(story: st.Story, description: str | None = None) -> pt.Program:
@@ -223,6 +226,18 @@ class _Compiler:
         if point.moment == st.START and not point.earlier:
             return _term(point.offset)
         return combine("-" if point.earlier else "+", self._instant(point.moment), _term(point.offset))
+
+
+def clause_around(text: str, span: Span) -> Span:
+    """Return the clause that `span` stands in: people quote "the ego is 25 m before the stop line", not "25 m".
+
+    >>> text = "When the ego is 25 m before the stop line, the hero brakes."
+    >>> clause_around(text, Span(16, 20)).excerpt(text)
+    'the ego is 25 m before the stop line'
+    """
+    begins = [match.end() for match in _BOUNDARY.finditer(text, 0, span.start)]
+    after = _BOUNDARY.search(text, span.end)
+    return Span(begins[-1] if begins else 0, after.start() if after else len(text)).trimmed(text)
 
 
 def counted_down(quantity: st.Quantity, opposite: bool) -> bool:

@@ -95,6 +95,7 @@ class Decompiled:
         if [actor.id for actor in program.actors] != [*range(len(program.actors))]:
             raise untold("actors that are not numbered one after the other", "number them 0, 1, 2")
         taken = dict.fromkeys(each for own in self.taken.values() for _, each in own)
+        fixed = {st.Order(st.START, moment, "==", time) for moment, time in self._times.items()}  # told as times
         story = st.Story(
             tuple(st.Actor(each.id, "ego" if each.is_ego else each.name, way_of(each.route),
                            each.name if each.name in DRIVEN else "car") for each in program.actors),
@@ -102,7 +103,7 @@ class Decompiled:
                   for number, own in enumerate(self._conditions)),
             tuple(moment for (actor, _), moment in self.moment_of.items() if actor == pt.EGO and moment != st.START),
             tuple(self._deeds()),
-            tuple(each for each in taken if isinstance(each, st.Order) and each != self._fixed(each.second)),
+            tuple(each for each in taken if isinstance(each, st.Order) and each not in fixed),
             tuple(each for each in taken if isinstance(each, st.Hold)),
             (),
             program.manner,
@@ -139,10 +140,6 @@ class Decompiled:
             match list(self._instants(form).items()):
                 case [(moment, factor)] if factor == 1 and not below_zero:
                     self._times.setdefault(moment, amount)
-
-    def _fixed(self, moment: int) -> st.Order:
-        """Return the order that a moment's time is."""
-        return st.Order(st.START, moment, "==", self._times.get(moment))
 
     def _deeds(self) -> Iterator[st.Deed]:
         for actor in self.program.heroes:

@@ -7,19 +7,19 @@ English. What has no words yet stands there as code, so that nothing is left out
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from scenewright.errors import TranslationError
+from scenewright.errors import Span, TranslationError
 from scenewright.program.expressions import Formula
 from scenewright.program.printer import print_expression
 from scenewright.program.types import Constraint, Program
 from scenewright.translate import story as st
+from scenewright.translate.compile import clause_around
 from scenewright.translate.decompile import Became, decompiled, parts_of, way_of
 from scenewright.translate.phrases import DOES, Phrases, listed, sentence
-from scenewright.translate.stretches import words_of
 from scenewright.translate.tell import Teller
 
 
@@ -120,3 +120,14 @@ def _clause(teller: Teller, moment: int | None, told: Became) -> str:
         if event == text.replace(name, "it", 1):
             return text
     return f"{text} when {event}"
+
+
+def words_of(quotes: Sequence[st.Quote], text: str) -> str:
+    """Return the clauses of `text` that quotes stand in, each stretch once."""
+    found: list[Span] = []
+    for span in sorted((clause_around(text, quote.span) for quote in quotes), key=lambda span: span.start):
+        if found and not re.search(r"\w", text[found[-1].end : span.start]):  # they meet, or one lies in the other
+            found[-1] = found[-1].union(span)
+        else:
+            found.append(span)
+    return " ... ".join(" ".join(span.excerpt(text).split()) for span in found)

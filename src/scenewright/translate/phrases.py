@@ -6,6 +6,7 @@ parts.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -20,22 +21,13 @@ from scenewright.translate.compile import PIECES
 from scenewright.units import format_fraction
 
 BOUNDS: dict[st.Operator, str] = {"==": "", ">=": "at least ", "<=": "at most ", ">": "more than ", "<": "less than "}
-PLACES = {name: name.replace("_", " ") for name in LANDMARKS} | {
-    "turn_start": "start of the turn",
-    "turn_end": "end of the turn",
-    "junction_start": "start of the junction",
-    "junction_end": "end of the junction",
-    "route_end": "end of the route",
-}
+PLACES = {name: re.sub(r"(\w+)_(start|end)", r"\2 of the \1", name).replace("_", " ") for name in LANDMARKS}
 TURNING = {st.Place("turn_start"): "begins to turn", st.Place("turn_end"): "completes its turn"}
 PLAIN_NAMES = ("ego", "hero", "car", "truck", "van", "bus", "taxi")  # told as they are; other names in quotes
 COMPASS_WORDS = {"N": "north", "E": "east", "S": "south", "W": "west"}
-# Verb: as somebody does it, as it begins, as it ends.
+# Verb: as somebody does it, as it begins, as it ends: "brakes", "brake", "braking".
 DOES: dict[str, tuple[str, str, str]] = {
-    st.Verb.DRIVE: ("drives on", "drive on", "driving on"),
-    st.Verb.SPEED_UP: ("speeds up", "speed up", "speeding up"),
-    st.Verb.BRAKE: ("brakes", "brake", "braking"),
-    st.Verb.STAND: ("stands still", "stand still", "standing still"),
+    verb: (re.sub(r"^\w+", r"\g<0>s", verb), str(verb), re.sub(r"^(\w+?)e?\b", r"\1ing", verb)) for verb in st.Verb
 }
 NO_GAP = st.Amount(Fraction(0), "m")
 ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")

@@ -54,7 +54,7 @@ class Teller:
             self._parameter(parameter)
         self._start()
         for moment in self._in_time():
-            if not self._is_of_deeds(moment):
+            if not any(moment in (deed.begins, deed.ends) for deed in story.deeds):
                 self._pure(moment)
             for deed in story.deeds:
                 if deed.begins == moment:
@@ -122,9 +122,6 @@ class Teller:
             order.append(found)
             left.remove(found)
         return order
-
-    def _is_of_deeds(self, moment: int) -> bool:
-        return any(moment in (deed.begins, deed.ends) for deed in self.story.deeds)
 
     def _pure(self, moment: int) -> None:
         """Tell a moment at which nobody begins or ends a deed."""

@@ -41,7 +41,9 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
                 expected=f"one of: {there_are}",
             )
         if len(found) > 1:
-            question = _which(actor, found, phrases)
+            straight = next((number for number, way in enumerate(found) if way.turn == "straight"), 0)
+            asked, told_ways = f"Which way does {phrases.name(actor.id)} go?", tuple(map(phrases.way, found))
+            question = st.Question(f"way of {actor.name}", asked, told_ways, straight, actor.quote)
             told = (answers or {}).get(question.slot, "")
             if told not in question.alternatives:
                 questions.append(question)
@@ -114,13 +116,6 @@ def _way(route: Route, road_map: RoadMap) -> st.Way:
     if len(find_routes(road_map, headings=route.headings)) > 1:
         return st.Way(lanes=route.lanes)
     return way_of(HeadingsRoute(route.headings))
-
-
-def _which(actor: st.Actor, found: list[st.Way], phrases: Phrases) -> st.Question:
-    straight = next((number for number, way in enumerate(found) if way.turn == "straight"), 0)
-    alternatives = tuple(phrases.way(way) for way in found)
-    asked = f"Which way does {phrases.name(actor.id)} go?"
-    return st.Question(f"way of {actor.name}", asked, alternatives, straight, actor.quote)
 
 
 def _in_line(story: st.Story) -> st.Story:

@@ -31,7 +31,8 @@ _TOKEN = re.compile(
     r"|(?P<mark>[.,;:!?()\[\]–—\"“”])"
     r"|(?P<other>\S)"
 )
-_LANES = re.compile(r"follows? the lanes ((?:[A-Za-z0-9_]+(?:\.-?[A-Za-z0-9_]+)+(?:, )?)+)")
+_LANE = r"[A-Za-z0-9_]+(?:\.-?[A-Za-z0-9_]+)+"
+_LANES = re.compile(rf"follows? the lanes ({_LANE}(?:, {_LANE})*)")
 _NUMBERS = "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen"
 _TENS = "twenty thirty forty fifty sixty"
 _ENDS = ".;!?"
@@ -188,10 +189,7 @@ def _chunks(text: str) -> Iterator[Chunk]:
 
 def _lanes(text: str, at: int) -> Chunk | None:
     match = _LANES.match(text, at)
-    if match is None:
-        return None
-    end = match.start(1) + len(match[1].rstrip(", "))
-    return Chunk("lanes", match[1].rstrip(", "), at, end, text[at:end])
+    return None if match is None else Chunk("lanes", match[1], at, match.end(), match[0])
 
 
 def _amount(text: str, match: re.Match[str]) -> Chunk | None:

@@ -253,25 +253,25 @@ class Taken:
         self.at += 2 if self.peek()[1] == "its" else 1
         if self.at >= len(self.chunks):
             raise self.left_over(self.chunks[at])
-        chunk = self.chunks[self.at]
+        target = Target(at, side, chunk := self.chunks[self.at])
+        self.targets.append(target)
         if chunk.kind == "pronoun":  # who somebody is ahead of or behind, else the place that was spoken of last
-            place = None if side in ("ahead", "behind") else self.people.where(chunk)
-            self.targets.append(Target(at, side, chunk, place))
+            target.place = None if side in ("ahead", "behind") else self.people.where(chunk)
         elif chunk.kind == "place":
-            self.targets.append(Target(at, side, chunk, self._place(chunk)))
+            target.place = self._place(chunk)
         else:
             who = self.people.who(chunk)
             if self.peek()[0] == "possessive" and self.peek(2)[0] == "place":
                 self.at += 2
-                place = replace(self._place(self.chunks[self.at]), of=who)
-                self.targets.append(Target(at, side, chunk, place))
+                target.place = replace(self._place(self.chunks[self.at]), of=who)
             elif self.peek()[0] == "possessive" and "area" in (self.peek(2)[0], self.peek(3)[0]):
                 if self.peek(2)[0] != "area" and self.peek(2)[1] != "oncoming":
                     raise self.left_over(chunk)
                 self.at += 2 if self.peek(2)[0] == "area" else 3  # "into the ego's lane"
                 self.area(self.chunks[self.at], side)
+                self.targets.remove(target)
             else:
-                self.targets.append(Target(at, side, chunk, other=who))
+                target.other = who
 
     def _place(self, chunk: Chunk) -> st.Place:
         place = st.Place(chunk.value)

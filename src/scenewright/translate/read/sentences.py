@@ -102,14 +102,13 @@ class _Sentence:
             rest[0].chunks, main.chunks = parted(rest[0].chunks)  # "2 s after ..., the hero brakes"
         later = next((each for each in rest if each.link == "when"), None)
         rest = [each for each in rest if each is not later]
-        if later is None or main.chunks:
-            items = items_of(story, main.chunks, story.subject)
-            self._main(items, None if later is None else items_of(story, later.chunks), rest)
-        else:
+        when = None
+        if later is not None and not main.chunks:  # the moment stands in front, and is read first
             if any(chunk.kind in ("comma", "deed") for chunk in later.chunks):
                 later.chunks, main.chunks = parted(later.chunks)
-            when = items_of(story, later.chunks)
-            self._main(items_of(story, main.chunks, story.subject), when, rest)
+            when, later = items_of(story, later.chunks), None
+        items = items_of(story, main.chunks, story.subject)
+        self._main(items, when if later is None else items_of(story, later.chunks), rest)
 
     def _main(self, items: list[Clause], when: list[Clause] | None, rest: list[Segment]) -> None:
         story = self.story
