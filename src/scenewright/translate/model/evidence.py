@@ -65,6 +65,8 @@ class _Evidence(Measured):
 
     # -- who ----------------------------------------------------------------------------------------------------------
     def _actor(self, actor: st.Actor) -> Iterator[str]:
+        if actor.quote is None and actor.id == EGO and any(EGO in people(*own) for own in self.heard.said):
+            return  # "we"
         if actor.quote is None:
             yield f"nothing in `called` says how the text names {actor.name}"
             return
@@ -82,7 +84,12 @@ class _Evidence(Measured):
                 yield f"no words are quoted for '{each.kind}' of {actor.name}"
                 continue
             said = self.heard.within(each.quote.span)
+            turned = {"ahead": "behind", "behind": "ahead"}.get(each.kind)
+            if any((one.kind, one.value) == ("side", turned) for one in said):  # who follows has the other ahead
+                yield from self.says(each.quote, said, turned or "", each.of, other=actor.id)
+                continue
             own = [one for one in said if one.kind == "relation" or (one.kind, one.value) == ("side", each.kind)]
+            own = [one for one in own if one.value == each.kind or one.value != "same way"]
             yield from self.says(each.quote, own, each.kind, actor.id, other=each.of)
 
     def _way(self, actor: st.Actor, quote: st.Quote | None) -> Iterator[str]:
@@ -93,7 +100,8 @@ class _Evidence(Measured):
             return
         said = self.heard.within(quote.span)
         headings = [each for each in said if each.kind == "heading"]
-        own = [self._heading(each) for each in headings if actor.id in self.heard.subjects(each.start)]
+        own = [self._heading(each) for each in headings 
+               if actor.id in self.heard.subjects(each.start) | self.heard.named(quote.span)]  # fmt: skip
         for told, known in ((way.headings, own), ((way.heading,), own[:1]), ((way.destination_heading,), own[-1:])):
             if any(told) and list(told) != known:
                 word = ", then ".join(COMPASS_WORDS[each or ""] for each in told)

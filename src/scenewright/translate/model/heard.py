@@ -74,7 +74,8 @@ class Heard:
         for plain in sentences(self.text) or [[Chunk("unknown", "", 0, len(self.text), self.text)]]:
             chunks = [each for chunk in plain for each in (*chunk.traits, chunk)]
             own_names = [each for each in taken if each.end >= chunks[0].start and each.start < chunks[-1].end]
-            kept = [chunk for chunk in chunks if chunk.kind not in ("actor", "name", "unknown")
+            chunks = [replace(each, kind="who", value=str(EGO)) if each.value == "ego" else each for each in chunks]
+            kept = [chunk for chunk in chunks if chunk.kind not in ("who", "actor", "name", "unknown")
                     or not meets(chunk.start, chunk.end, own_names)]  # fmt: skip
             self.said.append(sorted([*kept, *own_names], key=lambda chunk: (chunk.start, -chunk.end)))
 
@@ -83,6 +84,13 @@ class Heard:
         articles = {"place": len("the ")}
         return [each for own in self.said for each in own
                 if lies_in(each.start + articles.get(each.kind, 0), each.end, [span])]  # fmt: skip
+
+    def named(self, span: Span) -> set[int]:
+        """Return of whom a stretch is by its own words: everybody where it says "both", or the only one that it names."""
+        own = self.within(span)
+        if any(each.kind == "pair" for each in own):
+            return set(self.called)
+        return who if len(who := people(*own)) == 1 else set()
 
     def sentence(self, at: int) -> tuple[int, list[Chunk], int]:
         """Return the number and the chunks of the sentence at a place of the text, and which chunk is there."""
@@ -126,6 +134,5 @@ class Heard:
         found = min(named, key=rank, default=0)
         if own[found].kind == "who":
             return people(own[found])
-        # "It", or nobody: those named before in the sentence, and everybody of the nearest one that names anybody.
-        earlier = next(filter(None, (people(*each) for each in reversed(self.said[:number]))), set[int]())
-        return people(*own[:found]) | earlier
+        # "It", or nobody: those named before.
+        return people(*own[:found], *(each for before in self.said[:number] for each in before))

@@ -56,7 +56,7 @@ class Measured:
 
     def subject(self, actor: int, quote: st.Quote, places: Sequence[int], other: int | None = None) -> Iterator[str]:
         """Yield a fault where `actor` is none of those who are spoken of at `places`; of two, named anywhere."""
-        known = {each for at in places for each in self.heard.subjects(at)}
+        known = {each for at in places for each in self.heard.subjects(at)} | self.heard.named(quote.span)
         known |= people(*self.heard.within(quote.span)) if other is not None else set()
         if other is None and not people(*self.heard.within(quote.span)):  # "it": all that is quoted so is of one
             known &= {self.nameless.setdefault(quote.text, actor)} if actor in known else known
@@ -97,7 +97,8 @@ class Measured:
         said = self.heard.within(quote.span)
         bounds = ["==" if each.value in ("falls", "about") else each.value for each in said
                   if each.kind == "bound" and 0 <= at - each.end < 4]  # fmt: skip
-        if bounds and op != bounds[-1]:
+        within = op == "<=" and any(each.value == "falls" for each in said)  # "within 2 s" of how long it takes
+        if bounds and op != bounds[-1] and not within:
             yield f"'{quote.text}' says {bounds[-1]}, not {op}"
         elif op not in ("==", *bounds) and all(each.kind not in ("negation", "factor") for each in said):
             yield from self.silent(quote, f"has no bound ({op}) but the amount itself (==)", BOUNDS[op].strip())
@@ -135,7 +136,7 @@ class Measured:
         marks = [each.start for each in own if each.value == place.name]
         marks += [two.start for one, two in pairwise(said)  # "before the ego passes it"
                   if (one.kind, two.kind) == ("event", "pronoun") and marks and two.start > marks[0]]  # fmt: skip
-        if own and not marks:
+        if not marks and any(each.value not in place.name for each in own):  # a turn may be meant by its start
             yield f"'{quote.text}' speaks of {' and '.join(each.text for each in own)}, not of the {told}"
         elif not marks:
             yield from self.silent(quote, f"does not name the {told}: quote on to where it is named", told)
@@ -147,7 +148,8 @@ class Measured:
                        if (one.kind, two.value) == ("place", "of")), set[int]())  # fmt: skip
         if (measure.actor if place.of is None else place.of) not in (owners or {measure.actor}):
             yield f"'{quote.text}' says of whom the {told} is: `of` is not {self.name(place.of or measure.actor)}"
-        sides = [one.value for one, two in pairwise(said) if two.kind == "place" and one.start > (at or 0)]
+        plain = [each for each in said if each.kind not in ("pronoun", "possessive")]  # "past its stop line"
+        sides = [one.value for one, two in pairwise(plain) if two.kind == "place" and one.start > (at or 0)]
         known = {_BARE[each] for each in sides if each in _BARE}
         if at is not None and measure.opposite is not (sides[:1] in (["past"], ["after"])):
             yield f"'{quote.text}' says '{''.join(sides[:1])}' of the {told}: `opposite` is true for past it alone"
