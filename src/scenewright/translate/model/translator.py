@@ -26,7 +26,7 @@ from scenewright.translate.tell import tell
 from scenewright.translate.understand import Answers, Understanding, understand
 from scenewright.translate.ways import put_on_map
 
-BOTH = AS_TOLD, NOT_AS_TOLD = "yes, it is meant as told", "no, as in the text"
+_BOTH = ("yes, it is meant as told", "no, as in the text")
 _KEPT_OF_A_REPLY = 20_000  # characters that go back: a flood is not paid for twice
 
 
@@ -72,7 +72,7 @@ class _Conversation:
             self.messages = (*self.messages, prompt.answered(new))
             self.held = self._until_it_holds()
             again = (each for each in self.held.questions if each.slot not in known)
-            self.asked = left = [*again, *(each for each in left if each.alternatives == BOTH)]
+            self.asked = left = [*again, *(each for each in left if each.alternatives == _BOTH)]
         return replace(self.held, questions=tuple(left))
 
     def _until_it_holds(self) -> st.Story:
@@ -146,4 +146,4 @@ class _Conversation:
             return []
         self.notes.append(f"second opinion: {len(sentences) or 'no'} difference{'s' if len(sentences) != 1 else ''}")
         asked = (f"A second reading differs: {each} Is the story right?" for each in sentences)
-        return [st.Question(f"second opinion {number}", text, BOTH) for number, text in enumerate(asked, start=1)]
+        return [st.Question(f"second opinion {number}", text, _BOTH) for number, text in enumerate(asked, start=1)]
