@@ -100,8 +100,8 @@ class _Evidence(Measured):
             return
         said = self.heard.within(quote.span)
         headings = [each for each in said if each.kind == "heading"]
-        own = [self._heading(each) for each in headings 
-               if actor.id in self.heard.subjects(each.start) | self.heard.named(quote.span)]  # fmt: skip
+        whose = [(each, self.heard.subjects(each.start) | self.heard.named(quote.span)) for each in headings]
+        own = [self._heading(each) for each, actors in whose if not actors or actor.id in actors]  # "Eastbound."
         for told, known in ((way.headings, own), ((way.heading,), own[:1]), ((way.destination_heading,), own[-1:])):
             if any(told) and list(told) != known:
                 word = ", then ".join(COMPASS_WORDS[each or ""] for each in told)

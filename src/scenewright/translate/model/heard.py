@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from scenewright.errors import Span
+from scenewright.program.types import EGO
 from scenewright.translate.model.schema import locate
 from scenewright.translate.read.chunks import Chunk, sentences
 
@@ -86,7 +87,7 @@ class Heard:
                 if lies_in(each.start + articles.get(each.kind, 0), each.end, [span])]  # fmt: skip
 
     def named(self, span: Span) -> set[int]:
-        """Return of whom a stretch is by its own words: everybody where it says "both", or the only one that it names."""
+        """Return of whom a stretch is by its own words: of all where it says "both", or of the only one it names."""
         own = self.within(span)
         if any(each.kind == "pair" for each in own):
             return set(self.called)
@@ -118,6 +119,7 @@ class Heard:
         beside = next((each for each in own[index + 1 :] if each.kind not in _COLOURS), None)
         if own[index].kind in _COLOURS and beside and beside.kind == "who":
             return people(beside)  # "a westbound truck"
+        behind = people(own[index - 1]) if index and own[index].kind == "heading" else set[int]()  # "a truck westbound"
         cuts = [place for place, each in enumerate(own) if each.kind in _CUTS]
         start = max((place for place in cuts if place < index), default=-1)
         end = min((place for place in cuts if place >= index), default=len(own))
@@ -133,6 +135,7 @@ class Heard:
         named = (place for place, each in enumerate(own) if each.kind == "who" or _is_head(own, place))
         found = min(named, key=rank, default=0)
         if own[found].kind == "who":
-            return people(own[found])
-        # "It", or nobody: those named before.
-        return people(*own[:found], *(each for before in self.said[:number] for each in before))
+            return people(own[found]) | behind
+        # "It", or nobody: those named before in the sentence, and everybody of the nearest one that names anybody.
+        earlier = next(filter(None, (people(*each) for each in reversed(self.said[:number]))), set[int]())
+        return people(*own[:found]) | earlier

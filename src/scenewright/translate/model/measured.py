@@ -25,6 +25,7 @@ _BARE: dict[str, st.Operator] = {"past": ">", "at or past": ">=", "at or before"
 _FAST = {"faster": (">", ">="), "slower": ("<", "<="), "as fast as": ("==", ">=", "<=")}
 _SLOWING = {"brake": True, "stop": True, "deceleration": True, "speed up": False, "acceleration": False}
 _SHARES = {"half": ".5", "quarter": ".25", "¼": ".25", "½": ".5", "¾": ".75"}
+_OF_TURNS = {"begins": "turn_start", "finishes": "turn_end"}
 _DOES = {"stop": st.Verb.BRAKE, "stands": st.Verb.STAND, "drives": st.Verb.DRIVE}
 
 
@@ -56,7 +57,9 @@ class Measured:
 
     def subject(self, actor: int, quote: st.Quote, places: Sequence[int], other: int | None = None) -> Iterator[str]:
         """Yield a fault where `actor` is none of those who are spoken of at `places`; of two, named anywhere."""
-        known = {each for at in places for each in self.heard.subjects(at)} | self.heard.named(quote.span)
+        if other is None and actor in self.heard.named(quote.span):
+            return
+        known = {each for at in places for each in self.heard.subjects(at)}
         known |= people(*self.heard.within(quote.span)) if other is not None else set()
         if other is None and not people(*self.heard.within(quote.span)):  # "it": all that is quoted so is of one
             known &= {self.nameless.setdefault(quote.text, actor)} if actor in known else known
@@ -97,6 +100,8 @@ class Measured:
         said = self.heard.within(quote.span)
         bounds = ["==" if each.value in ("falls", "about") else each.value for each in said
                   if each.kind == "bound" and 0 <= at - each.end < 4]  # fmt: skip
+        if bounds and any(each.kind == "negation" for each in said):  # "must not exceed"
+            bounds = [{">": "<=", "<": ">=", ">=": "<", "<=": ">"}.get(bounds[-1], bounds[-1])]
         within = op == "<=" and any(each.value == "falls" for each in said)  # "within 2 s" of how long it takes
         if bounds and op != bounds[-1] and not within:
             yield f"'{quote.text}' says {bounds[-1]}, not {op}"
@@ -134,6 +139,10 @@ class Measured:
         said, told = self.heard.within(quote.span), PLACES[place.name]
         own = [each for each in said if each.kind == "place" or each.value == place.name]
         marks = [each.start for each in own if each.value == place.name]
+        plain = [each for each in said if each.kind not in ("pronoun", "possessive", "unknown")]  # "past its stop line"
+        turns = [one.start for one, two in pairwise(plain) if two.kind == "turn" or two.value == "turn"
+                 if _OF_TURNS.get(one.value) == place.name]  # fmt: skip
+        marks += turns  # "begins its left turn"
         marks += [two.start for one, two in pairwise(said)  # "before the ego passes it"
                   if (one.kind, two.kind) == ("event", "pronoun") and marks and two.start > marks[0]]  # fmt: skip
         if not marks and any(each.value not in place.name for each in own):  # a turn may be meant by its start
@@ -148,7 +157,6 @@ class Measured:
                        if (one.kind, two.value) == ("place", "of")), set[int]())  # fmt: skip
         if (measure.actor if place.of is None else place.of) not in (owners or {measure.actor}):
             yield f"'{quote.text}' says of whom the {told} is: `of` is not {self.name(place.of or measure.actor)}"
-        plain = [each for each in said if each.kind not in ("pronoun", "possessive")]  # "past its stop line"
         sides = [one.value for one, two in pairwise(plain) if two.kind == "place" and one.start > (at or 0)]
         known = {_BARE[each] for each in sides if each in _BARE}
         if at is not None and measure.opposite is not (sides[:1] in (["past"], ["after"])):
