@@ -99,7 +99,7 @@ def _knowing_all(story: st.Story) -> Teller:
 
 def _clause(teller: Teller, moment: int | None, told: Became) -> str:
     """Return what a constraint became as a clause."""
-    clause = teller.phrases.clause
+    clause = teller.clause
     match told:
         case st.Order():
             return teller.order(told)
@@ -115,7 +115,7 @@ def _clause(teller: Teller, moment: int | None, told: Became) -> str:
         return f"{clause(told)} at the start"
     text, event = clause(told, passing=st.is_event(told)), teller.event(moment)
     if isinstance(told, st.Measure):
-        name = teller.phrases.name(told.actor)
+        name = teller.name(told.actor)
         event = re.sub(f"^{re.escape(name)} ", "it ", event)
         if event == text.replace(name, "it", 1):
             return text

@@ -76,7 +76,7 @@ def called(name: str, kind: str = "car") -> str:
     return f"the {name}" if name in PLAIN_NAMES else f"the {kind} '{name}'"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Phrases:
     """The phrases for one story, whose actors have names."""
 

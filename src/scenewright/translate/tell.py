@@ -27,11 +27,9 @@ def tell(story: st.Story) -> list[str]:
 
 
 @dataclass(slots=True)
-class Teller:
+class Teller(Phrases):
     """Tells one story, sentence by sentence."""
 
-    story: st.Story
-    phrases: Phrases = field(init=False)
     told: list[Told] = field(default_factory=list)
     known: list[int] = field(default_factory=lambda: [st.START])  # moments that have been told
     durations: set[st.Order] = field(default_factory=set)
@@ -39,15 +37,12 @@ class Teller:
     begun: list[st.Deed] = field(default_factory=list)  # deeds that have been told
     ended: list[st.Deed] = field(default_factory=list)  # those of which a reader knows when they end
 
-    def __post_init__(self) -> None:
-        self.phrases = Phrases(self.story)
-
     def lines(self) -> list[Told]:
         """Return all sentences."""
         story = self.story
         self._head()
         for each in story.actors:
-            self._say(sentence(f"{self.phrases.name(each.id)} {self.phrases.way(each.way)}"), each)
+            self._say(sentence(f"{self.name(each.id)} {self.way(each.way)}"), each)
         if any(actor.relations for actor in story.actors):
             raise untold("how one way lies to another: choose the ways first")
         for parameter in story.parameters:
@@ -105,10 +100,10 @@ class Teller:
         for actor in self.story.actors:
             own = [each for each in simple if each.actor == actor.id]
             if own:
-                self._say(f"At the start, {listed(self.phrases.clauses(own, passing=False))}.", *own)
+                self._say(f"At the start, {listed(self.clauses(own, passing=False))}.", *own)
         for each in conditions:
             if each not in simple:
-                self._say(f"At the start, {self.phrases.clause(each)}.", each)
+                self._say(f"At the start, {self.clause(each)}.", each)
 
     def _in_time(self) -> list[int]:
         """Return the moments in an order that agrees with everybody's own, the smallest number first."""
@@ -131,7 +126,7 @@ class Teller:
         if any(isinstance(each, st.Compound) for each in conditions) or (time is None and moment not in self.story.ego):
             raise untold("a moment that is nobody's")
         when = "Later" if time is None else f"When it is {amount(time)} after the start"
-        self._say(f"{when}, {listed(self.phrases.clauses(conditions))}.", *conditions)
+        self._say(f"{when}, {listed(self.clauses(conditions))}.", *conditions)
         self._introduce(moment)
 
     def _is_left_to_an_order(self, moment: int) -> bool:
@@ -161,13 +156,13 @@ class Teller:
         found = self.story.moments[moment]
         simple = [each for each in found.conditions if isinstance(each, st.Measure)]
         time = [] if found.time is None else [f"it is {amount(found.time)} after the start"]
-        return time + self.phrases.clauses(simple, it)
+        return time + self.clauses(simple, it)
 
     def _compounds(self) -> None:
         for moment in self.fresh:
             for each in self.story.moments[moment].conditions:
                 if isinstance(each, st.Compound):
-                    self._say(f"When {self.event(moment)}, {self.phrases.clause(each)}.", each)
+                    self._say(f"When {self.event(moment)}, {self.clause(each)}.", each)
         self.fresh.clear()
 
     def _deed(self, deed: st.Deed) -> None:
@@ -189,7 +184,7 @@ class Teller:
         self.ended += chain[:index] if waits else chain[: index + 1]
         self._introduce(deed.begins)
         does, begin, _ = DOES[deed.verb]
-        text = f"{lead}{self.phrases.name(deed.actor)} {f'begins to {begin}' if begins else does}"
+        text = f"{lead}{self.name(deed.actor)} {f'begins to {begin}' if begins else does}"
         if rate is not None and rate.amount is not None:
             text += f" {'at' if rate.op == '==' else 'with'} {bounded(rate.op, rate.amount)}"
         if duration is not None and duration.margin is not None:
@@ -206,7 +201,7 @@ class Teller:
             told += self.story.moments[deed.ends].conditions
         self._say(sentence(text), deed, *told)
         for each in held:
-            self._say(f"Meanwhile, {self.phrases.clause(each)}.", each)
+            self._say(f"Meanwhile, {self.clause(each)}.", each)
         self._compounds()
 
     def _begin(self, deed: st.Deed, chain: tuple[st.Deed, ...], index: int) -> tuple[str, bool]:
@@ -228,17 +223,17 @@ class Teller:
         own = [each for each in conditions if isinstance(each, st.Measure) and each not in elsewhere]
         for measure in own:
             if st.is_event(measure):
-                return self.phrases.clause(measure, passing=st.standstill(measure.actor) not in conditions)
+                return self.clause(measure, passing=st.standstill(measure.actor) not in conditions)
         for deed in self.begun:
             if deed.begins == moment and moment != st.START:
-                return f"{self.phrases.name(deed.actor)} begins to {DOES[deed.verb][1]}{self._time(deed)}"
+                return f"{self.name(deed.actor)} begins to {DOES[deed.verb][1]}{self._time(deed)}"
         for deed in self.begun:
             if deed.ends == moment and (deed in self.ended or moment not in self.known):
                 self.ended.append(deed)
-                return f"{self.phrases.name(deed.actor)} finishes {DOES[deed.verb][2]}{self._time(deed)}"
+                return f"{self.name(deed.actor)} finishes {DOES[deed.verb][2]}{self._time(deed)}"
         if not own:
             raise untold("a moment that nothing tells from others")
-        return self.phrases.clause(own[0])
+        return self.clause(own[0])
 
     def _time(self, deed: st.Deed) -> str:
         """Return which time somebody does a deed, where it is not the first."""
@@ -262,7 +257,7 @@ class Teller:
     def hold(self, hold: st.Hold) -> str:
         """Return what holds over an interval as a clause."""
         start, end = self._point(hold.start, False), self._point(hold.end, True)
-        return f"from {start} until {end}, {hold.how}: {self.phrases.clause(hold.condition)}"
+        return f"from {start} until {end}, {hold.how}: {self.clause(hold.condition)}"
 
     def _point(self, point: st.Point, is_end: bool) -> str:
         event = "the start" if point.moment == st.START else self.event(point.moment)

@@ -24,8 +24,6 @@ OPERATORS: dict[str, st.Operator] = {"==": "==", ">=": ">=", "<=": "<=", ">": ">
 _REACHES = ("reach", "get", "got", "come", "came", "arriv")
 _CONFLICT = st.Place("turn")  # where a driveway joins a road
 _SIDES = ("before", "behind", "from", "to", "ahead", "past")  # of a place that an amount is counted to
-
-
 _OF_AMOUNTS = ("amount", "bound", "quantity", "kept", "no unit")
 _AFTER = {  # what may stand behind a side that says no more than that it belongs there: "to pass it", "at a speed of"
     "to": (*_OF_AMOUNTS, "event", "turn", "deed", "state", "phase", "mood"), "at": _OF_AMOUNTS, "of": _OF_AMOUNTS,
