@@ -191,7 +191,11 @@ class _Evidence(Measured):
                 first = self._people([other for other in said[:place] if other.kind in ("who", "pronoun")][-1:])
                 return first, {actor.id for actor in self.claim.story.actors if first} - first
             if each.value in _FIRST and follows in ("who", "pronoun"):
-                cuts = [at for at in range(place + 2, len(said)) if said[at].kind in ("comma", "pronoun")]
+                cuts = [
+                    at
+                    for at in range(place + 2, len(said))
+                    if said[at].kind in ("comma", "pronoun") or said[at].text == "does"
+                ]
                 end = cuts[0] if cuts and place < 2 else len(said)  # "Once the ego is through, ..."
                 inner, outer = said[place + 1 : end], [*said[:place], *said[end:]]
                 after = self._people(inner) | words_in(*(other.text for other in inner))

@@ -136,6 +136,10 @@ class Heard:
         found = min(named, key=rank, default=0)
         if own[found].kind == "who":
             return people(own[found]) | behind
-        # "It", or nobody: those named before in the sentence, and everybody of the nearest one that names anybody.
-        earlier = next(filter(None, (people(*each) for each in reversed(self.said[:number]))), set[int]())
+        # "It", or nobody: those named before in the sentence, and in the ones before it back to one that begins with a name.
+        earlier = set[int]()
+        for before in reversed(self.said[:number]):
+            earlier |= people(*before)
+            if next((each.kind for each in before if each.kind in ("who", "pronoun")), "") == "who":
+                break
         return people(*own[:found]) | earlier

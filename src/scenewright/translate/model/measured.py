@@ -104,7 +104,7 @@ class Measured:
             bounds = [{">": "<=", "<": ">=", ">=": "<", "<=": ">"}.get(bounds[-1], bounds[-1])]
         within = op == "<=" and any(each.value == "falls" for each in said)  # "within 2 s" of how long it takes
         if bounds and op != bounds[-1] and not within:
-            yield f"'{quote.text}' says {bounds[-1]}, not {op}"
+            yield from self.silent(quote, f"says {bounds[-1]}, not {op}", op)
         elif op not in ("==", *bounds) and all(each.kind not in ("negation", "factor") for each in said):
             yield from self.silent(quote, f"has no bound ({op}) but the amount itself (==)", BOUNDS[op].strip())
 
