@@ -191,17 +191,15 @@ class _Evidence(Measured):
                 first = self._people([other for other in said[:place] if other.kind in ("who", "pronoun")][-1:])
                 return first, {actor.id for actor in self.claim.story.actors if first} - first
             if each.value in _FIRST and follows in ("who", "pronoun"):
-                cuts = [
-                    at
-                    for at in range(place + 2, len(said))
-                    if said[at].kind in ("comma", "pronoun") or said[at].text == "does"
-                ]
+                ends = {"comma", "pronoun", "does"}  # "only after the ego has passed does the hero ..."
+                cuts = [at for at in range(place + 2, len(said)) if {said[at].kind, said[at].text} & ends]
                 end = cuts[0] if cuts and place < 2 else len(said)  # "Once the ego is through, ..."
                 inner, outer = said[place + 1 : end], [*said[:place], *said[end:]]
                 after = self._people(inner) | words_in(*(other.text for other in inner))
                 others = self._people(outer) or self.heard.subjects(quote.start)
                 before = others | words_in(*(other.text for other in outer))
-                return (before, after) if _FIRST[each.value] else (after, before)
+                denied = place > 0 and said[place - 1].kind == "negation"  # "not before"
+                return (before, after) if _FIRST[each.value] is not denied else (after, before)
         return set(), set()
 
     def _people(self, chunks: Sequence[Chunk]) -> set[int]:

@@ -136,7 +136,7 @@ class Heard:
         found = min(named, key=rank, default=0)
         if own[found].kind == "who":
             return people(own[found]) | behind
-        # "It", or nobody: those named before in the sentence, and in the ones before it back to one that begins with a name.
+        # "It", or nobody: those named before in the sentence, and in those before, back to one that begins with a name.
         earlier = set[int]()
         for before in reversed(self.said[:number]):
             earlier |= people(*before)
