@@ -15,7 +15,7 @@ from scenewright.translate.read.sentences import read
 from scenewright.translate.story import Question, Story
 from scenewright.translate.understand import understand
 
-TEXT = "The ego is headed west. The hero is headed east and turns left. The hero brakes at 3 m/s^2."
+TEXT = "The ego has an open way. The hero is headed east and turns left. The hero brakes at 3 m/s^2."
 PLAIN = (
     "The ego is headed west and goes straight on. The hero is headed east and turns left. The hero brakes to a stop."
 )

@@ -44,7 +44,7 @@ def test_who_is_ahead_is_so_at_the_start() -> None:
 
 
 def test_several_ways_are_a_question_and_its_answer_decides() -> None:
-    text = "The ego is headed west. The hero is headed east and turns left."
+    text = "The ego has an open way. An oncoming hero is headed east and turns left."
     (question,) = ways(text).questions
     assert question.slot == "way of ego"
     assert question.default is not None
@@ -52,6 +52,17 @@ def test_several_ways_are_a_question_and_its_answer_decides() -> None:
     answered = ways(text, way_of_ego="is headed west and turns right")
     assert not answered.questions
     assert told(answered)[0] == "is headed west and turns right"
+
+
+def test_who_is_told_where_it_heads_and_not_to_turn_goes_straight_on_and_that_is_told() -> None:
+    placed = ways("The ego is headed west. The hero is headed east and turns left.")
+    assert (placed.questions, placed.assumptions) == ((), ("ego goes straight on",))
+    assert told(placed)[0] == "is headed west and goes straight on"
+
+
+def test_who_is_ahead_of_one_that_turns_may_turn_too() -> None:
+    (question,) = ways("The ego is headed west and turns right. The hero is ahead of the ego.").questions
+    assert (question.slot, len(question.alternatives), question.default) == ("way of hero", 2, 0)
 
 
 def test_no_way_that_fits_is_refused_with_those_that_there_are() -> None:

@@ -21,6 +21,7 @@ from scenewright.translate.phrases import NO_GAP, TURNING, Phrases, sentence
 _INSTEAD = "it passes the conflict point"
 # How somebody's way begins against another's, in quarters of the compass to the right of it.
 BEARINGS = {"oncoming": 2, "from the left": 1, "from the right": 3, "ahead": 0, "behind": 0, "same way": 0}
+IN_LINE = ("ahead", "behind", "same way")
 
 
 def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | None = None) -> st.Story:
@@ -30,7 +31,7 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
         for actor in story.actors:
             for relation in actor.relations:
                 _keep_related(fitting, actor.id, relation)
-    phrases, questions, settled = Phrases(story), [*story.questions], list[st.Actor]()
+    phrases, questions, assumed, settled = Phrases(story), [*story.questions], [*story.assumptions], list[st.Actor]()
     for actor in story.actors:
         found = list(dict.fromkeys(_way(route, road_map) for route in fitting[actor.id]))
         if not found:
@@ -40,8 +41,13 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
                 found=phrases.way(actor.way),
                 expected=f"one of: {there_are}",
             )
+        straights = [number for number, way in enumerate(found) if way.turn == "straight"]
+        is_told = actor.way != st.Way() or actor.relations  # who has "an open way" is asked about
+        if is_told and len(straights) == 1 < len(found) and not _beside_who_turns(actor, story):
+            found = [found[straights[0]]]
+            assumed.append(f"{actor.name} goes straight on")
         if len(found) > 1:
-            straight = next((number for number, way in enumerate(found) if way.turn == "straight"), 0)
+            straight = straights[0] if straights else 0
             asked, told_ways = f"Which way does {phrases.name(actor.id)} go?", tuple(map(phrases.way, found))
             question = st.Question(f"way of {actor.name}", asked, told_ways, straight, actor.quote)
             told = (answers or {}).get(question.slot, "")
@@ -51,8 +57,17 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
             found = [found[question.alternatives.index(told)]]
         relations = tuple(each for each in actor.relations if each.kind not in BEARINGS)
         settled.append(replace(actor, way=found[0], relations=relations))
-    placed = replace(_in_line(story), actors=tuple(settled), questions=tuple(questions))
+    placed = replace(
+        _in_line(story), actors=tuple(settled), questions=tuple(questions), assumptions=tuple(dict.fromkeys(assumed))
+    )
     return _fits_ways(placed, answers or {})
+
+
+def _beside_who_turns(actor: st.Actor, story: st.Story) -> bool:
+    """Whether somebody drives in one line with one who is said to turn: it may be meant to turn, too."""
+    beside = {each.of for each in actor.relations if each.kind in IN_LINE}
+    beside |= {one.id for one in story.actors if any(e.of == actor.id and e.kind in IN_LINE for e in one.relations)}
+    return any(one.id in beside and one.way.turn not in (None, "straight") for one in story.actors)
 
 
 def _fits_ways(story: st.Story, answers: Mapping[str, str]) -> st.Story:

@@ -116,7 +116,7 @@ def test_answer_that_the_story_took_already_needs_no_call() -> None:
 
     model = Said([said(questions=[QUESTION])])
     result = told(model, ask=ask)
-    assert [each.quote and each.quote.text for each in asked] == ["to a stop 5 m before", "A truck"]
+    assert [each.quote and each.quote.text for each in asked] == ["to a stop 5 m before"]
     assert (given(result), left(result), len(model.calls)) == ({"where": "5 m before"}, [], 1)
 
 

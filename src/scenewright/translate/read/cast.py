@@ -32,7 +32,6 @@ class Cast:
     mentioned: list[int] = field(default_factory=list)  # in this sentence
     subject: int | None = None  # of the last main clause
     place: st.Place | None = None  # that was spoken of last
-    driving: set[int] = field(default_factory=set)  # who goes straight on where nothing else is said
     doer: int | None = None  # whose deed it is, while what ends it is read
     quote: st.Quote = field(default_factory=lambda: st.Quote(0, 0, ""))  # the sentence that is being read
 
@@ -47,7 +46,6 @@ class Cast:
                 self.relate(actor, st.Relation(trait.value, EGO, trait.quote))
             elif trait.kind in ("heading", "turn"):
                 self.tell_way(actor, {trait.kind: trait.value})
-                self.driving.add(actor)
         return actor
 
     def whom(self, chunk: Chunk, subject: int | None) -> int:
@@ -168,19 +166,6 @@ class Cast:
             fact: dict[str, Any] = {name: whole}
             way = replace(way, **fact)
         self.actors[number] = replace(actor, way=way)
-
-    def go_straight(self) -> None:
-        """Let who drives and is not said to turn go straight on, unless it drives in one line with who turns."""
-        for actor in [*self.actors.values()]:
-            near = [self.actor(each.of) for each in actor.relations if each.kind != "oncoming"]
-            near += [other for other in self.actors.values()
-                     if any(each.of == actor.id and each.kind != "oncoming" for each in other.relations)]  # fmt: skip
-            way, ways = actor.way, [each.way for each in near if not actor.way.heading]
-            told = any(each.origin == "driveway" or each.turn not in (None, "straight") for each in (way, *ways))
-            driving = {actor.id, *(each.id for each in near)} & self.driving
-            if driving and not (told or way.turn or way.destination or way.headings or way.lanes):
-                self.actors[actor.id] = replace(actor, way=replace(way, turn="straight"))
-                self.assumptions.append(f"{actor.name} goes straight on")
 
     def relate(self, number: int, *relations: st.Relation) -> None:
         """Add how somebody's way lies to another's."""

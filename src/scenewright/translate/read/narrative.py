@@ -58,7 +58,6 @@ class Narrative(Cast):
             self._keep(actor, quote)
         for who, courtesy, quote in self.courtesies:
             self._check(who, courtesy, quote)
-        self.go_straight()
         for doing in self.doings:
             if doing.ends is None:
                 doing.ends = self.new_moment()
@@ -197,9 +196,6 @@ class Narrative(Cast):
             self.refuse("it is not clear whose way this is", clause.quote)
         self.tell_way(clause.subject, clause.facts)
         self.relate(clause.subject, *clause.relations)
-        is_led = "headed" in clause.flags or "then" in clause.facts
-        if clause.notes & {"drives", "goes"} or ("heading" in clause.facts and not is_led):
-            self.driving.add(clause.subject)
         clause.facts, clause.relations, clause.flags = {}, [], clause.flags - {"way", "headed"}
 
     def is_owned(self, moment: int) -> bool:
