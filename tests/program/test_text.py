@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from fractions import Fraction
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from small_programs import formula
 
 from scenarios import EXAMPLES, example
 from scenewright.errors import Span
+from scenewright.program import text as text_form
 from scenewright.program.expressions import (
     Arithmetic,
     Compare,
@@ -117,3 +119,23 @@ def test_a_file_may_end_without_a_line_break_and_use_foreign_ones() -> None:
     assert parse_program(text.rstrip("\n")) == parse_program(text)
     assert parse_program(text.replace("\n", "\r\n")) == parse_program(text)
     assert parse_program(text + "\n\n  # the end") == parse_program(text)
+
+
+@pytest.mark.parametrize("found", ["nothing", "garbage", "no folder"])
+def test_what_was_built_before_is_a_matter_of_time_only(
+    found: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kept = tmp_path / "scenewright" / f"scene-{sys.version_info.major}.{sys.version_info.minor}.lark"
+    if found == "garbage":
+        kept.parent.mkdir()
+        kept.write_bytes(b"garbage")
+    elif found == "no folder":
+        (tmp_path / "scenewright").write_text("a file", encoding="utf-8")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    programs = []
+    for _ in range(2):
+        text_form._parser.cache_clear()
+        programs.append(parse_program(example("W", "t0, go, t1", "A0v(t0) == 1")))
+    text_form._parser.cache_clear()
+    assert programs[0] == programs[1]
+    assert kept.is_file() is (found != "no folder")

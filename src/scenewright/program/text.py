@@ -6,10 +6,14 @@ there. It does not check that names and units make sense (see `check`), and know
 
 from __future__ import annotations
 
+import os
+import sys
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 from importlib.resources import files
+from pathlib import Path
 from typing import Any, cast
 
 from lark import Lark, Token, Transformer, v_args
@@ -108,7 +112,12 @@ def parse_program(text: str, name: str = "program") -> Program:
 @lru_cache(maxsize=1)
 def _parser() -> Lark:
     grammar = files("scenewright.program").joinpath("scene.lark").read_text(encoding="utf-8")
-    return Lark(grammar, parser="lalr", propagate_positions=True, maybe_placeholders=True)
+    # To build the parser takes ten times as long as to read what was built; who may not write there does without.
+    folder = Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"), "scenewright")
+    with suppress(OSError):
+        folder.mkdir(parents=True, exist_ok=True)
+    built = str(folder / f"scene-{sys.version_info.major}.{sys.version_info.minor}.lark")
+    return Lark(grammar, parser="lalr", propagate_positions=True, maybe_placeholders=True, cache=built)
 
 
 @v_args(meta=True)
