@@ -147,3 +147,9 @@ def test_an_amount_set_off_by_commas_before_a_standstill_is_asked_about() -> Non
     assert (asked.kind, "where it stands" in " ".join(asked.told)) == ("asked", True)
     stands = reading_of(MEETS + "the hero comes to a stop, 8 m before the conflict point.")
     assert "A1x(t2) == conflict_point - 8" in formulas(stands)
+
+
+@pytest.mark.parametrize("said", ["before the ego", "before the ego does", "before it"])
+def test_who_is_compared_by_name_alone_does_the_same(said: str) -> None:
+    found = formulas(reading_of(f"{MEETS}the hero drives on and passes the conflict point {said}."))
+    assert {"A1x(t2) == conflict_point", "A0x(t2) == conflict_point", "A1(t2) < A0(t2)"} <= found

@@ -57,7 +57,7 @@ def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
         found, chunks = [*found, Segment("when")], chunks[1:]
     for index, chunk in enumerate(chunks):
         orders = chunk.kind == "side" and chunk.value in ("before", "after")
-        if orders and _is_clause(chunks[index + 1 :]):
+        if orders and (_is_clause(chunks[index + 1 :]) or _is_elided(found[-1].chunks, chunks[index + 1 :])):
             found.append(Segment(chunk.value, margin=_margin(found[-1].chunks)))
         elif chunk.kind == "link" and chunk.value in LINKS:
             if found[-1].chunks and found[-1].chunks[-1].kind == "bound":  # "exactly when"
@@ -65,6 +65,10 @@ def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
             found.append(Segment(chunk.value))
         else:
             found[-1].chunks.append(chunk)
+    for before, segment in pairwise(found):  # "it passes the stop line before the ego (does)"
+        if segment.link in ("before", "after") and all(chunk.kind in (*PEOPLE, "mood") for chunk in segment.chunks):
+            event = next(at for at, chunk in enumerate(before.chunks) if chunk.kind == "event")
+            segment.chunks = [*segment.chunks[:1], *before.chunks[event:]]
     for segment in found:
         while segment.chunks and segment.chunks[-1].text in (",", "and") and segment.link != "when":
             segment.chunks.pop()
@@ -77,6 +81,16 @@ def _is_clause(chunks: Sequence[Chunk]) -> bool:
         return False
     ends = (number for number, chunk in enumerate(chunks) if chunk.kind in ("link", "comma", "joint", "possessive"))
     return any(chunk.kind in _PREDICATES for chunk in chunks[: next(ends, len(chunks))])
+
+
+def _is_elided(before: Sequence[Chunk], chunks: Sequence[Chunk]) -> bool:
+    """Whether somebody is named here, and nothing more, after an event: who does the same."""
+    ends = next(
+        (number for number, chunk in enumerate(chunks) if chunk.kind in ("link", "comma", "joint")), len(chunks)
+    )
+    kinds = [chunk.kind for chunk in chunks[:ends]]
+    named = kinds[:1] != [] and kinds[0] in PEOPLE and kinds[1:] in ([], ["mood"])
+    return named and any(chunk.kind == "event" for chunk in before)
 
 
 def _margin(chunks: list[Chunk]) -> tuple[st.Operator, st.Amount] | None:
@@ -98,6 +112,9 @@ def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
             is_aside = following == "relative"
             if not is_aside and (not was_aside or following in PEOPLE):  # "the ego, which turns left, is 10 m ..."
                 commas.append(index)
+    people = (at for at in range(1, len(chunks) - 1) if chunks[at].kind in PEOPLE and chunks[at + 1].kind == "deed")
+    if not commas and (begins := next(people, 0)):  # "once the gap is 25 m the truck brakes"
+        return chunks[:begins], chunks[begins:]
     if not commas:
         raise UnknownWordsError("it is not clear where the moment ends", fix="put a comma before what happens")
     acts = (start for start, end in zip(commas, [*commas[1:], len(chunks)], strict=True)

@@ -245,12 +245,13 @@ class _Sentence:
             held.append(steady(clause.subject, clause.quote))
         drives_on = bool(begins) and clause.deed != st.Verb.STAND  # "it brakes 15 m before the stop line"
         if clause.deed == "turn":
-            told = () if moment is None else story.moments[moment].conditions
+            start, told = story.moments[st.START].conditions, () if moment is None else story.moments[moment].conditions
+            told = (*told, *start) if st.standstill(clause.subject) in start else told  # it turns from where it stands
             if not any(isinstance(each, st.Measure) and each.actor == clause.subject and each.place for each in told):
                 begins.append(
                     self._at(clause.subject, "turn_start")
                 )  # else it is told where it is then, and it turns later
-            ends.append(self._at(clause.subject, "turn_end"))
+            ends = ends or [self._at(clause.subject, "turn_end")]  # "turns left and passes the conflict point"
         elif clause.deed == "go first":
             ends.append(self._at(clause.subject, "conflict_point"))
         is_event = "event" in clause.notes
