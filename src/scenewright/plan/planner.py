@@ -14,7 +14,7 @@ from itertools import product
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.asked import Asked
 from scenewright.plan.foresight import Foresight
-from scenewright.plan.pairs import Meeting, in_order, meetings_of
+from scenewright.plan.pairs import Meeting, in_order, meetings_of, needed
 from scenewright.plan.prediction import EgoSample, Predictor
 from scenewright.plan.problem import Missed, Problem
 from scenewright.plan.shooting import profile_of
@@ -32,7 +32,7 @@ from scenewright.solve.plan import Plan
 _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
 # First plans are solved for from these speeds (shares of the natural one) and, where both decide, triggers (s): Newton
 # finds the nearest plan, not the best.
-_PACES, _JOINT_S = (0.8, 0.45, 0.25), (3.5, 6.0)
+_PACES, _JOINT_S = (0.25, 0.45, 0.8), (3.5, 6.0)
 # What a step has to gain for each further hero: the next tick goes on from there. Chosen; a tight
 # tolerance that is missed costs hundreds.
 _ENOUGH_EACH = 0.3
@@ -82,13 +82,17 @@ class Attempt:
 
 @dataclass(frozen=True, slots=True)
 class _Found:
-    """A plan, how and for what problem it was found, all its moments by instant, and its other unknowns, by number."""
+    """A plan, how and for what problem it was found, all its moments by instant, and its other unknowns, by number.
+
+    And who goes first wherever heroes meet.
+    """
 
     plan: Plan
     solution: Solution
     moments_s: Mapping[int, float]
     others: Mapping[int, float]
     problem: Problem
+    meetings: tuple[Meeting, ...]
 
 
 @dataclass(slots=True)
@@ -140,14 +144,22 @@ class Planner:
         prediction = self._ego.predictor.predict([ego])
         joint = any(self._trigger(hero) is not None and not self._ego_decides(hero) for hero in self._heroes)
         tries: list[_Found] = []
+        meetings, placed = meetings_of(self.scene), all(self._is_placed(hero) for hero in self._heroes)
         for joint_s, pace in product(_JOINT_S if joint else (0.0,), _PACES):
-            tries.append(self._planned_first(prediction, joint_s, self._even_motions(prediction, joint_s, pace)))
-            if tries[-1].solution.cost < self._enough:
+            guesses = self._even_motions(prediction, joint_s, pace)
+            if meetings and placed:
+                self._meetings = in_order(meetings, self.scene, self.structure, guesses)
+            tries.append(self._planned_first(prediction, joint_s, guesses))
+            if meetings and tries[-1].solution.missed.by <= GOOD:
                 break
         best = min(tries, key=lambda found: found.solution.cost)
         self._keep(best)
         best = self._led(best) if self._ego.leaders else self._planned_first(prediction, 0.0, best.plan.profiles)
-        best = self._clear(best)
+        if meetings and not placed:
+            self._keep(best)
+            self._meetings = in_order(meetings, self.scene, self.structure, best.plan.profiles)
+            best = self._planned_first(best.plan.profiles[EGO], 0.0, best.plan.profiles)
+        best = self._turned(best)
         self._keep(best)
         for hero in self._heroes:
             if (name := self._trigger(hero)) is not None:
@@ -160,6 +172,7 @@ class Planner:
 
     def _keep(self, found: _Found) -> None:
         self.plan, self._moments_s, self._others = found.plan, found.moments_s, found.others
+        self._meetings = found.meetings
 
     def _planned_first(
         self, prediction: Profile, joint_s: float, guesses: Mapping[int, Profile], trusted: float = 1.0
@@ -168,31 +181,21 @@ class Planner:
 
         Of a longest step `trusted` is the share by which it may be off from them; 1 is no limit.
         """
-        problem = Problem(self._asked, self._first_situation(prediction, joint_s, guesses), self._meetings)
+        problem = Problem(self._asked, self._first_situation(prediction, joint_s, guesses), needed(self._meetings))
         if trusted < 1.0:
             problem.keep_near(trusted)
         return self._made(problem, solve(problem, problem.guess, _FIRST_STEPS, self._enough), prediction)
 
-    def _clear(self, best: _Found) -> _Found:
-        """Return a first plan in which heroes keep clear of each other, from one in which they need not.
-
-        Who goes first is taken from that; then the meeting is turned that is the dearest, where that makes it cheaper.
-        """
-        self._meetings = in_order(meetings_of(self.scene), self.scene, self.structure, best.plan.profiles)
-        if not self._meetings:
-            return best
-        self._keep(best)
-        guesses = best.plan.profiles
-        best = self._planned_first(guesses[EGO], 0.0, guesses)
+    def _turned(self, best: _Found) -> _Found:
+        """Return a first plan in which the two heroes that are dearest are turned, as long as that makes it cheaper."""
         for _ in range(_MOST_TURNS):
-            short, number = best.problem.dearest(best.solution.z)
+            short, pair = best.problem.dearest(best.solution.z)
             if short < _CLEAR_ENOUGH:
                 break
-            kept = self._meetings
-            self._meetings = tuple(m.turned() if k == number else m for k, m in enumerate(kept))
-            trial = self._planned_first(guesses[EGO], 0.0, guesses)
+            self._keep(best)
+            self._meetings = tuple(m.turned() if {m.first, m.second} == pair else m for m in best.meetings)
+            trial = self._planned_first(best.plan.profiles[EGO], 0.0, best.plan.profiles)
             if trial.solution.cost >= best.solution.cost:
-                self._meetings = kept
                 break
             best = trial
         return best
@@ -215,7 +218,7 @@ class Planner:
         """Return a first plan, and what it costs, with the ego that answers it: it was made with one that did not."""
         self._keep(found)
         foreseen = self._ego.foreseen(found.plan.profiles)
-        problem = Problem(self._asked, self._first_situation(foreseen, 0.0, found.plan.profiles), self._meetings)
+        problem = Problem(self._asked, self._first_situation(foreseen, 0.0, found.plan.profiles), needed(self._meetings))
         return self._made(problem, solve(problem, problem.guess, 0), foreseen)
 
     def _even_motions(self, prediction: Profile, joint_s: float, pace: float) -> dict[int, Profile]:
@@ -224,13 +227,21 @@ class Planner:
         for hero in self._heroes:
             speed_mps = pace * self.limits[hero.id].natural_approach_speed_mps
             trigger_s = self._times.instant_s(hero, 0.0, prediction, None) if self._ego_decides(hero) else joint_s
-            first_m = self._place_m(hero, prediction.state(trigger_s)[:2], speed_mps) - speed_mps * trigger_s
+            there_m = self._place_m(hero, prediction.state(trigger_s)[:2], speed_mps)
+            if there_m is None:
+                there_m = 0.5 * self.scene.routes[hero.id].landmarks["route_end"]
+            first_m = there_m - speed_mps * trigger_s
             moves = [(trigger_s, 0.0, 0)]
-            found[hero.id] = Profile(chain(0.0, first_m, speed_mps, moves), {hero.sketch.knots[0]: 0.0})
+            knots_s = {hero.sketch.knots[0]: 0.0} | {name: trigger_s for name in [self._trigger(hero)] if name}
+            found[hero.id] = Profile(chain(0.0, first_m, speed_mps, moves), knots_s)
         return found
 
-    def _place_m(self, hero: Actor, ego: tuple[float, float], speed_mps: float) -> float:
-        """Return where a hero that is so fast is at its trigger, as far as a condition there tells."""
+    def _is_placed(self, hero: Actor) -> bool:
+        """Whether the ego decides when a hero's trigger comes, and a condition there tells where the hero is."""
+        return self._ego_decides(hero) and self._place_m(hero, (0.0, 0.0), 0.0) is not None
+
+    def _place_m(self, hero: Actor, ego: tuple[float, float], speed_mps: float) -> float | None:
+        """Return where a hero that is so fast is at its trigger, if a condition there tells."""
         instant = self.structure.triggers.get(hero.id, frozenset())
         for condition in self.conditions:
             if (
@@ -241,7 +252,7 @@ class Planner:
                 per_metre = condition.weights[hero.id][0]
                 if per_metre:
                     return -condition.value({EGO: ego, hero.id: (0.0, speed_mps)}) / per_metre
-        return 0.5 * self.scene.routes[hero.id].landmarks["route_end"]
+        return None
 
     def _first_situation(self, prediction: Profile, joint_s: float, guesses: Mapping[int, Profile]) -> Situation:
         triggers = {
@@ -317,7 +328,7 @@ class Planner:
         else:
             prediction = self._ego.foreseen(self.plan.profiles)
             situation, moved_s = self._situation(time_s, prediction)
-            problem = Problem(self._asked, situation, self._meetings)
+            problem = Problem(self._asked, situation, needed(self._meetings))
             steps = _TICK_STEPS + min(_MOST_STEPS_MORE, int(_STEPS_A_SECOND * moved_s))
             solution = solve(problem, problem.guess, steps, self._enough)
             self._keep(self._made(problem, solution, prediction))
@@ -415,7 +426,7 @@ class Planner:
         profiles[EGO] = Profile(prediction.segments, {name: times[self._asked.knot(EGO, name)] for name in names})
         parameters = {name: float(value) for name, value in self.scene.parameters.items()}
         plan = Plan(profiles, solution.missed.by, parameters)
-        return _Found(plan, solution, dict(enumerate(times)), problem.others(solution.z), problem)
+        return _Found(plan, solution, dict(enumerate(times)), problem.others(solution.z), problem, self._meetings)
 
     # -- what is known ------------------------------------------------------------------------------------------------
     @property

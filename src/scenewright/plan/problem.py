@@ -27,6 +27,7 @@ _LEAST_S = 0.05  # between two knots of one hero
 _LEAST_APPROACH_S = 0.4  # before the settled end of an approach, for it to have a leg of its own
 _LATEST_S, _FASTEST_MPS = 200.0, 60.0
 DAMPING = 0.02  # of a longest step, in every step: what nothing else decides stays as it is
+_NEAR_M = 12.0
 _BETWEEN_S = 2.0  # after one that goes first, where the other comes much later
 _STEP_S, _STEP_M, _STEP_MPS, _STEP_MPSS, _STEP_OTHER = 0.6, 40.0, 5.0, 3.0, 4.0
 
@@ -76,6 +77,7 @@ class Problem:
                 self._span[hero.id] = range(first, len(self._guess))
         self._others = self._rest()
         self._shot: tuple[Array, dict[int, Shot]] | None = None
+        self._moving = len(self._guess)
         self._own = {hero: self._owned(hero) for hero in self._legs}
         ends_s = [leg.last.value(self._guess) for legs in self._legs.values() for leg in legs]
         end_s = max([now.time_s, *ends_s])  # from there on everybody holds its speed: gaps change evenly
@@ -257,7 +259,7 @@ class Problem:
         """Return the motion in force, and when it does what a leg is to do: guesses keep to their places in pieces."""
         drive = self.now.heroes.get(hero.id)
         profile = self.now.guesses.get(hero.id) if drive is None else drive.motion
-        if profile is None or len(profile.knot_times_s) < 2:
+        if profile is None or len(profile.knot_times_s) < len(hero.sketch.knots):
             return None
         begin_s = 0.0 if drive is None else drive.begin_s
         old = [max(begin_s, profile.knot_times_s[name]) for name in hero.sketch.knots]
@@ -293,13 +295,36 @@ class Problem:
                 if moment.unknown is not None:
                     z[moment.unknown] = max(z[moment.unknown], latest + _LEAST_S - moment.constant_s)
                 latest = max(latest, moment.value(z))
+        for meeting, moment in self._meetings:
+            if moment is not None and meeting.zones_m is not None:
+                (left_s, left_mps), (enters_s, enters_mps) = (
+                    self._passes(hero, place_m, z)
+                    for hero, place_m in (
+                        (meeting.first, meeting.zones_m[0][1] + self.asked.wanted.clear_m),
+                        (meeting.second, meeting.zones_m[1][0] - self.asked.wanted.clear_m),
+                    )
+                )
+                left_s = min(left_s, self._looks[-1])
+                enters_s = min(enters_s, left_s + _BETWEEN_S)
+                share = left_mps**2 / (left_mps**2 + enters_mps**2) if left_s > enters_s else 0.5
+                z[moment] = min(max(share * left_s + (1.0 - share) * enters_s, self.low[moment]), self.high[moment])
         return z
+
+    def _passes(self, hero: int, place_m: float, z: Array) -> tuple[float, float]:
+        """Return when a hero comes to a place, and how fast it is there."""
+        shot, drive = self.shots(z).get(hero), self.now.heroes.get(hero)
+        if drive is not None and (shot is None or place_m < shot.s[0]):
+            at_s = passes_s(drive.motion, place_m)
+            return at_s, max(drive.motion.state(at_s)[1], 0.1) if at_s < 1e9 else 0.1
+        assert shot is not None
+        return shot.passes(place_m)
 
     def shots(self, z: Array) -> dict[int, Shot]:
         """Return the motions of all that are still planned; slopes are by their own unknowns."""
-        if self._shot is None or not np.array_equal(self._shot[0], z):  # they are often asked for twice
+        moved = z[: self._moving]
+        if self._shot is None or not np.array_equal(self._shot[0], moved):  # they are often asked for twice
             shots = {hero: shoot(own.legs, own.start, z[own.columns]) for hero, own in self._own.items()}
-            self._shot = z.copy(), shots
+            self._shot = moved.copy(), shots
         return self._shot[1]
 
     def rows(self, z: Array) -> tuple[Rows, Rows, Missed]:
@@ -319,8 +344,8 @@ class Problem:
             missed = replace(missed, by=max(missed.by, self._pairs(z, shots).add(bounds)))
         return costs, bounds, missed
 
-    def dearest(self, z: Array) -> tuple[float, int]:
-        """Return by how much the two that are worst too near each other are so (m^2), and which meeting it is."""
+    def dearest(self, z: Array) -> tuple[float, set[int]]:
+        """Return by how much the two heroes that are worst too near each other are so (m^2), and who they are."""
         return self._pairs(z, self.shots(z)).dearest()
 
     def _pairs(self, z: Array, shots: Mapping[int, Shot]) -> PairRows:
@@ -329,7 +354,7 @@ class Problem:
             drive, shot = self.now.heroes.get(hero.id), shots.get(hero.id)
             motion = None if drive is None else drive.motion
             ways[hero.id] = Way(motion) if shot is None else Way(motion, shot, self._own[hero.id].columns)
-        return PairRows(self._meetings, ways, self._looks, self._driven, self.asked.wanted, z)
+        return PairRows(self._meetings, ways, self._looks, self._driven, self.asked.wanted, z, _NEAR_M if self.now.heroes else 100.0)
 
     def _add_asked(self, z: Array, shots: Mapping[int, Shot], costs: Rows, bounds: Rows) -> Missed:
         wanted, tight_s = self.asked.wanted, TIGHT["time"]
