@@ -147,11 +147,16 @@ def _contacts(scene: Scene, structure: Structure, motions: Mapping[int, Profile]
         }
         for a, b in combinations(sorted(placed), 2):
             pose_a, pose_b = (
-                scene.routes[actor].path.poses(np.array([motions[actor].state(motions[actor].knot_times_s[name])[0]]))
+                scene.routes[actor].path.poses(np.array([_place_m(motions[actor], name)]))
                 for actor, name in ((a, placed[a]), (b, placed[b]))
             )
             if overlap(pose_a, pose_b, CAR, CAR)[0]:
                 yield a, b
+
+
+def _place_m(motion: Profile, knot: str) -> float:
+    """Return where a motion is at a knot; an even one, of which no more is known, ends at its trigger."""
+    return motion.state(motion.knot_times_s.get(knot, motion.end_s))[0]
 
 
 # -- rows -------------------------------------------------------------------------------------------------------------
@@ -191,6 +196,8 @@ class PairRows:
         When lanes are looked at; the last is the end of all plans.
     driven
         What ways that nothing can change are at these times, as `Way.along` gives it.
+    near_m
+        Who has more room than this in a lane is not looked at.
     """
 
     meetings: Sequence[tuple[Meeting, int | None]]

@@ -12,16 +12,17 @@ from dataclasses import InitVar, dataclass, field, replace
 from itertools import product
 
 from scenewright.motion.profile import Profile, chain
+from scenewright.plan.afterwards import goes_on
 from scenewright.plan.asked import Asked
 from scenewright.plan.foresight import Foresight
 from scenewright.plan.pairs import Meeting, in_order, meetings_of, needed
 from scenewright.plan.prediction import EgoSample, Predictor
-from scenewright.plan.problem import Missed, Problem
+from scenewright.plan.problem import AFTER_LAST_S, Missed, Problem
 from scenewright.plan.shooting import profile_of
 from scenewright.plan.situation import Drive, Situation
 from scenewright.plan.solving import Solution, solve
 from scenewright.plan.triggers import SHORTEST_LEAD_S, TriggerTimes
-from scenewright.program.structure import Role, Structure, knots_of
+from scenewright.program.structure import Role, Structure, knots_of, placed_at
 from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
@@ -144,23 +145,27 @@ class Planner:
         prediction = self._ego.predictor.predict([ego])
         joint = any(self._trigger(hero) is not None and not self._ego_decides(hero) for hero in self._heroes)
         tries: list[_Found] = []
-        meetings, placed = meetings_of(self.scene), all(self._is_placed(hero) for hero in self._heroes)
+        meetings = meetings_of(self.scene)
+        placed = bool(meetings) and not self._meet_later and all(self._is_placed(hero) for hero in self._heroes)
         for joint_s, pace in product(_JOINT_S if joint else (0.0,), _PACES):
             guesses = self._even_motions(prediction, joint_s, pace)
-            if meetings and placed:
+            if placed:
                 self._meetings = in_order(meetings, self.scene, self.structure, guesses)
             tries.append(self._planned_first(prediction, joint_s, guesses))
             if meetings and tries[-1].solution.missed.by <= GOOD:
                 break
         best = min(tries, key=lambda found: found.solution.cost)
         self._keep(best)
-        best = self._led(best) if self._ego.leaders else self._planned_first(prediction, 0.0, best.plan.profiles)
+        if self._ego.leaders:
+            best = self._led(best)
         if meetings and not placed:
             self._keep(best)
             self._meetings = in_order(meetings, self.scene, self.structure, best.plan.profiles)
+        if not (self._ego.leaders or placed) or self._meetings != best.meetings:
             best = self._planned_first(best.plan.profiles[EGO], 0.0, best.plan.profiles)
         best = self._turned(best)
         self._keep(best)
+        self._meetings = needed(best.meetings)
         for hero in self._heroes:
             if (name := self._trigger(hero)) is not None:
                 self._joint_s[hero.id] = self.plan.profiles[hero.id].knot_times_s[name]
@@ -232,13 +237,18 @@ class Planner:
                 there_m = 0.5 * self.scene.routes[hero.id].landmarks["route_end"]
             first_m = there_m - speed_mps * trigger_s
             moves = [(trigger_s, 0.0, 0)]
-            knots_s = {hero.sketch.knots[0]: 0.0} | {name: trigger_s for name in [self._trigger(hero)] if name}
-            found[hero.id] = Profile(chain(0.0, first_m, speed_mps, moves), knots_s)
+            found[hero.id] = Profile(chain(0.0, first_m, speed_mps, moves), {hero.sketch.knots[0]: 0.0})
         return found
 
     def _is_placed(self, hero: Actor) -> bool:
         """Whether the ego decides when a hero's trigger comes, and a condition there tells where the hero is."""
         return self._ego_decides(hero) and self._place_m(hero, (0.0, 0.0), 0.0) is not None
+
+    @property
+    def _meet_later(self) -> bool:
+        """Whether the program says of several heroes where they are at one moment that is no trigger."""
+        instants = set(self.structure.instants) - set(self.structure.triggers.values())
+        return any(len(placed_at(self.scene.program, instant) - {EGO}) > 1 for instant in instants)
 
     def _place_m(self, hero: Actor, ego: tuple[float, float], speed_mps: float) -> float | None:
         """Return where a hero that is so fast is at its trigger, if a condition there tells."""
@@ -323,12 +333,13 @@ class Planner:
     def tick(self, time_s: float) -> Replan:
         """Re-solve where that is needed, and return what came of it."""
         started = time.perf_counter()
+        self._go_on(time_s)
         if all(self._open_piece(hero, time_s) is None for hero in self._heroes):
             record = Replan(time_s, "frozen", "", 0.0, self.plan.tolerance, "after its trigger the hero does not adapt")
         else:
             prediction = self._ego.foreseen(self.plan.profiles)
             situation, moved_s = self._situation(time_s, prediction)
-            problem = Problem(self._asked, situation, needed(self._meetings))
+            problem = Problem(self._asked, situation, self._meetings)
             steps = _TICK_STEPS + min(_MOST_STEPS_MORE, int(_STEPS_A_SECOND * moved_s))
             solution = solve(problem, problem.guess, steps, self._enough)
             self._keep(self._made(problem, solution, prediction))
@@ -337,6 +348,16 @@ class Planner:
         record = replace(record, wall_s=time.perf_counter() - started)
         self.records.append(record)
         return record
+
+    def _go_on(self, time_s: float) -> None:
+        """Let heroes whose plan is over keep clear of those that go first."""
+        if not self._meetings:
+            return
+        profiles = dict(self.plan.profiles)
+        for hero in self._heroes:
+            if max(profiles[hero.id].knot_times_s.values()) + AFTER_LAST_S <= time_s:
+                profiles[hero.id] = goes_on(hero.id, profiles, self._meetings, time_s, self._asked.wanted)
+        self.plan = replace(self.plan, profiles=profiles)
 
     def ego_stood_s(self, time_s: float) -> float:
         """Return for how long the ego has not moved (s)."""

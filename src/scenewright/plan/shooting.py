@@ -19,7 +19,8 @@ from scenewright.program.types import PieceKind
 
 Array = NDArray[np.float64]
 
-_CREEPS_MPS, _NEWTON = 0.1, 4
+CREEPS_MPS = 0.1  # who is slower is taken to be so fast, to tell when it comes somewhere
+_ROUNDS = 4  # of Newton's steps for that
 _HARDLY_MPS = 0.05  # by how much less than standing is a matter of rounding
 
 
@@ -130,12 +131,12 @@ class Shot:
         node = min(max(int(np.searchsorted(self.s, place_m, side="right")) - 1, 0), last)
         begin, v, to_go = float(self.time[node]), float(self.v[node]), place_m - float(self.s[node])
         if node == last:
-            return begin + to_go / max(v, _CREEPS_MPS), max(v, _CREEPS_MPS)
+            return begin + to_go / max(v, CREEPS_MPS), max(v, CREEPS_MPS)
         lasts = max(float(self.time[node + 1]) - begin, 1e-6)
         a, jerk = float(self.accel[node]), float(self.accel_after[node] - self.accel[node]) / lasts
         since, speed = max(to_go, 0.0) / max(float(self.s[node + 1] - self.s[node]), 1e-6) * lasts, v
-        for _ in range(_NEWTON):
-            speed = max(v + (a + 0.5 * jerk * since) * since, _CREEPS_MPS)
+        for _ in range(_ROUNDS):
+            speed = max(v + (a + 0.5 * jerk * since) * since, CREEPS_MPS)
             since += (to_go - (v + (0.5 * a + jerk * since / 6.0) * since) * since) / speed
             since = min(max(since, 0.0), lasts)
         return begin + since, speed
