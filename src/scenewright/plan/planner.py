@@ -223,7 +223,9 @@ class Planner:
         """Return a first plan, and what it costs, with the ego that answers it: it was made with one that did not."""
         self._keep(found)
         foreseen = self._ego.foreseen(found.plan.profiles)
-        problem = Problem(self._asked, self._first_situation(foreseen, 0.0, found.plan.profiles), needed(self._meetings))
+        problem = Problem(
+            self._asked, self._first_situation(foreseen, 0.0, found.plan.profiles), needed(self._meetings)
+        )
         return self._made(problem, solve(problem, problem.guess, 0), foreseen)
 
     def _even_motions(self, prediction: Profile, joint_s: float, pace: float) -> dict[int, Profile]:

@@ -289,9 +289,9 @@ class Problem:
                 if moment.unknown is not None:
                     z[moment.unknown] = max(z[moment.unknown], latest + _LEAST_S - moment.constant_s)
                 latest = max(latest, moment.value(z))
-        for meeting, moment in self._meetings:
-            if moment is not None:
-                z[moment] = min(max(self._between_s(meeting, z), self.low[moment]), self.high[moment])
+        for meeting, between in self._meetings:
+            if between is not None:
+                z[between] = np.clip(self._between_s(meeting, z), self.low[between], self.high[between])
         return z
 
     def _between_s(self, meeting: Meeting, z: Array) -> float:
@@ -303,7 +303,7 @@ class Problem:
         clear_m = self.asked.wanted.clear_m
         left_s, left_mps = self._passes(meeting.first, meeting.zones_m[0][1] + clear_m, z)
         enters_s, enters_mps = self._passes(meeting.second, meeting.zones_m[1][0] - clear_m, z)
-        left_s = min(left_s, self._looks[-1])
+        left_s = min(left_s, float(self._looks[-1]))
         enters_s = min(enters_s, left_s + _BETWEEN_S)
         share = left_mps**2 / (left_mps**2 + enters_mps**2) if left_s > enters_s else 0.5
         return share * left_s + (1.0 - share) * enters_s
@@ -352,7 +352,8 @@ class Problem:
             drive, shot = self.now.heroes.get(hero.id), shots.get(hero.id)
             motion = None if drive is None else drive.motion
             ways[hero.id] = Way(motion) if shot is None else Way(motion, shot, self._own[hero.id].columns)
-        return PairRows(self._meetings, ways, self._looks, self._driven, self.asked.wanted, z, _NEAR_M if self.now.heroes else np.inf)
+        near_m = _NEAR_M if self.now.heroes else np.inf
+        return PairRows(self._meetings, ways, self._looks, self._driven, self.asked.wanted, z, near_m)
 
     def _add_asked(self, z: Array, shots: Mapping[int, Shot], costs: Rows, bounds: Rows) -> Missed:
         wanted, tight_s = self.asked.wanted, TIGHT["time"]
