@@ -33,7 +33,7 @@ from scenewright.solve.plan import Plan
 _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
 # First plans are solved for from these speeds (shares of the natural one) and, where both decide, triggers (s): Newton
 # finds the nearest plan, not the best.
-_PACES, _JOINT_S = (0.25, 0.45, 0.8), (3.5, 6.0)
+_PACES, _JOINT_S = (0.8, 0.45, 0.25), (3.5, 6.0)
 # What a step has to gain for each further hero: the next tick goes on from there. Chosen; a tight
 # tolerance that is missed costs hundreds.
 _ENOUGH_EACH = 0.3
@@ -146,9 +146,10 @@ class Planner:
         joint = any(self._trigger(hero) is not None and not self._ego_decides(hero) for hero in self._heroes)
         tries: list[_Found] = []
         meetings = meetings_of(self.scene)
-        placed = bool(meetings) and not self._meet_later and all(self._is_placed(hero) for hero in self._heroes)
-        for joint_s, pace in product(_JOINT_S if joint else (0.0,), _PACES):
-            guesses = self._even_motions(prediction, joint_s, pace)
+        placed = bool(meetings) and not self._meet_later and self._even_motions(prediction, 0.0, 1.0)[1]
+        # Who comes slowly can still do either; where nothing tells when, a slow guess would just stay slow.
+        for joint_s, pace in product(_JOINT_S if joint else (0.0,), reversed(_PACES) if placed else _PACES):
+            guesses, _ = self._even_motions(prediction, joint_s, pace)
             if placed:
                 self._meetings = in_order(meetings, self.scene, self.structure, guesses)
             tries.append(self._planned_first(prediction, joint_s, guesses))
@@ -228,23 +229,37 @@ class Planner:
         )
         return self._made(problem, solve(problem, problem.guess, 0), foreseen)
 
-    def _even_motions(self, prediction: Profile, joint_s: float, pace: float) -> dict[int, Profile]:
-        """Return first guesses: everybody comes evenly to where a condition at its trigger wants it."""
-        found = {}
+    def _even_motions(self, prediction: Profile, joint_s: float, pace: float) -> tuple[dict[int, Profile], bool]:
+        """Return first guesses: everybody comes evenly to where a condition at its trigger wants it.
+
+        And whether there is one for each: so that they tell who goes first.
+        """
+        found: dict[int, Profile] = {}
+        times_s: dict[int, float] = {}
+        told = True
         for hero in self._heroes:
             speed_mps = pace * self.limits[hero.id].natural_approach_speed_mps
-            trigger_s = self._times.instant_s(hero, 0.0, prediction, None) if self._ego_decides(hero) else joint_s
-            there_m = self._place_m(hero, prediction.state(trigger_s)[:2], speed_mps)
+            instant, at_s = self._asked.trigger(hero.id), joint_s
+            if self._ego_decides(hero):
+                at_s = self._times.instant_s(hero, 0.0, prediction, None)
+            elif hero.id not in self.structure.triggers and instant is not None:  # it hangs on others that came before
+                at_s = max(
+                    (then_s + self._asked.least_s[then, instant] for then, then_s in times_s.items()), default=0.0
+                )
+            else:
+                told = False
+            if instant is not None:
+                times_s[instant] = at_s
+            states = {EGO: prediction.state(at_s)[:2]} | {other: each.state(at_s)[:2] for other, each in found.items()}
+            there_m = self._place_m(hero, states, speed_mps)
+            told &= there_m is not None
             if there_m is None:
                 there_m = 0.5 * self.scene.routes[hero.id].landmarks["route_end"]
-            first_m = there_m - speed_mps * trigger_s
-            moves = [(trigger_s, 0.0, 0)]
-            found[hero.id] = Profile(chain(0.0, first_m, speed_mps, moves), {hero.sketch.knots[0]: 0.0})
-        return found
-
-    def _is_placed(self, hero: Actor) -> bool:
-        """Whether the ego decides when a hero's trigger comes, and a condition there tells where the hero is."""
-        return self._ego_decides(hero) and self._place_m(hero, (0.0, 0.0), 0.0) is not None
+            moves = [(at_s, 0.0, 0)]
+            found[hero.id] = Profile(
+                chain(0.0, there_m - speed_mps * at_s, speed_mps, moves), {hero.sketch.knots[0]: 0.0}
+            )
+        return found, told
 
     @property
     def _meet_later(self) -> bool:
@@ -252,18 +267,19 @@ class Planner:
         instants = set(self.structure.instants) - set(self.structure.triggers.values())
         return any(len(placed_at(self.scene.program, instant) - {EGO}) > 1 for instant in instants)
 
-    def _place_m(self, hero: Actor, ego: tuple[float, float], speed_mps: float) -> float | None:
-        """Return where a hero that is so fast is at its trigger, if a condition there tells."""
-        instant = self.structure.triggers.get(hero.id, frozenset())
+    def _place_m(self, hero: Actor, states: Mapping[int, tuple[float, float]], speed_mps: float) -> float | None:
+        """Return where a hero that is so fast is at its trigger, if a condition there, on others so placed, tells."""
+        name = self._asked.adapts_until.get(hero.id)
+        instant = self.structure.triggers.get(hero.id, frozenset() if name is None else frozenset({(hero.id, name)}))
         for condition in self.conditions:
             if (
                 condition.moments <= instant
                 and hero.id in condition.weights
-                and set(condition.weights) <= {EGO, hero.id}
+                and set(condition.weights) <= {hero.id, *states}
             ):
                 per_metre = condition.weights[hero.id][0]
                 if per_metre:
-                    return -condition.value({EGO: ego, hero.id: (0.0, speed_mps)}) / per_metre
+                    return -condition.value({**states, hero.id: (0.0, speed_mps)}) / per_metre
         return None
 
     def _first_situation(self, prediction: Profile, joint_s: float, guesses: Mapping[int, Profile]) -> Situation:
