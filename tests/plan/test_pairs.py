@@ -9,7 +9,7 @@ from situations import planner_of, scene_of
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan import planner as planning
-from scenewright.plan.pairs import Meeting, in_order, meetings_of, passes_s
+from scenewright.plan.pairs import Meeting, in_order, meetings_of, needed, passes_s
 from scenewright.plan.problem import Problem
 from scenewright.program.structure import read_structure
 from scenewright.program.types import EGO
@@ -121,3 +121,55 @@ def test_an_order_is_as_late_as_both_would_be_there(first: int, late_s: float) -
     meeting = Meeting(1, 2, ((10.0, 30.0), (10.0, 30.0)))
     assert passes_s(motions[2], 10.0) == pytest.approx(4.0)
     assert (meeting if first == 1 else meeting.turned()).late_s(motions) == pytest.approx(late_s)
+
+
+def test_meetings_that_are_left_out_follow_from_others() -> None:
+    """In any order of cars on two ways that merge, each keeps clear of all if each does of those next to it."""
+    lane = ((0.0, np.inf), (0.0, np.inf))
+    zones = ((50.0, 60.0), (80.0, 90.0))  # of ways 0 and 1
+    random = np.random.default_rng(5)
+    for count in (3, 6, 9):
+        ways = random.integers(0, 2, count)  # by place in the order
+        meetings = tuple(
+            Meeting(a, b, None, lane)
+            if ways[a] == ways[b]
+            else Meeting(a, b, (zones[ways[a]], zones[ways[b]]), lane, zones[ways[a]][1] - zones[ways[b]][1])
+            for a in range(count)
+            for b in range(a + 1, count)
+        )
+        kept = needed(meetings)
+        assert {(each.first, each.second) for each in kept} >= {(k, k + 1) for k in range(count - 1)}
+        assert len(kept) <= 2 * count
+        reached = {(each.first, each.second) for each in kept}
+        for middle in range(count):
+            reached |= {(a, b) for a, c in reached for d, b in reached if c == d == middle}
+        assert reached == {(each.first, each.second) for each in meetings}
+
+
+def test_nobody_follows_from_an_order_that_goes_round() -> None:
+    lane = ((0.0, np.inf), (0.0, np.inf))
+    circle = tuple(Meeting(a, b, None, lane) for a, b in ((1, 2), (2, 3), (3, 1)))
+    assert needed(circle) == circle
+
+
+@pytest.mark.parametrize("count", [8, 20])
+def test_meetings_of_many_are_few(count: int) -> None:
+    planner = planner_of(scene_of(PROGRAMS["platoon"](count)))
+    planner.begin((0.0, 40.0, 9.0, 0.0))
+    assert len(planner._meetings) == count - 1
+
+
+@pytest.mark.parametrize("at_s", [0.0, 1.0])
+def test_moments_between_two_are_midway(at_s: float) -> None:
+    planner = planner_of(scene_of(ACROSS))
+    planner.begin((0.0, 100.0, 9.0, 0.0))
+    meeting = next(each for each in planner._meetings if each.zones_m is not None)
+    situation, _ = planner._situation(at_s, planner._ego.foreseen(planner.plan.profiles))
+    problem = Problem(planner._asked, situation, planner._meetings)
+    z = problem.ordered(problem.guess)
+    moment = next(moment for each, moment in problem._meetings if each == meeting and moment is not None)
+    (_, out_m), (in_m, _) = meeting.zones_m or ((0.0, 0.0), (0.0, 0.0))
+    motions = problem.shots(z)
+    s_m = [float(motions[h].along(np.array([z[moment]]))[0][0]) for h in (meeting.first, meeting.second)]
+    assert s_m[0] >= out_m
+    assert s_m[1] <= in_m

@@ -49,7 +49,9 @@ def test_a_step_is_as_good_as_that_by_all_unknowns(story: str, seed: int, at_s: 
         levels = np.array(bounds.values)
         softened = np.minimum(1.0, np.array(bounds.most) / np.maximum(levels, 1e-9))
         over = np.maximum(levels + np.array(bounds.slopes) @ step, 0.0)
-        return float(0.5 * residuals @ residuals + 0.5 * softened @ over**2)
+        beyond = levels - np.array(bounds.most)
+        evenly = 0.5 * float(np.sum(np.array(bounds.most) * beyond, where=beyond > 0.0))
+        return float(0.5 * residuals @ residuals + 0.5 * softened @ over**2) + evenly
 
     assert cost(own) <= cost(dense) * 1.001 + 1e-3
     assert promised == pytest.approx(cost(own), rel=1e-3, abs=1e-3)

@@ -8,7 +8,7 @@ is out of it, and the other not yet in. That moment is an unknown of the plan. I
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 import numpy as np
@@ -31,7 +31,6 @@ Along = tuple[Array, Array, Array]
 LOOK_S = 0.4
 # For how long after the last plan of anybody: then everybody holds its speed, and runs are over.
 AFTER_S = 8.0
-_NEAR_M = 12.0  # who is further apart is not looked at; chosen
 _NEVER = np.inf
 
 
@@ -122,6 +121,24 @@ def in_order(
     )
 
 
+def needed(meetings: Sequence[Meeting]) -> tuple[Meeting, ...]:
+    """Return the meetings that do not follow from others.
+
+    Of two on one way, who keeps clear of the nearer one in the order keeps clear of the other one too.
+    """
+    told = set(meetings)
+    follows = [meeting for meeting in meetings if meeting.zones_m is None]
+    others = {meeting for meeting in meetings for one in follows if _follows_from(meeting, one, told)}
+    return tuple(meeting for meeting in meetings if meeting not in others)
+
+
+def _follows_from(meeting: Meeting, one: Meeting, told: set[Meeting]) -> bool:
+    """Whether a meeting follows from that of two on one way, and another of the same stretches."""
+    if one.first == meeting.first:
+        return replace(meeting, first=one.second) in told
+    return one.second == meeting.second and replace(meeting, second=one.first) in told
+
+
 def _contacts(scene: Scene, structure: Structure, motions: Mapping[int, Profile]) -> Iterator[tuple[int, int]]:
     """Yield heroes that touch at a moment at which the program says of both where they are."""
     for instant in {*structure.instants, *structure.triggers.values()}:
@@ -130,11 +147,16 @@ def _contacts(scene: Scene, structure: Structure, motions: Mapping[int, Profile]
         }
         for a, b in combinations(sorted(placed), 2):
             pose_a, pose_b = (
-                scene.routes[actor].path.poses(np.array([motions[actor].state(motions[actor].knot_times_s[name])[0]]))
+                scene.routes[actor].path.poses(np.array([_place_m(motions[actor], name)]))
                 for actor, name in ((a, placed[a]), (b, placed[b]))
             )
             if overlap(pose_a, pose_b, CAR, CAR)[0]:
                 yield a, b
+
+
+def _place_m(motion: Profile, knot: str) -> float:
+    """Return where a motion is at a knot; an even one, of which no more is known, ends at its trigger."""
+    return motion.state(motion.knot_times_s.get(knot, motion.end_s))[0]
 
 
 # -- rows -------------------------------------------------------------------------------------------------------------
@@ -174,6 +196,8 @@ class PairRows:
         When lanes are looked at; the last is the end of all plans.
     driven
         What ways that nothing can change are at these times, as `Way.along` gives it.
+    near_m
+        Who has more room than this in a lane is not looked at.
     """
 
     meetings: Sequence[tuple[Meeting, int | None]]
@@ -182,6 +206,7 @@ class PairRows:
     driven: Mapping[int, Along]
     wanted: Preferences
     z: Array
+    near_m: float
 
     def add(self, bounds: Rows) -> float:
         """Add all bounds; return the largest share of a margin that is missing: from 1 on boxes may touch."""
@@ -193,12 +218,15 @@ class PairRows:
         bounds.by = None
         return worst
 
-    def dearest(self) -> tuple[float, int]:
-        """Return by how much the worst meeting is too near, in squares summed (m^2), and its number."""
+    def dearest(self) -> tuple[float, set[int]]:
+        """Return by how much the worst two are too near, in squares summed (m^2), and who they are."""
         costs = np.zeros(len(self.meetings))
         for number, short_m, *_ in self._all():
             costs[number] += np.sum(np.maximum(short_m, 0.0) ** 2)
-        return (float(np.max(costs)), int(np.argmax(costs))) if len(costs) else (0.0, 0)
+        if not len(costs):
+            return 0.0, set()
+        worst, _ = self.meetings[int(np.argmax(costs))]
+        return float(np.max(costs)), {worst.first, worst.second}
 
     def _all(self) -> Iterator[tuple[int, Array, Array, Columns, float]]:
         """Yield bounds: of which meeting, what is missing (m), its slopes by which unknowns, and the margin (m)."""
@@ -238,6 +266,6 @@ class PairRows:
         (since_m, until_m), (_, other_until_m) = meeting.lane_m
         (s, _, d_s), (other, _, d_other) = first, second
         short_m = self.wanted.clear_in_lane_m + VEHICLE_LENGTH_M - (s - meeting.offset_m - other)
-        near = (s >= since_m) & (s < until_m) & (other < other_until_m) & (short_m > -_NEAR_M)
+        near = (s >= since_m) & (s < until_m) & (other < other_until_m) & (short_m > -self.near_m)
         columns = np.concatenate([self.ways[meeting.first].columns, self.ways[meeting.second].columns])
         return short_m[near], np.hstack([-d_s[near], d_other[near]]), columns

@@ -12,16 +12,17 @@ from dataclasses import InitVar, dataclass, field, replace
 from itertools import product
 
 from scenewright.motion.profile import Profile, chain
+from scenewright.plan.afterwards import goes_on
 from scenewright.plan.asked import Asked
 from scenewright.plan.foresight import Foresight
-from scenewright.plan.pairs import Meeting, in_order, meetings_of
+from scenewright.plan.pairs import Meeting, in_order, meetings_of, needed
 from scenewright.plan.prediction import EgoSample, Predictor
-from scenewright.plan.problem import Missed, Problem
+from scenewright.plan.problem import AFTER_LAST_S, Missed, Problem
 from scenewright.plan.shooting import profile_of
 from scenewright.plan.situation import Drive, Situation
 from scenewright.plan.solving import Solution, solve
 from scenewright.plan.triggers import SHORTEST_LEAD_S, TriggerTimes
-from scenewright.program.structure import Role, Structure, knots_of
+from scenewright.program.structure import Role, Structure, knots_of, placed_at
 from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
@@ -82,13 +83,17 @@ class Attempt:
 
 @dataclass(frozen=True, slots=True)
 class _Found:
-    """A plan, how and for what problem it was found, all its moments by instant, and its other unknowns, by number."""
+    """A plan, how and for what problem it was found, all its moments by instant, and its other unknowns, by number.
+
+    And who goes first wherever heroes meet.
+    """
 
     plan: Plan
     solution: Solution
     moments_s: Mapping[int, float]
     others: Mapping[int, float]
     problem: Problem
+    meetings: tuple[Meeting, ...]
 
 
 @dataclass(slots=True)
@@ -140,15 +145,28 @@ class Planner:
         prediction = self._ego.predictor.predict([ego])
         joint = any(self._trigger(hero) is not None and not self._ego_decides(hero) for hero in self._heroes)
         tries: list[_Found] = []
-        for joint_s, pace in product(_JOINT_S if joint else (0.0,), _PACES):
-            tries.append(self._planned_first(prediction, joint_s, self._even_motions(prediction, joint_s, pace)))
-            if tries[-1].solution.cost < self._enough:
+        meetings = meetings_of(self.scene)
+        placed = bool(meetings) and not self._meet_later and self._even_motions(prediction, 0.0, 1.0)[1]
+        # Who comes slowly can still do either; where nothing tells when, a slow guess would just stay slow.
+        for joint_s, pace in product(_JOINT_S if joint else (0.0,), reversed(_PACES) if placed else _PACES):
+            guesses, _ = self._even_motions(prediction, joint_s, pace)
+            if placed:
+                self._meetings = in_order(meetings, self.scene, self.structure, guesses)
+            tries.append(self._planned_first(prediction, joint_s, guesses))
+            if meetings and tries[-1].solution.missed.by <= GOOD:
                 break
         best = min(tries, key=lambda found: found.solution.cost)
         self._keep(best)
-        best = self._led(best) if self._ego.leaders else self._planned_first(prediction, 0.0, best.plan.profiles)
-        best = self._clear(best)
+        if self._ego.leaders:
+            best = self._led(best)
+        if meetings and not placed:
+            self._keep(best)
+            self._meetings = in_order(meetings, self.scene, self.structure, best.plan.profiles)
+        if not (self._ego.leaders or placed) or self._meetings != best.meetings:
+            best = self._planned_first(best.plan.profiles[EGO], 0.0, best.plan.profiles)
+        best = self._turned(best)
         self._keep(best)
+        self._meetings = needed(best.meetings)
         for hero in self._heroes:
             if (name := self._trigger(hero)) is not None:
                 self._joint_s[hero.id] = self.plan.profiles[hero.id].knot_times_s[name]
@@ -160,6 +178,7 @@ class Planner:
 
     def _keep(self, found: _Found) -> None:
         self.plan, self._moments_s, self._others = found.plan, found.moments_s, found.others
+        self._meetings = found.meetings
 
     def _planned_first(
         self, prediction: Profile, joint_s: float, guesses: Mapping[int, Profile], trusted: float = 1.0
@@ -168,31 +187,21 @@ class Planner:
 
         Of a longest step `trusted` is the share by which it may be off from them; 1 is no limit.
         """
-        problem = Problem(self._asked, self._first_situation(prediction, joint_s, guesses), self._meetings)
+        problem = Problem(self._asked, self._first_situation(prediction, joint_s, guesses), needed(self._meetings))
         if trusted < 1.0:
             problem.keep_near(trusted)
         return self._made(problem, solve(problem, problem.guess, _FIRST_STEPS, self._enough), prediction)
 
-    def _clear(self, best: _Found) -> _Found:
-        """Return a first plan in which heroes keep clear of each other, from one in which they need not.
-
-        Who goes first is taken from that; then the meeting is turned that is the dearest, where that makes it cheaper.
-        """
-        self._meetings = in_order(meetings_of(self.scene), self.scene, self.structure, best.plan.profiles)
-        if not self._meetings:
-            return best
-        self._keep(best)
-        guesses = best.plan.profiles
-        best = self._planned_first(guesses[EGO], 0.0, guesses)
+    def _turned(self, best: _Found) -> _Found:
+        """Return a first plan in which the two heroes that are dearest are turned, as long as that makes it cheaper."""
         for _ in range(_MOST_TURNS):
-            short, number = best.problem.dearest(best.solution.z)
+            short, pair = best.problem.dearest(best.solution.z)
             if short < _CLEAR_ENOUGH:
                 break
-            kept = self._meetings
-            self._meetings = tuple(m.turned() if k == number else m for k, m in enumerate(kept))
-            trial = self._planned_first(guesses[EGO], 0.0, guesses)
+            self._keep(best)
+            self._meetings = tuple(m.turned() if {m.first, m.second} == pair else m for m in best.meetings)
+            trial = self._planned_first(best.plan.profiles[EGO], 0.0, best.plan.profiles)
             if trial.solution.cost >= best.solution.cost:
-                self._meetings = kept
                 break
             best = trial
         return best
@@ -215,33 +224,63 @@ class Planner:
         """Return a first plan, and what it costs, with the ego that answers it: it was made with one that did not."""
         self._keep(found)
         foreseen = self._ego.foreseen(found.plan.profiles)
-        problem = Problem(self._asked, self._first_situation(foreseen, 0.0, found.plan.profiles), self._meetings)
+        problem = Problem(
+            self._asked, self._first_situation(foreseen, 0.0, found.plan.profiles), needed(self._meetings)
+        )
         return self._made(problem, solve(problem, problem.guess, 0), foreseen)
 
-    def _even_motions(self, prediction: Profile, joint_s: float, pace: float) -> dict[int, Profile]:
-        """Return first guesses: everybody comes evenly to where a condition at its trigger wants it."""
-        found = {}
+    def _even_motions(self, prediction: Profile, joint_s: float, pace: float) -> tuple[dict[int, Profile], bool]:
+        """Return first guesses: everybody comes evenly to where a condition at its trigger wants it.
+
+        And whether there is one for each: so that they tell who goes first.
+        """
+        found: dict[int, Profile] = {}
+        times_s: dict[int, float] = {}
+        told = True
         for hero in self._heroes:
             speed_mps = pace * self.limits[hero.id].natural_approach_speed_mps
-            trigger_s = self._times.instant_s(hero, 0.0, prediction, None) if self._ego_decides(hero) else joint_s
-            first_m = self._place_m(hero, prediction.state(trigger_s)[:2], speed_mps) - speed_mps * trigger_s
-            moves = [(trigger_s, 0.0, 0)]
-            found[hero.id] = Profile(chain(0.0, first_m, speed_mps, moves), {hero.sketch.knots[0]: 0.0})
-        return found
+            instant, at_s = self._asked.trigger(hero.id), joint_s
+            if self._ego_decides(hero):
+                at_s = self._times.instant_s(hero, 0.0, prediction, None)
+            elif hero.id not in self.structure.triggers and instant is not None:  # it hangs on others that came before
+                at_s = max(
+                    (then_s + self._asked.least_s[then, instant] for then, then_s in times_s.items()), default=0.0
+                )
+            else:
+                told = False
+            if instant is not None:
+                times_s[instant] = at_s
+            states = {EGO: prediction.state(at_s)[:2]} | {other: each.state(at_s)[:2] for other, each in found.items()}
+            there_m = self._place_m(hero, states, speed_mps)
+            told &= there_m is not None
+            if there_m is None:
+                there_m = 0.5 * self.scene.routes[hero.id].landmarks["route_end"]
+            moves = [(at_s, 0.0, 0)]
+            found[hero.id] = Profile(
+                chain(0.0, there_m - speed_mps * at_s, speed_mps, moves), {hero.sketch.knots[0]: 0.0}
+            )
+        return found, told
 
-    def _place_m(self, hero: Actor, ego: tuple[float, float], speed_mps: float) -> float:
-        """Return where a hero that is so fast is at its trigger, as far as a condition there tells."""
-        instant = self.structure.triggers.get(hero.id, frozenset())
+    @property
+    def _meet_later(self) -> bool:
+        """Whether the program says of several heroes where they are at one moment that is no trigger."""
+        instants = set(self.structure.instants) - set(self.structure.triggers.values())
+        return any(len(placed_at(self.scene.program, instant) - {EGO}) > 1 for instant in instants)
+
+    def _place_m(self, hero: Actor, states: Mapping[int, tuple[float, float]], speed_mps: float) -> float | None:
+        """Return where a hero that is so fast is at its trigger, if a condition there, on others so placed, tells."""
+        name = self._asked.adapts_until.get(hero.id)
+        instant = self.structure.triggers.get(hero.id, frozenset() if name is None else frozenset({(hero.id, name)}))
         for condition in self.conditions:
             if (
                 condition.moments <= instant
                 and hero.id in condition.weights
-                and set(condition.weights) <= {EGO, hero.id}
+                and set(condition.weights) <= {hero.id, *states}
             ):
                 per_metre = condition.weights[hero.id][0]
                 if per_metre:
-                    return -condition.value({EGO: ego, hero.id: (0.0, speed_mps)}) / per_metre
-        return 0.5 * self.scene.routes[hero.id].landmarks["route_end"]
+                    return -condition.value({**states, hero.id: (0.0, speed_mps)}) / per_metre
+        return None
 
     def _first_situation(self, prediction: Profile, joint_s: float, guesses: Mapping[int, Profile]) -> Situation:
         triggers = {
@@ -312,6 +351,7 @@ class Planner:
     def tick(self, time_s: float) -> Replan:
         """Re-solve where that is needed, and return what came of it."""
         started = time.perf_counter()
+        self._go_on(time_s)
         if all(self._open_piece(hero, time_s) is None for hero in self._heroes):
             record = Replan(time_s, "frozen", "", 0.0, self.plan.tolerance, "after its trigger the hero does not adapt")
         else:
@@ -326,6 +366,16 @@ class Planner:
         record = replace(record, wall_s=time.perf_counter() - started)
         self.records.append(record)
         return record
+
+    def _go_on(self, time_s: float) -> None:
+        """Let heroes whose plan is over keep clear of those that go first."""
+        if not self._meetings:
+            return
+        profiles = dict(self.plan.profiles)
+        for hero in self._heroes:
+            if max(profiles[hero.id].knot_times_s.values()) + AFTER_LAST_S <= time_s:
+                profiles[hero.id] = goes_on(hero.id, profiles, self._meetings, time_s, self._asked.wanted)
+        self.plan = replace(self.plan, profiles=profiles)
 
     def ego_stood_s(self, time_s: float) -> float:
         """Return for how long the ego has not moved (s)."""
@@ -415,7 +465,7 @@ class Planner:
         profiles[EGO] = Profile(prediction.segments, {name: times[self._asked.knot(EGO, name)] for name in names})
         parameters = {name: float(value) for name, value in self.scene.parameters.items()}
         plan = Plan(profiles, solution.missed.by, parameters)
-        return _Found(plan, solution, dict(enumerate(times)), problem.others(solution.z), problem)
+        return _Found(plan, solution, dict(enumerate(times)), problem.others(solution.z), problem, self._meetings)
 
     # -- what is known ------------------------------------------------------------------------------------------------
     @property

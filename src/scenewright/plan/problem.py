@@ -16,17 +16,18 @@ from scenewright.motion.profile import Profile
 from scenewright.plan.asked import TIGHT, Asked, number_of
 from scenewright.plan.pairs import AFTER_S, LOOK_S, Meeting, PairRows, Way, passes_s
 from scenewright.plan.rows import SOONEST_S, Columns, HeroRows, Rows
-from scenewright.plan.shooting import Leg, Moment, Shot, Start, shoot
+from scenewright.plan.shooting import CREEPS_MPS, Leg, Moment, Shot, Start, shoot
 from scenewright.plan.situation import Situation
 from scenewright.program.types import EGO, Actor, PieceKind
 
 Array = NDArray[np.float64]
 
-_CELL_S, _MOST_CELLS, _AFTER_S = 0.6, 18, 3.0
+_CELL_S, _MOST_CELLS, AFTER_LAST_S = 0.6, 18, 3.0
 _LEAST_S = 0.05  # between two knots of one hero
 _LEAST_APPROACH_S = 0.4  # before the settled end of an approach, for it to have a leg of its own
 _LATEST_S, _FASTEST_MPS = 200.0, 60.0
 DAMPING = 0.02  # of a longest step, in every step: what nothing else decides stays as it is
+_NEAR_M = 12.0  # who is further apart in a lane is not looked at in a tick, of which steps are short; chosen
 _BETWEEN_S = 2.0  # after one that goes first, where the other comes much later
 _STEP_S, _STEP_M, _STEP_MPS, _STEP_MPSS, _STEP_OTHER = 0.6, 40.0, 5.0, 3.0, 4.0
 
@@ -76,6 +77,7 @@ class Problem:
                 self._span[hero.id] = range(first, len(self._guess))
         self._others = self._rest()
         self._shot: tuple[Array, dict[int, Shot]] | None = None
+        self._moving = len(self._guess)  # of all unknowns that motions are by; moments between two come behind them
         self._own = {hero: self._owned(hero) for hero in self._legs}
         ends_s = [leg.last.value(self._guess) for legs in self._legs.values() for leg in legs]
         end_s = max([now.time_s, *ends_s])  # from there on everybody holds its speed: gaps change evenly
@@ -166,19 +168,13 @@ class Problem:
         """Yield a meeting, and the unknown moment between the two, if anybody is still planned for it."""
         if meeting.first not in self._legs and meeting.second not in self._legs:
             return
-        left_s, enters_s = None, 0.0
-        if meeting.zones_m is not None:
-            left_s = passes_s(self._motion(meeting.first), meeting.zones_m[0][1])
-            enters_s = passes_s(self._motion(meeting.second), meeting.zones_m[1][0])
-            if left_s <= self.now.time_s:
-                meeting = replace(meeting, zones_m=None)
-        if meeting.zones_m is None and meeting.lane_m is None:
-            return
-        if meeting.zones_m is None or left_s is None or left_s > self._looks[-1]:
-            yield meeting, None
-            return
-        between_s = 0.5 * (left_s + min(enters_s, left_s + _BETWEEN_S))
-        yield meeting, self._new(between_s, self.now.time_s, _LATEST_S, _STEP_S)
+        first, moment = self._motion(meeting.first), None
+        if meeting.zones_m is not None and first.state(self.now.time_s)[0] >= meeting.zones_m[0][1]:
+            meeting = replace(meeting, zones_m=None)
+        if meeting.zones_m is not None and first.state(self._looks[-1])[0] >= meeting.zones_m[0][1]:
+            moment = self._new(self.now.time_s, self.now.time_s, _LATEST_S, _STEP_S)
+        if meeting.zones_m is not None or meeting.lane_m is not None:
+            yield meeting, moment
 
     def _motion(self, hero: int) -> Profile:
         """Return what a hero drives or is first planned from."""
@@ -203,7 +199,7 @@ class Problem:
             nodes[instants[-1]] = len(legs)
         last = knots[-1] if piece < len(pieces) else begin
         after = PieceKind.STOP if pieces[-1] is PieceKind.STOP else PieceKind.GO
-        self._add_leg(hero, len(pieces) - 1, after, last, Moment(last.constant_s + _AFTER_S, last.unknown))
+        self._add_leg(hero, len(pieces) - 1, after, last, Moment(last.constant_s + AFTER_LAST_S, last.unknown))
 
     def _start(self, hero: Actor) -> Start:
         drive = self.now.heroes.get(hero.id)
@@ -293,13 +289,40 @@ class Problem:
                 if moment.unknown is not None:
                     z[moment.unknown] = max(z[moment.unknown], latest + _LEAST_S - moment.constant_s)
                 latest = max(latest, moment.value(z))
+        for meeting, between in self._meetings:
+            if between is not None:
+                z[between] = np.clip(self._between_s(meeting, z), self.low[between], self.high[between])
         return z
+
+    def _between_s(self, meeting: Meeting, z: Array) -> float:
+        """Return a moment midway between the first's leaving a stretch and the second's entering it.
+
+        Where that comes too late, the moment at which both miss as little as can be.
+        """
+        assert meeting.zones_m is not None
+        clear_m = self.asked.wanted.clear_m
+        left_s, left_mps = self._passes(meeting.first, meeting.zones_m[0][1] + clear_m, z)
+        enters_s, enters_mps = self._passes(meeting.second, meeting.zones_m[1][0] - clear_m, z)
+        left_s = min(left_s, float(self._looks[-1]))
+        enters_s = min(enters_s, left_s + _BETWEEN_S)
+        share = left_mps**2 / (left_mps**2 + enters_mps**2) if left_s > enters_s else 0.5
+        return share * left_s + (1.0 - share) * enters_s
+
+    def _passes(self, hero: int, place_m: float, z: Array) -> tuple[float, float]:
+        """Return when a hero comes to a place, and how fast it is there."""
+        shot, drive = self.shots(z).get(hero), self.now.heroes.get(hero)
+        if shot is not None and (drive is None or place_m >= shot.s[0]):
+            return shot.passes(place_m)
+        assert drive is not None
+        at_s = min(passes_s(drive.motion, place_m), _LATEST_S)
+        return at_s, max(drive.motion.state(at_s)[1], CREEPS_MPS)
 
     def shots(self, z: Array) -> dict[int, Shot]:
         """Return the motions of all that are still planned; slopes are by their own unknowns."""
-        if self._shot is None or not np.array_equal(self._shot[0], z):  # they are often asked for twice
+        moved = z[: self._moving]
+        if self._shot is None or not np.array_equal(self._shot[0], moved):  # they are often asked for twice
             shots = {hero: shoot(own.legs, own.start, z[own.columns]) for hero, own in self._own.items()}
-            self._shot = z.copy(), shots
+            self._shot = moved.copy(), shots
         return self._shot[1]
 
     def rows(self, z: Array) -> tuple[Rows, Rows, Missed]:
@@ -319,8 +342,8 @@ class Problem:
             missed = replace(missed, by=max(missed.by, self._pairs(z, shots).add(bounds)))
         return costs, bounds, missed
 
-    def dearest(self, z: Array) -> tuple[float, int]:
-        """Return by how much the two that are worst too near each other are so (m^2), and which meeting it is."""
+    def dearest(self, z: Array) -> tuple[float, set[int]]:
+        """Return by how much the two heroes that are worst too near each other are so (m^2), and who they are."""
         return self._pairs(z, self.shots(z)).dearest()
 
     def _pairs(self, z: Array, shots: Mapping[int, Shot]) -> PairRows:
@@ -329,7 +352,8 @@ class Problem:
             drive, shot = self.now.heroes.get(hero.id), shots.get(hero.id)
             motion = None if drive is None else drive.motion
             ways[hero.id] = Way(motion) if shot is None else Way(motion, shot, self._own[hero.id].columns)
-        return PairRows(self._meetings, ways, self._looks, self._driven, self.asked.wanted, z)
+        near_m = _NEAR_M if self.now.heroes else np.inf
+        return PairRows(self._meetings, ways, self._looks, self._driven, self.asked.wanted, z, near_m)
 
     def _add_asked(self, z: Array, shots: Mapping[int, Shot], costs: Rows, bounds: Rows) -> Missed:
         wanted, tight_s = self.asked.wanted, TIGHT["time"]

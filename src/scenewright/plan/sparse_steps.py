@@ -32,6 +32,7 @@ def sparse_step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: 
     """Return the best step for the linearised rows, within a share of the longest, and what they cost after it."""
     longest, size = problem.step, problem.size
     levels, most = np.array(bounds.values), np.array(bounds.most)
+    beyond = levels - most  # what grows evenly from there on costs more than its square where it is softened
     softened = np.sqrt(np.minimum(1.0, most / np.maximum(levels, 1e-9)))
     low, high = (np.clip((bound - z) / longest, -trusted, trusted) for bound in (problem.low, problem.high))
     slopes, rows = _matrix(costs, longest), _matrix(bounds, longest, softened, walls=True)
@@ -40,7 +41,8 @@ def sparse_step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: 
     values = np.array(costs.values)
     x = np.clip(least(hessian, slopes.T @ values, rows, levels), low, high)
     after, over = values + slopes @ x, np.maximum(levels + rows @ x, 0.0)
-    return np.asarray(x * longest, dtype=np.float64), 0.5 * float(after @ after + over @ over)
+    evenly = 0.5 * float(np.sum(most * beyond, where=beyond > 0.0))
+    return np.asarray(x * longest, dtype=np.float64), 0.5 * float(after @ after + over @ over) + evenly
 
 
 def least(hessian: Matrix, slope: Array, rows: Matrix, levels: Array) -> Array:

@@ -1,0 +1,61 @@
+"""Whoever has nothing more to do holds its speed, and brakes where that is needed to keep clear of who goes first.
+
+What enters: motions that no plan changes any more, and meetings. What leaves: the same motion, or one that brakes from
+now on, as evenly and as little as keeps the room between the two.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from scenewright.motion.profile import Profile, Segment
+from scenewright.plan.pairs import Meeting, passes_s
+from scenewright.plan.preferences import Preferences
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
+from scenewright.solve.limits import BRAKE_MAX_MPSS
+
+_LEAST_ROOM_M = 0.05  # who has no more room than this brakes as if it had so much, and no harder than cars can
+
+
+def goes_on(
+    hero: int, motions: Mapping[int, Profile], meetings: Sequence[Meeting], time_s: float, wanted: Preferences
+) -> Profile:
+    """Return how a hero goes on: it begins to brake where later it would take more than what is comfortable."""
+    motion = motions[hero]
+    _, speed_mps, accel = motion.state(time_s)
+    rate, change_mps = max(_needs(hero, motions, meetings, time_s, wanted), default=(0.0, 0.0))
+    if accel == 0.0 and rate < wanted.accel_mpss:
+        return motion
+    driven = [s if s.end_s <= time_s else s.part(s.start_s, time_s) for s in motion.segments if s.start_s < time_s]
+    last = driven[-1]
+    if last.end_s < time_s:
+        last = Segment(last.end_s, time_s - last.end_s, last.end_s_m, last.end_speed_mps, 0.0, last.piece)
+        driven.append(last)
+    if rate > 0.0:
+        rate = max(rate, -accel)  # once begun it is not eased, so that it ends
+        driven.append(Segment(time_s, change_mps / rate, last.end_s_m, speed_mps, -rate, last.piece))
+    return Profile(tuple(driven), motion.knot_times_s)
+
+
+def _needs(
+    hero: int, motions: Mapping[int, Profile], meetings: Sequence[Meeting], time_s: float, wanted: Preferences
+) -> Iterator[tuple[float, float]]:
+    """Yield at which even rates (m/s^2) the hero has to brake for whom goes first, and by how much (m/s)."""
+    s_m, speed_mps, _ = motions[hero].state(time_s)
+    for meeting in meetings:
+        if meeting.second != hero:
+            continue
+        first = motions[meeting.first]
+        first_m, first_mps, first_mpss = first.state(time_s)
+        room_m, change_mps = float("inf"), 0.0
+        if meeting.zones_m is not None and first_m < (out_m := meeting.zones_m[0][1] + wanted.clear_m):
+            before_m = meeting.zones_m[1][0] - wanted.clear_m - s_m
+            if before_m >= 0.0 and speed_mps * (passes_s(first, out_m) - time_s) > before_m:
+                room_m, change_mps = before_m, speed_mps
+        elif meeting.lane_m is not None and first_m < meeting.lane_m[0][1] and s_m < meeting.lane_m[1][1]:
+            room_m = first_m - meeting.offset_m - s_m - VEHICLE_LENGTH_M - wanted.clear_in_lane_m
+            change_mps = speed_mps - first_mps
+            if first_mpss < 0.0:  # it may come to stand
+                room_m, change_mps = room_m - 0.5 * first_mps**2 / first_mpss, speed_mps
+        if change_mps > 0.0:
+            yield min(0.5 * change_mps**2 / max(room_m, _LEAST_ROOM_M), BRAKE_MAX_MPSS), change_mps
