@@ -190,21 +190,6 @@ def some(parts: Iterable[Formula]) -> Formula:
     return found[0] if len(found) == 1 else Some(tuple(found))
 
 
-def negated(formula: Formula) -> Formula:
-    """Return the negation."""
-    match formula:
-        case Atom(left=left, relation="=="):
-            return Some((Atom(left, "<"), Atom(-left, "<")))
-        case Atom(left=left, relation="<="):
-            return Atom(-left, "<")
-        case Atom(left=left):
-            return Atom(-left, "<=")
-        case All(parts=parts):
-            return some(negated(part) for part in parts)
-        case Some(parts=parts):
-            return every(negated(part) for part in parts)
-
-
 def atoms(formula: Formula) -> Iterator[Atom]:
     """Yield every comparison in `formula`."""
     if isinstance(formula, Atom):

@@ -25,7 +25,7 @@ from scenewright.roads.routes import Route
 from scenewright.solve.limits import ROOM, Limits, calm_mpss
 from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.events import Events
-from scenewright.solve.proofs.forms import actors_at, free_states
+from scenewright.solve.proofs.forms import asserted, free_actors
 from scenewright.solve.proofs.lowering import RATE_LASTS_S, Lowering
 from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.polynomials import ZERO, Formula, compare, every, some
@@ -135,7 +135,8 @@ class Refinement:
             elif each.what == "apart":
                 added |= self._keep_apart(each, witness)
             else:
-                formula = self.events.scene.program.constraint(each.what).formula
+                program = self.events.scene.program
+                formula = asserted(program.constraint(each.what).formula, program)
                 added |= self._even_pieces(formula)
                 for node, time_s in moments_of_worst(formula, world):
                     self._look_at(node, time_s, witness)
@@ -159,7 +160,7 @@ class Refinement:
 
         Between them everybody keeps to one rate: what holds at two moments then hardly fails between them.
         """
-        actors = {actor for part in free_states(node.body) for actor in actors_at(part)}
+        actors = free_actors(node.body)
         made = [self._between(time_s, witness)]
         if node not in self.looked_at:
             self.looked_at.append(node)
