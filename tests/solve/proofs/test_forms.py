@@ -7,7 +7,7 @@ import pytest
 from scenewright.program import expressions as ex
 from scenewright.program.printer import print_expression
 from scenewright.program.text import parse_program
-from scenewright.solve.proofs.forms import asserted, bare_rate, free_actors
+from scenewright.solve.proofs.forms import asserted, free_actors
 
 HEAD = "Actor 0 (ego):\n- W\n- [t0, go, t1, go, t2]\n\nActor 1 (hero):\n- W\n- [t0, go, t1, dec, t2]\n\nConstraints:\n"
 
@@ -53,12 +53,6 @@ def test_whom_a_body_speaks_of() -> None:
     assert free_actors(body("A1v <= A0v")) == {0, 1}
     assert free_actors(body("gap(A1, A0) >= 3")) == {0, 1}
     assert free_actors(body("A1v <= A0v(t1)")) == {1}  # that of actor 0 has a moment of its own
-
-
-def test_rates() -> None:
-    assert bare_rate(body("A1a <= 3")) is not None
-    assert bare_rate(body("A1a <= A0a")) is None
-    assert bare_rate(body("A1v <= 3")) is None
 
 
 def test_the_state_of_a_piece_can_be_exchanged() -> None:

@@ -17,7 +17,6 @@ from scenewright.solve.proofs.polynomials import (
     every,
     polynomial,
     some,
-    told_values,
     unknown,
     violation,
 )
@@ -65,9 +64,3 @@ def test_a_violation_is_that_of_the_nearest_alternative() -> None:
 def test_no_cubic_hides_in_a_sum() -> None:
     assert isinstance(X + Y, Polynomial)
     assert ((X + Y) - Y).terms == X.terms
-
-
-def test_only_what_stands_for_itself_is_told() -> None:
-    x, y = unknown(0), unknown(1)
-    formulas = [every([compare("==", 2 * x, 6), some([compare("==", y, 1), compare("==", y, 2)])]), compare("<=", y, 9)]
-    assert told_values(formulas) == {0: 3.0}

@@ -26,7 +26,6 @@ from scenewright.solve.proofs.refuters import (
     core,
     refuter_called,
     taken,
-    tightened,
 )
 from scenewright.solve.proofs.relaxation import Named, relaxation
 
@@ -129,17 +128,6 @@ def test_cores_of_others_clash(name: str) -> None:
     clashing = core(other(name), UNKNOWNS, formulas, 5.0)
     assert refuter_called().ask(UNKNOWNS, [each for each in formulas if each.origin in clashing], 5.0).kind == "refuted"
     assert len(clashing) == 2
-
-
-def test_ranges_are_tightened_by_what_stands_for_itself() -> None:
-    formulas = named(
-        a=compare(">=", 2 * X, 3),
-        b=some([compare("<=", X, 2), compare("<=", Y, 0)]),
-        c=compare("==", Y, Fraction(1, 2)),
-    )
-    x, y = tightened(UNKNOWNS, formulas)
-    assert (x.low, x.high) == (Fraction(3, 2), 10), "an alternative tightens nothing"
-    assert (y.low, y.high) == (Fraction(1, 2), Fraction(1, 2))
 
 
 @pytest.mark.parametrize(("name", "count"), [("cvc5", 25), ("scip", 60)])

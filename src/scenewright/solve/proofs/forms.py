@@ -43,17 +43,6 @@ def asserted(formula: ex.Formula, program: Program, denied: bool = False) -> ex.
     return formula
 
 
-def bare_rate(body: ex.Formula) -> ex.State | None:
-    """Return the rate that a body compares with something else, where that is all it says."""
-    if not isinstance(body, ex.Compare):
-        return None
-    for side, other in ((body.left, body.right), (body.right, body.left)):
-        if isinstance(side, ex.State) and side.order == 2 and side.at is None:
-            plain = not any(isinstance(node, ex.State | ex.Derived) for node in ex.walk(other))
-            return side if plain else None
-    return None
-
-
 def free_actors(body: ex.Formula) -> set[int]:
     """Return whose state a body speaks of at the moment at which it is looked at."""
     free = (node for node in ex.walk(body) if isinstance(node, ex.State | ex.Derived) and node.at is None)

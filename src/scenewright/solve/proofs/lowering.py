@@ -15,7 +15,7 @@ from scenewright.program import expressions as ex
 from scenewright.program.types import Constraint
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.solve.proofs.events import Events
-from scenewright.solve.proofs.forms import actors_at, asserted, bare_rate, free_actors
+from scenewright.solve.proofs.forms import actors_at, asserted, free_actors
 from scenewright.solve.proofs.narrowing import Narrowing, narrowings_of
 from scenewright.solve.proofs.polynomials import (
     ONE,
@@ -281,56 +281,27 @@ class Lowering:
 
     # -- stretches of time --------------------------------------------------------------------------------------------
     def _always(self, first: int, last: int, body: ex.Formula) -> Formula:
-        """Return what `always` says at every moment that all in its body have a state at, and of rates between them."""
+        """Return what `always` says at every moment that all in its body have a state at, unless a law says it all."""
         if isinstance(body, ex.Logic) and body.operator == "and":
             return every([self._always(first, last, part) for part in body.operands])
-        actors = free_actors(body)
+        rates = any(isinstance(node, ex.State) and node.order == 2 and node.at is None for node in ex.walk(body))
+        if rates and any((each.first, each.last, each.said) == (first, last, body) for each in self.narrowings):
+            return TRUE
+        times, actors = self.events.times, free_actors(body)
         if not actors:  # about moments of their own: it does not matter when it is looked at
-            return some([compare(">", *self._times(first, last)), self.formula(body, first)])
+            return some([compare(">", times[first], times[last]), self.formula(body, first)])
         parts = []
-        if isinstance(body, ex.Compare) and (rate := bare_rate(body)):
-            return self._always_rate(first, last, body, rate)
-        for instant in self._shared_instants(actors):
-            held = self.formula(body, instant)
-            parts.append(self._unless_outside(first, last, instant, held))
+        for instant in sorted(set.intersection(*(set(self.events.instants_of(actor)) for actor in actors))):
+            if rates and instant == last:  # the rate of what begins there comes after it
+                continue
+            outside = []
+            if instant in (first, last):
+                outside.append(compare(">", times[first], times[last]))
+            else:
+                outside.append(compare("<", times[instant], times[first]))
+                outside.append(compare(">=" if rates else ">", times[instant], times[last]))
+            parts.append(some([*outside, self.formula(body, instant)]))
         return every(parts)
-
-    def _shared_instants(self, actors: set[int]) -> list[int]:
-        sets = [set(self.events.instants_of(actor)) for actor in actors]
-        return sorted(set.intersection(*sets))
-
-    def _unless_outside(self, first: int, last: int, instant: int, held: Formula) -> Formula:
-        times = self.events.times
-        outside = [] if instant == first else [compare("<", times[instant], times[first])]
-        outside += [] if instant == last else [compare(">", times[instant], times[last])]
-        if instant in (first, last):
-            outside = [compare(">", *self._times(first, last))]
-        return some([*outside, held])
-
-    def _times(self, first: int, last: int) -> tuple[Polynomial, Polynomial]:
-        return self.events.times[first], self.events.times[last]
-
-    def _always_rate(self, first: int, last: int, body: ex.Compare, rate: ex.State) -> Formula:
-        """Return what a bound on a rate says of the speeds at each two moments between which it holds."""
-        events, parts = self.events, []
-        instants = events.instants_of(rate.actor)
-        for early in instants:
-            for late in instants:
-                if early == late:
-                    continue
-                lasts = events.times[late] - events.times[early]
-                change = events.state(rate.actor, late).speed - events.state(rate.actor, early).speed
-                held = self._scaled(body, rate, lasts, change)
-                outside = [compare("<=", lasts, ZERO)]
-                outside += [] if early == first else [compare("<", events.times[early], events.times[first])]
-                outside += [] if late == last else [compare(">", events.times[late], events.times[last])]
-                parts.append(some([*outside, held]))
-        return every(parts)
-
-    def _scaled(self, body: ex.Compare, rate: ex.State, lasts: Polynomial, change: Polynomial) -> Formula:
-        """Return a comparison with a rate, multiplied by how long it lasts: `change` stands for rate times time."""
-        sides = (change if side == rate else self.term(side, None)[0].top * lasts for side in (body.left, body.right))
-        return compare(body.operator, *sides)
 
     def _eventually(self, first: int, last: int, body: ex.Formula) -> Formula:
         """Return that at some moment, which is to be found, the body holds."""

@@ -44,6 +44,7 @@ class Narrowing:
     up_to_place: bool = False
     even: bool = False  # whether a plan keeps to one rate between each two moments
     origin: str = ""  # the constraint that it comes from, by id
+    said: ex.Formula | None = None  # what it makes superfluous between its ends
 
     def begins(self) -> tuple[int, ...]:
         """Return the moments of which the latest is its beginning."""
@@ -72,7 +73,7 @@ def narrowings_of(lowering: Lowering, formula: ex.Formula) -> Iterator[Narrowing
                 made = lowering.events.at_place(*place[:2])
                 yield Narrowing(law[0], *lowering.stretch_of(formula), law[1], law[1], made, place[2])
         case ex.Temporal(operator="always", body=body) if law := _law_of(lowering, body):
-            yield Narrowing(law[0], *lowering.stretch_of(formula), law[1], law[1])
+            yield Narrowing(law[0], *lowering.stretch_of(formula), law[1], law[1], said=body)
         case ex.Compare() if (node := ex.piece_of(formula)) is not None and isinstance(node.at, ex.PieceRef):
             ends = lowering.piece_ends(node.actor, node.at.name)
             if formula.operator == "==":  # a rate that is one number is one all through

@@ -210,19 +210,3 @@ def violation(formula: Formula, point: Point) -> float:
             return max((violation(part, point) for part in parts), default=0.0)
         case Some(parts=parts):
             return min((violation(part, point) for part in parts), default=float("inf"))
-
-
-def told_values(formulas: Iterable[Formula]) -> dict[int, float]:
-    """Return the unknowns that a constraint fixes by itself."""
-    found: dict[int, float] = {}
-    open_parts = list(formulas)
-    while open_parts:
-        part = open_parts.pop()
-        if isinstance(part, All):
-            open_parts += part.parts
-        elif isinstance(part, Atom) and part.relation == "==" and part.left.degree == 1:
-            terms = [(key, value) for key, value in part.left.terms.items() if key != ()]
-            if len(terms) == 1:
-                ((key, factor),) = terms
-                found[key[0]] = float(-part.left.terms.get((), ZERO) / factor)
-    return found

@@ -7,7 +7,7 @@ Everything added is true of every witness; what is also true of every legal moti
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache
@@ -20,7 +20,7 @@ from scenewright.program.evaluate import moments_of_worst
 from scenewright.program.manner import Manner
 from scenewright.program.types import Actor, PieceKind
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
-from scenewright.roads.conflicts import find_conflict
+from scenewright.roads.conflicts import find_conflict, shared_offset_m
 from scenewright.roads.routes import Route
 from scenewright.solve.limits import ROOM, Limits, calm_mpss
 from scenewright.solve.plan import PlanWorld
@@ -34,7 +34,6 @@ from scenewright.units import pin
 
 SHARES = (0.985, 0.8, 0.6, 0.4, 0.2)
 _TURN_STEP_M = 0.25
-_BENDS = 1e-3  # a route that bends less (1/m) bounds nobody's speed
 _SAFETY = 0.999  # rounding of places and speeds within a turn
 _ROOM_M = Fraction(1, 20)
 _STILL_M = Fraction(1, 1000)  # who moves no farther stands, and a search has somewhere to go
@@ -65,20 +64,17 @@ class Refinement:
             self.owed.append(compare("==", b.speed - a.speed, rate * RATE_LASTS_S))
             self.owed.append(compare("==", (b.place - a.place) * 2, (a.speed + b.speed) * RATE_LASTS_S))
 
-    def manner(self, *, throughout: bool) -> None:
-        """Let pieces begin where they should and not before, and turns lie ahead.
-
-        With `throughout` braking and speeding up are also plain all through their pieces, and over with them.
-        """
+    def manner(self) -> None:
+        """Let pieces begin where they should and not before, be plain throughout and then over; let turns lie ahead."""
         for actor in self.events.scene.program.heroes:
-            self._seen_pieces(actor, throughout)
+            self._seen_pieces(actor)
         for each in self.events.scene.program.actors:
             marks = self.events.scene.landmarks_m[each.id]
             if "turn_end" in marks:  # whoever is past most of a turn shows no longer where it came from
                 halfway = pin(0.5 * (marks["turn_start"] + marks["turn_end"]))
                 self.owed.append(compare("<=", self.events.state(each.id, self.events.start).place, halfway))
 
-    def _seen_pieces(self, actor: Actor, throughout: bool) -> None:
+    def _seen_pieces(self, actor: Actor) -> None:
         kept = self.events.scene.program.manner.stricter(ROOM)
         events, kinds = self.events, actor.sketch.pieces
         knots = [events.knot(actor.id, name) for name in actor.sketch.knots]
@@ -90,10 +86,9 @@ class Refinement:
                 continue
             if number and kinds[number - 1] is not PieceKind.STOP:
                 self._begins(actor.id, kind, begins, ends, kept)
-            if throughout:
-                self.narrowings.append(Narrowing(actor.id, begins, ends, _pulling(kind, kept.begins_mpss)))
+            self.narrowings.append(Narrowing(actor.id, begins, ends, _pulling(kind, kept.begins_mpss)))
             if kinds[number + 1 : number + 2] in ((), (PieceKind.GO,)):
-                self._over(actor.id, kind, ends, knots[number + 2 : number + 3], kept, throughout)
+                self._over(actor.id, kind, ends, knots[number + 2 : number + 3], kept)
 
     def _begins(self, actor: int, kind: PieceKind, begins: int, ends: int, kept: Manner) -> None:
         """Let an actor be settled before it begins, and begin plainly."""
@@ -108,22 +103,19 @@ class Refinement:
         calm = _not_pulling(kind, calm_mpss(events.scene.program.manner))
         self.narrowings.append(Narrowing(actor, settled, begins, calm))
 
-    def _over(
-        self, actor: int, kind: PieceKind, ends: int, following: list[int], kept: Manner, throughout: bool
-    ) -> None:
+    def _over(self, actor: int, kind: PieceKind, ends: int, following: list[int], kept: Manner) -> None:
         """Let what was done in a piece be over for a while; who has come to a standstill stays there."""
         events = self.events
         lasts_s = kept.stands_s if kind is PieceKind.DEC else kept.begins_s
         over = events.moment(events.times[ends] + lasts_s, "over")
         now, then = events.state(actor, ends), events.state(actor, over)
-        if throughout:
-            self.narrowings.append(Narrowing(actor, ends, over, _not_pulling(kind, Fraction(0))))
+        self.narrowings.append(Narrowing(actor, ends, over, _not_pulling(kind, ZERO)))
         self.owed += [compare("<=", events.times[over], events.times[knot]) for knot in following]
         if kind is PieceKind.DEC:
             stays = every([compare("<=", then.place - now.place, _STILL_M), compare("<=", then.speed, ZERO)])
             self.owed.append(some([compare(">=", now.speed, _ROLLS_MPS), stays]))
 
-    def mend(self, broken: list[Broken], witness: Witness) -> bool:
+    def mend(self, broken: Sequence[Broken], witness: Witness) -> bool:
         """Add what each thing amiss asks for; False where nothing can be added."""
         world = PlanWorld(self.events.scene, witness.profiles, witness.parameters)
         added = False
@@ -186,15 +178,6 @@ class Refinement:
         return self.events.moment(early + (late - early) * share, "between")
 
     # -- turns --------------------------------------------------------------------------------------------------------
-    def sure_turns(self) -> bool:
-        """Bound speeds where turns are sharpest, of all who surely drive through theirs; False where nobody does."""
-        for actor in self.events.scene.program.heroes:
-            tightest, bends = _bends(self.events.scene.routes[actor.id])
-            sharp = [pin(s) for s, bend in bends if bend >= SHARES[0] * tightest > _BENDS]
-            if sharp and all(self.events.surely_passes(actor.id, place) for place in (sharp[0], sharp[-1])):
-                self._bound_turn(actor.id, SHARES[0], tightest, bends)
-        return bool(self.narrowings)
-
     def _slow_in_turn(self, broken: Broken, witness: Witness) -> bool:
         """Bound the speed where the bend is so sharp, and less so where it is less."""
         route = self.events.scene.routes[broken.actor]
@@ -210,17 +193,11 @@ class Refinement:
 
     def _bound_turn(self, actor: int, share: float, tightest: float, bends: tuple[tuple[float, float], ...]) -> None:
         sharp = [s for s, bend in bends if bend >= share * tightest]
-        through = all(bend >= share * tightest for s, bend in bends if sharp[0] <= s <= sharp[-1])
         first, last = (self.events.at_place(actor, pin(s)) for s in (sharp[0], sharp[-1]))
         self.events.order(first, last)
-        sideways = self.limits[actor].lateral_max_mpss
         tighter = next((each for each in reversed(SHARES) if each > share), 1.0)
-        kept = pin(_SAFETY * math.sqrt(sideways / (tighter * tightest)))
-        proven = pin(math.sqrt(sideways / (share * tightest)) + 1e-4)
-        held = replace(ANY, speed_high=proven) if through else None
-        name = self.events.scene.program.actor(actor).name
-        origin = f"in its turn {name} is no faster than {sideways:g} m/s^2 sideways allow"
-        self.narrowings.append(Narrowing(actor, first, last, replace(ANY, speed_high=kept), held, origin=origin))
+        kept = pin(_SAFETY * math.sqrt(self.limits[actor].lateral_max_mpss / (tighter * tightest)))
+        self.narrowings.append(Narrowing(actor, first, last, replace(ANY, speed_high=kept)))
 
     # -- apart --------------------------------------------------------------------------------------------------------
     def _keep_apart(self, broken: Broken, witness: Witness) -> bool:
@@ -234,18 +211,13 @@ class Refinement:
         if conflict is not None and conflict.kind == "crossing":
             for place, (low, high) in ((theirs.place, conflict.zone_a_m), (mine.place, conflict.zone_b_m)):
                 choices += [compare("<=", place, pin(low) - clear_m), compare(">=", place, pin(high) + clear_m)]
-        elif (offset := self._offset(broken.actor, other)) is not None:
+        elif (offset := shared_offset_m(scene.routes[broken.actor], scene.routes[other])) is not None:
             gap = theirs.place + pin(offset) - mine.place
             length = pin(VEHICLE_LENGTH_M) + clear_m + _ROOM_M
             choices = [compare(">=", gap, length), compare("<=", gap, -length)]
         if choices:
             self.owed.append(some(choices))
         return bool(choices)
-
-    def _offset(self, actor: int, other: int) -> float | None:
-        from scenewright.roads.conflicts import shared_offset_m
-
-        return shared_offset_m(self.events.scene.routes[actor], self.events.scene.routes[other])
 
 
 def _pulling(kind: PieceKind, rate_mpss: Fraction) -> Law:

@@ -9,15 +9,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from fractions import Fraction
+from dataclasses import dataclass
 from importlib.metadata import EntryPoint
 from typing import Literal, Protocol
 
 from scenewright.errors import SolverError
 from scenewright.plugins import Kind
 from scenewright.solve.proofs.events import Unknown
-from scenewright.solve.proofs.polynomials import All, Atom, atoms
+from scenewright.solve.proofs.polynomials import atoms
 from scenewright.solve.proofs.relaxation import Named, resting_on
 
 GROUP = "scenewright.solvers"
@@ -133,23 +132,3 @@ def core(refuter: Refuter, unknowns: Sequence[Unknown], formulas: Sequence[Named
         if time.monotonic() < until and refuter.ask(unknowns, rest, _SHRINK_S).kind == "refuted":
             origins.remove(origin)
     return tuple(origins)
-
-
-def tightened(unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> list[Unknown]:
-    """Return the unknowns with the ranges that comparisons of one of them with a number leave."""
-    found = list(unknowns)
-    open_parts = [each.formula for each in formulas]
-    while open_parts:
-        part = open_parts.pop()
-        if isinstance(part, All):
-            open_parts += part.parts
-        elif isinstance(part, Atom) and part.left.degree == 1 and len(part.left.terms) - (() in part.left.terms) == 1:
-            ((key, factor),) = ((key, value) for key, value in part.left.terms.items() if key)
-            bound, number = -part.left.terms.get((), Fraction(0)) / factor, key[0]
-            low, high = found[number].low, found[number].high
-            if part.relation == "==" or factor < 0:
-                low = max(low, bound)
-            if part.relation == "==" or factor > 0:
-                high = min(high, bound)
-            found[number] = replace(found[number], low=low, high=high)
-    return found

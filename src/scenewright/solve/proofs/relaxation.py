@@ -19,6 +19,7 @@ from scenewright.program.types import EGO
 from scenewright.solve.proofs.events import Events, Stretch
 from scenewright.solve.proofs.lowering import Lowered
 from scenewright.solve.proofs.narrowing import Narrowing
+from scenewright.solve.proofs.order import least_differences
 from scenewright.solve.proofs.polynomials import (
     FALSE,
     TRUE,
@@ -71,9 +72,8 @@ def resting_on(formulas: Sequence[Named], origins: Collection[str]) -> list[Name
 def relaxation(events: Events, narrowings: Sequence[Narrowing], constraints: Sequence[Lowered]) -> list[Named]:
     """Return all that must hold of any motion; of `narrowings` what is proven of them."""
     found = [Named(each.formula, each.constraint.id) for each in constraints]
-    events.learn_from([each.formula for each in constraints])
     found += [Named(formula, origin) for formula, origin in events.rules]
-    least = events.least_differences()
+    least = least_differences(events, (each.formula for each in constraints))
     found += _order_of_knots(events)
     for actor in events.scene.program.actors:
         if not (actor.is_ego and events.drive is not None):  # how it drove is a fact

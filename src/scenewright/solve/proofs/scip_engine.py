@@ -15,8 +15,9 @@ from typing import Any
 import pyscipopt
 
 from scenewright.solve.proofs.events import Unknown
+from scenewright.solve.proofs.order import tightened
 from scenewright.solve.proofs.polynomials import All, Atom, Formula, Polynomial, Some
-from scenewright.solve.proofs.refuters import Answer, Capabilities, tightened
+from scenewright.solve.proofs.refuters import Answer, Capabilities
 from scenewright.solve.proofs.relaxation import Named
 
 
@@ -30,7 +31,7 @@ class Scip:
         self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float, want_core: bool = False
     ) -> Answer:
         """Ask whether all `formulas` can hold at once; a strict comparison is taken for one that is not."""
-        ranges = tightened(unknowns, formulas)
+        ranges = tightened(unknowns, (each.formula for each in formulas))
         if any(each.low > each.high for each in ranges):
             return Answer("refuted")
         posed = _Posed(ranges)

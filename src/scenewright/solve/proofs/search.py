@@ -18,7 +18,8 @@ from scenewright.motion.laws import ANY, Law, bounded, capped, fixed
 from scenewright.solve.proofs.compiled import Compiled
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.narrowing import Narrowing
-from scenewright.solve.proofs.polynomials import All, Atom, Formula, Some, told_values
+from scenewright.solve.proofs.order import impossible, least_differences, told_values
+from scenewright.solve.proofs.polynomials import All, Atom, Formula, Some
 
 Array = NDArray[np.float64]
 
@@ -44,9 +45,8 @@ class Search:
         self.formulas = formulas
         self.narrowings = narrowings
         self.steps = 0
-        self.events.learn_from(iter(formulas))
-        self._least = self.events.least_differences()
-        self._told = told_values(formulas)
+        self._least = least_differences(events, formulas)
+        self._told = told_values(events.unknowns, formulas)
         size = len(self.events.unknowns)
         self._size = size
         self._compiled = Compiled(self.formulas, size, self._ruled_out)
@@ -71,12 +71,10 @@ class Search:
                 if all(unknown in self._told for key in left.terms for unknown in key):
                     value = left.value(self._told)
                     return abs(value) > _CLEAR if relation == "==" else value > _CLEAR
-                return self.events.impossible(part, self._least)
+                return impossible(self.events, part, self._least)
 
     # -- the steps ----------------------------------------------------------------------------------------------------
-    def run(
-        self, guess: Array, generator: np.random.Generator | None = None, most_steps: int = _MOST_STEPS
-    ) -> Array | None:
+    def run(self, guess: Array, generator: np.random.Generator | None = None) -> Array | None:
         """Return values that meet everything, starting from a guess; None where the steps do not get there.
 
         With a `generator` some alternatives are liked better than others, whatever is nearest.
@@ -84,9 +82,9 @@ class Search:
         self._liking = np.ones(len(self._compiled.atoms))
         if generator is not None:
             self._liking = np.exp(2.0 * generator.standard_normal(len(self._compiled.atoms)))
-        point = np.append(np.clip(self._in_order(guess), self._low, self._high), 1.0)
+        point = np.append(np.clip(guess, self._low, self._high), 1.0)
         trust, best, stale = _TRUST, np.inf, 0
-        for _ in range(most_steps):
+        for _ in range(_MOST_STEPS):
             self.steps += 1
             rows, levels, equal = self._rows(point)
             worst = float(np.max(np.where(equal, np.abs(levels), levels), initial=0.0))
@@ -106,20 +104,6 @@ class Search:
                 return None
             point[:-1] = np.clip(point[:-1] + step, self._low, self._high)
         return None
-
-    def _in_order(self, guess: Array) -> Array:
-        """Return a guess in which moments come as late after others as is certain; what precedes them moves along."""
-        times = np.array([time.value(guess) for time in self.events.times])
-        fixed = np.array([time.constant is not None for time in self.events.times])
-        latest = np.where(fixed, times, (times[None, :] - self._least)[:, fixed].min(axis=1))
-        late = (np.minimum(times, latest)[:, None] + self._least).max(axis=0) - times
-        moved_s = np.where(self._least >= 0.0, late[None, :], 0.0).max(axis=1)
-        times = (np.minimum(times + moved_s, latest)[:, None] + self._least).max(axis=0)
-        moved = guess.copy()
-        for number, time in enumerate(self.events.times):
-            if not fixed[number]:
-                moved[next(iter(time.terms))[0]] = times[number]
-        return moved
 
     def _step(self, point: Array, rows: Array, levels: Array, equal: NDArray[np.bool_], trust: float) -> Array | None:
         """Return the least step that meets the linearised rows as well as can be."""
