@@ -150,7 +150,7 @@ class Denies:
 @pytest.mark.parametrize("exact", [True, False])
 def test_only_what_an_exact_solver_refutes_is_proven(exact: bool) -> None:
     asked = question(f"{HEAD}probe: A1v(t1) == 50\n")
-    denies = Denies(Capabilities(exact=exact, cores=True, quadratic=True, keeps_time=True))
+    denies = Denies(Capabilities(exact=exact, cores=True))
     decision = decide(replace(asked, refuter=denies))
     assert decision.answer == ("infeasible" if exact else "undecided")
     assert decision.doubted_by == ("" if exact else "denier")

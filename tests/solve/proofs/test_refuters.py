@@ -25,7 +25,6 @@ from scenewright.solve.proofs.refuters import (
     Refuter,
     core,
     refuter_called,
-    taken,
 )
 from scenewright.solve.proofs.relaxation import Named, relaxation
 
@@ -36,7 +35,7 @@ from scenewright.solve.proofs.refuters import Answer, Capabilities
 
 class Shy:
     name = "shy"
-    capabilities = Capabilities(exact=True, cores=False, quadratic=True, keeps_time=True)
+    capabilities = Capabilities(exact=True, cores=False)
     def ask(self, unknowns, formulas, timeout_s, want_core=False):
         return Answer("unknown")
 """
@@ -98,17 +97,7 @@ def test_solvers_that_fail_are_named(package: Path) -> None:
 
 
 def test_capabilities_are_told_in_words() -> None:
-    assert Capabilities(exact=False, cores=False, quadratic=False, keeps_time=False).words() == (
-        "numeric: a cross-check, no proof, no cores, linear only, is stopped where it takes too long"
-    )
-
-
-def test_a_linear_solver_is_asked_about_what_is_linear(package: Path) -> None:
-    formulas = named(a=compare("<=", X, Y), b=some([compare("<=", X, 2), compare("<=", X * Y, 0)]))
-    shy = refuter_called("shy")
-    assert taken(shy, formulas) == formulas
-    shy.capabilities = Capabilities(exact=True, cores=False, quadratic=False, keeps_time=True)
-    assert [each.origin for each in taken(shy, formulas)] == ["a"]
+    assert Capabilities(exact=False, cores=False).words() == ("numeric: a cross-check, no proof, no cores")
 
 
 def test_cores_hold_what_clashes_and_no_more() -> None:

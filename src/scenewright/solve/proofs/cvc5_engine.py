@@ -27,7 +27,7 @@ class Cvc5:
     """cvc5 in a process for each question, stopped where it takes too long."""
 
     name = "cvc5"
-    capabilities = Capabilities(exact=True, cores=True, quadratic=True, keeps_time=False)
+    capabilities = Capabilities(exact=True, cores=True)
 
     def ask(
         self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float, want_core: bool = False

@@ -27,7 +27,7 @@ from scenewright.solve.proofs.guesses import carried_over, first_guess
 from scenewright.solve.proofs.lowering import Lowered, Lowering
 from scenewright.solve.proofs.polynomials import ZERO, Formula
 from scenewright.solve.proofs.refinement import Refinement
-from scenewright.solve.proofs.refuters import Refuter, core, refuter_called, taken
+from scenewright.solve.proofs.refuters import Refuter, core, refuter_called
 from scenewright.solve.proofs.relaxation import Named, relaxation, resting_on
 from scenewright.solve.proofs.search import Search
 from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
@@ -147,7 +147,7 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     left_out = {each.constraint.id: each.refused for each in plain.lowered if each.refused}
     if question.drive is None and (clashing := crowded(plain.events, plain.lowered)):
         return Decision("infeasible", core=clashing, left_out=left_out)
-    formulas = taken(question.refuter, plain.relaxation())
+    formulas = plain.relaxation()
     hunt = _Hunt(question, until)
     for guesses, proof_s in zip(_GUESSES, _PROOF_S, strict=True):
         if not left_out and question.drive is None and (found := hunt.witness(guesses)) is not None:
@@ -233,7 +233,7 @@ def _posed(question: Question, kept: Collection[str]) -> tuple[Sequence[Unknown]
     program = question.scene.program
     fewer = replace(program, constraints=tuple(c for c in program.constraints if c.id in kept))
     case = _Case(replace(question, scene=replace(question.scene, program=fewer)), plan=False)
-    formulas = taken(question.refuter, case.relaxation())
+    formulas = case.relaxation()
     if question.refuter.ask(case.events.unknowns, formulas, 0.5).kind == "refuted":
         return case.events.unknowns, formulas
     return None

@@ -10,7 +10,6 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import lru_cache
 
 import numpy as np
 
@@ -21,7 +20,6 @@ from scenewright.program.manner import Manner
 from scenewright.program.types import Actor, PieceKind
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import find_conflict, shared_offset_m
-from scenewright.roads.routes import Route
 from scenewright.solve.limits import ROOM, Limits, calm_mpss
 from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.events import Events
@@ -29,11 +27,10 @@ from scenewright.solve.proofs.forms import asserted, free_actors
 from scenewright.solve.proofs.lowering import RATE_LASTS_S, Lowering
 from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.polynomials import ZERO, Formula, compare, every, some
-from scenewright.solve.proofs.witness import Broken, Witness
+from scenewright.solve.proofs.witness import Broken, Witness, bends
 from scenewright.units import pin
 
 SHARES = (0.985, 0.8, 0.6, 0.4, 0.2)
-_TURN_STEP_M = 0.25
 _SAFETY = 0.999  # rounding of places and speeds within a turn
 _ROOM_M = Fraction(1, 20)
 _STILL_M = Fraction(1, 1000)  # who moves no farther stands, and a search has somewhere to go
@@ -84,24 +81,15 @@ class Refinement:
                 self.owed.append(compare(">=", events.times[ends] - events.times[begins], kept.stands_s))
             if kind not in (PieceKind.DEC, PieceKind.ACC):
                 continue
-            if number and kinds[number - 1] is not PieceKind.STOP:
-                self._begins(actor.id, kind, begins, ends, kept)
             self.narrowings.append(Narrowing(actor.id, begins, ends, _pulling(kind, kept.begins_mpss)))
+            if number and kinds[number - 1] is not PieceKind.STOP:
+                self.owed.append(compare(">=", events.times[ends] - events.times[begins], kept.begins_s))
+                settled = events.moment(events.times[begins] - kept.settled_s, "settled")
+                events.state(actor.id, settled)
+                calm = _not_pulling(kind, calm_mpss(events.scene.program.manner))
+                self.narrowings.append(Narrowing(actor.id, settled, begins, calm))
             if kinds[number + 1 : number + 2] in ((), (PieceKind.GO,)):
                 self._over(actor.id, kind, ends, knots[number + 2 : number + 3], kept)
-
-    def _begins(self, actor: int, kind: PieceKind, begins: int, ends: int, kept: Manner) -> None:
-        """Let an actor be settled before it begins, and begin plainly."""
-        events = self.events
-        now = events.times[begins]
-        shown = events.moment(now + kept.begins_s, "begins")
-        settled = events.moment(now - kept.settled_s, "settled")
-        for instant in (shown, settled):
-            events.state(actor, instant)
-        self.narrowings.append(Narrowing(actor, begins, shown, _pulling(kind, kept.begins_mpss)))
-        self.owed.append(compare("<=", events.times[shown], events.times[ends]))
-        calm = _not_pulling(kind, calm_mpss(events.scene.program.manner))
-        self.narrowings.append(Narrowing(actor, settled, begins, calm))
 
     def _over(self, actor: int, kind: PieceKind, ends: int, following: list[int], kept: Manner) -> None:
         """Let what was done in a piece be over for a while; who has come to a standstill stays there."""
@@ -180,24 +168,24 @@ class Refinement:
     # -- turns --------------------------------------------------------------------------------------------------------
     def _slow_in_turn(self, broken: Broken, witness: Witness) -> bool:
         """Bound the speed where the bend is so sharp, and less so where it is less."""
-        route = self.events.scene.routes[broken.actor]
+        places, sharpness = bends(self.events.scene.routes[broken.actor])
+        tightest = float(sharpness.max())
         place = witness.profiles[broken.actor].state(broken.time_s)[0]
-        tightest, bends = _bends(route)
-        here = abs(route.path.curvature(place)) / tightest if tightest > 0 else 0.0
-        share = next((each for each in SHARES if each <= here + 1e-9), SHARES[-1])
-        wanted = [each for each in SHARES if each >= share and (broken.actor, each) not in self.turns]
-        for each in wanted[-1:]:
-            self.turns.add((broken.actor, each))
-            self._bound_turn(broken.actor, each, tightest, bends)
-        return bool(wanted)
-
-    def _bound_turn(self, actor: int, share: float, tightest: float, bends: tuple[tuple[float, float], ...]) -> None:
-        sharp = [s for s, bend in bends if bend >= share * tightest]
-        first, last = (self.events.at_place(actor, pin(s)) for s in (sharp[0], sharp[-1]))
+        here = float(np.interp(place, places, sharpness)) / tightest
+        least = next((each for each in SHARES if each <= here + 1e-9), SHARES[-1])
+        share = next(
+            (each for each in reversed(SHARES) if each >= least and (broken.actor, each) not in self.turns), None
+        )
+        if share is None:
+            return False
+        self.turns.add((broken.actor, share))
+        sharp = places[sharpness >= share * tightest]
+        first, last = (self.events.at_place(broken.actor, pin(float(s))) for s in (sharp[0], sharp[-1]))
         self.events.order(first, last)
         tighter = next((each for each in reversed(SHARES) if each > share), 1.0)
-        kept = pin(_SAFETY * math.sqrt(self.limits[actor].lateral_max_mpss / (tighter * tightest)))
-        self.narrowings.append(Narrowing(actor, first, last, replace(ANY, speed_high=kept)))
+        kept = pin(_SAFETY * math.sqrt(self.limits[broken.actor].lateral_max_mpss / (tighter * tightest)))
+        self.narrowings.append(Narrowing(broken.actor, first, last, replace(ANY, speed_high=kept)))
+        return True
 
     # -- apart --------------------------------------------------------------------------------------------------------
     def _keep_apart(self, broken: Broken, witness: Witness) -> bool:
@@ -228,11 +216,3 @@ def _pulling(kind: PieceKind, rate_mpss: Fraction) -> Law:
 def _not_pulling(kind: PieceKind, rate_mpss: Fraction) -> Law:
     """Return the law of who does not brake, or speed up, by more than a rate."""
     return replace(ANY, rate_low=-rate_mpss) if kind is PieceKind.DEC else replace(ANY, rate_high=rate_mpss)
-
-
-@lru_cache(maxsize=256)
-def _bends(route: Route) -> tuple[float, tuple[tuple[float, float], ...]]:
-    """Return the tightest curvature (1/m) of a route, and places (m) with theirs."""
-    places = np.arange(0.0, route.path.length_m, _TURN_STEP_M)
-    bends = tuple((float(s), abs(route.path.curvature(float(s)))) for s in places)
-    return max((bend for _, bend in bends), default=0.0), bends

@@ -16,7 +16,6 @@ from typing import Literal, Protocol
 from scenewright.errors import SolverError
 from scenewright.plugins import Kind
 from scenewright.solve.proofs.events import Unknown
-from scenewright.solve.proofs.polynomials import atoms
 from scenewright.solve.proofs.relaxation import Named, resting_on
 
 GROUP = "scenewright.solvers"
@@ -61,31 +60,19 @@ class Capabilities:
         Whether it reckons with rationals: only then is its ``refuted`` a proof.
     cores
         Whether it tells which formulas clash.
-    quadratic
-        Whether it takes products of two unknowns; else it is asked about linear formulas alone.
-    keeps_time
-        Whether it keeps its time limit by itself; one that does not is run where it can be stopped.
     """
 
     exact: bool
     cores: bool
-    quadratic: bool
-    keeps_time: bool
 
     def words(self) -> str:
         """Say it in a line."""
-        return ", ".join(
-            [
-                "exact: what it refutes is proven" if self.exact else "numeric: a cross-check, no proof",
-                "cores" if self.cores else "no cores",
-                "quadratic" if self.quadratic else "linear only",
-                "keeps its time limit" if self.keeps_time else "is stopped where it takes too long",
-            ]
-        )
+        exact = "exact: what it refutes is proven" if self.exact else "numeric: a cross-check, no proof"
+        return f"{exact}, {'cores' if self.cores else 'no cores'}"
 
 
 class Refuter(Protocol):
-    """A solver of named formulas over unknowns with ranges."""
+    """A solver of named formulas, of second degree at most, over unknowns with ranges."""
 
     name: str
     capabilities: Capabilities
@@ -97,7 +84,6 @@ class Refuter(Protocol):
         ...
 
 
-# -- by name --------------------------------------------------------------------------------------------------------
 def refuter_called(name: str = "z3") -> Refuter:
     """Return the solver of that name.
 
@@ -111,13 +97,6 @@ def refuter_called(name: str = "z3") -> Refuter:
         Where it cannot be imported.
     """
     return SOLVERS.called(name)
-
-
-# -- what all of them need --------------------------------------------------------------------------------------------
-def taken(refuter: Refuter, formulas: Sequence[Named]) -> list[Named]:
-    """Return the formulas that a solver takes; without the others a refutation is harder to find, never false."""
-    most = 2 if refuter.capabilities.quadratic else 1
-    return [each for each in formulas if all(part.left.degree <= most for part in atoms(each.formula))]
 
 
 def core(refuter: Refuter, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float) -> tuple[str, ...]:

@@ -25,7 +25,7 @@ class Scip:
     """SCIP, afresh for each question."""
 
     name = "scip"
-    capabilities = Capabilities(exact=False, cores=False, quadratic=True, keeps_time=True)
+    capabilities = Capabilities(exact=False, cores=False)
 
     def ask(
         self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float, want_core: bool = False

@@ -28,7 +28,7 @@ class Z3:
     """
 
     name = "z3"
-    capabilities = Capabilities(exact=True, cores=True, quadratic=True, keeps_time=True)
+    capabilities = Capabilities(exact=True, cores=True)
 
     def __init__(self, most_work: int = 0) -> None:
         self._most_work = most_work
