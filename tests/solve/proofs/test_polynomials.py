@@ -7,6 +7,7 @@ from fractions import Fraction
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from posed import violation
 
 from scenewright.solve.proofs.polynomials import (
     FALSE,
@@ -18,7 +19,6 @@ from scenewright.solve.proofs.polynomials import (
     polynomial,
     some,
     unknown,
-    violation,
 )
 
 X, Y = unknown(0), unknown(1)

@@ -10,14 +10,14 @@ from pathlib import Path
 
 import pytest
 from planted import T, lowered
-from posed import UNKNOWNS, X, Y, at_random, eased, named
+from posed import UNKNOWNS, X, Y, at_random, eased, named, violation
 
 from forms import FORMS, program
 from scenewright.errors import InputError, MissingExtraError, SolverError
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
 from scenewright.solve.proofs.events import Unknown
-from scenewright.solve.proofs.polynomials import compare, some, violation
+from scenewright.solve.proofs.polynomials import compare, some
 from scenewright.solve.proofs.refuters import (
     GROUP,
     SOLVERS,

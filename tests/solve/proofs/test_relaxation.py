@@ -7,10 +7,10 @@ from fractions import Fraction
 
 import pytest
 from planted import Motion, Planted, lowered, plant
+from posed import violation
 
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.polynomials import violation
 from scenewright.solve.proofs.refuters import core, refuter_called
 from scenewright.solve.proofs.relaxation import relaxation, resting_on
 

@@ -197,16 +197,3 @@ def atoms(formula: Formula) -> Iterator[Atom]:
     else:
         for part in formula.parts:
             yield from atoms(part)
-
-
-def violation(formula: Formula, point: Point) -> float:
-    """Return by how much `formula` fails at a point, in the units of its comparisons; zero where it holds."""
-    match formula:
-        case Atom(left=left, relation="=="):
-            return abs(left.value(point))
-        case Atom(left=left):
-            return max(0.0, left.value(point))
-        case All(parts=parts):
-            return max((violation(part, point) for part in parts), default=0.0)
-        case Some(parts=parts):
-            return min((violation(part, point) for part in parts), default=float("inf"))
