@@ -43,7 +43,7 @@ def test_what_is_found_meets_formulas_and_laws(seed: int) -> None:
     for formula in search.formulas:
         assert violation(formula, point) < 2e-3
     for actor in (0, 1):
-        order, laws = search.order_of(point, actor), search.laws_of(point, actor)
+        order, laws = search.way_of(point, actor)
         times = [events.times[k].value(point) for k in order]
         assert all(b - a > -1e-6 for a, b in pairwise(times))
         for number, (early, late) in enumerate(pairwise(order)):

@@ -258,17 +258,11 @@ class Events:
     def law_of_piece(self, actor: int, kind: PieceKind) -> Law:
         """Return the law of a kind of piece: a `go` is free, braking and speeding up are one-sided, a `stop` stands."""
         free = self.law_of(actor)
-        if actor == EGO:
+        if actor == EGO or kind is PieceKind.GO:
             return free
-        match kind:
-            case PieceKind.DEC:
-                return Law(free.rate_low, ZERO, ZERO, free.speed_high)
-            case PieceKind.ACC:
-                return Law(ZERO, free.rate_high, ZERO, free.speed_high)
-            case PieceKind.STOP:
-                return Law(ZERO, ZERO, ZERO, ZERO)
-            case _:
-                return free
+        low = free.rate_low if kind is PieceKind.DEC else ZERO
+        high = free.rate_high if kind is PieceKind.ACC else ZERO
+        return Law(low, high, ZERO, ZERO if kind is PieceKind.STOP else free.speed_high)
 
     def order(self, first: int, second: int) -> None:
         """Note that `second` does not come before `first`."""

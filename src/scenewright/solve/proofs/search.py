@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.motion.laws import ANY, Law, bounded, capped, fixed
+from scenewright.motion.laws import Law, bounded, capped, fixed
 from scenewright.solve.proofs.compiled import Compiled
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.narrowing import Narrowing
@@ -146,15 +146,11 @@ class Search:
             np.concatenate([part[2] for part in parts]),
         )
 
-    def order_of(self, point: Array, actor: int) -> list[int]:
-        """Return an actor's instants in the order of their times."""
+    def way_of(self, point: Array, actor: int) -> tuple[list[int], list[Law]]:
+        """Return an actor's instants in the order of their times, and the laws between them."""
         line = next(line for line in self._actors if line.actor == actor)
-        return [line.instants[k] for k in line.sorted(np.append(point, 1.0))]
-
-    def laws_of(self, point: Array, actor: int) -> list[Law]:
-        """Return the laws between an actor's instants, in the order of their times."""
-        line = next(line for line in self._actors if line.actor == actor)
-        return line.laws_between(line.sorted(np.append(point, 1.0)), self.narrowings)
+        order = line.sorted(np.append(point, 1.0))
+        return [line.instants[k] for k in order], line.laws_between(order, self.narrowings)[0]
 
 
 @dataclass(slots=True)
@@ -206,8 +202,7 @@ class _Line:
         """Return the laws between neighbours, linearised."""
         order = self.sorted(point)
         early, late = np.array(order[:-1], dtype=np.intp), np.array(order[1:], dtype=np.intp)
-        laws = self.laws_between(order, narrowings)
-        even = self.even_between(order, narrowings)
+        laws, even = self.laws_between(order, narrowings)
         bounds = np.array([[float(getattr(law, name)) for law in laws] for name in _BOUNDS])
         times, place = self.time_factor * point[self.time], point[self.place]
         ends = (
@@ -237,31 +232,22 @@ class _Line:
         norms = np.maximum(norms, 1e-9)
         return flat[keep] / norms[keep, None], (levels.reshape(-1) / norms)[keep], np.repeat(equal, count)[keep]
 
-    def even_between(self, order: Sequence[int], narrowings: Sequence[Narrowing]) -> NDArray[np.bool_]:
-        """Return whether there is to be one rate between each two neighbours."""
+    def laws_between(
+        self, order: Sequence[int], narrowings: Sequence[Narrowing]
+    ) -> tuple[list[Law], NDArray[np.bool_]]:
+        """Return the law between each two neighbours, and whether there is to be one rate."""
         where = {self.instants[k]: number for number, k in enumerate(order)}
-        even = np.zeros(len(order) - 1, dtype=bool)
+        starts = sorted((where[self.instants[k]], number, law) for number, (k, law) in enumerate(self.laws))
+        laws, even = [starts[0][2]] * (len(order) - 1), np.zeros(len(order) - 1, dtype=bool)
+        for start, _, law in starts:
+            laws[start:] = [law] * len(laws[start:])
         for narrowing in narrowings:
-            if narrowing.actor == self.actor and narrowing.even:
-                even[where[narrowing.first] : where[narrowing.last]] = True
-        return even
-
-    def laws_between(self, order: Sequence[int], narrowings: Sequence[Narrowing]) -> list[Law]:
-        """Return the law between each two neighbours."""
-        position = {k: number for number, k in enumerate(order)}
-        where = {instant: position[k] for k, instant in enumerate(self.instants)}
-        starts = sorted((position[k], number, law) for number, (k, law) in enumerate(self.laws))
-        laws, at = [], 0
-        for number in range(len(order) - 1):
-            while at + 1 < len(starts) and starts[at + 1][0] <= number:
-                at += 1
-            laws.append(starts[at][2])
-        for narrowing in narrowings:
-            if narrowing.actor == self.actor and narrowing.law is not ANY:
+            if narrowing.actor == self.actor:
                 begin = max(where[instant] for instant in narrowing.begins())
-                for number in range(begin, min(len(laws), *(where[instant] for instant in narrowing.ends()))):
-                    laws[number] = laws[number].meet(narrowing.law)
-        return laws
+                end = min(where[instant] for instant in narrowing.ends())
+                even[begin:end] |= narrowing.even
+                laws[begin:end] = [law.meet(narrowing.law) for law in laws[begin:end]]
+        return laws, even
 
 
 def _conditions(

@@ -71,8 +71,7 @@ def realised(events: Events, search: Search, point: Array) -> Witness:
 
 
 def _profile(events: Events, search: Search, point: Array, actor: int, times: Mapping[int, float]) -> Profile:
-    order = search.order_of(point, actor)
-    laws = search.laws_of(point, actor)
+    order, laws = search.way_of(point, actor)
     knots = {name: times[events.knot(actor, name)] for name in events.scene.program.actor(actor).sketch.knots}
     pieces = sorted(knots.values())
     segments: list[Segment] = []
