@@ -28,8 +28,8 @@ def searched(text: str, *more: object) -> tuple[Events, Search, np.ndarray | Non
     search = Search(events, formulas, lowering.narrowings)
     point = None
     for attempt in range(6):
-        generator = np.random.default_rng(attempt)
-        point = search.run(first_guess(events, formulas, generator), generator if attempt else None)
+        generator = np.random.default_rng(attempt) if attempt else None
+        point = search.run(first_guess(events, formulas, generator), generator)
         if point is not None:
             break
     return events, search, point

@@ -33,6 +33,7 @@ from scenewright.solve.proofs.search import Search
 from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
 
 Array = NDArray[np.float64]
+Owed = Literal["throughout", "at first", "nothing"]
 _ROUNDS = 14  # how often one motion is mended before another is looked for
 _GUESSES = (4, 12, 1000)  # how many first guesses are tried before each time that a proof is looked for
 _PROOF_S = (0.15, 0.4, 0.1)
@@ -43,7 +44,8 @@ _RANGES = {
     "place": "where the routes end",
 }
 _WIDER = 1000  # a range so much wider is none
-_MANNERED = 2  # so many guesses owe the manner; later ones do not: a motion that looks like nothing is possible, too
+# What guesses owe of the manner, in turn; later ones owe nothing: a motion that looks like nothing is possible, too.
+_OWED: tuple[Owed, ...] = ("throughout", "throughout", "at first")
 _KEEN = 12  # so many guesses are made for one that does, where there is one that does not
 
 
@@ -96,7 +98,7 @@ class Question:
 class _Case:
     """One scene's events with what was added to them, grown as motions show the need."""
 
-    def __init__(self, question: Question, mannered: bool = False, plan: bool = True) -> None:
+    def __init__(self, question: Question, owed: Owed = "nothing", plan: bool = True) -> None:
         self.scene, self.structure, self.limits = question.scene, question.structure, question.limits
         self.events = Events(question.scene, question.limits, question.ego, question.drive, question.freed)
         self.lowering = Lowering(self.events, Fraction(1) if question.drive else ZERO)
@@ -108,8 +110,8 @@ class _Case:
         self.more = Refinement(self.events, self.lowering, question.limits)
         if plan:
             self.more.lasting_rates()
-        if mannered:
-            self.more.manner()
+        if owed != "nothing":
+            self.more.manner(throughout=owed == "throughout")
 
     def lower(self) -> None:
         """Lower the constraints over the moments that there are now, if there are more of them."""
@@ -147,11 +149,12 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     left_out = {each.constraint.id: each.refused for each in plain.lowered if each.refused}
     if question.drive is None and (clashing := crowded(plain.events, plain.lowered)):
         return Decision("infeasible", core=clashing, left_out=left_out)
-    formulas = plain.relaxation()
+    formulas: list[Named] = []
     hunt = _Hunt(question, until)
     for guesses, proof_s in zip(_GUESSES, _PROOF_S, strict=True):
         if not left_out and question.drive is None and (found := hunt.witness(guesses)) is not None:
             return Decision("feasible", found)
+        formulas = formulas or plain.relaxation()  # most witnesses need none
         answer = question.refuter.ask(plain.events.unknowns, formulas, min(proof_s, until - time.monotonic()))
         if answer.kind == "refuted" and not question.refuter.capabilities.exact:
             return Decision("undecided", left_out=left_out, amiss=hunt.amiss, doubted_by=question.refuter.name)
@@ -175,20 +178,21 @@ class _Hunt:
         """Return a witness, if that can be had one that keeps to the manner; None where so many guesses find none."""
         kept, last = None, self.tried + guesses
         while self.tried < (last if kept is None else _KEEN) and time.monotonic() < self.until:
-            mannered = self.tried < _MANNERED or kept is not None
-            found = self._mended(_Case(self.question, mannered))
+            keen = self.tried < len(_OWED) or kept is not None
+            found = self._mended(_Case(self.question, _OWED[self.tried % len(_OWED)] if keen else "nothing"))
             self.tried += 1
-            if found is not None and mannered:
+            if found is not None and keen:
                 return found
             kept = kept or found
         return kept
 
     def _mended(self, case: _Case) -> Witness | None:
         """Search from a guess, and mend what is amiss with what is found until nothing is, or nothing helps."""
-        guess = first_guess(case.events, case.formulas(), self.generator)
+        generator = self.generator if self.tried else None
+        guess = first_guess(case.events, case.formulas(), generator)
         for _ in range(_ROUNDS):
             search = case.search()
-            point = search.run(guess, self.generator if self.tried else None)
+            point = search.run(guess, generator)
             if point is None:
                 return None
             witness = realised(case.events, search, point)

@@ -17,13 +17,13 @@ from scenewright.solve.proofs.polynomials import Formula, Polynomial
 from scenewright.solve.proofs.witness import Witness
 
 Array = NDArray[np.float64]
-_LATER_S = 4.0
+_SPEED_MPS, _GAP_S, _LATER_S = 8.0, 3.0, 4.0
 
 
-def first_guess(events: Events, formulas: Iterable[Formula], generator: np.random.Generator) -> Array:
-    """Return a guess: everybody drives at one speed from place to place."""
+def first_guess(events: Events, formulas: Iterable[Formula], generator: np.random.Generator | None) -> Array:
+    """Return a guess; without a generator the plain one: everybody drives at one speed from place to place."""
     told = told_values(events.unknowns, formulas)
-    speed = float(generator.uniform(3.0, 13.0))
+    speed = _SPEED_MPS if generator is None else float(generator.uniform(3.0, 13.0))
     point = np.array([0.5 * float(each.low + each.high) if each.kind == "other" else 0.0 for each in events.unknowns])
     for number, value in told.items():
         point[number] = value
@@ -44,7 +44,7 @@ def first_guess(events: Events, formulas: Iterable[Formula], generator: np.rando
 
 
 def _times(
-    events: Events, told: Mapping[int, float], point: Array, speed: float, generator: np.random.Generator
+    events: Events, told: Mapping[int, float], point: Array, speed: float, generator: np.random.Generator | None
 ) -> dict[int, float]:
     """Guess when each moment is, and put it into `point`."""
     times = {number: float(value) for number, time in enumerate(events.times) if (value := time.constant) is not None}
@@ -60,7 +60,7 @@ def _times(
                 now = max(now, times[knot])
                 continue
             here, there = (told.get(_place(events, actor.id, k)) for k in (before, knot))
-            later = float(generator.uniform(1.0, 6.0))
+            later = _GAP_S if generator is None else float(generator.uniform(1.0, 6.0))
             now += later if here is None or there is None else max(0.5, (there - here) / speed)
             now = told.get(_number(events.times[knot]), now)
             put(knot, now)
@@ -72,10 +72,12 @@ def _times(
     return times
 
 
-def _within_a_piece(events: Events, instant: int, times: Mapping[int, float], generator: np.random.Generator) -> float:
+def _within_a_piece(
+    events: Events, instant: int, times: Mapping[int, float], generator: np.random.Generator | None
+) -> float:
     """Guess a moment of which only who it is about is known: within some piece of theirs."""
     actors = [actor for actor, k in events.states if k == instant]
-    if not actors:
+    if not actors or generator is None:
         return _LATER_S
     sketch = events.scene.program.actor(actors[0]).sketch
     knots = sorted({times[events.knot(actors[0], name)] for name in sketch.knots})

@@ -61,17 +61,20 @@ class Refinement:
             self.owed.append(compare("==", b.speed - a.speed, rate * RATE_LASTS_S))
             self.owed.append(compare("==", (b.place - a.place) * 2, (a.speed + b.speed) * RATE_LASTS_S))
 
-    def manner(self) -> None:
-        """Let pieces begin where they should and not before, be plain throughout and then over; let turns lie ahead."""
+    def manner(self, *, throughout: bool) -> None:
+        """Let pieces begin where they should and not before, and turns lie ahead.
+
+        With `throughout` braking and speeding up are also plain all through their pieces, and over with them.
+        """
         for actor in self.events.scene.program.heroes:
-            self._seen_pieces(actor)
+            self._seen_pieces(actor, throughout)
         for each in self.events.scene.program.actors:
             marks = self.events.scene.landmarks_m[each.id]
             if "turn_end" in marks:  # whoever is past most of a turn shows no longer where it came from
                 halfway = pin(0.5 * (marks["turn_start"] + marks["turn_end"]))
                 self.owed.append(compare("<=", self.events.state(each.id, self.events.start).place, halfway))
 
-    def _seen_pieces(self, actor: Actor) -> None:
+    def _seen_pieces(self, actor: Actor, throughout: bool) -> None:
         kept = self.events.scene.program.manner.stricter(ROOM)
         events, kinds = self.events, actor.sketch.pieces
         knots = [events.knot(actor.id, name) for name in actor.sketch.knots]
@@ -81,23 +84,31 @@ class Refinement:
                 self.owed.append(compare(">=", events.times[ends] - events.times[begins], kept.stands_s))
             if kind not in (PieceKind.DEC, PieceKind.ACC):
                 continue
-            self.narrowings.append(Narrowing(actor.id, begins, ends, _pulling(kind, kept.begins_mpss)))
+            plain = _pulling(kind, kept.begins_mpss)
+            if throughout:
+                self.narrowings.append(Narrowing(actor.id, begins, ends, plain))
             if number and kinds[number - 1] is not PieceKind.STOP:
-                self.owed.append(compare(">=", events.times[ends] - events.times[begins], kept.begins_s))
+                shown = events.moment(events.times[begins] + kept.begins_s, "begins")
                 settled = events.moment(events.times[begins] - kept.settled_s, "settled")
-                events.state(actor.id, settled)
+                for instant in (shown, settled):
+                    events.state(actor.id, instant)
                 calm = _not_pulling(kind, calm_mpss(events.scene.program.manner))
+                self.narrowings.append(Narrowing(actor.id, begins, shown, plain))
                 self.narrowings.append(Narrowing(actor.id, settled, begins, calm))
+                self.owed.append(compare("<=", events.times[shown], events.times[ends]))
             if kinds[number + 1 : number + 2] in ((), (PieceKind.GO,)):
-                self._over(actor.id, kind, ends, knots[number + 2 : number + 3], kept)
+                self._over(actor.id, kind, ends, knots[number + 2 : number + 3], kept, throughout)
 
-    def _over(self, actor: int, kind: PieceKind, ends: int, following: list[int], kept: Manner) -> None:
+    def _over(
+        self, actor: int, kind: PieceKind, ends: int, following: list[int], kept: Manner, throughout: bool
+    ) -> None:
         """Let what was done in a piece be over for a while; who has come to a standstill stays there."""
         events = self.events
         lasts_s = kept.stands_s if kind is PieceKind.DEC else kept.begins_s
         over = events.moment(events.times[ends] + lasts_s, "over")
         now, then = events.state(actor, ends), events.state(actor, over)
-        self.narrowings.append(Narrowing(actor, ends, over, _not_pulling(kind, ZERO)))
+        if throughout:
+            self.narrowings.append(Narrowing(actor, ends, over, _not_pulling(kind, ZERO)))
         self.owed += [compare("<=", events.times[over], events.times[knot]) for knot in following]
         if kind is PieceKind.DEC:
             stays = every([compare("<=", then.place - now.place, _STILL_M), compare("<=", then.speed, ZERO)])
