@@ -111,6 +111,12 @@ def test_braking_at_several_rates_is_no_contradiction() -> None:
     assert decision.answer == "feasible"
 
 
+@pytest.mark.parametrize("always", ["A1a >= -1", "A1a >= -1 or A1v >= 30"])
+def test_what_begins_where_a_stretch_of_time_ends_comes_after_it(always: str) -> None:
+    asked = question(f"{HEAD}always[A1(t0), A1(t1)] ({always})\nA1a(t1) <= -4\n")
+    assert decide(asked, explain=False).answer == "feasible"
+
+
 def test_a_freed_number_is_found() -> None:
     asked = question(f"parameters:\n- p_mps\n\n{HEAD}A1v(t1) == p_mps\nA1a(dec) == -3\nA1(t2) - A1(t1) == 2 s\n")
     decision = decide(asked)

@@ -192,6 +192,7 @@ class _Hunt:
         guess = first_guess(case.events, case.formulas(), generator)
         for _ in range(_ROUNDS):
             search = case.search()
+            guess = np.append(guess, np.zeros(len(case.events.unknowns) - len(guess)))  # rates at new moments
             point = search.run(guess, generator)
             if point is None:
                 return None
