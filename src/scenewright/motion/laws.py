@@ -104,20 +104,39 @@ def reach(law: Law, v1: Number, v2: Number, d: Number, x: Number) -> Reach:
     if law.is_empty:
         return Reach(impossible=True)
     al, be, lo, hi = law.rate_low, law.rate_high, law.speed_low, law.speed_high
-    delta = v2 - v1
     if al == be:
-        return Reach(equal=(delta - al * d, 2 * x - (v1 + v2) * d))
-    over, under = be * d - delta, delta - al * d
-    rows = [
+        return Reach(equal=fixed(al, v1, v2, d, x))
+    rows = bounded(al, be, lo, hi, v1, v2, d, x)
+    return Reach(rows=rows, choices=capped(al, be, lo, hi, v1, v2, d, x) if al < 0 < be else ())
+
+
+def fixed(al: Number, v1: Number, v2: Number, d: Number, x: Number) -> tuple[Number, Number]:
+    """Return what is zero where the rate is `al`: the second by itself says that there is one rate."""
+    return v2 - v1 - al * d, 2 * x - (v1 + v2) * d
+
+
+def bounded(
+    al: Number, be: Number, lo: Number, hi: Number, v1: Number, v2: Number, d: Number, x: Number
+) -> tuple[Number, ...]:
+    """Return what is at most zero where the rate is between `al` and `be`, and the speed between `lo` and `hi`."""
+    over, under = be * d - (v2 - v1), v2 - v1 - al * d
+    return (
         -over,
         -under,
-        2 * (be - al) * (x - v1 * d - Fraction(1, 2) * be * d * d) + over * over,
-        2 * (be - al) * (v1 * d + Fraction(1, 2) * al * d * d - x) + under * under,
+        (be - al) * (2 * x - 2 * v1 * d - be * d * d) + over * over,
+        (be - al) * (2 * v1 * d + al * d * d - 2 * x) + under * under,
         lo * d - x,
         x - hi * d,
-    ]
-    if not al < 0 < be:
-        return Reach(rows=tuple(rows))
+    )
+
+
+def capped(
+    al: Number, be: Number, lo: Number, hi: Number, v1: Number, v2: Number, d: Number, x: Number
+) -> tuple[tuple[Number, Number], tuple[Number, Number]]:
+    """Return pairs, of which one is at most zero, where both signs of the rate are possible.
+
+    The top speed is not met, or what it costs to meet it; the lowest likewise.
+    """
     top = (
         -al * v1 + be * v2 - al * be * d - (be - al) * hi,
         -al * (hi - v1) * (hi - v1) + be * (hi - v2) * (hi - v2) + 2 * al * be * (hi * d - x),
@@ -126,7 +145,7 @@ def reach(law: Law, v1: Number, v2: Number, d: Number, x: Number) -> Reach:
         -be * (v1 - lo) + al * (v2 - lo) - al * be * d,
         be * (v1 - lo) * (v1 - lo) - al * (v2 - lo) * (v2 - lo) + 2 * al * be * (x - lo * d),
     )
-    return Reach(rows=tuple(rows), choices=(top, low))
+    return top, low
 
 
 def realise(law: Law, v1: float, v2: float, d: float, x: float) -> list[Move]:

@@ -22,6 +22,7 @@ from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.compiled import Compiled
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
+from scenewright.solve.proofs.order import least_differences
 from scenewright.solve.proofs.polynomials import Atom, Polynomial
 
 Array = NDArray[np.float64]
@@ -63,8 +64,8 @@ class Asked:
         self._formulas = Compiled(
             [each.formula for each in lowered] + [rule for rule, _ in self.events.rules], self.size
         )
-        self.events.learn_from(each.formula for each in lowered)
-        self.least_s = self.events.least_differences()  # how much later each instant is at least than another
+        # How much later each instant is at least than another.
+        self.least_s = least_differences(self.events, (each.formula for each in lowered))
         self.narrowings = tuple(self.lowering.narrowings)
         self.times = [number_of(time) for time in self.events.times]
         self._scale = np.array([*(TIGHT[unknown.kind] for unknown in self.events.unknowns), 0.0])

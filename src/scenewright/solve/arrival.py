@@ -11,15 +11,15 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from scenewright.motion.profile import Profile, Segment
+from scenewright.motion.profile import Profile
 from scenewright.program.expressions import Compare
 from scenewright.program.structure import KnotKey, Structure, knots_of
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
-from scenewright.solve.proofs.events import EgoBounds, Events, State
+from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.polynomials import ZERO, Polynomial, atoms
+from scenewright.solve.proofs.polynomials import ZERO, Monomial, Polynomial, atoms
 from scenewright.solve.tolerances import TIGHT
 
 HORIZON_S = 90.0
@@ -61,7 +61,7 @@ class LinearCondition:
 
     def first_time(self, profiles: Mapping[int, Profile], after_s: float) -> float | None:
         """Return the first instant from `after_s` on at which the motions meet the condition, None past the horizon."""
-        for start_s, duration_s, states in _common_stretches([(a, profiles[a]) for a in self.weights], after_s):
+        for start_s, duration_s, states in _common_stretches({a: profiles[a] for a in self.weights}, after_s):
             elapsed = self._root(duration_s, states)
             if elapsed is not None:
                 return start_s + elapsed
@@ -104,56 +104,42 @@ def linear_conditions(scene: Scene, structure: Structure) -> tuple[LinearConditi
         ):
             continue
         (lowered,) = lowering.lower((constraint,))
-        owners = {number: actor for (actor, _), state in events.states.items() for number in _numbers(state)}
-        equality = next((atom for atom in atoms(lowered.formula) if atom.relation == "=="), None)
-        weights = None if equality is None else _weights(events, equality.left, owners)
+        equality = next((atom.left for atom in atoms(lowered.formula) if atom.relation == "=="), None)
+        weights = None if equality is None else _weights(events, equality)
         if equality is not None and weights:
-            constant = float(equality.left.terms.get((), ZERO))
+            constant = float(equality.terms.get((), ZERO))
             found.append(LinearCondition(constraint.id, moments, constant, weights))
     return tuple(found)
 
 
-def _weights(events: Events, left: Polynomial, owners: Mapping[int, int]) -> dict[int, tuple[float, float]] | None:
+def _weights(events: Events, left: Polynomial) -> dict[int, tuple[float, float]] | None:
     """Return what a polynomial weighs each actor's position and speed with; None where it is not linear in them."""
+    owners: dict[Monomial, tuple[int, bool]] = {}
+    for (actor, _), state in events.states.items():
+        owners |= dict.fromkeys(state.place.terms, (actor, False)) | dict.fromkeys(state.speed.terms, (actor, True))
     weights: dict[int, tuple[float, float]] = {}
     for key, factor in left.terms.items():
         if key == ():
             continue
-        if len(key) != 1 or key[0] not in owners:
+        if key not in owners:
             return None
-        actor, speed = owners[key[0]], events.unknowns[key[0]].kind == "speed"
+        actor, is_speed = owners[key]
         per_metre, per_speed = weights.get(actor, (0.0, 0.0))
-        weights[actor] = (per_metre, float(factor)) if speed else (float(factor), per_speed)
+        weights[actor] = (per_metre, float(factor)) if is_speed else (float(factor), per_speed)
     return weights
 
 
-def _numbers(state: State) -> Iterator[int]:
-    for value in (state.place, state.speed):
-        yield from (key[0] for key in value.terms if key != ())
-
-
 def _common_stretches(
-    profiles: list[tuple[int, Profile]], after_s: float
+    profiles: Mapping[int, Profile], after_s: float
 ) -> Iterator[tuple[float, float, dict[int, tuple[float, float, float]]]]:
     """Yield stretches in which every profile has one acceleration, to the horizon after the last of them ends."""
-    if len(profiles) == 1:
-        actor, profile = profiles[0]
-        for segment in _with_rest(profile.cut(after_s)):
-            yield segment.start_s, segment.duration_s, {actor: (segment.s_m, segment.speed_mps, segment.accel_mpss)}
-        return
-    breaks = sorted(
-        {t for _, p in profiles for s in p.segments for t in (s.start_s, s.end_s) if t > after_s} | {after_s}
-    )
+    changes = {t for p in profiles.values() for s in p.segments for t in (s.start_s, s.end_s) if t > after_s}
+    breaks = [after_s, *sorted(changes)]
     for begin, end in zip(breaks, [*breaks[1:], breaks[-1] + HORIZON_S], strict=True):
         # At the break itself rounding may still tell the acceleration that ends there; in the middle there is no doubt.
         middle = 0.5 * (begin + end)
-        yield begin, end - begin, {a: (*profile.state(begin)[:2], profile.state(middle)[2]) for a, profile in profiles}
-
-
-def _with_rest(profile: Profile) -> Iterator[Segment]:
-    yield from profile.segments
-    last = profile.segments[-1]
-    yield Segment(last.end_s, HORIZON_S, last.end_s_m, last.end_speed_mps, 0.0)
+        states = {a: (*profile.state(begin)[:2], profile.state(middle)[2]) for a, profile in profiles.items()}
+        yield begin, end - begin, states
 
 
 def tight_of(condition: LinearCondition, speed_mps: float) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Sequence
 from fractions import Fraction
 
 from scenewright.solve.proofs.events import Unknown
@@ -12,6 +13,7 @@ from scenewright.solve.proofs.polynomials import (
     Atom,
     Formula,
     Polynomial,
+    Some,
     atom,
     compare,
     every,
@@ -71,3 +73,16 @@ def _eased(formula: Formula, by: Fraction) -> Formula:
             return every(_eased(part, by) for part in parts)
         case _:
             return some(_eased(part, by) for part in formula.parts)
+
+
+def violation(formula: Formula, point: Sequence[float]) -> float:
+    """Return by how much `formula` fails at a point, in the units of its comparisons; zero where it holds."""
+    match formula:
+        case Atom(left=left, relation="=="):
+            return abs(left.value(point))
+        case Atom(left=left):
+            return max(0.0, left.value(point))
+        case All(parts=parts):
+            return max((violation(part, point) for part in parts), default=0.0)
+        case Some(parts=parts):
+            return min((violation(part, point) for part in parts), default=float("inf"))

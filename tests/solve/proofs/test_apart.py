@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from posed import violation
 
 from scenarios import limits_of
 from scenewright.program.structure import read_structure
@@ -14,7 +15,6 @@ from scenewright.roads.load import load_map
 from scenewright.solve.proofs.apart import APART, apart
 from scenewright.solve.proofs.decide import Decision, Question, decide
 from scenewright.solve.proofs.events import EgoBounds, Events
-from scenewright.solve.proofs.polynomials import violation
 
 TEXT = """{manner}Actor 0 (ego):
 - W

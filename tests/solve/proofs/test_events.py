@@ -9,7 +9,7 @@ from planted import EGO, T, limits_of
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import Scene, ground
 from scenewright.solve.proofs.events import EgoBounds, Events
-from scenewright.solve.proofs.polynomials import compare, unknown
+from scenewright.solve.proofs.polynomials import unknown
 
 TEXT = """Actor 0 (ego):
 - W
@@ -58,30 +58,6 @@ def test_laws_of_pieces() -> None:
     assert held.rate_low == held.rate_high == 0
 
 
-def test_what_is_certain_of_the_order() -> None:
-    events = events_of()
-    start, first, second = events.start, events.knot(1, "t1"), events.knot(1, "t2")
-    least = events.least_differences()
-    assert least[start, first] >= 0
-    assert least[first, second] >= 0
-    assert least[second, first] < 0
-    time_1, time_2 = events.times[first], events.times[second]
-    place_1, place_2 = events.state(1, first).place, events.state(1, second).place
-    events.learn_from(
-        iter([compare(">=", time_2 - time_1, 3), compare("==", place_1, 100), compare("==", place_2, 200)])
-    )
-    least = events.least_differences()
-    top = float(events.law_of(1).speed_high)
-    assert least[first, second] == max(3.0, 100 / top)
-
-
-def test_a_contradiction_is_not_learned() -> None:
-    events = events_of()
-    first, second = events.knot(1, "t1"), events.knot(1, "t2")
-    events.learn_from(iter([compare("<=", events.times[second] - events.times[first], -1)]))
-    assert events.least_differences()[second, first] < 0, "it is for a proof to find"
-
-
 def test_unknowns_have_ranges() -> None:
     events = events_of()
     end = events.scene.routes[1].landmarks["route_end"]
@@ -89,21 +65,3 @@ def test_unknowns_have_ranges() -> None:
     assert (place.kind, float(place.low)) == ("place", 0.0)
     assert abs(float(place.high) - end) < 1e-3
     assert events.new("mine", Fraction(1), Fraction(2), "other").terms == unknown(len(events.unknowns) - 1).terms
-
-
-def test_what_contradicts_the_order_is_impossible() -> None:
-    events = events_of()
-    first, second = (events.times[events.knot(1, name)] for name in ("t1", "t2"))
-    events.learn_from(iter([compare(">=", second - first, 3)]))
-    least = events.least_differences()
-    for formula, impossible in (
-        (compare("<", second, first), True),
-        (compare("<=", second - first, Fraction(29, 10)), True),
-        (compare("<=", second - first, 3), False),
-        (compare("<", second - first, 3), True),
-        (compare(">", second, first), False),
-        (compare("<", first, 0), True),
-        (compare("<=", first, 0), False),
-        (compare("<=", events.state(1, events.start).place, -1), False),  # of places it knows nothing
-    ):
-        assert events.impossible(formula, least) == impossible, formula

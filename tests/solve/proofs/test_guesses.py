@@ -22,7 +22,7 @@ def test_what_is_told_is_guessed_as_told() -> None:
     scene = ground(parse_program(TEXT), T)
     events = Events(scene, limits_of(scene), EgoBounds())
     formulas = [each.formula for each in Lowering(events).lower(scene.program.constraints)]
-    point = first_guess(events, formulas)
+    point = first_guess(events, formulas, None)
     for actor, knot, place in ((0, "t1", 100.0), (1, "t1", 130.0), (1, "t2", 140.0)):
         assert events.state(actor, events.knot(actor, knot)).place.value(point) == place
     times = [events.times[events.knot(1, knot)].value(point) for knot in ("t0", "t1", "t2")]

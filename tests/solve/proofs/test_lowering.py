@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import pytest
 from planted import T, limits_of, lowered, plant
+from posed import violation
 from test_relaxation import values_of
 
 from scenewright.motion.profile import Profile, chain
@@ -16,7 +17,7 @@ from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.narrowing import Narrowing
-from scenewright.solve.proofs.polynomials import atoms, violation
+from scenewright.solve.proofs.polynomials import atoms
 
 FORMS = [
     "A1x(t1) == 90", "A1v(t1) <= 6", "A1v(A0(t2)) >= 4", "A1x(2.0) <= 100", "A1(t2) - A1(t1) >= 2 s", "A1(t1) < A0(t2)",

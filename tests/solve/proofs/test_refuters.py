@@ -10,14 +10,14 @@ from pathlib import Path
 
 import pytest
 from planted import T, lowered
-from posed import UNKNOWNS, X, Y, at_random, eased, named
+from posed import UNKNOWNS, X, Y, at_random, eased, named, violation
 
 from forms import FORMS, program
 from scenewright.errors import InputError, MissingExtraError, SolverError
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
 from scenewright.solve.proofs.events import Unknown
-from scenewright.solve.proofs.polynomials import compare, some, violation
+from scenewright.solve.proofs.polynomials import compare, some
 from scenewright.solve.proofs.refuters import (
     GROUP,
     SOLVERS,
@@ -25,8 +25,6 @@ from scenewright.solve.proofs.refuters import (
     Refuter,
     core,
     refuter_called,
-    taken,
-    tightened,
 )
 from scenewright.solve.proofs.relaxation import Named, relaxation
 
@@ -37,7 +35,7 @@ from scenewright.solve.proofs.refuters import Answer, Capabilities
 
 class Shy:
     name = "shy"
-    capabilities = Capabilities(exact=True, cores=False, quadratic=True, keeps_time=True)
+    capabilities = Capabilities(exact=True, cores=False)
     def ask(self, unknowns, formulas, timeout_s, want_core=False):
         return Answer("unknown")
 """
@@ -99,17 +97,7 @@ def test_solvers_that_fail_are_named(package: Path) -> None:
 
 
 def test_capabilities_are_told_in_words() -> None:
-    assert Capabilities(exact=False, cores=False, quadratic=False, keeps_time=False).words() == (
-        "numeric: a cross-check, no proof, no cores, linear only, is stopped where it takes too long"
-    )
-
-
-def test_a_linear_solver_is_asked_about_what_is_linear(package: Path) -> None:
-    formulas = named(a=compare("<=", X, Y), b=some([compare("<=", X, 2), compare("<=", X * Y, 0)]))
-    shy = refuter_called("shy")
-    assert taken(shy, formulas) == formulas
-    shy.capabilities = Capabilities(exact=True, cores=False, quadratic=False, keeps_time=True)
-    assert [each.origin for each in taken(shy, formulas)] == ["a"]
+    assert Capabilities(exact=False, cores=False).words() == ("numeric: a cross-check, no proof, no cores")
 
 
 def test_cores_hold_what_clashes_and_no_more() -> None:
@@ -129,17 +117,6 @@ def test_cores_of_others_clash(name: str) -> None:
     clashing = core(other(name), UNKNOWNS, formulas, 5.0)
     assert refuter_called().ask(UNKNOWNS, [each for each in formulas if each.origin in clashing], 5.0).kind == "refuted"
     assert len(clashing) == 2
-
-
-def test_ranges_are_tightened_by_what_stands_for_itself() -> None:
-    formulas = named(
-        a=compare(">=", 2 * X, 3),
-        b=some([compare("<=", X, 2), compare("<=", Y, 0)]),
-        c=compare("==", Y, Fraction(1, 2)),
-    )
-    x, y = tightened(UNKNOWNS, formulas)
-    assert (x.low, x.high) == (Fraction(3, 2), 10), "an alternative tightens nothing"
-    assert (y.low, y.high) == (Fraction(1, 2), Fraction(1, 2))
 
 
 @pytest.mark.parametrize(("name", "count"), [("cvc5", 25), ("scip", 60)])

@@ -5,9 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from posed import UNKNOWNS, X, Y, named
+from posed import UNKNOWNS, X, Y, named, violation
 
-from scenewright.solve.proofs.polynomials import FALSE, compare, every, some, unknown, violation
+from scenewright.solve.proofs.polynomials import FALSE, compare, every, some, unknown
 
 pytest.importorskip("pyscipopt", reason="the extra scip is not installed")
 

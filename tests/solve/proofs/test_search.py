@@ -7,6 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from planted import T, limits_of, plant
+from posed import violation
 
 from scenewright.motion.laws import holds, reach
 from scenewright.program.text import parse_program
@@ -14,7 +15,7 @@ from scenewright.roads.grounding import ground
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.guesses import first_guess
 from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.polynomials import compare, violation
+from scenewright.solve.proofs.polynomials import compare
 from scenewright.solve.proofs.search import Search
 
 
@@ -42,7 +43,7 @@ def test_what_is_found_meets_formulas_and_laws(seed: int) -> None:
     for formula in search.formulas:
         assert violation(formula, point) < 2e-3
     for actor in (0, 1):
-        order, laws = search.order_of(point, actor), search.laws_of(point, actor)
+        order, laws = search.way_of(point, actor)
         times = [events.times[k].value(point) for k in order]
         assert all(b - a > -1e-6 for a, b in pairwise(times))
         for number, (early, late) in enumerate(pairwise(order)):
@@ -78,26 +79,6 @@ def test_what_is_owed_besides_is_kept() -> None:
     events, _, point = searched(scene_text, compare("<=", speed, 6))
     assert point is not None
     assert 5 - 1e-3 <= events.state(1, events.knot(1, "t1")).speed.value(point) <= 6 + 1e-3
-
-
-def test_what_is_certain_of_the_order_holds_from_the_first_guess_on() -> None:
-    head = plant(5).text.split("Constraints:")[0]
-    text = f"{head}Constraints:\nA0(t1) == A1(t1)\nA0(t1) == 6 s\neventually[A0(t1) + 2, 12] (A0v <= 3)\nA0v(t1) == 9\n"
-    scene = ground(parse_program(text), T)
-    events = Events(scene, limits_of(scene), EgoBounds(20.0, 2.0, 6.0))
-    formulas = [each.formula for each in Lowering(events).lower(scene.program.constraints)]
-    formulas += [formula for formula, _ in events.rules]
-    search = Search(events, formulas, [])
-    guess = first_guess(events, formulas)
-    early = next(k for k, each in enumerate(events.unknowns) if each.name == "T_eventually")
-    guess[early] = 1.0  # before what it comes after: from there no step leads past
-    point = search.run(guess)
-    assert point is not None
-    assert point[early] >= 8 - 1e-4
-    knots = [events.knot(0, "t1"), next(k for k, t in enumerate(events.times) if (early,) in t.terms)]
-    guess[early] = 1.0
-    order = search.order_of(guess, 0)
-    assert order.index(knots[0]) < order.index(knots[1])
 
 
 def test_alternatives_that_what_is_told_rules_out_are_not_taken() -> None:

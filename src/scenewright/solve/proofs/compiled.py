@@ -5,24 +5,14 @@ What enters: formulas over numbered unknowns. What leaves: arrays over their com
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.solve.proofs.polynomials import All, Atom, Formula, Some
+from scenewright.solve.proofs.polynomials import All, Atom, Formula, Some, atoms
 
 Array = NDArray[np.float64]
-
-
-@dataclass(slots=True)
-class _Tree:
-    """A formula with the numbers of its comparisons at its leaves."""
-
-    kind: str
-    atom: int = -1
-    parts: list[_Tree] = field(default_factory=list)
 
 
 class Compiled:
@@ -46,9 +36,10 @@ class Compiled:
     def __init__(
         self, formulas: Sequence[Formula], size: int, ruled_out: Callable[[Formula], bool] = lambda _: False
     ) -> None:
-        self.atoms: list[Atom] = []
         self._ruled_out = ruled_out
-        self._trees = [self._tree(formula) for formula in formulas]
+        self._formulas = [self._possible(formula) for formula in formulas]
+        self.atoms = [part for formula in self._formulas for part in atoms(formula)]
+        self._numbers = {id(part): number for number, part in enumerate(self.atoms)}
         owner, factor, left, right = [], [], [], []
         for number, atom in enumerate(self.atoms):
             for key, coefficient in atom.left.terms.items():
@@ -76,36 +67,34 @@ class Compiled:
 
     def chosen(self, errors: Array) -> list[int]:
         """Return the comparisons that are to hold; of alternatives those of the one that is nearest to holding."""
-        found: list[int] = []
-        for tree in self._trees:
-            _choose(tree, errors, found)
+        found = (number for formula in self._formulas for number in self._choice(formula, errors))
         return list(dict.fromkeys(found))
 
-    def _tree(self, formula: Formula) -> _Tree:
+    def _possible(self, formula: Formula) -> Formula:
+        """Return a formula without alternatives that are ruled out."""
         match formula:
-            case Atom():
-                self.atoms.append(formula)
-                return _Tree("atom", len(self.atoms) - 1)
             case All(parts=parts):
-                return _Tree("all", parts=[self._tree(part) for part in parts])
+                return All(tuple(self._possible(part) for part in parts))
             case Some(parts=parts):
                 possible = [part for part in parts if not self._ruled_out(part)]
-                return _Tree("some", parts=[self._tree(part) for part in possible or parts])
+                return Some(tuple(self._possible(part) for part in possible or parts))
+        return formula
 
+    def _choice(self, formula: Formula, errors: Array) -> Iterator[int]:
+        match formula:
+            case Atom():
+                yield self._numbers[id(formula)]
+            case All(parts=parts):
+                for part in parts:
+                    yield from self._choice(part, errors)
+            case Some(parts=parts) if parts:
+                yield from self._choice(min(parts, key=lambda part: self._error(part, errors)), errors)
 
-def _choose(tree: _Tree, errors: Array, chosen: list[int]) -> None:
-    if tree.kind == "atom":
-        chosen.append(tree.atom)
-    elif tree.kind == "all":
-        for part in tree.parts:
-            _choose(part, errors, chosen)
-    elif tree.parts:
-        _choose(min(tree.parts, key=lambda part: _error(part, errors)), errors, chosen)
-
-
-def _error(tree: _Tree, errors: Array) -> float:
-    if tree.kind == "atom":
-        return max(0.0, float(errors[tree.atom]))
-    if tree.kind == "all":
-        return max((_error(part, errors) for part in tree.parts), default=0.0)
-    return min((_error(part, errors) for part in tree.parts), default=np.inf)
+    def _error(self, formula: Formula, errors: Array) -> float:
+        match formula:
+            case Atom():
+                return max(0.0, float(errors[self._numbers[id(formula)]]))
+            case All(parts=parts):
+                return max((self._error(part, errors) for part in parts), default=0.0)
+            case Some(parts=parts):
+                return min((self._error(part, errors) for part in parts), default=np.inf)

@@ -8,7 +8,7 @@ heroes must all pass it within a time that is shorter than they cover it one aft
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
@@ -21,8 +21,10 @@ from scenewright.roads.conflicts import conflicts, shared_stretches
 from scenewright.roads.grounding import Scene
 from scenewright.roads.zones import overlap
 from scenewright.solve.proofs.apart import APART
-from scenewright.solve.proofs.events import Events, conjuncts
+from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.lowering import Lowered
+from scenewright.solve.proofs.order import least_differences, places_within
+from scenewright.units import pin
 
 Array = NDArray[np.float64]
 Point = Mapping[int, float]  # one place of the map, as the arc length on the way of each hero that passes it
@@ -69,31 +71,18 @@ class _Facts:
 
     events: Events
     least: Array
-    most_m: dict[tuple[int, int], float] = field(default_factory=dict)
-    least_m: dict[tuple[int, int], float] = field(default_factory=dict)
+    most_m: Mapping[tuple[int, int], float]
+    least_m: Mapping[tuple[int, int], float]
 
     @classmethod
     def of(cls, events: Events, lowered: Sequence[Lowered]) -> _Facts:
         """Gather the facts of some constraints."""
-        found = cls(events, events.least_differences())
-        owners = {key: owner for owner, state in events.states.items() for key in state.place.terms if key != ()}
-        for part in conjuncts(each.formula for each in lowered):
-            if (difference := events.difference(part.left)) is not None:
-                early, late, most_s = difference
-                found.least[late, early] = max(found.least[late, early], -float(most_s))
-                if part.relation == "==":
-                    found.least[early, late] = max(found.least[early, late], float(most_s))
-            terms = [key for key in part.left.terms if key != ()]
-            if len(terms) == 1 and terms[0] in owners:
-                factor, owner = float(part.left.terms[terms[0]]), owners[terms[0]]
-                place_m = -float(part.left.terms.get((), 0)) / factor
-                if part.relation == "==" or factor > 0.0:
-                    found.most_m[owner] = min(place_m, found.most_m.get(owner, np.inf))
-                if part.relation == "==" or factor < 0.0:
-                    found.least_m[owner] = max(place_m, found.least_m.get(owner, -np.inf))
-        for middle in range(len(found.least)):
-            np.maximum(found.least, found.least[:, middle, None] + found.least[None, middle, :], out=found.least)
-        return found
+        formulas = [each.formula for each in lowered]
+        within = places_within(events, formulas).items()
+        ends = {hero: events.scene.routes[hero].landmarks["route_end"] for hero in events.scene.routes}
+        most_m = {key: float(high) for key, (_, high) in within if high < pin(ends[key[0]])}
+        least_m = {key: float(low) for key, (low, _) in within if low > 0}
+        return cls(events, least_differences(events, formulas), most_m, least_m)
 
     def crowd(self, point: Point) -> tuple[int, ...]:
         """Return heroes that cannot all pass a point in the time that they have for it."""

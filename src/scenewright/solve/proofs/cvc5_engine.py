@@ -14,7 +14,8 @@ from collections.abc import Sequence
 from scenewright.errors import SolverError
 from scenewright.solve.proofs import cvc5_process
 from scenewright.solve.proofs.events import Unknown
-from scenewright.solve.proofs.refuters import Answer, Capabilities, tightened
+from scenewright.solve.proofs.order import tightened
+from scenewright.solve.proofs.refuters import Answer, Capabilities
 from scenewright.solve.proofs.relaxation import Named
 from scenewright.solve.proofs.smtlib import smtlib
 
@@ -26,13 +27,13 @@ class Cvc5:
     """cvc5 in a process for each question, stopped where it takes too long."""
 
     name = "cvc5"
-    capabilities = Capabilities(exact=True, cores=True, quadratic=True, keeps_time=False)
+    capabilities = Capabilities(exact=True, cores=True)
 
     def ask(
         self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float, want_core: bool = False
     ) -> Answer:
         """Ask whether all `formulas` can hold at once."""
-        ranges = list(unknowns) if want_core else tightened(unknowns, formulas)
+        ranges = list(unknowns) if want_core else tightened(unknowns, (each.formula for each in formulas))
         if any(each.low > each.high for each in ranges):
             return Answer("refuted")
         lines = [

@@ -21,14 +21,13 @@ from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.apart import apart
-from scenewright.solve.proofs.consequences import consequences
 from scenewright.solve.proofs.crowding import crowded
 from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, EgoDrive, Events, Unknown
 from scenewright.solve.proofs.guesses import carried_over, first_guess
 from scenewright.solve.proofs.lowering import Lowered, Lowering
-from scenewright.solve.proofs.polynomials import ZERO, Atom, Formula, Some
+from scenewright.solve.proofs.polynomials import ZERO, Formula
 from scenewright.solve.proofs.refinement import Refinement
-from scenewright.solve.proofs.refuters import Refuter, core, refuter_called, taken
+from scenewright.solve.proofs.refuters import Refuter, core, refuter_called
 from scenewright.solve.proofs.relaxation import Named, relaxation, resting_on
 from scenewright.solve.proofs.search import Search
 from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
@@ -45,9 +44,9 @@ _RANGES = {
     "place": "where the routes end",
 }
 _WIDER = 1000  # a range so much wider is none
-# What guesses owe of the manner, in turn: a motion that cannot be told by its looks is possible all the same.
-_OWED: tuple[Owed, ...] = ("throughout", "throughout", "at first", "nothing")
-_KEEN = 12  # so many guesses are made for a motion that can, where there is one that cannot
+# What guesses owe of the manner, in turn; later ones owe nothing: a motion that looks like nothing is possible, too.
+_OWED: tuple[Owed, ...] = ("throughout", "throughout", "at first")
+_KEEN = 12  # so many guesses are made for one that does, where there is one that does not
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +135,7 @@ class _Case:
     def relaxation(self) -> list[Named]:
         """Return what a refutation rests on."""
         self.lower()
-        return relaxation(self.events, [*self.lowering.narrowings, *self.more.narrowings], self.lowered)
+        return relaxation(self.events, self.lowering.narrowings, self.lowered)
 
 
 def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> Decision:
@@ -147,162 +146,99 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     """
     until = time.monotonic() + limit_s
     plain = _Case(question, plan=False)
-    asked = len(plain.events.unknowns)
     left_out = {each.constraint.id: each.refused for each in plain.lowered if each.refused}
     if question.drive is None and (clashing := crowded(plain.events, plain.lowered)):
         return Decision("infeasible", core=clashing, left_out=left_out)
-    generator = np.random.default_rng(0)
-    amiss: tuple[Broken, ...] = ()
     formulas: list[Named] = []
-    tried, kept, turning = 0, None, False
+    hunt = _Hunt(question, until)
     for guesses, proof_s in zip(_GUESSES, _PROOF_S, strict=True):
-        for _ in range(0 if left_out or question.drive else guesses):
-            owed = _OWED[tried % len(_OWED)] if tried < len(_OWED) or kept is not None else "nothing"
-            if kept is None or owed != "nothing":
-                found, amiss = _witness(_Case(question, owed), generator if tried else None, until)
-                if found is not None and owed != "nothing":
-                    return Decision("feasible", found)
-                kept = kept or found
-            tried += 1
-            over = time.monotonic() > until
-            if kept is not None and (over or tried >= _KEEN):
-                return Decision("feasible", kept)
-            if over:
-                return Decision("undecided", amiss=amiss)
-        if kept is not None:
-            continue
-        if formulas and not turning:  # it takes longer with more moments, so only where it did not without
-            turning = plain.more.sure_turns()
-            formulas = []
-        if not formulas:
-            formulas = taken(question.refuter, plain.relaxation())
-            formulas += consequences(plain.events.unknowns, formulas)
+        if not left_out and question.drive is None and (found := hunt.witness(guesses)) is not None:
+            return Decision("feasible", found)
+        formulas = formulas or plain.relaxation()  # most witnesses need none
         answer = question.refuter.ask(plain.events.unknowns, formulas, min(proof_s, until - time.monotonic()))
         if answer.kind == "refuted" and not question.refuter.capabilities.exact:
-            return Decision("undecided", left_out=left_out, amiss=amiss, doubted_by=question.refuter.name)
+            return Decision("undecided", left_out=left_out, amiss=hunt.amiss, doubted_by=question.refuter.name)
         if answer.kind == "refuted":
             clashing = _core(question, plain.events.unknowns, formulas) if explain else ()
             return Decision("infeasible", core=clashing, left_out=left_out)
-        if left_out or question.drive:
-            continue
-        if answer.kind == "met" and answer.values:
-            guess = np.array(answer.values)[:asked]  # a search has moments of its own after these
-            found, amiss = _mended(_Case(question), guess, until, None)
-            if found is not None:
-                return Decision("feasible", found)
-    return Decision("undecided", left_out=left_out, amiss=amiss)
+    return Decision("undecided", left_out=left_out, amiss=hunt.amiss)
+
+
+@dataclass(slots=True)
+class _Hunt:
+    """Looks for a witness from one guess after another: `tried` so many so far; `amiss` is what was with the last."""
+
+    question: Question
+    until: float
+    tried: int = 0
+    amiss: tuple[Broken, ...] = ()
+    generator: np.random.Generator = field(default_factory=lambda: np.random.default_rng(0))
+
+    def witness(self, guesses: int) -> Witness | None:
+        """Return a witness, if that can be had one that keeps to the manner; None where so many guesses find none."""
+        kept, last = None, self.tried + guesses
+        while self.tried < (last if kept is None else _KEEN) and time.monotonic() < self.until:
+            keen = self.tried < len(_OWED) or kept is not None
+            found = self._mended(_Case(self.question, _OWED[self.tried % len(_OWED)] if keen else "nothing"))
+            self.tried += 1
+            if found is not None and keen:
+                return found
+            kept = kept or found
+        return kept
+
+    def _mended(self, case: _Case) -> Witness | None:
+        """Search from a guess, and mend what is amiss with what is found until nothing is, or nothing helps."""
+        generator = self.generator if self.tried else None
+        guess = first_guess(case.events, case.formulas(), generator)
+        for _ in range(_ROUNDS):
+            search = case.search()
+            guess = np.append(guess, np.zeros(len(case.events.unknowns) - len(guess)))  # rates at new moments
+            point = search.run(guess, generator)
+            if point is None:
+                return None
+            witness = realised(case.events, search, point)
+            self.amiss = tuple(broken(case.scene, case.structure, case.limits, case.events.ego, witness))
+            if not self.amiss:
+                return witness
+            if time.monotonic() > self.until or not case.more.mend(self.amiss, witness):
+                return None
+            case.lower()
+            guess = carried_over(case.events, point, witness)
+        return None
 
 
 def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> tuple[str, ...]:
-    """Return what clashes, and which ranges of single numbers it takes for that."""
-    refuter = question.refuter
-    origins = core(refuter, unknowns, formulas, 1.0)
-    clashing = resting_on(formulas, origins)
-    if question.drive is None and (posed := _sufficient(question, origins)) is not None:
-        named, unknowns, clashing = posed
-        laws = [each for each in core(refuter, unknowns, clashing, 1.0) if each not in named]
-        origins, clashing = (*named, *laws), resting_on(clashing, (*named, *laws))
+    """Return what clashes, and which ranges of single numbers it takes for that.
+
+    Formulas are made with what all constraints say of the order of moments, and of who is who's moment: whether some
+    of them clash is asked about these alone.
+    """
+    refuter, until = question.refuter, time.monotonic() + _CORE_S
+    first = refuter.ask(unknowns, formulas, 1.0, want_core=True).core
+    told = [constraint.id for constraint in question.constraints()]
+    kept = [name for name in told if name in first]
+    if (posed := _posed(question, kept)) is None:
+        kept, posed = told, (unknowns, formulas)
+    for name in list(kept):
+        fewer = [other for other in kept if other != name]
+        if time.monotonic() < until and (easier := _posed(question, fewer)) is not None:
+            kept, posed = fewer, easier
+    laws = [each for each in core(refuter, *posed, 1.0) if each not in kept]
+    clashing = resting_on(posed[1], (*kept, *laws))
     ranges = []
     for kind, words in _RANGES.items():
-        wider = [replace(each, high=_WIDER * each.high) if each.kind == kind else each for each in unknowns]
+        wider = [replace(each, high=_WIDER * each.high) if each.kind == kind else each for each in posed[0]]
         if refuter.ask(wider, clashing, 0.2).kind == "met":
             ranges.append(words)
-    return (*origins, *ranges)
+    return (*kept, *laws, *ranges)
 
 
-def _sufficient(question: Question, origins: Collection[str]) -> tuple[list[str], list[Unknown], list[Named]] | None:
-    """Return constraints that clash by themselves, with what is asked about them alone.
-
-    Formulas are made with what all constraints say of the order of moments, and of who is who's moment: whether those
-    that are named clash without the others is asked anew, and where they do not, they are looked for among all.
-    """
-    until, told = time.monotonic() + _CORE_S, [constraint.id for constraint in question.constraints()]
-    named = [name for name in told if name in origins]
-    posed = _posed(question, named)
-    if posed is None:
-        named = told
-        for each in sorted(told, key=lambda name: name in origins):  # those that were named are looked at last
-            fewer = [other for other in named if other != each]
-            if time.monotonic() < until and _posed(question, fewer) is not None:
-                named = fewer
-        posed = _posed(question, named)
-    return None if posed is None else (named, *posed)
-
-
-def _posed(question: Question, kept: Collection[str]) -> tuple[list[Unknown], list[Named]] | None:
+def _posed(question: Question, kept: Collection[str]) -> tuple[Sequence[Unknown], Sequence[Named]] | None:
     """Return unknowns and formulas of some of the constraints alone, if these are refuted."""
     program = question.scene.program
     fewer = replace(program, constraints=tuple(c for c in program.constraints if c.id in kept))
     case = _Case(replace(question, scene=replace(question.scene, program=fewer)), plan=False)
-    for turning in (False, True):
-        if turning and not case.more.sure_turns():
-            break
-        formulas = taken(question.refuter, case.relaxation())
-        formulas += consequences(case.events.unknowns, formulas)
-        if question.refuter.ask(case.events.unknowns, formulas, 0.5).kind == "refuted":
-            return case.events.unknowns, formulas
+    formulas = case.relaxation()
+    if question.refuter.ask(case.events.unknowns, formulas, 0.5).kind == "refuted":
+        return case.events.unknowns, formulas
     return None
-
-
-def _witness(
-    case: _Case, generator: np.random.Generator | None, until: float
-) -> tuple[Witness | None, tuple[Broken, ...]]:
-    """Look for a witness from one first guess."""
-    return _mended(case, first_guess(case.events, case.formulas(), generator), until, generator)
-
-
-def _mended(
-    case: _Case, guess: Array, until: float, generator: np.random.Generator | None
-) -> tuple[Witness | None, tuple[Broken, ...]]:
-    """Search from a guess, and mend what is amiss with what is found until nothing is, or nothing helps."""
-    amiss: Sequence[Broken] = ()
-    for _ in range(_ROUNDS):
-        search = case.search()
-        guess = np.append(guess, np.zeros(len(case.events.unknowns) - len(guess)))
-        point = search.run(guess, generator)
-        if point is None:
-            return None, tuple(amiss)
-        witness = realised(case.events, search, point)
-        amiss = broken(case.scene, case.structure, case.limits, case.events.ego, witness)
-        if not amiss:
-            return witness, ()
-        if time.monotonic() > until or not case.more.mend(list(amiss), witness):
-            return None, tuple(amiss)
-        case.lower()
-        times = _times(case.events, witness)
-        guess = carried_over(case.events, point, witness.profiles, times)
-    return None, tuple(amiss)
-
-
-def _times(events: Events, witness: Witness) -> dict[int, float]:
-    """Return when each moment is in a motion, those included that were added since."""
-    times = dict(witness.times_s)
-    for instant, time_s in enumerate(events.times):
-        if instant in times:
-            continue
-        constant = time_s.constant
-        if constant is not None:
-            times[instant] = float(constant)
-        elif instant in events.defined:
-            values = {
-                next(iter(t.terms))[0]: times[k]
-                for k, t in enumerate(events.times)
-                if k in times and t.constant is None
-            }
-            times[instant] = max(0.0, events.defined[instant].value(values))
-        else:
-            times[instant] = _passing(events, witness, instant)
-    return times
-
-
-def _passing(events: Events, witness: Witness, instant: int) -> float:
-    """Return when an actor passes the place that a moment was made for; the end of its motion where it never does."""
-    actor = next(owner for owner, k in events.states if k == instant)
-    number = next(iter(events.state(actor, instant).place.terms))
-    for formula, _ in events.rules:
-        first = formula.parts[0] if isinstance(formula, Some) and formula.parts else None
-        if isinstance(first, Atom) and number in first.left.terms:
-            place = -float(first.left.terms.get((), 0)) / float(first.left.terms[number])
-            found = witness.profiles[actor].time_at(place)
-            return witness.end_s if found is None else min(found, witness.end_s)
-    return witness.end_s

@@ -7,12 +7,9 @@ stretch of an actor's way, and what is certain of the order of instants. It hold
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-
-import numpy as np
-from numpy.typing import NDArray
 
 from scenewright.motion.laws import Law
 from scenewright.motion.profile import Profile
@@ -22,8 +19,6 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.polynomials import (
     ZERO,
-    All,
-    Atom,
     Formula,
     Polynomial,
     compare,
@@ -35,7 +30,6 @@ from scenewright.solve.proofs.polynomials import (
 from scenewright.units import pin
 
 LONGEST_S = Fraction(120)
-_PASSES = 2  # over all comparisons, to see between which places somebody is: enough for one that rests on another
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,13 +109,11 @@ class Events:
     parameters: dict[str, Polynomial] = field(default_factory=dict)
     start: int = 0
     defined: dict[int, Polynomial] = field(default_factory=dict)
+    places: dict[tuple[int, Fraction], int] = field(default_factory=dict)  # when an actor passes one
+    ahead: dict[tuple[int, int], None] = field(default_factory=dict)  # instants, the earlier first
+    instant_of: dict[tuple[int, ...], int] = field(default_factory=dict)  # by its unknown
     _knots: dict[tuple[int, str], int] = field(default_factory=dict)
     _clock: dict[Fraction, int] = field(default_factory=dict)
-    _places: dict[tuple[int, Fraction], int] = field(default_factory=dict)
-    _ahead: dict[tuple[int, int], Fraction] = field(default_factory=dict)
-    _learned: dict[tuple[int, int], Fraction] = field(default_factory=dict)
-    _within: dict[tuple[int, int], tuple[Fraction, Fraction]] = field(default_factory=dict)  # learned of places (m)
-    _instant_of: dict[tuple[int, ...], int] = field(default_factory=dict)  # by its unknown
 
     def __post_init__(self) -> None:
         for name, value in self.scene.parameters.items():
@@ -145,7 +137,7 @@ class Events:
     def instant(self, name: str) -> int:
         """Return a new instant, at a time that is to be found."""
         self.times.append(self.new(f"T_{name}", ZERO, LONGEST_S, "time"))
-        self._instant_of[(len(self.unknowns) - 1,)] = len(self.times) - 1
+        self.instant_of[(len(self.unknowns) - 1,)] = len(self.times) - 1
         return len(self.times) - 1
 
     def clock(self, time_s: Fraction) -> int:
@@ -173,10 +165,10 @@ class Events:
     def at_place(self, actor: int, place_m: Fraction) -> int:
         """Return when an actor is at a place: the start if it is past it then, the end if it never is."""
         key = (actor, place_m)
-        if key in self._places:
-            return self._places[key]
+        if key in self.places:
+            return self.places[key]
         others = self.instants_of(actor)
-        made = self._places[key] = self.instant(f"place{actor}")
+        made = self.places[key] = self.instant(f"place{actor}")
         state, now = self.state(actor, made), self.times[made]
         there = compare("==", state.place, place_m)
         past = every([compare("<=", now, ZERO), compare(">=", state.place, place_m)])
@@ -266,167 +258,12 @@ class Events:
     def law_of_piece(self, actor: int, kind: PieceKind) -> Law:
         """Return the law of a kind of piece: a `go` is free, braking and speeding up are one-sided, a `stop` stands."""
         free = self.law_of(actor)
-        if actor == EGO:
+        if actor == EGO or kind is PieceKind.GO:
             return free
-        match kind:
-            case PieceKind.DEC:
-                return Law(free.rate_low, ZERO, ZERO, free.speed_high)
-            case PieceKind.ACC:
-                return Law(ZERO, free.rate_high, ZERO, free.speed_high)
-            case PieceKind.STOP:
-                return Law(ZERO, ZERO, ZERO, ZERO)
-            case _:
-                return free
+        low = free.rate_low if kind is PieceKind.DEC else ZERO
+        high = free.rate_high if kind is PieceKind.ACC else ZERO
+        return Law(low, high, ZERO, ZERO if kind is PieceKind.STOP else free.speed_high)
 
-    # -- order --------------------------------------------------------------------------------------------------------
-    def order(self, first: int, second: int, least_s: Fraction = ZERO) -> None:
-        """Note that `second` comes at least `least_s` after `first`."""
-        if first != second:
-            key = (first, second)
-            self._ahead[key] = max(least_s, self._ahead.get(key, least_s))
-
-    def least_differences(self) -> NDArray[np.float64]:
-        """Return a matrix of how much later (s) each instant (column) is at least than another (row).
-
-        Where what was learned contradicts itself only what holds by itself is in it: the contradiction is for a proof.
-        """
-        both = dict(self._ahead)
-        for key, value in self._learned.items():
-            both[key] = max(value, both.get(key, value))
-        least = self._closed(both)
-        return least if not np.any(np.diag(least) > 1e-9) else self._closed(self._ahead)
-
-    def _closed(self, ahead: Mapping[tuple[int, int], Fraction]) -> NDArray[np.float64]:
-        count = len(self.times)
-        constants = [(number, known) for number, time in enumerate(self.times) if (known := time.constant) is not None]
-        least = np.full((count, count), -float(max(LONGEST_S, *(known for _, known in constants))))
-        np.fill_diagonal(least, 0.0)
-        least[self.start, :] = 0.0
-        least[self.start, self.start] = 0.0
-        for (first, second), value in ahead.items():
-            least[first, second] = max(least[first, second], float(value))
-        for first, a in constants:
-            for second, b in constants:
-                least[first, second] = float(b - a)
-        for middle in range(count):
-            np.maximum(least, least[:, middle, None] + least[None, middle, :], out=least)
-        return least
-
-    def learn_from(self, formulas: Iterable[Formula]) -> None:
-        """Note what comparisons of two times, and places that are known, say of the order of instants."""
-        linear = [part for part in conjuncts(formulas) if part.left.degree == 1]
-        for part in linear:
-            if (found := self.difference(part.left)) is not None:
-                early, late, most_s = found
-                self._note(late, early, -most_s)
-                if part.relation == "==":
-                    self._note(early, late, most_s)
-        self._within = where = self._places_within(linear)
-        for (actor, place), made in self._places.items():
-            before, after = self._knots_about(actor, place)
-            if before and after:
-                where[actor, made] = place, place
-            for knot in before:  # the end where it is never passed
-                self._note(knot, made, ZERO)
-            for knot in after:  # the start where it was passed before
-                self._note(made, knot, ZERO)
-        for (actor, first), (_, most) in where.items():
-            for (other, second), (least, _) in where.items():
-                if actor == other and most < least:
-                    fastest = self.law_of(actor).speed_high
-                    # One that never moves comes nowhere: the laws refute that, whatever the order.
-                    self._note(first, second, (least - most) / fastest if fastest else ZERO)
-
-    def surely_passes(self, actor: int, place_m: Fraction) -> bool:
-        """Whether what was learned says that an actor begins before a place and comes past it."""
-        return all(self._knots_about(actor, place_m))
-
-    def _knots_about(self, actor: int, place_m: Fraction) -> tuple[list[int], list[int]]:
-        """Return the instants of an actor's knots that are certain to be before a place (m), and past it."""
-        knots = {instant for (owner, _), instant in self._knots.items() if owner == actor} & {
-            instant for owner, instant in self._within if owner == actor
-        }
-        before = [knot for knot in knots if self._within[actor, knot][1] < place_m]
-        return before, [knot for knot in knots if self._within[actor, knot][0] > place_m]
-
-    def _places_within(self, linear: Sequence[Atom]) -> dict[tuple[int, int], tuple[Fraction, Fraction]]:
-        """Return between which places (m) everybody is at each instant, by linear comparisons and who comes when."""
-        within = [[each.low, each.high] for each in self.unknowns]
-        told = [part.left for part in linear] + [-part.left for part in linear if part.relation == "=="]
-        own = {
-            where: next(iter(state.place.terms))[0]
-            for where, state in self.states.items()
-            if state.place.constant is None
-        }
-        later = [
-            (own[a, first], own[a, second])
-            for a, first in own
-            for first_, second in self._ahead
-            if first_ == first and (a, second) in own
-        ]
-        still = [
-            (own[a, each.first], own[a, each.last])
-            for a, found in self.stretches.items()
-            for each in found
-            if each.law.speed_high == 0 and each.last is not None
-        ]
-        for _ in range(_PASSES):
-            for left in told:
-                _narrow(left, within)
-            for first, second in (*later, *still):
-                within[second][0] = max(within[second][0], within[first][0])
-                within[first][1] = min(within[first][1], within[second][1])
-            for first, second in still:
-                within[second][1] = min(within[second][1], within[first][1])
-                within[first][0] = max(within[first][0], within[second][0])
-        made = {(actor, instant) for (actor, _), instant in self._places.items()}
-        return {where: (within[n][0], within[n][1]) for where, n in own.items() if where not in made}
-
-    def impossible(self, part: Formula, least: NDArray[np.float64]) -> bool:
-        """Whether something contradicts what is certain of the order of instants."""
-        if not isinstance(part, Atom) or part.relation == "==" or part.left.degree != 1:
-            return False
-        found = self.difference(part.left)
-        if found is None:
-            return False
-        early, late, most_s = found
-        return bool(least[early, late] > float(most_s) - (1e-9 if part.relation == "<" else -1e-9))
-
-    def difference(self, left: Polynomial) -> tuple[int, int, Fraction] | None:
-        """Return `early`, `late` and `most_s` where ``left <= 0`` says that ``late - early <= most_s``."""
-        parts = [(self._instant_of[key], factor) for key, factor in left.terms.items() if key in self._instant_of]
-        size = abs(parts[0][1]) if parts else ZERO
-        if not 1 <= len(parts) <= 2 or len(parts) + (() in left.terms) != len(left.terms):
-            return None
-        if len(parts) == 1:
-            parts.append((self.start, -parts[0][1]))
-        (a, sign), (b, other) = parts
-        if sign + other != 0:
-            return None
-        late, early = (a, b) if sign > 0 else (b, a)
-        return early, late, -left.terms.get((), ZERO) / size
-
-    def _note(self, first: int, second: int, least_s: Fraction) -> None:
-        self._learned[first, second] = max(least_s, self._learned.get((first, second), least_s))
-
-
-def conjuncts(formulas: Iterable[Formula]) -> Iterator[Atom]:
-    """Yield what is compared in every case."""
-    for part in formulas:
-        if isinstance(part, All):
-            yield from conjuncts(part.parts)
-        elif isinstance(part, Atom):
-            yield part
-
-
-def _narrow(left: Polynomial, within: list[list[Fraction]]) -> None:
-    """Narrow the ranges of unknowns by ``left <= 0``, a linear polynomial."""
-    terms = [(key[0], factor) for key, factor in left.terms.items() if key]
-    least = left.terms.get((), ZERO) + sum(f * within[n][0 if f > 0 else 1] for n, f in terms)
-    for number, factor in terms:
-        low, high = within[number]
-        rest = least - factor * (low if factor > 0 else high)
-        if factor > 0:
-            within[number][1] = min(high, -rest / factor)
-        else:
-            within[number][0] = max(low, -rest / factor)
+    def order(self, first: int, second: int) -> None:
+        """Note that `second` does not come before `first`."""
+        self.ahead[first, second] = None

@@ -1,55 +1,52 @@
 """What a formula is like: what it speaks of, and how it falls into parts.
 
-What enters: formulas of a program. What leaves: their parts. It knows no scene and lowers nothing.
+What enters: formulas of a program. What leaves: their parts, or the same said without denials. It lowers nothing.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from dataclasses import replace
 
 from scenewright.program import expressions as ex
+from scenewright.program.types import Program
+
+_CONTRARY: dict[str, ex.ComparisonOperator] = {"<=": ">", "<": ">=", ">=": "<", ">": "<="}
 
 
-def bare_rate(body: ex.Formula) -> ex.State | None:
-    """Return the rate that a body compares with something else, where that is all it says."""
-    if isinstance(body, ex.Logic) and body.operator == "not":
-        inner = body.operands[0]
-        return bare_rate(inner) if isinstance(inner, ex.Compare) and inner.operator != "==" else None
-    if not isinstance(body, ex.Compare):
-        return None
-    for side, other in ((body.left, body.right), (body.right, body.left)):
-        if isinstance(side, ex.State) and side.order == 2 and side.at is None:
-            plain = not any(isinstance(node, ex.State | ex.Derived) for node in ex.walk(other))
-            return side if plain else None
-    return None
+def asserted(formula: ex.Formula, program: Program, denied: bool = False) -> ex.Formula:
+    """Return a formula, or its contrary, as `and`, `or`, `always` and `eventually` of comparisons and nothing else.
 
-
-def kept(formula: ex.Temporal) -> ex.Formula:
-    """Return what holds all along where something always or never does."""
-    return formula.body if formula.operator == "always" else ex.Logic("not", (formula.body,))
-
-
-def conjuncts(body: ex.Formula) -> tuple[ex.Formula, ...] | None:
-    """Return the parts of a body that each hold all along; None where it is not made of such."""
-    match body:
-        case ex.Logic(operator="and", operands=operands):
-            return operands
-        case ex.Logic(operator="not", operands=(ex.Logic(operator="or", operands=operands),)):
-            return tuple(ex.Logic("not", (operand,)) for operand in operands)
-        case ex.Logic(operator="not", operands=(ex.Logic(operator="not", operands=(inner,)),)):
-            return (inner,)
-        case _:
-            return None
+    A place or a speed of a piece is one that is always so between its ends; the rate of a piece stays one.
+    """
+    match formula:
+        case ex.Logic(operator="not", operands=(inner,)):
+            return asserted(inner, program, not denied)
+        case ex.Logic(operator=operator, operands=operands):
+            contrary = [denied != (operator == "implies" and number == 0) for number in range(len(operands))]
+            parts = (asserted(part, program, each) for part, each in zip(operands, contrary, strict=True))
+            return ex.Logic("and" if (operator == "and") != denied else "or", tuple(parts))
+        case ex.Temporal(operator=operator, body=body):
+            lasting = (operator != "eventually") != denied
+            body = asserted(body, program, (operator == "never") != denied)
+            return replace(formula, operator="always" if lasting else "eventually", body=body)
+        case ex.Compare() if (node := ex.piece_of(formula)) is not None and node.order != 2:
+            assert isinstance(node.at, ex.PieceRef)
+            sketch = program.actor(node.actor).sketch
+            number = sketch.piece_index(node.at.name)
+            first, last = (ex.Elapsed(node.actor, knot) for knot in sketch.knots[number : number + 2])
+            body = ex.with_state(formula, node, replace(node, at=None))
+            return asserted(ex.Temporal("always", first, last, body), program, denied)
+        case ex.Compare(operator="==") if denied:
+            return ex.Logic("or", (replace(formula, operator="<"), replace(formula, operator=">")))
+        case ex.Compare() if denied:
+            return replace(formula, operator=_CONTRARY[formula.operator])
+    return formula
 
 
 def free_actors(body: ex.Formula) -> set[int]:
     """Return whose state a body speaks of at the moment at which it is looked at."""
-    return {actor for node in free_states(body) for actor in actors_at(node)}
-
-
-def free_states(body: ex.Node) -> Iterator[ex.State | ex.Derived]:
-    """Yield the states in a body that have no moment of their own."""
-    return (node for node in ex.walk(body) if isinstance(node, ex.State | ex.Derived) and node.at is None)
+    free = (node for node in ex.walk(body) if isinstance(node, ex.State | ex.Derived) and node.at is None)
+    return {actor for node in free for actor in actors_at(node)}
 
 
 def actors_at(node: ex.State | ex.Derived) -> tuple[int, ...]:

@@ -11,17 +11,18 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.motion.profile import Profile
 from scenewright.solve.proofs.events import Events
-from scenewright.solve.proofs.polynomials import Formula, Polynomial, told_values
+from scenewright.solve.proofs.order import told_values
+from scenewright.solve.proofs.polynomials import Formula, Polynomial
+from scenewright.solve.proofs.witness import Witness
 
 Array = NDArray[np.float64]
 _SPEED_MPS, _GAP_S, _LATER_S = 8.0, 3.0, 4.0
 
 
-def first_guess(events: Events, formulas: Iterable[Formula], generator: np.random.Generator | None = None) -> Array:
+def first_guess(events: Events, formulas: Iterable[Formula], generator: np.random.Generator | None) -> Array:
     """Return a guess; without a generator the plain one: everybody drives at one speed from place to place."""
-    told = told_values(formulas)
+    told = told_values(events.unknowns, formulas)
     speed = _SPEED_MPS if generator is None else float(generator.uniform(3.0, 13.0))
     point = np.array([0.5 * float(each.low + each.high) if each.kind == "other" else 0.0 for each in events.unknowns])
     for number, value in told.items():
@@ -84,16 +85,17 @@ def _within_a_piece(
     return float(generator.uniform(knots[number], knots[number + 1])) if len(knots) > 1 else _LATER_S
 
 
-def carried_over(events: Events, point: Array, profiles: Mapping[int, Profile], times: Mapping[int, float]) -> Array:
+def carried_over(events: Events, point: Array, witness: Witness) -> Array:
     """Return `point` for events that have grown since: states at the new moments are those of the motions found."""
     grown = np.append(point, np.zeros(len(events.unknowns) - len(point)))
-    for instant, time_s in times.items():
-        if events.times[instant].constant is None:
-            grown[_number(events.times[instant])] = time_s
+    passed = {instant: witness.profiles[actor].time_at(float(p)) for (actor, p), instant in events.places.items()}
+    for instant, time in enumerate(events.times):
+        if time.constant is None and (number := _number(time)) >= len(point):
+            defined, time_s = events.defined.get(instant), passed.get(instant)
+            grown[number] = max(0.0, defined.value(grown)) if defined else min(time_s or witness.end_s, witness.end_s)
     for (actor, instant), state in events.states.items():
-        number = _number(state.place)
-        if number >= len(point):
-            place, speed, _ = profiles[actor].state(times[instant])
+        if (number := _number(state.place)) >= len(point):
+            place, speed, _ = witness.profiles[actor].state(events.times[instant].value(grown))
             grown[number], grown[_number(state.speed)] = place, speed
     return grown
 

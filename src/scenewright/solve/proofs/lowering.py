@@ -7,6 +7,7 @@ of too high a degree is named; a proof may leave it out, a plan may not.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
@@ -14,14 +15,8 @@ from scenewright.program import expressions as ex
 from scenewright.program.types import Constraint
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.solve.proofs.events import Events
-from scenewright.solve.proofs.forms import (
-    actors_at,
-    bare_rate,
-    conjuncts,
-    free_actors,
-    kept,
-)
-from scenewright.solve.proofs.narrowing import OPPOSITE, Narrowing, narrowings_of
+from scenewright.solve.proofs.forms import actors_at, asserted, free_actors
+from scenewright.solve.proofs.narrowing import Narrowing, narrowings_of
 from scenewright.solve.proofs.polynomials import (
     ONE,
     TRUE,
@@ -31,7 +26,6 @@ from scenewright.solve.proofs.polynomials import (
     TooHigh,
     compare,
     every,
-    negated,
     polynomial,
     some,
 )
@@ -81,14 +75,15 @@ class Lowering:
         May be asked again when there are more moments.
         """
         self.narrowings.clear()
-        for constraint in constraints:
-            self._make_moments(constraint.formula)
-            self.narrowings += (replace(each, origin=constraint.id) for each in narrowings_of(self, constraint.formula))
-        return [self._lowered(constraint) for constraint in constraints]
+        formulas = [asserted(constraint.formula, self.events.scene.program) for constraint in constraints]
+        for constraint, formula in zip(constraints, formulas, strict=True):
+            self._make_moments(formula)
+            self.narrowings += (replace(each, origin=constraint.id) for each in narrowings_of(self, formula))
+        return [self._lowered(*each) for each in zip(constraints, formulas, strict=True)]
 
-    def _lowered(self, constraint: Constraint) -> Lowered:
+    def _lowered(self, constraint: Constraint, formula: ex.Formula) -> Lowered:
         try:
-            return Lowered(constraint, self.formula(constraint.formula, None))
+            return Lowered(constraint, self.formula(formula, None))
         except TooHigh:
             return Lowered(constraint, TRUE, "it multiplies more than two unknowns")
 
@@ -140,38 +135,14 @@ class Lowering:
                 return every([self.formula(operand, now) for operand in operands])
             case ex.Logic(operator="or", operands=operands):
                 return some([self.formula(operand, now) for operand in operands])
-            case ex.Logic(operator="not", operands=operands):
-                return self._not(operands[0], now)
-            case ex.Logic(operands=(left, right)):
-                return some([self._not(left, now), self.formula(right, now)])
-            case ex.Temporal():
-                return self._temporal(formula)
+            case ex.Temporal(operator="always", body=body):
+                return self._always(*self.stretch_of(formula), body)
+            case ex.Temporal(operator="eventually", body=body):
+                return self._eventually(*self.stretch_of(formula), body)
             case _:
-                raise TypeError(f"not a formula: {formula!r}")
-
-    def _not(self, formula: ex.Formula, now: int | None) -> Formula:
-        """Return what it is that `formula` does not hold; of stretches of time it is about some moment or all."""
-        match formula:
-            case ex.Temporal():
-                if formula.operator == "eventually":
-                    return self._temporal(replace(formula, operator="never"))
-                return self._temporal(replace(formula, operator="eventually", body=ex.Logic("not", (kept(formula),))))
-            case ex.Logic(operator="not", operands=(inner,)):
-                return self.formula(inner, now)
-            case ex.Logic(operator="and", operands=operands):
-                return some([self._not(operand, now) for operand in operands])
-            case ex.Logic(operator="or", operands=operands):
-                return every([self._not(operand, now) for operand in operands])
-            case ex.Logic(operator="implies", operands=(left, right)):
-                return every([self.formula(left, now), self._not(right, now)])
-            case ex.Compare() if ex.piece_of(formula) is not None:
-                return self._throughout(formula, sometime=True)
-            case _:
-                return negated(self.formula(formula, now))
+                raise TypeError(f"not an asserted formula: {formula!r}")
 
     def _compare(self, formula: ex.Compare, now: int | None) -> Formula:
-        if ex.piece_of(formula) is not None:
-            return self._throughout(formula, sometime=False)
         parts = []
         for left in self.term(formula.left, now):
             for right in self.term(formula.right, now):
@@ -200,8 +171,8 @@ class Lowering:
                 return [_case(self._landmark(term))]
             case ex.Elapsed(actor=actor, knot=knot):
                 return [_case(events.times[events.knot(actor, knot)])]
-            case ex.State(actor=actor, order=order, at=ex.PieceRef(name=piece)):
-                return [_case(self._piece_rate(actor, piece) if order == 2 else ZERO)]
+            case ex.State(actor=actor, order=2, at=ex.PieceRef(name=piece)):
+                return [_case(self._piece_rate(actor, piece))]
             case ex.State(actor=actor, order=order, at=at):
                 instant = now if at is None else self._instant(at, actor)
                 assert instant is not None
@@ -219,10 +190,11 @@ class Lowering:
                     for left in self.term(term.left, now)
                     for right in self.term(term.right, now)
                 ]
-                if term.operator == "/" and not (isinstance(term.right, ex.State) and term.right.order == 1):
-                    # A divisor may be less than nothing, and then all is the other way round.
-                    cases += [replace(c, top=-c.top, below=-c.below) for c in cases if c.below.constant is None]
-                return cases
+                if term.operator != "/":
+                    return cases
+                if isinstance(term.right, ex.State) and term.right.order == 1:
+                    return [replace(case, endless=True) for case in cases]
+                return list(_either_sign(cases))
             case _:
                 raise TypeError(f"not a term: {term!r}")
 
@@ -308,92 +280,34 @@ class Lowering:
         )
 
     # -- stretches of time --------------------------------------------------------------------------------------------
-    def _throughout(self, formula: ex.Compare, *, sometime: bool) -> Formula:
-        """Return a comparison that is about a place or a speed all through a piece."""
-        node = ex.piece_of(formula)
-        assert node is not None
-        if node.order == 2:
-            return negated(self._rate_of_piece(formula)) if sometime else self._rate_of_piece(formula)
-        assert isinstance(node.at, ex.PieceRef)
-        body = ex.with_state(formula, node, replace(node, at=None))
-        first, last = self.piece_ends(node.actor, node.at.name)
-        if sometime:
-            return self._eventually(first, last, ex.Logic("not", (body,)), "piece")
-        return self._always(first, last, body)
-
-    def _rate_of_piece(self, formula: ex.Compare) -> Formula:
-        (left,), (right,) = self.term(formula.left, None), self.term(formula.right, None)
-        return self._related(formula, left, right)
-
-    def _temporal(self, formula: ex.Temporal) -> Formula:
-        first, last = self.stretch_of(formula)
-        if formula.operator == "eventually":
-            return self._eventually(first, last, formula.body, "eventually")
-        return self._always(first, last, kept(formula))
-
     def _always(self, first: int, last: int, body: ex.Formula) -> Formula:
-        """Return what `always` says at every moment that all in its body have a state at, and of rates between them."""
-        if (parts_of := conjuncts(body)) is not None:
-            return every([self._always(first, last, part) for part in parts_of])
-        actors = free_actors(body)
+        """Return what `always` says at every moment that all in its body have a state at, unless a law says it all."""
+        if isinstance(body, ex.Logic) and body.operator == "and":
+            return every([self._always(first, last, part) for part in body.operands])
+        rates = any(isinstance(node, ex.State) and node.order == 2 and node.at is None for node in ex.walk(body))
+        if rates and any((each.first, each.last, each.said) == (first, last, body) for each in self.narrowings):
+            return TRUE
+        times, actors = self.events.times, free_actors(body)
         if not actors:  # about moments of their own: it does not matter when it is looked at
-            return some([compare(">", *self._times(first, last)), self.formula(body, first)])
+            return some([compare(">", times[first], times[last]), self.formula(body, first)])
         parts = []
-        if rate := bare_rate(body):
-            return self._always_rate(first, last, body, rate)
-        for instant in self._shared_instants(actors):
-            held = self.formula(body, instant)
-            parts.append(self._unless_outside(first, last, instant, held))
+        for instant in sorted(set.intersection(*(set(self.events.instants_of(actor)) for actor in actors))):
+            if rates and instant == last:  # the rate of what begins there comes after it
+                continue
+            outside = []
+            if instant in (first, last):
+                outside.append(compare(">", times[first], times[last]))
+            else:
+                outside.append(compare("<", times[instant], times[first]))
+                outside.append(compare(">=" if rates else ">", times[instant], times[last]))
+            parts.append(some([*outside, self.formula(body, instant)]))
         return every(parts)
 
-    def _shared_instants(self, actors: set[int]) -> list[int]:
-        sets = [set(self.events.instants_of(actor)) for actor in actors]
-        return sorted(set.intersection(*sets))
-
-    def _unless_outside(self, first: int, last: int, instant: int, held: Formula) -> Formula:
-        times = self.events.times
-        outside = [] if instant == first else [compare("<", times[instant], times[first])]
-        outside += [] if instant == last else [compare(">", times[instant], times[last])]
-        if instant in (first, last):
-            outside = [compare(">", *self._times(first, last))]
-        return some([*outside, held])
-
-    def _times(self, first: int, last: int) -> tuple[Polynomial, Polynomial]:
-        return self.events.times[first], self.events.times[last]
-
-    def _always_rate(self, first: int, last: int, body: ex.Formula, rate: ex.State) -> Formula:
-        """Return what a bound on a rate says of the speeds at each two moments between which it holds."""
-        events, parts = self.events, []
-        instants = events.instants_of(rate.actor)
-        for early in instants:
-            for late in instants:
-                if early == late:
-                    continue
-                lasts = events.times[late] - events.times[early]
-                change = events.state(rate.actor, late).speed - events.state(rate.actor, early).speed
-                held = self._scaled(body, rate, lasts, change)
-                outside = [compare("<=", lasts, ZERO)]
-                outside += [] if early == first else [compare("<", events.times[early], events.times[first])]
-                outside += [] if late == last else [compare(">", events.times[late], events.times[last])]
-                parts.append(some([*outside, held]))
-        return every(parts)
-
-    def _scaled(self, body: ex.Formula, rate: ex.State, lasts: Polynomial, change: Polynomial) -> Formula:
-        """Return a comparison with a rate, multiplied by how long it lasts: `change` stands for rate times time."""
-        negative = isinstance(body, ex.Logic)
-        formula = body.operands[0] if isinstance(body, ex.Logic) else body
-        assert isinstance(formula, ex.Compare)
-        operator = OPPOSITE[formula.operator] if negative else formula.operator
-        sides = [
-            change if side == rate else self.term(side, None)[0].top * lasts for side in (formula.left, formula.right)
-        ]
-        return compare(operator, *sides)
-
-    def _eventually(self, first: int, last: int, body: ex.Formula, name: str) -> Formula:
+    def _eventually(self, first: int, last: int, body: ex.Formula) -> Formula:
         """Return that at some moment, which is to be found, the body holds."""
         events, key = self.events, (first, last, body)
         if key not in self._happens:
-            self._happens[key] = events.instant(name)
+            self._happens[key] = events.instant("eventually")
         made = self._happens[key]
         for actor in free_actors(body):
             events.state(actor, made)
@@ -404,6 +318,16 @@ class Lowering:
 
 def _case(value: Polynomial | Fraction) -> Case:
     return Case(polynomial(value), polynomial(ONE))
+
+
+def _either_sign(quotients: Iterable[Case]) -> Iterator[Case]:
+    """Yield quotients as they are, and the other way round: a divisor may be less than nothing, or nothing."""
+    for case in quotients:
+        if case.below.constant is not None:
+            yield case
+            continue
+        for top, below in ((case.top, case.below), (-case.top, -case.below)):
+            yield Case(top, below, every([case.given, compare(">=", below, ZERO)]), endless=True)
 
 
 def _related(operator: str, left: Case, right: Case) -> Formula:

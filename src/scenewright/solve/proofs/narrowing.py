@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING
 
 from scenewright.motion.laws import ANY, Law
 from scenewright.program import expressions as ex
-from scenewright.solve.proofs.forms import conjuncts, kept
+from scenewright.solve.proofs.polynomials import ZERO
 
 if TYPE_CHECKING:
     from scenewright.solve.proofs.lowering import Lowering
 
 _RATE_ROOM_MPSS = Fraction(1, 1000)  # for numbers that were rounded; half of what a witness may be off
-OPPOSITE = {"<=": ">", "<": ">=", ">=": "<", ">": "<="}
+_MIRRORED = {"<=": ">=", "<": ">", ">=": "<=", ">": "<", "==": "=="}
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +44,7 @@ class Narrowing:
     up_to_place: bool = False
     even: bool = False  # whether a plan keeps to one rate between each two moments
     origin: str = ""  # the constraint that it comes from, by id
+    said: ex.Formula | None = None  # what it makes superfluous between its ends
 
     def begins(self) -> tuple[int, ...]:
         """Return the moments of which the latest is its beginning."""
@@ -55,63 +56,55 @@ class Narrowing:
 
 
 def narrowings_of(lowering: Lowering, formula: ex.Formula) -> Iterator[Narrowing]:
-    """Yield the laws that bounds on a speed or a rate over a stretch of time make narrower."""
+    """Yield the laws that bounds on a speed or a rate over a stretch of time make narrower.
+
+    What is past a place or else bounded, is bounded up to there.
+    """
     match formula:
         case ex.Logic(operator="and", operands=operands):
             for operand in operands:
                 yield from narrowings_of(lowering, operand)
-        case ex.Temporal(operator="always" | "never") if parts := conjuncts(kept(formula)):
-            for part in parts:
-                yield from narrowings_of(lowering, replace(formula, operator="always", body=part))
-        case ex.Temporal(operator="always", body=ex.Logic(operator="implies", operands=(given, then))) if (
-            place := _place_of(lowering, given)
-        ):
-            law = _law_of(lowering, then, negative=False)
-            if law is not None and law[0] == place[0]:
+        case ex.Temporal(operator="always", body=ex.Logic(operator="and", operands=operands)):
+            for operand in operands:
+                yield from narrowings_of(lowering, replace(formula, body=operand))
+        case ex.Temporal(operator="always", body=ex.Logic(operator="or", operands=(past, then))):
+            place, law = _place_of(lowering, past), _law_of(lowering, then)
+            if place is not None and law is not None and law[0] == place[0]:
                 made = lowering.events.at_place(*place[:2])
                 yield Narrowing(law[0], *lowering.stretch_of(formula), law[1], law[1], made, place[2])
-        case ex.Temporal(operator="always" | "never", body=body):
-            if law := _law_of(lowering, body, negative=formula.operator == "never"):
-                yield Narrowing(law[0], *lowering.stretch_of(formula), law[1], law[1])
+        case ex.Temporal(operator="always", body=body) if law := _law_of(lowering, body):
+            yield Narrowing(law[0], *lowering.stretch_of(formula), law[1], law[1], said=body)
         case ex.Compare() if (node := ex.piece_of(formula)) is not None and isinstance(node.at, ex.PieceRef):
             ends = lowering.piece_ends(node.actor, node.at.name)
-            if node.order == 2 and formula.operator == "==":  # a rate that is one number is one all through
+            if formula.operator == "==":  # a rate that is one number is one all through
                 yield Narrowing(node.actor, *ends, ANY, even=True)
-            if law := _law_of(lowering, ex.with_state(formula, node, replace(node, at=None)), negative=False):
-                yield Narrowing(law[0], *ends, law[1], proven=None if node.order == 2 else law[1])
+            if law := _law_of(lowering, ex.with_state(formula, node, replace(node, at=None))):
+                yield Narrowing(law[0], *ends, law[1])
 
 
-def _law_of(lowering: Lowering, body: ex.Formula, *, negative: bool) -> tuple[int, Law] | None:
+def _law_of(lowering: Lowering, body: ex.Formula) -> tuple[int, Law] | None:
     """Return whose law a body bounds and how, where it compares a speed or a rate with a number."""
     match body:
-        case ex.Logic(operator="not", operands=(inner,)):
-            return _law_of(lowering, inner, negative=not negative)
         case ex.Compare(left=ex.State(order=(1 | 2) as order, at=None, actor=actor), right=right):
-            operator = _operator(body.operator, flipped=False, negative=negative)
+            operator: str = body.operator
         case ex.Compare(left=right, right=ex.State(order=(1 | 2) as order, at=None, actor=actor)):
-            operator = _operator(body.operator, flipped=True, negative=negative)
+            operator = _MIRRORED[body.operator]
         case _:
             return None
-    bound = _constant(lowering, right)
-    if bound is None or operator is None:
+    if (bound := _constant(lowering, right)) is None:
         return None
-    low = bound if operator in (">", ">=", "==") else None
-    high = bound if operator in ("<", "<=", "==") else None
-    if order == 1:
-        return actor, replace(
-            ANY,
-            speed_low=ANY.speed_low if low is None else low,
-            speed_high=ANY.speed_high if high is None else high,
-        )
-    return actor, replace(
-        ANY,
-        rate_low=ANY.rate_low if low is None else low - _RATE_ROOM_MPSS,
-        rate_high=ANY.rate_high if high is None else high + _RATE_ROOM_MPSS,
-    )
+    room = _RATE_ROOM_MPSS if order == 2 else ZERO
+    name = "rate" if order == 2 else "speed"
+    bounds = {}
+    if operator in (">", ">=", "=="):
+        bounds[f"{name}_low"] = bound - room
+    if operator in ("<", "<=", "=="):
+        bounds[f"{name}_high"] = bound + room
+    return actor, replace(ANY, **bounds)
 
 
 def _place_of(lowering: Lowering, formula: ex.Formula) -> tuple[int, Fraction, bool] | None:
-    """Return actor and place (m) of "is before a place" (True) or "is past it"; None for anything else."""
+    """Return actor and place (m) of "is past a place" (True) or "is before it"; None for anything else."""
     if not isinstance(formula, ex.Compare) or formula.operator == "==":
         return None
     state, other = formula.left, formula.right
@@ -120,7 +113,7 @@ def _place_of(lowering: Lowering, formula: ex.Formula) -> tuple[int, Fraction, b
     if any(isinstance(node, ex.State | ex.Derived | ex.Elapsed) for node in ex.walk(other)):
         return None
     found = lowering.term(other, None)[0].top.constant
-    return None if found is None else (state.actor, found, formula.operator in ("<", "<="))
+    return None if found is None else (state.actor, found, formula.operator in (">", ">="))
 
 
 def _constant(lowering: Lowering, term: ex.Term) -> Fraction | None:
@@ -130,10 +123,3 @@ def _constant(lowering: Lowering, term: ex.Term) -> Fraction | None:
     if top.constant is None or not below.constant:
         return None
     return top.constant / below.constant
-
-
-def _operator(operator: str, *, flipped: bool, negative: bool) -> str | None:
-    """Return an operator with its sides exchanged or denied; None where nothing simple is left of it."""
-    if flipped:
-        operator = {"<=": ">=", ">=": "<=", "<": ">", ">": "<"}.get(operator, operator)
-    return OPPOSITE.get(operator) if negative else operator

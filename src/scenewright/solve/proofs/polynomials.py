@@ -190,21 +190,6 @@ def some(parts: Iterable[Formula]) -> Formula:
     return found[0] if len(found) == 1 else Some(tuple(found))
 
 
-def negated(formula: Formula) -> Formula:
-    """Return the negation."""
-    match formula:
-        case Atom(left=left, relation="=="):
-            return Some((Atom(left, "<"), Atom(-left, "<")))
-        case Atom(left=left, relation="<="):
-            return Atom(-left, "<")
-        case Atom(left=left):
-            return Atom(-left, "<=")
-        case All(parts=parts):
-            return some(negated(part) for part in parts)
-        case Some(parts=parts):
-            return every(negated(part) for part in parts)
-
-
 def atoms(formula: Formula) -> Iterator[Atom]:
     """Yield every comparison in `formula`."""
     if isinstance(formula, Atom):
@@ -212,32 +197,3 @@ def atoms(formula: Formula) -> Iterator[Atom]:
     else:
         for part in formula.parts:
             yield from atoms(part)
-
-
-def violation(formula: Formula, point: Point) -> float:
-    """Return by how much `formula` fails at a point, in the units of its comparisons; zero where it holds."""
-    match formula:
-        case Atom(left=left, relation="=="):
-            return abs(left.value(point))
-        case Atom(left=left):
-            return max(0.0, left.value(point))
-        case All(parts=parts):
-            return max((violation(part, point) for part in parts), default=0.0)
-        case Some(parts=parts):
-            return min((violation(part, point) for part in parts), default=float("inf"))
-
-
-def told_values(formulas: Iterable[Formula]) -> dict[int, float]:
-    """Return the unknowns that a constraint fixes by itself."""
-    found: dict[int, float] = {}
-    open_parts = list(formulas)
-    while open_parts:
-        part = open_parts.pop()
-        if isinstance(part, All):
-            open_parts += part.parts
-        elif isinstance(part, Atom) and part.relation == "==" and part.left.degree == 1:
-            terms = [(key, value) for key, value in part.left.terms.items() if key != ()]
-            if len(terms) == 1:
-                ((key, factor),) = terms
-                found[key[0]] = float(-part.left.terms.get((), ZERO) / factor)
-    return found

@@ -7,10 +7,9 @@ Everything added is true of every witness; what is also true of every legal moti
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import lru_cache
 
 import numpy as np
 
@@ -20,21 +19,18 @@ from scenewright.program.evaluate import moments_of_worst
 from scenewright.program.manner import Manner
 from scenewright.program.types import Actor, PieceKind
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
-from scenewright.roads.conflicts import find_conflict
-from scenewright.roads.routes import Route
+from scenewright.roads.conflicts import find_conflict, shared_offset_m
 from scenewright.solve.limits import ROOM, Limits, calm_mpss
 from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.events import Events
-from scenewright.solve.proofs.forms import actors_at, free_states
+from scenewright.solve.proofs.forms import asserted, free_actors
 from scenewright.solve.proofs.lowering import RATE_LASTS_S, Lowering
 from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.polynomials import ZERO, Formula, compare, every, some
-from scenewright.solve.proofs.witness import Broken, Witness
+from scenewright.solve.proofs.witness import Broken, Witness, bends
 from scenewright.units import pin
 
 SHARES = (0.985, 0.8, 0.6, 0.4, 0.2)
-_TURN_STEP_M = 0.25
-_BENDS = 1e-3  # a route that bends less (1/m) bounds nobody's speed
 _SAFETY = 0.999  # rounding of places and speeds within a turn
 _ROOM_M = Fraction(1, 20)
 _STILL_M = Fraction(1, 1000)  # who moves no farther stands, and a search has somewhere to go
@@ -88,25 +84,20 @@ class Refinement:
                 self.owed.append(compare(">=", events.times[ends] - events.times[begins], kept.stands_s))
             if kind not in (PieceKind.DEC, PieceKind.ACC):
                 continue
-            if number and kinds[number - 1] is not PieceKind.STOP:
-                self._begins(actor.id, kind, begins, ends, kept)
+            plain = _pulling(kind, kept.begins_mpss)
             if throughout:
-                self.narrowings.append(Narrowing(actor.id, begins, ends, _pulling(kind, kept.begins_mpss)))
+                self.narrowings.append(Narrowing(actor.id, begins, ends, plain))
+            if number and kinds[number - 1] is not PieceKind.STOP:
+                shown = events.moment(events.times[begins] + kept.begins_s, "begins")
+                settled = events.moment(events.times[begins] - kept.settled_s, "settled")
+                for instant in (shown, settled):
+                    events.state(actor.id, instant)
+                calm = _not_pulling(kind, calm_mpss(events.scene.program.manner))
+                self.narrowings.append(Narrowing(actor.id, begins, shown, plain))
+                self.narrowings.append(Narrowing(actor.id, settled, begins, calm))
+                self.owed.append(compare("<=", events.times[shown], events.times[ends]))
             if kinds[number + 1 : number + 2] in ((), (PieceKind.GO,)):
                 self._over(actor.id, kind, ends, knots[number + 2 : number + 3], kept, throughout)
-
-    def _begins(self, actor: int, kind: PieceKind, begins: int, ends: int, kept: Manner) -> None:
-        """Let an actor be settled before it begins, and begin plainly."""
-        events = self.events
-        now = events.times[begins]
-        shown = events.moment(now + kept.begins_s, "begins")
-        settled = events.moment(now - kept.settled_s, "settled")
-        for instant in (shown, settled):
-            events.state(actor, instant)
-        self.narrowings.append(Narrowing(actor, begins, shown, _pulling(kind, kept.begins_mpss)))
-        self.owed.append(compare("<=", events.times[shown], events.times[ends]))
-        calm = _not_pulling(kind, calm_mpss(events.scene.program.manner))
-        self.narrowings.append(Narrowing(actor, settled, begins, calm))
 
     def _over(
         self, actor: int, kind: PieceKind, ends: int, following: list[int], kept: Manner, throughout: bool
@@ -117,13 +108,13 @@ class Refinement:
         over = events.moment(events.times[ends] + lasts_s, "over")
         now, then = events.state(actor, ends), events.state(actor, over)
         if throughout:
-            self.narrowings.append(Narrowing(actor, ends, over, _not_pulling(kind, Fraction(0))))
+            self.narrowings.append(Narrowing(actor, ends, over, _not_pulling(kind, ZERO)))
         self.owed += [compare("<=", events.times[over], events.times[knot]) for knot in following]
         if kind is PieceKind.DEC:
             stays = every([compare("<=", then.place - now.place, _STILL_M), compare("<=", then.speed, ZERO)])
             self.owed.append(some([compare(">=", now.speed, _ROLLS_MPS), stays]))
 
-    def mend(self, broken: list[Broken], witness: Witness) -> bool:
+    def mend(self, broken: Sequence[Broken], witness: Witness) -> bool:
         """Add what each thing amiss asks for; False where nothing can be added."""
         world = PlanWorld(self.events.scene, witness.profiles, witness.parameters)
         added = False
@@ -135,7 +126,8 @@ class Refinement:
             elif each.what == "apart":
                 added |= self._keep_apart(each, witness)
             else:
-                formula = self.events.scene.program.constraint(each.what).formula
+                program = self.events.scene.program
+                formula = asserted(program.constraint(each.what).formula, program)
                 added |= self._even_pieces(formula)
                 for node, time_s in moments_of_worst(formula, world):
                     self._look_at(node, time_s, witness)
@@ -159,7 +151,7 @@ class Refinement:
 
         Between them everybody keeps to one rate: what holds at two moments then hardly fails between them.
         """
-        actors = {actor for part in free_states(node.body) for actor in actors_at(part)}
+        actors = free_actors(node.body)
         made = [self._between(time_s, witness)]
         if node not in self.looked_at:
             self.looked_at.append(node)
@@ -185,41 +177,26 @@ class Refinement:
         return self.events.moment(early + (late - early) * share, "between")
 
     # -- turns --------------------------------------------------------------------------------------------------------
-    def sure_turns(self) -> bool:
-        """Bound speeds where turns are sharpest, of all who surely drive through theirs; False where nobody does."""
-        for actor in self.events.scene.program.heroes:
-            tightest, bends = _bends(self.events.scene.routes[actor.id])
-            sharp = [pin(s) for s, bend in bends if bend >= SHARES[0] * tightest > _BENDS]
-            if sharp and all(self.events.surely_passes(actor.id, place) for place in (sharp[0], sharp[-1])):
-                self._bound_turn(actor.id, SHARES[0], tightest, bends)
-        return bool(self.narrowings)
-
     def _slow_in_turn(self, broken: Broken, witness: Witness) -> bool:
         """Bound the speed where the bend is so sharp, and less so where it is less."""
-        route = self.events.scene.routes[broken.actor]
+        places, sharpness = bends(self.events.scene.routes[broken.actor])
+        tightest = float(sharpness.max())
         place = witness.profiles[broken.actor].state(broken.time_s)[0]
-        tightest, bends = _bends(route)
-        here = abs(route.path.curvature(place)) / tightest if tightest > 0 else 0.0
-        share = next((each for each in SHARES if each <= here + 1e-9), SHARES[-1])
-        wanted = [each for each in SHARES if each >= share and (broken.actor, each) not in self.turns]
-        for each in wanted[-1:]:
-            self.turns.add((broken.actor, each))
-            self._bound_turn(broken.actor, each, tightest, bends)
-        return bool(wanted)
-
-    def _bound_turn(self, actor: int, share: float, tightest: float, bends: tuple[tuple[float, float], ...]) -> None:
-        sharp = [s for s, bend in bends if bend >= share * tightest]
-        through = all(bend >= share * tightest for s, bend in bends if sharp[0] <= s <= sharp[-1])
-        first, last = (self.events.at_place(actor, pin(s)) for s in (sharp[0], sharp[-1]))
+        here = float(np.interp(place, places, sharpness)) / tightest
+        least = next((each for each in SHARES if each <= here + 1e-9), SHARES[-1])
+        share = next(
+            (each for each in reversed(SHARES) if each >= least and (broken.actor, each) not in self.turns), None
+        )
+        if share is None:
+            return False
+        self.turns.add((broken.actor, share))
+        sharp = places[sharpness >= share * tightest]
+        first, last = (self.events.at_place(broken.actor, pin(float(s))) for s in (sharp[0], sharp[-1]))
         self.events.order(first, last)
-        sideways = self.limits[actor].lateral_max_mpss
         tighter = next((each for each in reversed(SHARES) if each > share), 1.0)
-        kept = pin(_SAFETY * math.sqrt(sideways / (tighter * tightest)))
-        proven = pin(math.sqrt(sideways / (share * tightest)) + 1e-4)
-        held = replace(ANY, speed_high=proven) if through else None
-        name = self.events.scene.program.actor(actor).name
-        origin = f"in its turn {name} is no faster than {sideways:g} m/s^2 sideways allow"
-        self.narrowings.append(Narrowing(actor, first, last, replace(ANY, speed_high=kept), held, origin=origin))
+        kept = pin(_SAFETY * math.sqrt(self.limits[broken.actor].lateral_max_mpss / (tighter * tightest)))
+        self.narrowings.append(Narrowing(broken.actor, first, last, replace(ANY, speed_high=kept)))
+        return True
 
     # -- apart --------------------------------------------------------------------------------------------------------
     def _keep_apart(self, broken: Broken, witness: Witness) -> bool:
@@ -233,18 +210,13 @@ class Refinement:
         if conflict is not None and conflict.kind == "crossing":
             for place, (low, high) in ((theirs.place, conflict.zone_a_m), (mine.place, conflict.zone_b_m)):
                 choices += [compare("<=", place, pin(low) - clear_m), compare(">=", place, pin(high) + clear_m)]
-        elif (offset := self._offset(broken.actor, other)) is not None:
+        elif (offset := shared_offset_m(scene.routes[broken.actor], scene.routes[other])) is not None:
             gap = theirs.place + pin(offset) - mine.place
             length = pin(VEHICLE_LENGTH_M) + clear_m + _ROOM_M
             choices = [compare(">=", gap, length), compare("<=", gap, -length)]
         if choices:
             self.owed.append(some(choices))
         return bool(choices)
-
-    def _offset(self, actor: int, other: int) -> float | None:
-        from scenewright.roads.conflicts import shared_offset_m
-
-        return shared_offset_m(self.events.scene.routes[actor], self.events.scene.routes[other])
 
 
 def _pulling(kind: PieceKind, rate_mpss: Fraction) -> Law:
@@ -255,11 +227,3 @@ def _pulling(kind: PieceKind, rate_mpss: Fraction) -> Law:
 def _not_pulling(kind: PieceKind, rate_mpss: Fraction) -> Law:
     """Return the law of who does not brake, or speed up, by more than a rate."""
     return replace(ANY, rate_low=-rate_mpss) if kind is PieceKind.DEC else replace(ANY, rate_high=rate_mpss)
-
-
-@lru_cache(maxsize=256)
-def _bends(route: Route) -> tuple[float, tuple[tuple[float, float], ...]]:
-    """Return the tightest curvature (1/m) of a route, and places (m) with theirs."""
-    places = np.arange(0.0, route.path.length_m, _TURN_STEP_M)
-    bends = tuple((float(s), abs(route.path.curvature(float(s)))) for s in places)
-    return max((bend for _, bend in bends), default=0.0), bends

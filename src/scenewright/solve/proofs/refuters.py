@@ -9,15 +9,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from fractions import Fraction
+from dataclasses import dataclass
 from importlib.metadata import EntryPoint
 from typing import Literal, Protocol
 
 from scenewright.errors import SolverError
 from scenewright.plugins import Kind
 from scenewright.solve.proofs.events import Unknown
-from scenewright.solve.proofs.polynomials import All, Atom, atoms
 from scenewright.solve.proofs.relaxation import Named, resting_on
 
 GROUP = "scenewright.solvers"
@@ -62,31 +60,19 @@ class Capabilities:
         Whether it reckons with rationals: only then is its ``refuted`` a proof.
     cores
         Whether it tells which formulas clash.
-    quadratic
-        Whether it takes products of two unknowns; else it is asked about linear formulas alone.
-    keeps_time
-        Whether it keeps its time limit by itself; one that does not is run where it can be stopped.
     """
 
     exact: bool
     cores: bool
-    quadratic: bool
-    keeps_time: bool
 
     def words(self) -> str:
         """Say it in a line."""
-        return ", ".join(
-            [
-                "exact: what it refutes is proven" if self.exact else "numeric: a cross-check, no proof",
-                "cores" if self.cores else "no cores",
-                "quadratic" if self.quadratic else "linear only",
-                "keeps its time limit" if self.keeps_time else "is stopped where it takes too long",
-            ]
-        )
+        exact = "exact: what it refutes is proven" if self.exact else "numeric: a cross-check, no proof"
+        return f"{exact}, {'cores' if self.cores else 'no cores'}"
 
 
 class Refuter(Protocol):
-    """A solver of named formulas over unknowns with ranges."""
+    """A solver of named formulas, of second degree at most, over unknowns with ranges."""
 
     name: str
     capabilities: Capabilities
@@ -98,7 +84,6 @@ class Refuter(Protocol):
         ...
 
 
-# -- by name --------------------------------------------------------------------------------------------------------
 def refuter_called(name: str = "z3") -> Refuter:
     """Return the solver of that name.
 
@@ -114,13 +99,6 @@ def refuter_called(name: str = "z3") -> Refuter:
     return SOLVERS.called(name)
 
 
-# -- what all of them need --------------------------------------------------------------------------------------------
-def taken(refuter: Refuter, formulas: Sequence[Named]) -> list[Named]:
-    """Return the formulas that a solver takes; without the others a refutation is harder to find, never false."""
-    most = 2 if refuter.capabilities.quadratic else 1
-    return [each for each in formulas if all(part.left.degree <= most for part in atoms(each.formula))]
-
-
 def core(refuter: Refuter, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float) -> tuple[str, ...]:
     """Return origins that already clash, each of them needed as far as that could be told in time."""
     origins = list(dict.fromkeys(origin for each in formulas for origin in each.origins))
@@ -133,23 +111,3 @@ def core(refuter: Refuter, unknowns: Sequence[Unknown], formulas: Sequence[Named
         if time.monotonic() < until and refuter.ask(unknowns, rest, _SHRINK_S).kind == "refuted":
             origins.remove(origin)
     return tuple(origins)
-
-
-def tightened(unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> list[Unknown]:
-    """Return the unknowns with the ranges that comparisons of one of them with a number leave."""
-    found = list(unknowns)
-    open_parts = [each.formula for each in formulas]
-    while open_parts:
-        part = open_parts.pop()
-        if isinstance(part, All):
-            open_parts += part.parts
-        elif isinstance(part, Atom) and part.left.degree == 1 and len(part.left.terms) - (() in part.left.terms) == 1:
-            ((key, factor),) = ((key, value) for key, value in part.left.terms.items() if key)
-            bound, number = -part.left.terms.get((), Fraction(0)) / factor, key[0]
-            low, high = found[number].low, found[number].high
-            if part.relation == "==" or factor < 0:
-                low = max(low, bound)
-            if part.relation == "==" or factor > 0:
-                high = min(high, bound)
-            found[number] = replace(found[number], low=low, high=high)
-    return found

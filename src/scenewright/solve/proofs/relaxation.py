@@ -19,6 +19,7 @@ from scenewright.program.types import EGO
 from scenewright.solve.proofs.events import Events, Stretch
 from scenewright.solve.proofs.lowering import Lowered
 from scenewright.solve.proofs.narrowing import Narrowing
+from scenewright.solve.proofs.order import least_differences
 from scenewright.solve.proofs.polynomials import (
     FALSE,
     TRUE,
@@ -39,18 +40,12 @@ _CERTAIN = 1e-9
 class Named:
     """A formula, and what it rests on: a constraint's id, or a law in words.
 
-    Attributes
-    ----------
-    besides
-        Ids of constraints that it rests on, too: those that make a law narrower.
-    without
-        What is left of it without them.
+    `besides` are ids of constraints that it rests on, too: those that make a law narrower.
     """
 
     formula: Formula
     origin: str
     besides: tuple[str, ...] = ()
-    without: Formula = TRUE
 
     @property
     def origins(self) -> tuple[str, ...]:
@@ -59,21 +54,15 @@ class Named:
 
 
 def resting_on(formulas: Sequence[Named], origins: Collection[str]) -> list[Named]:
-    """Return the formulas that rest on `origins` alone, or what is left of them then."""
-    found = []
-    for each in formulas:
-        if each.origin in origins:
-            whole = all(other in origins for other in each.besides)
-            found.append(each if whole else Named(each.without, each.origin))
-    return found
+    """Return the formulas that rest on `origins` alone."""
+    return [each for each in formulas if all(origin in origins for origin in each.origins)]
 
 
 def relaxation(events: Events, narrowings: Sequence[Narrowing], constraints: Sequence[Lowered]) -> list[Named]:
     """Return all that must hold of any motion; of `narrowings` what is proven of them."""
     found = [Named(each.formula, each.constraint.id) for each in constraints]
-    events.learn_from([each.formula for each in constraints])
     found += [Named(formula, origin) for formula, origin in events.rules]
-    least = events.least_differences()
+    least = least_differences(events, (each.formula for each in constraints))
     found += _order_of_knots(events)
     for actor in events.scene.program.actors:
         if not (actor.is_ego and events.drive is not None):  # how it drove is a fact
@@ -98,8 +87,6 @@ def _motion(events: Events, narrowings: Sequence[Narrowing], actor: int, least: 
         if actor == EGO:
             origin = events.ego.words(name)
         inside = [instant for instant in instants if _possibly_inside(stretch, instant, least)]
-        for instant in inside:
-            yield Named(_speeds(events, actor, stretch, instant, least), origin)
         for early in inside:
             for late in inside:
                 if early == late or least[late, early] > _CERTAIN:
@@ -107,9 +94,7 @@ def _motion(events: Events, narrowings: Sequence[Narrowing], actor: int, least: 
                 if _parted(inside, stretch, early, late, least):
                     continue
                 law, besides = _narrowed(narrowings, actor, stretch.law, early, late, least)
-                held = _between(events, actor, stretch, early, late, law, least)
-                free = _between(events, actor, stretch, early, late, stretch.law, least) if besides else TRUE
-                yield Named(held, origin, besides, free)
+                yield Named(_between(events, actor, stretch, early, late, law, least), origin, besides)
 
 
 def _possibly_inside(stretch: Stretch, instant: int, least: NDArray[np.float64]) -> bool:
@@ -148,17 +133,6 @@ def _narrowed(
             law = law.meet(narrowing.proven)
             origins.append(narrowing.origin)
     return law, tuple(dict.fromkeys(origins))
-
-
-def _speeds(events: Events, actor: int, stretch: Stretch, instant: int, least: NDArray[np.float64]) -> Formula:
-    speed = events.state(actor, instant).speed
-    law, free = stretch.law, events.law_of(actor)
-    held = []
-    if law.speed_high < free.speed_high:
-        held.append(compare("<=", speed, law.speed_high))
-    if law.speed_low > 0:
-        held.append(compare(">=", speed, law.speed_low))
-    return _if_inside(events, stretch, [instant], every(held), least) if held else TRUE
 
 
 def _if_inside(

@@ -15,8 +15,9 @@ from typing import Any
 import pyscipopt
 
 from scenewright.solve.proofs.events import Unknown
+from scenewright.solve.proofs.order import tightened
 from scenewright.solve.proofs.polynomials import All, Atom, Formula, Polynomial, Some
-from scenewright.solve.proofs.refuters import Answer, Capabilities, tightened
+from scenewright.solve.proofs.refuters import Answer, Capabilities
 from scenewright.solve.proofs.relaxation import Named
 
 
@@ -24,13 +25,13 @@ class Scip:
     """SCIP, afresh for each question."""
 
     name = "scip"
-    capabilities = Capabilities(exact=False, cores=False, quadratic=True, keeps_time=True)
+    capabilities = Capabilities(exact=False, cores=False)
 
     def ask(
         self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float, want_core: bool = False
     ) -> Answer:
         """Ask whether all `formulas` can hold at once; a strict comparison is taken for one that is not."""
-        ranges = tightened(unknowns, formulas)
+        ranges = tightened(unknowns, (each.formula for each in formulas))
         if any(each.low > each.high for each in ranges):
             return Answer("refuted")
         posed = _Posed(ranges)

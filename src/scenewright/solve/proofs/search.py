@@ -14,16 +14,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.motion.laws import ANY, Law
+from scenewright.motion.laws import Law, bounded, capped, fixed
 from scenewright.solve.proofs.compiled import Compiled
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.narrowing import Narrowing
-from scenewright.solve.proofs.polynomials import All, Atom, Formula, Some, told_values
+from scenewright.solve.proofs.order import impossible, least_differences, told_values
+from scenewright.solve.proofs.polynomials import All, Atom, Formula, Some
 
 Array = NDArray[np.float64]
 
 DONE, NEARLY_DONE = 1e-6, 5e-5  # scaled: 0.5 mm, 0.05 ms, 0.1 mm/s where rounded numbers leave no more
 _SCALE = {"time": 1.0, "place": 10.0, "speed": 2.0, "rate": 1.0, "other": 1.0}
+_BOUNDS = ("rate_low", "rate_high", "speed_low", "speed_high")
+_ENDS = np.array([_SCALE[kind] for kind in ("speed", "speed", "time", "place")])
+_EITHER_WAY = np.concatenate([np.zeros((4, 1)), np.eye(4), -np.eye(4)], axis=1)[:, :, None]
 _SOFT = 1e-5
 _SOFT_ROW = 8  # how daqp is told that a row may be broken at a price
 _LOOKED_AT = 12.0  # in longest steps: what holds by more than this cannot matter within one
@@ -41,9 +45,8 @@ class Search:
         self.formulas = formulas
         self.narrowings = narrowings
         self.steps = 0
-        self.events.learn_from(iter(formulas))
-        self._least = self.events.least_differences()
-        self._told = told_values(formulas)
+        self._least = least_differences(events, formulas)
+        self._told = told_values(events.unknowns, formulas)
         size = len(self.events.unknowns)
         self._size = size
         self._compiled = Compiled(self.formulas, size, self._ruled_out)
@@ -68,12 +71,10 @@ class Search:
                 if all(unknown in self._told for key in left.terms for unknown in key):
                     value = left.value(self._told)
                     return abs(value) > _CLEAR if relation == "==" else value > _CLEAR
-                return self.events.impossible(part, self._least)
+                return impossible(self.events, part, self._least)
 
     # -- the steps ----------------------------------------------------------------------------------------------------
-    def run(
-        self, guess: Array, generator: np.random.Generator | None = None, most_steps: int = _MOST_STEPS
-    ) -> Array | None:
+    def run(self, guess: Array, generator: np.random.Generator | None = None) -> Array | None:
         """Return values that meet everything, starting from a guess; None where the steps do not get there.
 
         With a `generator` some alternatives are liked better than others, whatever is nearest.
@@ -81,9 +82,9 @@ class Search:
         self._liking = np.ones(len(self._compiled.atoms))
         if generator is not None:
             self._liking = np.exp(2.0 * generator.standard_normal(len(self._compiled.atoms)))
-        point = np.append(np.clip(self._in_order(guess), self._low, self._high), 1.0)
+        point = np.append(np.clip(guess, self._low, self._high), 1.0)
         trust, best, stale = _TRUST, np.inf, 0
-        for _ in range(most_steps):
+        for _ in range(_MOST_STEPS):
             self.steps += 1
             rows, levels, equal = self._rows(point)
             worst = float(np.max(np.where(equal, np.abs(levels), levels), initial=0.0))
@@ -103,20 +104,6 @@ class Search:
                 return None
             point[:-1] = np.clip(point[:-1] + step, self._low, self._high)
         return None
-
-    def _in_order(self, guess: Array) -> Array:
-        """Return a guess in which moments come as late after others as is certain; what precedes them moves along."""
-        times = np.array([time.value(guess) for time in self.events.times])
-        fixed = np.array([time.constant is not None for time in self.events.times])
-        latest = np.where(fixed, times, (times[None, :] - self._least)[:, fixed].min(axis=1))
-        late = (np.minimum(times, latest)[:, None] + self._least).max(axis=0) - times
-        moved_s = np.where(self._least >= 0.0, late[None, :], 0.0).max(axis=1)
-        times = (np.minimum(times + moved_s, latest)[:, None] + self._least).max(axis=0)
-        moved = guess.copy()
-        for number, time in enumerate(self.events.times):
-            if not fixed[number]:
-                moved[next(iter(time.terms))[0]] = times[number]
-        return moved
 
     def _step(self, point: Array, rows: Array, levels: Array, equal: NDArray[np.bool_], trust: float) -> Array | None:
         """Return the least step that meets the linearised rows as well as can be."""
@@ -159,15 +146,11 @@ class Search:
             np.concatenate([part[2] for part in parts]),
         )
 
-    def order_of(self, point: Array, actor: int) -> list[int]:
-        """Return an actor's instants in the order of their times."""
+    def way_of(self, point: Array, actor: int) -> tuple[list[int], list[Law]]:
+        """Return an actor's instants in the order of their times, and the laws between them."""
         line = next(line for line in self._actors if line.actor == actor)
-        return [line.instants[k] for k in line.sorted(np.append(point, 1.0))]
-
-    def laws_of(self, point: Array, actor: int) -> list[Law]:
-        """Return the laws between an actor's instants, in the order of their times."""
-        line = next(line for line in self._actors if line.actor == actor)
-        return line.laws_between(line.sorted(np.append(point, 1.0)), self.narrowings)
+        order = line.sorted(np.append(point, 1.0))
+        return [line.instants[k] for k in order], line.laws_between(order, self.narrowings)[0]
 
 
 @dataclass(slots=True)
@@ -219,16 +202,16 @@ class _Line:
         """Return the laws between neighbours, linearised."""
         order = self.sorted(point)
         early, late = np.array(order[:-1], dtype=np.intp), np.array(order[1:], dtype=np.intp)
-        laws = self.laws_between(order, narrowings)
-        even = self.even_between(order, narrowings)
-        al, be, lo, hi = (
-            np.array([float(getattr(law, name)) for law in laws])
-            for name in ("rate_low", "rate_high", "speed_low", "speed_high")
+        laws, even = self.laws_between(order, narrowings)
+        bounds = np.array([[float(getattr(law, name)) for law in laws] for name in _BOUNDS])
+        times, place = self.time_factor * point[self.time], point[self.place]
+        ends = (
+            point[self.speed[early]],
+            point[self.speed[late]],
+            times[late] - times[early],
+            place[late] - place[early],
         )
-        v1, v2 = point[self.speed[early]], point[self.speed[late]]
-        d = self.time_factor[late] * point[self.time[late]] - self.time_factor[early] * point[self.time[early]]
-        x = point[self.place[late]] - point[self.place[early]]
-        levels, slopes, equal, keep = _reach_rows(al, be, lo, hi, even, v1, v2, d, x)
+        levels, slopes, equal, keep = _conditions(bounds, even, np.array(ends))
         count, kinds = len(early), levels.shape[0]
         width = len(point)
         rows = np.zeros((kinds, count, width))
@@ -247,139 +230,59 @@ class _Line:
         norms = np.sqrt((flat * flat).sum(axis=1))
         keep = keep.reshape(-1) & (norms > 1e-9)
         norms = np.maximum(norms, 1e-9)
-        return flat[keep] / norms[keep, None], (levels.reshape(-1) / norms)[keep], equal.reshape(-1)[keep]
+        return flat[keep] / norms[keep, None], (levels.reshape(-1) / norms)[keep], np.repeat(equal, count)[keep]
 
-    def even_between(self, order: Sequence[int], narrowings: Sequence[Narrowing]) -> NDArray[np.bool_]:
-        """Return whether there is to be one rate between each two neighbours."""
+    def laws_between(
+        self, order: Sequence[int], narrowings: Sequence[Narrowing]
+    ) -> tuple[list[Law], NDArray[np.bool_]]:
+        """Return the law between each two neighbours, and whether there is to be one rate."""
         where = {self.instants[k]: number for number, k in enumerate(order)}
-        even = np.zeros(len(order) - 1, dtype=bool)
+        starts = sorted((where[self.instants[k]], number, law) for number, (k, law) in enumerate(self.laws))
+        laws, even = [starts[0][2]] * (len(order) - 1), np.zeros(len(order) - 1, dtype=bool)
+        for start, _, law in starts:
+            laws[start:] = [law] * len(laws[start:])
         for narrowing in narrowings:
-            if narrowing.actor == self.actor and narrowing.even:
-                even[where[narrowing.first] : where[narrowing.last]] = True
-        return even
-
-    def laws_between(self, order: Sequence[int], narrowings: Sequence[Narrowing]) -> list[Law]:
-        """Return the law between each two neighbours."""
-        position = {k: number for number, k in enumerate(order)}
-        where = {instant: position[k] for k, instant in enumerate(self.instants)}
-        starts = sorted((position[k], number, law) for number, (k, law) in enumerate(self.laws))
-        laws, at = [], 0
-        for number in range(len(order) - 1):
-            while at + 1 < len(starts) and starts[at + 1][0] <= number:
-                at += 1
-            laws.append(starts[at][2])
-        for narrowing in narrowings:
-            if narrowing.actor == self.actor and narrowing.law is not ANY:
+            if narrowing.actor == self.actor:
                 begin = max(where[instant] for instant in narrowing.begins())
-                for number in range(begin, min(len(laws), *(where[instant] for instant in narrowing.ends()))):
-                    laws[number] = laws[number].meet(narrowing.law)
-        return laws
+                end = min(where[instant] for instant in narrowing.ends())
+                even[begin:end] |= narrowing.even
+                laws[begin:end] = [law.meet(narrowing.law) for law in laws[begin:end]]
+        return laws, even
 
 
-def _reach_rows(
-    al: Array,
-    be: Array,
-    lo: Array,
-    hi: Array,
-    even: NDArray[np.bool_],
-    v1: Array,
-    v2: Array,
-    d: Array,
-    x: Array,
+def _conditions(
+    laws: Array, even: NDArray[np.bool_], ends: Array
 ) -> tuple[Array, Array, NDArray[np.bool_], NDArray[np.bool_]]:
     """Return levels and slopes of `motion.laws.reach` for many stretches at once.
 
+    All of it is of second degree, so half the difference over one unit either way is a slope, exactly.
+
+    Parameters
+    ----------
+    laws, ends
+        Least and greatest rate, lowest and top speed; first and second speed, duration, distance: shape (4, stretches).
+
     Returns
     -------
-    levels
-        Shape (rows, stretches): at most zero, or zero where equal.
-    slopes
-        Shape (rows, 4, stretches): by first speed, second speed, duration and distance.
+    levels, slopes
+        Shape (rows, stretches), at most zero, or zero where equal; shape (rows, 4, stretches).
     equal, keep
         Which are equalities; which there are at all.
     """
-    zero, one = np.zeros_like(d), np.ones_like(d)
-    delta, fixed = v2 - v1, be - al < 1e-12
-    over, under, span = be * d - delta, delta - al * d, 2 * (be - al)
-    levels: list[Array] = []
-    slopes: list[tuple[Array, Array, Array, Array]] = []
-    equal: list[NDArray[np.bool_]] = []
-    keep: list[NDArray[np.bool_]] = []
-    never, always = np.zeros(len(d), dtype=bool), np.ones(len(d), dtype=bool)
-
-    def add(
-        level: Array, slope: tuple[Array, Array, Array, Array], there: NDArray[np.bool_], same: bool = False
-    ) -> None:
-        levels.append(level)
-        slopes.append(slope)
-        equal.append(always if same else never)
-        keep.append(there)
-
-    free = ~fixed
-    add(-d, (zero, zero, -one, zero), always)
-    add(delta - al * d, (-one, one, -al, zero), fixed, same=True)
-    add(2 * x - (v1 + v2) * d, (-d, -d, -(v1 + v2), 2 * one), fixed | even, same=True)
-    add(-over, (-one, one, -be, zero), free)
-    add(-under, (one, -one, al, zero), free)
-    # 2 (be - al) (x - v1 d - be d^2 / 2) + over^2, and its mirror image
-    add(
-        span * (x - v1 * d - 0.5 * be * d * d) + over * over,
-        (-span * d + 2 * over, -2 * over, -span * (v1 + be * d) + 2 * over * be, span),
-        free,
-    )
-    add(
-        span * (v1 * d + 0.5 * al * d * d - x) + under * under,
-        (span * d - 2 * under, 2 * under, span * (v1 + al * d) - 2 * under * al, -span),
-        free,
-    )
-    add(lo * d - x, (zero, zero, lo, -one), free)
-    add(x - hi * d, (zero, zero, -hi, one), free)
-    for speed, first in ((v1, True), (v2, False)):
-        gradient = (one, zero, zero, zero) if first else (zero, one, zero, zero)
-        negative = (-one, zero, zero, zero) if first else (zero, -one, zero, zero)
-        add(speed - hi, gradient, always)
-        add(lo - speed, negative, always)
-    both = free & (al < 0) & (be > 0)
-    for choices in _caps(al, be, lo, hi, v1, v2, d, x):
-        (one_level, one_slope), (other_level, other_slope) = choices
-        unit_one = one_level / np.maximum(_size(one_slope), 1e-9)
-        unit_other = other_level / np.maximum(_size(other_slope), 1e-9)
-        take = unit_one <= unit_other
-        add(
-            np.where(take, one_level, other_level),
-            tuple(np.where(take, a, b) for a, b in zip(one_slope, other_slope, strict=True)),  # type: ignore[arg-type]
-            both,
-        )
-    return (
-        np.array(levels),
-        np.array([np.array(slope) for slope in slopes]),
-        np.array(equal),
-        np.array(keep),
-    )
+    (al, be, lo, hi), (v1, v2, d, x) = laws, ends[:, None, :] + _EITHER_WAY
+    free, always = be - al > 1e-12, np.ones_like(even)
+    one_rate, one = fixed(al, v1, v2, d, x)
+    equal = [(one_rate, ~free), (one, ~free | even)]
+    rows = [(row, free) for row in bounded(al, be, lo, hi, v1, v2, d, x)]
+    rows += [(row, always) for row in (-d, v1 - hi, lo - v1, v2 - hi, lo - v2)]
+    for pair in capped(al, be, lo, hi, v1, v2, d, x):
+        units = [row[0] / np.maximum(np.linalg.norm(_slopes(row) * _ENDS[:, None], axis=0), 1e-9) for row in pair]
+        rows.append((np.where(units[0] <= units[1], *pair), free & (al < 0) & (be > 0)))
+    values = np.array([row for row, _ in (*equal, *rows)])
+    keep = np.array([there for _, there in (*equal, *rows)])
+    return values[:, 0], _slopes(values), np.repeat([True, False], (len(equal), len(rows))), keep
 
 
-def _size(slope: tuple[Array, ...]) -> Array:
-    v1, v2, d, x = slope
-    return np.asarray(np.sqrt(4 * v1 * v1 + 4 * v2 * v2 + d * d + 100 * x * x))
-
-
-def _caps(
-    al: Array, be: Array, lo: Array, hi: Array, v1: Array, v2: Array, d: Array, x: Array
-) -> list[tuple[tuple[Array, tuple[Array, ...]], tuple[Array, tuple[Array, ...]]]]:
-    """Return the two pairs of alternatives: the top speed is not met or what that costs; the lowest likewise."""
-    zero, ab = np.zeros_like(d), al * be
-    top = (
-        (-al * v1 + be * v2 - ab * d - (be - al) * hi, (-al, be, -ab, zero)),
-        (
-            -al * (hi - v1) ** 2 + be * (hi - v2) ** 2 + 2 * ab * (hi * d - x),
-            (2 * al * (hi - v1), -2 * be * (hi - v2), 2 * ab * hi, -2 * ab),
-        ),
-    )
-    low = (
-        (-be * (v1 - lo) + al * (v2 - lo) - ab * d, (-be, al, -ab, zero)),
-        (
-            be * (v1 - lo) ** 2 - al * (v2 - lo) ** 2 + 2 * ab * (x - lo * d),
-            (2 * be * (v1 - lo), -2 * al * (v2 - lo), -2 * ab * lo, 2 * ab),
-        ),
-    )
-    return [top, low]
+def _slopes(values: Array) -> Array:
+    half: Array = 0.5 * (values[..., 1:5, :] - values[..., 5:, :])
+    return half

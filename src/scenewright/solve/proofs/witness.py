@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -22,6 +23,7 @@ from scenewright.program.structure import Structure, placed_at
 from scenewright.program.types import EGO
 from scenewright.roads.bodies import CAR, Body
 from scenewright.roads.grounding import Scene
+from scenewright.roads.routes import Route
 from scenewright.roads.zones import overlap
 from scenewright.solve.limits import Limits
 from scenewright.solve.plan import PlanWorld
@@ -31,7 +33,8 @@ from scenewright.solve.proofs.search import Search
 Array = NDArray[np.float64]
 _TOLERANCE = 2e-3  # mm, ms, mm/s: twice what a search is exact to
 _STEP_S = 0.05
-_BODY_STEP_S = 0.02  # two that meet head on come 0.5 m nearer meanwhile
+_OFTEN_S = 0.02  # two that meet head on come 0.5 m nearer meanwhile
+_BEND_STEP_M = 0.25
 _RATE_SLACK = 1e-2
 _SHORTEST_S = 1e-4  # in so short a time a rounded speed makes any rate
 
@@ -68,8 +71,7 @@ def realised(events: Events, search: Search, point: Array) -> Witness:
 
 
 def _profile(events: Events, search: Search, point: Array, actor: int, times: Mapping[int, float]) -> Profile:
-    order = search.order_of(point, actor)
-    laws = search.laws_of(point, actor)
+    order, laws = search.way_of(point, actor)
     knots = {name: times[events.knot(actor, name)] for name in events.scene.program.actor(actor).sketch.knots}
     pieces = sorted(knots.values())
     segments: list[Segment] = []
@@ -125,11 +127,19 @@ def _unlawful(actor: int, profile: Profile, law: Law) -> list[Broken]:
 
 
 def _too_fast(scene: Scene, limits: Limits, actor: int, times: Array, states: Array) -> list[Broken]:
-    bend = np.array([scene.routes[actor].path.curvature(float(s)) for s in states[:, 0]])
-    sideways = states[:, 1] ** 2 * np.abs(bend)
-    worst = int(np.argmax(sideways))
-    over = float(sideways[worst]) - limits.lateral_max_mpss
-    return [Broken("turn", actor, float(times[worst]), over)] if over > 1e-3 else []
+    often = np.arange(times[0], times[-1], _OFTEN_S)
+    place, speed = (np.interp(often, times, states[:, order]) for order in (0, 1))
+    sideways = speed**2 * np.interp(place, *bends(scene.routes[actor]))
+    worst = int(np.argmax(sideways)) if len(often) else 0
+    over = float(sideways[worst]) - limits.lateral_max_mpss if len(often) else 0.0
+    return [Broken("turn", actor, float(often[worst]), over)] if over > 1e-3 else []
+
+
+@lru_cache(maxsize=256)
+def bends(route: Route) -> tuple[Array, Array]:
+    """Return places (m) along a route, and how much it bends there (1/m)."""
+    places = np.arange(0.0, route.path.length_m, _BEND_STEP_M)
+    return places, np.array([abs(route.path.curvature(float(s))) for s in places])
 
 
 def _touching(
@@ -142,7 +152,7 @@ def _touching(
         knot = structure.trigger_knot(hero.id)
         triggers.append(witness.end_s if knot is None else witness.profiles[hero.id].knot_times_s.get(knot, 0.0))
     until = max(triggers, default=witness.end_s)
-    often = np.append(np.arange(0.0, until, _BODY_STEP_S), until)
+    often = np.append(np.arange(0.0, until, _OFTEN_S), until)
     clear_m = float(scene.program.manner.clear_m)
     boxes, body = {}, Body(CAR.length_m + clear_m, CAR.width_m + clear_m)
     for actor in scene.program.actors:
@@ -166,6 +176,6 @@ def _asked_for(scene: Scene, structure: Structure, witness: Witness, pair: tuple
             owner, knot = min(trigger)
             until = witness.profiles[owner].knot_times_s.get(knot, math.inf)
             before = touching_s[touching_s <= until]
-            if len(before) and before[-1] > until - _BODY_STEP_S and np.all(np.diff(before) < 1.5 * _BODY_STEP_S):
+            if len(before) and before[-1] > until - _OFTEN_S and np.all(np.diff(before) < 1.5 * _OFTEN_S):
                 return True
     return False

@@ -10,7 +10,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from scenewright.solve.proofs.events import Unknown
-from scenewright.solve.proofs.refuters import Answer, Capabilities, tightened
+from scenewright.solve.proofs.order import tightened
+from scenewright.solve.proofs.refuters import Answer, Capabilities
 from scenewright.solve.proofs.relaxation import Named
 from scenewright.solve.proofs.smtlib import smtlib
 
@@ -27,7 +28,7 @@ class Z3:
     """
 
     name = "z3"
-    capabilities = Capabilities(exact=True, cores=True, quadratic=True, keeps_time=True)
+    capabilities = Capabilities(exact=True, cores=True)
 
     def __init__(self, most_work: int = 0) -> None:
         self._most_work = most_work
@@ -39,7 +40,7 @@ class Z3:
         import z3  # slow to import, and a witness needs none
 
         z3.set_param("ctrl_c", False)  # its own handler would take Ctrl-C for an answer
-        ranges = list(unknowns) if want_core else tightened(unknowns, formulas)
+        ranges = list(unknowns) if want_core else tightened(unknowns, (each.formula for each in formulas))
         if any(each.low > each.high for each in ranges):
             return Answer("refuted")
         context = z3.Context()

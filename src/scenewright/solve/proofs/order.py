@@ -1,0 +1,166 @@
+"""What is certain of the order of moments, and between which values unknowns are, as far as that can be read off.
+
+What enters: events, and formulas that hold. What leaves: how much later each moment is at least than another; ranges.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from itertools import permutations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scenewright.solve.proofs.events import LONGEST_S, Events, Unknown
+from scenewright.solve.proofs.polynomials import ZERO, All, Atom, Formula, Polynomial, compare
+
+Array = NDArray[np.float64]
+_PASSES = 2  # over all comparisons, to see between which places somebody is: enough for one that rests on another
+
+
+def conjuncts(formulas: Iterable[Formula]) -> Iterator[Atom]:
+    """Yield what is compared in every case."""
+    for part in formulas:
+        if isinstance(part, All):
+            yield from conjuncts(part.parts)
+        elif isinstance(part, Atom):
+            yield part
+
+
+# -- ranges -----------------------------------------------------------------------------------------------------------
+def tightened(unknowns: Sequence[Unknown], formulas: Iterable[Formula], passes: int = 1) -> list[Unknown]:
+    """Return the unknowns with the ranges that linear comparisons leave."""
+    found = list(unknowns)
+    linear = [part for part in conjuncts(formulas) if part.left.degree == 1]
+    for _ in range(passes):
+        for part in linear:
+            _narrow(part.left, found)
+            if part.relation == "==":
+                _narrow(-part.left, found)
+    return found
+
+
+def told_values(unknowns: Sequence[Unknown], formulas: Iterable[Formula]) -> dict[int, float]:
+    """Return the unknowns of which only one value is left."""
+    found = tightened(unknowns, formulas)
+    return {number: float(each.low) for number, each in enumerate(found) if each.low == each.high}
+
+
+def _narrow(left: Polynomial, found: list[Unknown]) -> None:
+    """Narrow the ranges of unknowns by ``left <= 0``."""
+    terms = [(key[0], factor) for key, factor in left.terms.items() if key]
+    ends = [factor * (found[number].low if factor > 0 else found[number].high) for number, factor in terms]
+    least = left.terms.get((), ZERO) + sum(ends)
+    for (number, factor), end in zip(terms, ends, strict=True):
+        each, bound = found[number], (end - least) / factor
+        if factor > 0 and bound < each.high:
+            found[number] = replace(each, high=bound)
+        elif factor < 0 and bound > each.low:
+            found[number] = replace(each, low=bound)
+
+
+# -- order ------------------------------------------------------------------------------------------------------------
+def least_differences(events: Events, formulas: Iterable[Formula] = ()) -> Array:
+    """Return a matrix of how much later (s) each instant (column) is at least than another (row).
+
+    Comparisons of two times say it, and so do places that are known. Where that contradicts itself only what holds
+    without them is in it: the contradiction is for a proof.
+    """
+    linear = [part for part in conjuncts(formulas) if part.left.degree == 1]
+    least = _closed(events, [*_told(events, linear), *_by_places(events, linear)])
+    return least if not np.any(np.diag(least) > 1e-9) else _closed(events, [])
+
+
+def _closed(events: Events, ahead: Iterable[tuple[int, int, Fraction]]) -> Array:
+    constants = {
+        number: float(known) for number, time in enumerate(events.times) if (known := time.constant) is not None
+    }
+    least = np.full((len(events.times),) * 2, -max(float(LONGEST_S), *constants.values()))
+    np.fill_diagonal(least, 0.0)
+    least[events.start, :] = 0.0
+    for first, second, least_s in [*((*pair, ZERO) for pair in events.ahead), *ahead]:
+        least[first, second] = max(least[first, second], float(least_s))
+    for first, second in permutations(constants, 2):
+        least[first, second] = constants[second] - constants[first]
+    return closed(least)
+
+
+def closed(least: Array) -> Array:
+    """Return what least differences come to one after another."""
+    for middle in range(len(least)):
+        np.maximum(least, least[:, middle, None] + least[None, middle, :], out=least)
+    return least
+
+
+def _told(events: Events, linear: Iterable[Atom]) -> Iterator[tuple[int, int, Fraction]]:
+    for part in linear:
+        if (found := difference(events, part.left)) is not None:
+            early, late, most_s = found
+            yield late, early, -most_s
+            if part.relation == "==":
+                yield early, late, most_s
+
+
+def _by_places(events: Events, linear: Sequence[Atom]) -> Iterator[tuple[int, int, Fraction]]:
+    """Yield what follows from where everybody is: nobody drives backwards, nor faster than it can."""
+    within = places_within(events, linear)
+    passing = {(actor, made) for (actor, _), made in events.places.items()}
+    known = {key: ends for key, ends in within.items() if key not in passing}
+    for (actor, place), made in events.places.items():
+        before = [k for (owner, k), (_, high) in known.items() if owner == actor and high < place]
+        after = [k for (owner, k), (low, _) in known.items() if owner == actor and low > place]
+        if before and after:
+            known[actor, made] = place, place
+        yield from ((knot, made, ZERO) for knot in before)  # the end where it is never passed
+        yield from ((made, knot, ZERO) for knot in after)  # the start where it was passed before
+    for (actor, first), (_, most) in known.items():
+        fastest = events.law_of(actor).speed_high
+        for (other, second), (least, _) in known.items():
+            if actor == other and most < least:
+                # One that never moves comes nowhere: the laws refute that, whatever the order.
+                yield first, second, (least - most) / fastest if fastest else ZERO
+
+
+def places_within(events: Events, formulas: Iterable[Formula]) -> dict[tuple[int, int], tuple[Fraction, Fraction]]:
+    """Return between which places (m) everybody is at each instant, by linear comparisons and who comes when."""
+    own = {key: state.place for key, state in events.states.items() if state.place.constant is None}
+    on = [
+        compare("<=", own[actor, first], own[actor, second])
+        for actor, first in own
+        for first_, second in events.ahead
+        if first_ == first and (actor, second) in own
+    ]
+    still = [
+        compare("==", own[actor, each.first], own[actor, each.last])
+        for actor, found in events.stretches.items()
+        for each in found
+        if each.law.speed_high == 0 and each.last is not None
+    ]
+    found = tightened(events.unknowns, [*formulas, *on, *still], _PASSES)
+    ranges = {key: found[next(iter(place.terms))[0]] for key, place in own.items()}
+    return {key: (each.low, each.high) for key, each in ranges.items()}
+
+
+def difference(events: Events, left: Polynomial) -> tuple[int, int, Fraction] | None:
+    """Return `early`, `late` and `most_s` where ``left <= 0`` says that ``late - early <= most_s``."""
+    parts = [(events.instant_of[key], factor) for key, factor in left.terms.items() if key in events.instant_of]
+    if not 1 <= len(parts) <= 2 or len(parts) + (() in left.terms) != len(left.terms):
+        return None
+    if len(parts) == 1:
+        parts.append((events.start, -parts[0][1]))
+    (a, sign), (b, other) = parts
+    if sign + other != 0:
+        return None
+    late, early = (a, b) if sign > 0 else (b, a)
+    return early, late, -left.terms.get((), ZERO) / abs(sign)
+
+
+def impossible(events: Events, part: Atom, least: Array) -> bool:
+    """Whether something contradicts what is certain of the order of instants."""
+    found = difference(events, part.left) if part.relation != "==" and part.left.degree == 1 else None
+    if found is None:
+        return False
+    early, late, most_s = found
+    return bool(least[early, late] > float(most_s) - (1e-9 if part.relation == "<" else -1e-9))
