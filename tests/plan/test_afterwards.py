@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from many_heroes import PROGRAMS
 from situations import planner_of, scene_of
@@ -49,6 +49,7 @@ def hardest(motion: Profile) -> float:
     return -min(segment.accel_mpss for segment in motion.segments)
 
 
+@example(gap_m=2.0, first_mps=0.0, closing_mps=0.25)
 @given(gap_m=st.floats(1.2, 60.0), first_mps=st.floats(0.0, 14.0), closing_mps=st.floats(0.0, 10.0))
 def test_who_is_faster_than_the_one_ahead_never_reaches_it(gap_m: float, first_mps: float, closing_mps: float) -> None:
     closing_mps = min(closing_mps, np.sqrt(2.0 * 4.0 * (gap_m - 1.2)))  # what 4 m/s^2 can still save

@@ -14,7 +14,7 @@ from scenewright.plan.preferences import Preferences
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.solve.limits import BRAKE_MAX_MPSS
 
-_LEAST_ROOM_M = 0.05  # who has no more room than this brakes as if it had so much, and no harder than cars can
+_LEAST_ROOM_M = 0.05  # who has no more room than this brakes at once, as if it had so much, and no harder than cars can
 
 
 def goes_on(
@@ -50,7 +50,7 @@ def _needs(
         room_m, change_mps = float("inf"), 0.0
         if meeting.zones_m is not None and first_m < (out_m := meeting.zones_m[0][1] + wanted.clear_m):
             before_m = meeting.zones_m[1][0] - wanted.clear_m - s_m
-            if before_m >= 0.0 and speed_mps * (passes_s(first, out_m) - time_s) > before_m:
+            if before_m >= -wanted.clear_m and speed_mps * (passes_s(first, out_m) - time_s) > before_m:
                 room_m, change_mps = before_m, speed_mps
         elif meeting.lane_m is not None and first_m < meeting.lane_m[0][1] and s_m < meeting.lane_m[1][1]:
             room_m = first_m - meeting.offset_m - s_m - VEHICLE_LENGTH_M - wanted.clear_in_lane_m
@@ -58,4 +58,5 @@ def _needs(
             if first_mpss < 0.0:  # it may come to stand
                 room_m, change_mps = room_m - 0.5 * first_mps**2 / first_mpss, speed_mps
         if change_mps > 0.0:
-            yield min(0.5 * change_mps**2 / max(room_m, _LEAST_ROOM_M), BRAKE_MAX_MPSS), change_mps
+            rate = 0.5 * change_mps**2 / max(room_m, _LEAST_ROOM_M)
+            yield min(max(rate, wanted.accel_mpss if room_m <= _LEAST_ROOM_M else 0.0), BRAKE_MAX_MPSS), change_mps
