@@ -83,8 +83,8 @@ def test_who_is_told_nothing_of_the_other_keeps_clear_of_it(monkeypatch: pytest.
 
 
 def test_they_keep_as_clear_of_each_other_as_the_manner_says() -> None:
-    assert drive("manner:\n- clear_m = 3\n" + ACROSS, "idm").apart_m(of_ego=False) > 3.0
-    assert drive(ACROSS, "idm").apart_m(of_ego=False) < 3.0
+    assert drive("manner:\n- clear_m = 2\n" + ACROSS, "idm").apart_m(of_ego=False) > 2.0
+    assert drive(ACROSS, "idm").apart_m(of_ego=False) < 2.0
 
 
 def test_who_is_to_be_in_contact_is_let() -> None:

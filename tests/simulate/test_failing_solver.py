@@ -63,6 +63,6 @@ def test_gives_up_and_drives_nothing_where_no_plan_is_found(monkeypatch: pytest.
     result = orchestrate(Request(STORY, ego="idm"))
     assert result.status == "gave up"
     assert result.feasibility is not None
-    assert result.feasibility.answer == "feasible"
+    assert result.feasibility.answer == "undecided"
     assert (result.run, result.verdict, result.run_directory) == (None, None, None)
     assert result.not_held

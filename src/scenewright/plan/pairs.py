@@ -19,10 +19,11 @@ from scenewright.plan.preferences import Preferences
 from scenewright.plan.rows import Columns, Rows
 from scenewright.plan.shooting import Shot
 from scenewright.program.structure import Structure, placed_at
-from scenewright.roads.bodies import CAR, VEHICLE_LENGTH_M
+from scenewright.roads.bodies import CAR, VEHICLE_LENGTH_M, Body
 from scenewright.roads.conflicts import conflicts, shared_stretches
 from scenewright.roads.grounding import Scene
 from scenewright.roads.zones import Zone, overlap
+from scenewright.solve.limits import ROOM
 
 Array = NDArray[np.float64]
 Along = tuple[Array, Array, Array]
@@ -92,7 +93,9 @@ def meetings_of(scene: Scene) -> tuple[Meeting, ...]:
 
 def _meetings(scene: Scene, a: int, b: int) -> Iterator[Meeting]:
     routes = scene.routes[a], scene.routes[b]
-    found = conflicts(*routes)
+    clear_m = float(scene.program.manner.stricter(ROOM).clear_m)  # as far as that from a body is in its way
+    grown = Body(CAR.length_m + clear_m, CAR.width_m + clear_m)
+    found = conflicts(*routes, grown, grown)
     for stretch in shared_stretches(*routes):
         ends = [c for c in found if c.kind == "following" and (c.s_a_m, c.s_b_m) == stretch.end]
         until = (ends[0].zone_a_m[1], ends[0].zone_b_m[1]) if ends and stretch.goes_on else (_NEVER, _NEVER)

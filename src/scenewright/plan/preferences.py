@@ -108,6 +108,5 @@ def preferences_of(manner: Manner) -> Preferences:
         stands_s=max(usual.stands_s, 1.2 * float(kept.stands_s)),
         clear_of_ego_m=max(usual.clear_of_ego_m, float(kept.clear_m)),
         clear_of_zone_m=max(usual.clear_of_zone_m, float(kept.clear_m)),
-        clear_m=max(usual.clear_m, float(kept.clear_m)),
         clear_in_lane_m=max(usual.clear_in_lane_m, float(kept.clear_m)),
     )

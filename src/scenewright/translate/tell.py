@@ -123,7 +123,8 @@ class Teller(Phrases):
         conditions, time = self.story.moments[moment].conditions, self.story.moments[moment].time
         if moment == st.START or self._is_left_to_an_order(moment):
             return
-        if any(isinstance(each, st.Compound) for each in conditions) or (time is None and moment not in self.story.ego):
+        is_nobodys = not conditions or (time is None and moment not in self.story.ego)
+        if is_nobodys or any(isinstance(each, st.Compound) for each in conditions):
             raise untold("a moment that is nobody's")
         when = "Later" if time is None else f"When it is {amount(time)} after the start"
         self._say(f"{when}, {listed(self.clauses(conditions))}.", *conditions)
