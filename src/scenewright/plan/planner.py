@@ -32,7 +32,7 @@ from scenewright.solve.plan import Plan
 _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
 # First plans are solved for from these speeds (shares of the natural one) and, where both decide, triggers (s): Newton
 # finds the nearest plan, not the best.
-_PACES, _JOINT_S = (0.8, 0.45, 0.25), (3.5, 6.0)
+_PACES, _JOINT_S = (0.8, 0.45, 0.25), (6.0, 3.5, 1.0)
 # What a step has to gain for each further hero: the next tick goes on from there. Chosen; a tight
 # tolerance that is missed costs hundreds.
 _ENOUGH_EACH = 0.3
@@ -140,13 +140,11 @@ class Planner:
         prediction = self._ego.predictor.predict([ego])
         joint = any(self._trigger(hero) is not None and not self._ego_decides(hero) for hero in self._heroes)
         tries: list[_Found] = []
-        for joint_s, pace in product(_JOINT_S if joint else (0.0,), _PACES):
-            tries.append(self._planned_first(prediction, joint_s, self._even_motions(prediction, joint_s, pace)))
-            if tries[-1].solution.cost < self._enough:
+        for joint_s in _JOINT_S if joint else (0.0,):
+            tries.append(self._first_with(prediction, joint_s))
+            if tries[-1].solution.missed.by <= GOOD:
                 break
         best = min(tries, key=lambda found: found.solution.cost)
-        self._keep(best)
-        best = self._led(best) if self._ego.leaders else self._planned_first(prediction, 0.0, best.plan.profiles)
         best = self._clear(best)
         self._keep(best)
         for hero in self._heroes:
@@ -157,6 +155,18 @@ class Planner:
         foreseen = self.plan.profiles[EGO]
         self.records = [Replan(0.0, _status(best.solution), "daqp", attempt.wall_s, missed.by, "", foreseen)]
         return attempt
+
+    def _first_with(self, prediction: Profile, joint_s: float) -> _Found:
+        """Return the first plan that is found from triggers at an instant, as good as it is with an ego that answers it."""
+        self._moments_s, self._others = {}, {}
+        tries: list[_Found] = []
+        for pace in _PACES:
+            tries.append(self._planned_first(prediction, joint_s, self._even_motions(prediction, joint_s, pace)))
+            if tries[-1].solution.cost < self._enough:
+                break
+        best = min(tries, key=lambda found: found.solution.cost)
+        self._keep(best)
+        return self._led(best) if self._ego.leaders else self._planned_first(prediction, 0.0, best.plan.profiles)
 
     def _keep(self, found: _Found) -> None:
         self.plan, self._moments_s, self._others = found.plan, found.moments_s, found.others
