@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from scenewright.motion.profile import Profile
 from scenewright.plan.clearance import Clearance
-from scenewright.plan.following import Leader, foresee_follower
+from scenewright.plan.following import Leader, foresee_follower, wanted_speed_mps
 from scenewright.plan.prediction import ConstantSpeed, EgoSample, Predictor, jumped, lately
 from scenewright.plan.situation import Answer, Lanes, Otherwise, SeenAndForeseen
 from scenewright.program.structure import Structure
@@ -59,6 +59,10 @@ class Foresight:
         return {hero: lane for hero, lane in self._on_lane.items() if lane.of_distance}
 
     @property
+    def _wanted_mps(self) -> float:
+        return wanted_speed_mps(self.samples[0], self.cruise_mps)
+
+    @property
     def is_sure(self) -> bool:
         """Whether it drives as foreseen, as its policy promises."""
         return isinstance(self.predictor, ConstantSpeed)
@@ -78,7 +82,7 @@ class Foresight:
         prediction = self.predictor.predict(self.samples)
         for hero, clearance in self.leaders.items():
             leader = Leader(motions[hero], clearance.offset_m)
-            prediction = foresee_follower(prediction, self.samples, leader, self.cruise_mps)
+            prediction = foresee_follower(prediction, self.samples, leader, self._wanted_mps)
         return prediction
 
     def states(self, prediction: Profile) -> SeenAndForeseen:
@@ -104,7 +108,7 @@ class Foresight:
 
         def answered(otherwise: Otherwise) -> tuple[float, float]:
             leader = Leader(otherwise, clearance.offset_m)
-            then = foresee_follower(alone, self.samples, leader, self.cruise_mps).state(then_s)
+            then = foresee_follower(alone, self.samples, leader, self._wanted_mps).state(then_s)
             return (then[0] - place_m) / _LITTLE, (then[1] - speed_mps) / _LITTLE
 
         if first:
