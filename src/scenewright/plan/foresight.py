@@ -35,7 +35,7 @@ class Foresight:
     predictor
         Foresees it where it follows nobody.
     cruise_mps
-        How fast people drive where it does.
+        How fast people drive where it does; once it has begun, how fast it would like to drive.
     samples
         What was seen of it, in time order.
     """
@@ -58,9 +58,9 @@ class Foresight:
     def _distances(self) -> dict[int, Clearance]:
         return {hero: lane for hero, lane in self._on_lane.items() if lane.of_distance}
 
-    @property
-    def _wanted_mps(self) -> float:
-        return wanted_speed_mps(self.samples[0], self.cruise_mps)
+    def begin(self, first: EgoSample) -> None:
+        """Take note of its first state, in which it is still by itself."""
+        self.samples, self.cruise_mps = [first], wanted_speed_mps(first, self.cruise_mps)
 
     @property
     def is_sure(self) -> bool:
@@ -82,7 +82,7 @@ class Foresight:
         prediction = self.predictor.predict(self.samples)
         for hero, clearance in self.leaders.items():
             leader = Leader(motions[hero], clearance.offset_m)
-            prediction = foresee_follower(prediction, self.samples, leader, self._wanted_mps)
+            prediction = foresee_follower(prediction, self.samples, leader, self.cruise_mps)
         return prediction
 
     def states(self, prediction: Profile) -> SeenAndForeseen:
@@ -108,7 +108,7 @@ class Foresight:
 
         def answered(otherwise: Otherwise) -> tuple[float, float]:
             leader = Leader(otherwise, clearance.offset_m)
-            then = foresee_follower(alone, self.samples, leader, self._wanted_mps).state(then_s)
+            then = foresee_follower(alone, self.samples, leader, self.cruise_mps).state(then_s)
             return (then[0] - place_m) / _LITTLE, (then[1] - speed_mps) / _LITTLE
 
         if first:

@@ -32,7 +32,8 @@ from scenewright.solve.plan import Plan
 _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
 # First plans are solved for from these speeds (shares of the natural one) and, where both decide, triggers (s): Newton
 # finds the nearest plan, not the best.
-_PACES, _JOINT_S = (0.8, 0.45, 0.25), (6.0, 3.5, 1.0)
+_PACES, _JOINT_S = (0.8, 0.45, 0.25), (3.5, 6.0)
+_EARLY_S = 1.0  # and, where an ego that follows lets nothing good come of these, before it keeps the distance it likes
 # What a step has to gain for each further hero: the next tick goes on from there. Chosen; a tight
 # tolerance that is missed costs hundreds.
 _ENOUGH_EACH = 0.3
@@ -135,38 +136,29 @@ class Planner:
     def begin(self, ego: EgoSample) -> Attempt:
         """Plan from the ego's first state; the plan is kept."""
         started = time.perf_counter()
-        self._ego.samples, self._times.ego_began = [ego], ego[1:3]
+        self._ego.begin(ego)
+        self._times.ego_began = ego[1:3]
         self.ego_knots_s = {self.scene.program.ego.sketch.knots[0]: 0.0}
         prediction = self._ego.predictor.predict([ego])
         joint = any(self._trigger(hero) is not None and not self._ego_decides(hero) for hero in self._heroes)
         tries: list[_Found] = []
-        for joint_s in _JOINT_S if joint else (0.0,):
-            tries.append(self._first_with(prediction, joint_s))
-            if tries[-1].solution.missed.by <= GOOD:
-                break
-        best = min(tries, key=lambda found: found.solution.cost)
-        best = self._clear(best)
-        self._keep(best)
-        for hero in self._heroes:
-            if (name := self._trigger(hero)) is not None:
-                self._joint_s[hero.id] = self.plan.profiles[hero.id].knot_times_s[name]
-        missed, steps = best.solution.missed, best.solution.steps
-        attempt = Attempt(self.plan, missed, time.perf_counter() - started, steps)
-        foreseen = self.plan.profiles[EGO]
-        self.records = [Replan(0.0, _status(best.solution), "daqp", attempt.wall_s, missed.by, "", foreseen)]
-        return attempt
-
-    def _first_with(self, prediction: Profile, joint_s: float) -> _Found:
-        """Return the first plan that is found from triggers at an instant, as good as it is with an ego that answers it."""
-        self._moments_s, self._others = {}, {}
-        tries: list[_Found] = []
-        for pace in _PACES:
+        for joint_s, pace in product(_JOINT_S if joint else (0.0,), _PACES):
             tries.append(self._planned_first(prediction, joint_s, self._even_motions(prediction, joint_s, pace)))
             if tries[-1].solution.cost < self._enough:
                 break
-        best = min(tries, key=lambda found: found.solution.cost)
+        best = self._led(min(tries, key=lambda found: found.solution.cost), prediction)
+        if self._ego.leaders and best.solution.missed.by > GOOD:
+            self._moments_s, self._others = {}, {}
+            early = self._planned_first(prediction, _EARLY_S, self._even_motions(prediction, _EARLY_S, _PACES[0]))
+            best = min(best, self._led(early, prediction), key=lambda found: found.solution.cost)
+        best = self._clear(best)
         self._keep(best)
-        return self._led(best) if self._ego.leaders else self._planned_first(prediction, 0.0, best.plan.profiles)
+        names = {hero.id: name for hero in self._heroes if (name := self._trigger(hero)) is not None}
+        self._joint_s = {hero: self.plan.profiles[hero].knot_times_s[name] for hero, name in names.items()}
+        missed, wall_s = best.solution.missed, time.perf_counter() - started
+        foreseen = self.plan.profiles[EGO]
+        self.records = [Replan(0.0, _status(best.solution), "daqp", wall_s, missed.by, "", foreseen)]
+        return Attempt(self.plan, missed, wall_s, best.solution.steps)
 
     def _keep(self, found: _Found) -> None:
         self.plan, self._moments_s, self._others = found.plan, found.moments_s, found.others
@@ -207,8 +199,11 @@ class Planner:
             best = trial
         return best
 
-    def _led(self, best: _Found) -> _Found:
+    def _led(self, best: _Found, prediction: Profile) -> _Found:
         """Return a first plan with an ego that answers it, from one without; where a step is too long it is halved."""
+        if not self._ego.leaders:
+            self._keep(best)
+            return self._planned_first(prediction, 0.0, best.plan.profiles)
         best, trusted = self._answered(best), 1.0
         for _ in range(_AGAIN_LED):
             if best.solution.missed.by <= 0.5 * GOOD:
@@ -400,9 +395,8 @@ class Planner:
             return None
         s_m, speed_mps, _ = self.plan.profiles[hero.id].state(time_s)
         even = Profile(chain(time_s, s_m, speed_mps, [(1.0, 0.0, 0)]))
-        soonest_s = time_s + SHORTEST_LEAD_S
-        for settled_s in self._settled_s({self._asked.knot(hero.id, self._name(hero.id)): 0.0}, time_s).values():
-            soonest_s = max(soonest_s, settled_s)
+        settled_s = self._settled_s({self._asked.knot(hero.id, self._name(hero.id)): 0.0}, time_s)
+        soonest_s = max([time_s + SHORTEST_LEAD_S, *settled_s.values()])
         found = here[0].first_time({EGO: prediction, hero.id: even}, soonest_s)
         return found if found is not None and found < planned_s else None
 
@@ -459,11 +453,9 @@ class Planner:
         wanted, found = self._asked.wanted, {}
         for hero in self._heroes:
             name = self._trigger(hero)
-            if (
-                name is None
-                or name == hero.sketch.knots[-1]
-                or (instant := self._asked.knot(hero.id, name)) not in joint
-            ):
+            if name is None or name == hero.sketch.knots[-1]:
+                continue
+            if (instant := self._asked.knot(hero.id, name)) not in joint:
                 continue
             sense = 1.0 if hero.sketch.pieces[hero.sketch.knot_index(name)] is PieceKind.ACC else -1.0
             back = [time_s - _LOOKED_AT_S * k for k in range(_LOOKED_BACK) if time_s >= _LOOKED_AT_S * k]
