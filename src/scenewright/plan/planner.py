@@ -9,12 +9,14 @@ from __future__ import annotations
 import time
 from collections.abc import Iterable, Mapping
 from dataclasses import InitVar, dataclass, field, replace
+from functools import partial
 from itertools import product
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.afterwards import goes_on
 from scenewright.plan.asked import Asked
 from scenewright.plan.foresight import Foresight
+from scenewright.plan.guesses import even_motions, meet_later
 from scenewright.plan.pairs import Meeting, in_order, meetings_of, needed
 from scenewright.plan.prediction import EgoSample, Predictor
 from scenewright.plan.problem import AFTER_LAST_S, Missed, Problem
@@ -22,7 +24,7 @@ from scenewright.plan.shooting import profile_of
 from scenewright.plan.situation import Drive, Situation
 from scenewright.plan.solving import Solution, solve
 from scenewright.plan.triggers import SHORTEST_LEAD_S, TriggerTimes
-from scenewright.program.structure import Role, Structure, knots_of, placed_at
+from scenewright.program.structure import Role, Structure, knots_of
 from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
@@ -34,6 +36,7 @@ _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
 # First plans are solved for from these speeds (shares of the natural one) and, where both decide, triggers (s): Newton
 # finds the nearest plan, not the best.
 _PACES, _JOINT_S = (0.8, 0.45, 0.25), (3.5, 6.0)
+_EARLY_S = 1.0  # and, where an ego that follows lets nothing good come of these, before it keeps the distance it likes
 # What a step has to gain for each further hero: the next tick goes on from there. Chosen; a tight
 # tolerance that is missed costs hundreds.
 _ENOUGH_EACH = 0.3
@@ -140,16 +143,17 @@ class Planner:
     def begin(self, ego: EgoSample) -> Attempt:
         """Plan from the ego's first state; the plan is kept."""
         started = time.perf_counter()
-        self._ego.samples, self._times.ego_began = [ego], ego[1:3]
+        self._ego.begin(ego)
+        self._times.ego_began = ego[1:3]
         self.ego_knots_s = {self.scene.program.ego.sketch.knots[0]: 0.0}
         prediction = self._ego.predictor.predict([ego])
-        joint = any(self._trigger(hero) is not None and not self._ego_decides(hero) for hero in self._heroes)
-        tries: list[_Found] = []
+        joint = any(self._trigger(hero) is not None and not self._times.ego_decides(hero) for hero in self._heroes)
+        even, tries = partial(even_motions, self._asked, self._times, prediction), list[_Found]()
         meetings = meetings_of(self.scene)
-        placed = bool(meetings) and not self._meet_later and self._even_motions(prediction, 0.0, 1.0)[1]
+        placed = bool(meetings) and not meet_later(self.scene.program, self.structure) and even(0.0, 1.0)[1]
         # Who comes slowly can still do either; where nothing tells when, a slow guess would just stay slow.
         for joint_s, pace in product(_JOINT_S if joint else (0.0,), reversed(_PACES) if placed else _PACES):
-            guesses, _ = self._even_motions(prediction, joint_s, pace)
+            guesses, _ = even(joint_s, pace)
             if placed:
                 self._meetings = in_order(meetings, self.scene, self.structure, guesses)
             tries.append(self._planned_first(prediction, joint_s, guesses))
@@ -159,6 +163,11 @@ class Planner:
         self._keep(best)
         if self._ego.leaders:
             best = self._led(best)
+            if best.solution.missed.by > GOOD and not meetings:
+                self._moments_s, self._others = {}, {}
+                guesses, _ = even(_EARLY_S, _PACES[0])
+                early = self._led(self._planned_first(prediction, _EARLY_S, guesses))
+                best = min(best, early, key=lambda found: found.solution.cost)
         if meetings and not placed:
             self._keep(best)
             self._meetings = in_order(meetings, self.scene, self.structure, best.plan.profiles)
@@ -167,14 +176,12 @@ class Planner:
         best = self._turned(best)
         self._keep(best)
         self._meetings = needed(best.meetings)
-        for hero in self._heroes:
-            if (name := self._trigger(hero)) is not None:
-                self._joint_s[hero.id] = self.plan.profiles[hero.id].knot_times_s[name]
-        missed, steps = best.solution.missed, best.solution.steps
-        attempt = Attempt(self.plan, missed, time.perf_counter() - started, steps)
+        names = {hero.id: name for hero in self._heroes if (name := self._trigger(hero)) is not None}
+        self._joint_s = {hero: self.plan.profiles[hero].knot_times_s[name] for hero, name in names.items()}
+        missed, wall_s = best.solution.missed, time.perf_counter() - started
         foreseen = self.plan.profiles[EGO]
-        self.records = [Replan(0.0, _status(best.solution), "daqp", attempt.wall_s, missed.by, "", foreseen)]
-        return attempt
+        self.records = [Replan(0.0, _status(best.solution), "daqp", wall_s, missed.by, "", foreseen)]
+        return Attempt(self.plan, missed, wall_s, best.solution.steps)
 
     def _keep(self, found: _Found) -> None:
         self.plan, self._moments_s, self._others = found.plan, found.moments_s, found.others
@@ -229,64 +236,11 @@ class Planner:
         )
         return self._made(problem, solve(problem, problem.guess, 0), foreseen)
 
-    def _even_motions(self, prediction: Profile, joint_s: float, pace: float) -> tuple[dict[int, Profile], bool]:
-        """Return first guesses: everybody comes evenly to where a condition at its trigger wants it.
-
-        And whether there is one for each: so that they tell who goes first.
-        """
-        found: dict[int, Profile] = {}
-        times_s: dict[int, float] = {}
-        told = True
-        for hero in self._heroes:
-            speed_mps = pace * self.limits[hero.id].natural_approach_speed_mps
-            instant, at_s = self._asked.trigger(hero.id), joint_s
-            if self._ego_decides(hero):
-                at_s = self._times.instant_s(hero, 0.0, prediction, None)
-            elif hero.id not in self.structure.triggers and instant is not None:  # it hangs on others that came before
-                at_s = max(
-                    (then_s + self._asked.least_s[then, instant] for then, then_s in times_s.items()), default=0.0
-                )
-            else:
-                told = False
-            if instant is not None:
-                times_s[instant] = at_s
-            states = {EGO: prediction.state(at_s)[:2]} | {other: each.state(at_s)[:2] for other, each in found.items()}
-            there_m = self._place_m(hero, states, speed_mps)
-            told &= there_m is not None
-            if there_m is None:
-                there_m = 0.5 * self.scene.routes[hero.id].landmarks["route_end"]
-            moves = [(at_s, 0.0, 0)]
-            found[hero.id] = Profile(
-                chain(0.0, there_m - speed_mps * at_s, speed_mps, moves), {hero.sketch.knots[0]: 0.0}
-            )
-        return found, told
-
-    @property
-    def _meet_later(self) -> bool:
-        """Whether the program says of several heroes where they are at one moment that is no trigger."""
-        instants = set(self.structure.instants) - set(self.structure.triggers.values())
-        return any(len(placed_at(self.scene.program, instant) - {EGO}) > 1 for instant in instants)
-
-    def _place_m(self, hero: Actor, states: Mapping[int, tuple[float, float]], speed_mps: float) -> float | None:
-        """Return where a hero that is so fast is at its trigger, if a condition there, on others so placed, tells."""
-        name = self._asked.adapts_until.get(hero.id)
-        instant = self.structure.triggers.get(hero.id, frozenset() if name is None else frozenset({(hero.id, name)}))
-        for condition in self.conditions:
-            if (
-                condition.moments <= instant
-                and hero.id in condition.weights
-                and set(condition.weights) <= {hero.id, *states}
-            ):
-                per_metre = condition.weights[hero.id][0]
-                if per_metre:
-                    return -condition.value({**states, hero.id: (0.0, speed_mps)}) / per_metre
-        return None
-
     def _first_situation(self, prediction: Profile, joint_s: float, guesses: Mapping[int, Profile]) -> Situation:
         triggers = {
             hero.id: self._times.instant_s(hero, 0.0, prediction, None)
             for hero in self._heroes
-            if self._ego_decides(hero)
+            if self._times.ego_decides(hero)
         }
         knots = {self._asked.knot(hero, self._name(hero)): at_s for hero, at_s in triggers.items()}
         knots |= self._ego_knots(0.0, prediction, triggers, knots)
@@ -400,7 +354,7 @@ class Planner:
             trigger = self._trigger(hero)
             if trigger is None or (instant := self._asked.knot(hero.id, trigger)) in knots:
                 continue
-            if not self._ego_decides(hero):
+            if not self._times.ego_decides(hero):
                 planned[instant] = self._joint_s[hero.id]
                 sooner_s = self._comes_true_s(hero, time_s, prediction, profile.knot_times_s[trigger])
                 if sooner_s is not None:
@@ -440,9 +394,8 @@ class Planner:
             return None
         s_m, speed_mps, _ = self.plan.profiles[hero.id].state(time_s)
         even = Profile(chain(time_s, s_m, speed_mps, [(1.0, 0.0, 0)]))
-        soonest_s = time_s + SHORTEST_LEAD_S
-        for settled_s in self._settled_s({self._asked.knot(hero.id, self._name(hero.id)): 0.0}, time_s).values():
-            soonest_s = max(soonest_s, settled_s)
+        settled_s = self._settled_s({self._asked.knot(hero.id, self._name(hero.id)): 0.0}, time_s)
+        soonest_s = max([time_s + SHORTEST_LEAD_S, *settled_s.values()])
         found = here[0].first_time({EGO: prediction, hero.id: even}, soonest_s)
         return found if found is not None and found < planned_s else None
 
@@ -482,10 +435,6 @@ class Planner:
     def _name(self, hero: int) -> str:
         return self.structure.trigger_knot(hero) or ""
 
-    def _ego_decides(self, hero: Actor) -> bool:
-        """Whether the ego alone decides when a hero's trigger comes."""
-        return hero.id in self.structure.triggers and self._times.ego_side(hero) is not None
-
     def _ego_knots(
         self, time_s: float, prediction: Profile, triggers: Mapping[int, float], known: Mapping[int, float]
     ) -> dict[int, float]:
@@ -499,11 +448,9 @@ class Planner:
         wanted, found = self._asked.wanted, {}
         for hero in self._heroes:
             name = self._trigger(hero)
-            if (
-                name is None
-                or name == hero.sketch.knots[-1]
-                or (instant := self._asked.knot(hero.id, name)) not in joint
-            ):
+            if name is None or name == hero.sketch.knots[-1]:
+                continue
+            if (instant := self._asked.knot(hero.id, name)) not in joint:
                 continue
             sense = 1.0 if hero.sketch.pieces[hero.sketch.knot_index(name)] is PieceKind.ACC else -1.0
             back = [time_s - _LOOKED_AT_S * k for k in range(_LOOKED_BACK) if time_s >= _LOOKED_AT_S * k]

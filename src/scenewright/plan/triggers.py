@@ -53,6 +53,10 @@ class TriggerTimes:
             c for c in self.conditions if set(c.weights) == {EGO} and not c.moments & shared and first not in c.moments
         ]
 
+    def ego_decides(self, hero: Actor) -> bool:
+        """Whether the ego alone decides when a hero's trigger comes."""
+        return hero.id in self.structure.triggers and self.ego_side(hero) is not None
+
     def ego_side(self, hero: Actor) -> LinearCondition | None:
         """Return the condition on the ego alone that the hero's trigger waits for; None where both decide."""
         here = [c for c in self.conditions if c.moments <= self.structure.triggers[hero.id]]
