@@ -50,7 +50,7 @@ def test_a_speed_is_that_of_the_start_and_a_kept_one_is_kept() -> None:
     assert "A1v(go) == 50/3" not in found
     kept = formulas(reading_of(f"{start} and keeps its speed.{end}"))
     assert {"A1v(t0) == 50/3", "A1v(go) == 50/3"} <= kept
-    goes_first = formulas(reading_of(f"{start} and keeps its speed.{end.split('brakes')[0]}goes first."))
+    goes_first = formulas(reading_of(f"{start} and keeps its speed.{end.split('brakes', maxsplit=1)[0]}goes first."))
     assert {"A1v(go1) == 50/3", "A1v(go2) == 50/3"} <= goes_first
     goes_on = formulas(reading_of(f"{MEETS}the hero continues at a constant speed."))
     assert "A1a(go2) == 0" in goes_on

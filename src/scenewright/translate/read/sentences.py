@@ -17,8 +17,7 @@ from scenewright.translate import story as st
 from scenewright.translate.read.chunks import Chunk, sentences
 from scenewright.translate.read.clauses import PEOPLE, Clause
 from scenewright.translate.read.items import Segment, items_of, parted, segments_of
-from scenewright.translate.read.labels import take_labels
-from scenewright.translate.read.narrative import COURTESIES, Doing, Narrative, steady
+from scenewright.translate.read.narrative import COURTESIES, Doing, Narrative, steady, take_labels
 
 _ORDERS = ("before", "after", "no later than")
 _HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
