@@ -21,7 +21,7 @@ from scenewright.program.linear import Atom, Linear, linear
 from scenewright.program.resolve import usual_partner
 from scenewright.program.structure import knots_of, read_structure, synchronised
 from scenewright.translate import story as st
-from scenewright.translate.compile import DERIVED, DRIVEN, PIECES, TURNS, UNNAMED, amounts_of, counted_down, route_of
+from scenewright.translate.compile import DERIVED, DRIVEN, PIECES, TURNS, UNNAMED, counted_down, route_of
 from scenewright.translate.phrases import untold
 from scenewright.units import SI_SYMBOL, UNITS, Dimension, format_fraction, unit_of_name
 
@@ -120,7 +120,7 @@ class Decompiled:
             program.map_name,
             None if program.name in UNNAMED else program.name,
         )  # fmt: skip
-        used = {amount.name for amount in amounts_of(story)}
+        used = {amount.name for amount in st.within(story, st.Amount)}
         declared = (each for each in program.parameters if each.name not in used or each != pt.Parameter(each.name))
         return replace(story, parameters=tuple(declared))
 

@@ -92,7 +92,7 @@ class Narrative(Cast):
         """Refuse a courtesy that no deed bears out."""
         own = [doing for doing in self.doings if who in (None, doing.actor)]
         stops = any(doing.verb in (st.Verb.BRAKE, st.Verb.STAND) for doing in own)
-        if not own or not (self.orders if courtesy == "first" else stops is (courtesy == "yields")):
+        if not own or stops is not (courtesy == "yields"):
             self.refuse("it is not said what is done to yield, or instead", quote, "say where it stops or passes")
 
     def _keep(self, actor: int, quote: st.Quote) -> None:
