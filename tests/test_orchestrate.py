@@ -19,8 +19,8 @@ from scenewright.program.text import parse_program
 from scenewright.roads import find_conflict
 from scenewright.trace.files import read_trace
 from scenewright.translate.model.settings import TranslatorSettings
-from scenewright.translate.questions import read_answers
 from scenewright.translate.sources import read_scenario
+from scenewright.translate.understand import read_answers
 
 SENTENCE = (
     "The ego drives westbound and is 90 m before the intersection. An oncoming hero turns left into the driveway. "

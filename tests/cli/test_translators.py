@@ -13,8 +13,8 @@ import pytest
 from sentences import SENTENCE
 
 from scenewright.cli.translators import ask
-from scenewright.translate.questions import OpenQuestionsError
 from scenewright.translate.story import Question, Quote
+from scenewright.translate.understand import OpenQuestionsError
 
 WAY = Question("way of ego", "Which way does the ego go?", ("left", "right", "straight on"), 2, Quote(4, 7, "ego"))
 Type = Callable[[str], None]

@@ -7,9 +7,9 @@ import re
 from random_stories import told_stories
 
 from scenewright.program.text import parse_program
-from scenewright.translate.compile import amounts_of
 from scenewright.translate.decompile import decompile
 from scenewright.translate.phrases import amount
+from scenewright.translate.story import Amount, within
 from scenewright.translate.tell import tell
 
 TWO = """
@@ -37,7 +37,7 @@ def test_every_amount_is_told_and_no_letters_of_code() -> None:
     for story, lines in told_stories(100):
         told = " ".join(lines)
         assert not re.search(r"\bA\d+[xva(.]|==|<=|>=|\bt\d+\b", told), told
-        assert all(amount(each) in told or (each.value == 0 and "stands" in told) for each in amounts_of(story))
+        assert all(amount(each) in told or (each.value == 0 and "stands" in told) for each in within(story, Amount))
 
 
 def test_two_who_begin_at_one_moment() -> None:

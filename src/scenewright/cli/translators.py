@@ -109,7 +109,7 @@ def _settings(
     ] = None,
 ) -> TranslatorSettings:
     """Return the settings that these options say."""
-    from scenewright.translate.questions import read_answers
+    from scenewright.translate.understand import read_answers
 
     return TranslatorSettings(
         base_url=base_url,
@@ -177,7 +177,7 @@ def ask(question: Question) -> str:
     OpenQuestionsError
         At the end of the input where there is no default.
     """
-    from scenewright.translate.questions import OpenQuestionsError
+    from scenewright.translate.understand import OpenQuestionsError
 
     words = f'  ("{question.quote.text}")' if question.quote else ""
     lines = [f"\n{question.text}{words}"]

@@ -29,8 +29,7 @@ from scenewright.solve.limits import Limits
 from scenewright.solve.plan import SCHEMA_VERSION
 from scenewright.trace.files import TRACE_FILE, write_trace
 from scenewright.translate.lines import lines_of_program
-from scenewright.translate.questions import as_data
-from scenewright.translate.understand import Understanding
+from scenewright.translate.understand import Understanding, as_data
 
 TEXT_FILE, ANSWERS_FILE = "description.txt", "answers.json"
 _PACKAGES = ("z3-solver", "daqp", "numpy", "scipy", "pyarrow")

@@ -50,7 +50,7 @@ def compile_story(story: st.Story, description: str | None = None) -> pt.Program
     compiler = _Compiler(story, description, {actor.id: _sketch(story, actor.id) for actor in story.actors})
     compiler.constrain()
     parameters = {each.name: each for each in story.parameters}
-    for amount in amounts_of(story):
+    for amount in st.within(story, st.Amount):
         if amount.name is not None:
             parameters.setdefault(amount.name, pt.Parameter(amount.name))
     program = pt.Program(
@@ -100,11 +100,6 @@ def _check_known(story: st.Story) -> None:
         if len(story.deeds_of(hero.id)) != len(own):
             fix = "let each deed begin where the one before it ends"
             raise refused(f"two deeds of {hero.name} at one time", fix, own[-1].quote)
-
-
-def amounts_of(story: st.Story) -> list[st.Amount]:
-    """Return every amount that a story speaks of."""
-    return list(st.within(story, st.Amount))
 
 
 def _sketch(story: st.Story, actor: int) -> pt.Sketch:

@@ -14,8 +14,7 @@ from scenewright.roads.load import load_map
 from scenewright.translate import story as st
 from scenewright.translate.model.settings import TranslatorSettings
 from scenewright.translate.model.translator import understand_by_model
-from scenewright.translate.questions import OpenQuestionsError
-from scenewright.translate.understand import Understanding
+from scenewright.translate.understand import OpenQuestionsError, Understanding
 
 MAP = load_map("t_intersection")
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import pytest
 
-from scenewright.errors import UnknownWordsError
+from scenewright.errors import ProgramError, UnknownWordsError
 from scenewright.translate import story as st
+from scenewright.translate.read.narrative import Narrative, take_labels
 from scenewright.translate.read.sentences import read
 from scenewright.translate.story import Verb
 
@@ -99,3 +102,21 @@ def test_who_waits_goes_on_after_what_it_waits_for(text: str) -> None:
 def test_what_is_no_condition_or_was_not_told_is_refused(text: str) -> None:
     with pytest.raises(UnknownWordsError):
         read(WAYS + text)
+
+
+def test_labels_are_taken_and_offsets_stay() -> None:
+    limit = "Parameter limit_kmph is 10 m/s, from 5 km/h to 50 km/h."
+    text = f"Title: a. b\nMap: town\nManner: stands_s is 2000 ms.\n{limit}\nThe ego"
+    narrative = Narrative(text)
+    rest = take_labels(text, narrative)
+    assert len(rest) == len(text)
+    assert rest.replace(".", " ").split() == ["The", "ego"]
+    assert (narrative.title, narrative.map_name, narrative.manner.stands_s) == ("a. b", "town", 2)
+    (parameter,) = narrative.parameters
+    assert (parameter.value, parameter.low, parameter.high) == (Fraction(36), 5, 50)
+
+
+@pytest.mark.parametrize("line", ["Parameter gap is 3 m.", "Parameter gap_m is 3 s.", "Manner: stands_s is 900 s."])
+def test_labels_that_make_no_sense(line: str) -> None:
+    with pytest.raises((UnknownWordsError, ProgramError)):
+        take_labels(line, Narrative(line))

@@ -19,7 +19,6 @@ _CUTS = ("comma", "joint", "link")  # what parts one thing that is said from ano
 _COLOURS = ("unknown", "harmless", "relation", "heading", "turn")  # what may stand before a name and belong to it
 _PREDICATES = ("be", "state", "event", "phase", "deed", "turn", "mood", "order", "kept")
 _WHOLE = ("place", "amount", "area", "standstill")  # what needs nobody after it
-_NOT_OF_WHOM = ("before", "behind", "after", "than")
 
 
 def people(*chunks: Chunk) -> set[int]:
@@ -81,10 +80,8 @@ class Heard:
             self.said.append(sorted([*kept, *own_names], key=lambda chunk: (chunk.start, -chunk.end)))
 
     def within(self, span: Span) -> list[Chunk]:
-        """Return the chunks that lie in a stretch, whether or not it begins with their article."""
-        articles = {"place": len("the ")}
-        return [each for own in self.said for each in own
-                if lies_in(each.start + articles.get(each.kind, 0), each.end, [span])]  # fmt: skip
+        """Return the chunks that lie in a stretch."""
+        return [each for own in self.said for each in own if lies_in(each.start, each.end, [span])]
 
     def named(self, span: Span) -> set[int]:
         """Return of whom a stretch is by its own words: of all where it says "both", or of the only one it names."""
@@ -116,26 +113,15 @@ class Heard:
     def subjects(self, at: int) -> set[int]:
         """Return who may be spoken of at a place: the nearest, whom the clause is of before others."""
         number, own, index = self.sentence(at)
-        beside = next((each for each in own[index + 1 :] if each.kind not in _COLOURS), None)
-        if own[index].kind in _COLOURS and beside and beside.kind == "who":
-            return people(beside)  # "a westbound truck"
-        behind = people(own[index - 1]) if index and own[index].kind == "heading" else set[int]()  # "a truck westbound"
-        cuts = [place for place, each in enumerate(own) if each.kind in _CUTS]
-        start = max((place for place in cuts if place < index), default=-1)
-        end = min((place for place in cuts if place >= index), default=len(own))
+        start = max((place for place, each in enumerate(own[:index]) if each.kind in _CUTS), default=-1)
 
-        def rank(place: int) -> tuple[bool, bool, bool, bool, int]:
-            side = own[place - 1] if place and own[place - 1].kind == "side" else None
-            of_place = place > 1 and own[place - 2].kind == "place" and side is not None and side.value != "for"
-            told = side is not None and side.value not in _NOT_OF_WHOM and not of_place  # "3 s for the ego"
-            seen = own[index].amount is not None and place == index - 1 and side is None  # "sees the hero 20 m before"
-            behind, head = place > index, _is_head(own, place)
-            return not seen, behind and not (told and place < end), place < start, not head, abs(place - index)
+        def rank(place: int) -> tuple[bool, bool, bool, int]:
+            return place > index, place < start, not _is_head(own, place), abs(place - index)
 
         named = (place for place, each in enumerate(own) if each.kind == "who" or _is_head(own, place))
         found = min(named, key=rank, default=0)
         if own[found].kind == "who":
-            return people(own[found]) | behind
+            return people(own[found])
         # "It", or nobody: those named before in the sentence, and in those before, back to one that begins with a name.
         earlier = set[int]()
         for before in reversed(self.said[:number]):

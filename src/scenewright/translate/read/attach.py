@@ -57,9 +57,7 @@ def _attach(taken: Taken) -> None:
     passes_nothing = "pass" in taken.states and all(each.amount is not None for each in places)
     fast = taken.quantity == "speed" or any(each.quantity is st.Quantity.SPEED for each in clause.measures)
     is_kept = "kept" in clause.flags
-    if is_kept and clause.rate is not None:  # "brakes at a constant rate of 3 m/s^2"
-        clause.flags.discard("kept")
-    elif is_kept and not fast:  # "keeps a gap of 20 m"
+    if is_kept and not fast:  # "keeps a gap of 20 m"
         raise taken.left_over(last)
     is_empty = taken.quantity and not (taken.amounts or is_kept)
     if passes_nothing or ("reach" in taken.states and not places) or is_empty:

@@ -170,8 +170,6 @@ class Cast:
     def relate(self, number: int, *relations: st.Relation) -> None:
         """Add how somebody's way lies to another's."""
         actor = self.actor(number)
-        if number == EGO and len(self.heroes) == 1:  # "the ego is ahead": of the only other one
-            relations = tuple(replace(each, of=self.heroes[0].id) for each in relations)
         if any(each.of == number for each in relations):
             self.refuse("it is not clear whose way this is", relations[0].quote)
         self.actors[number] = replace(actor, relations=tuple(dict.fromkeys((*actor.relations, *relations))))

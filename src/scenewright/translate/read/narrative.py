@@ -1,23 +1,29 @@
 """The story while it is being read: who is known, which moments, who does what, in the order in which it is told.
 
-What enters: what sentences say, one after the other. What leaves: a `Story`. It reads no words; what a text leaves out
-by custom (who brakes comes to a standstill, who stops and goes on has stood in between) is put in here, and told.
+What enters: what sentences say, one after the other, and lines with a label. What leaves: a `Story`. What a text leaves
+out by custom (who brakes comes to a standstill, who stops and goes on has stood in between) is put in here, and told.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import takewhile
 
-from scenewright.program.manner import USUAL, Manner
+from scenewright.errors import UnknownWordsError
+from scenewright.program.manner import USUAL, Manner, manner_of, unit_of
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.translate import story as st
 from scenewright.translate.read.cast import Cast
 from scenewright.translate.read.clauses import Clause
+from scenewright.units import UNITS, Unit, unit_of_name
 
 COURTESIES = {"yields", "insists"}
+_LINE = re.compile(r"^(Title:|Map:|Manner:|Parameter) (.*)$", re.MULTILINE)
+_NUMBER = r"(-?\d+(?:[./]\d+)?)(?: ?([A-Za-z][A-Za-z/^0-9]*))?"
+_VALUE = re.compile(rf"(\w+) is (?:open|{_NUMBER})(?:, from {_NUMBER} to {_NUMBER})?\.")
 
 
 @dataclass(slots=True)
@@ -86,7 +92,7 @@ class Narrative(Cast):
         """Refuse a courtesy that no deed bears out."""
         own = [doing for doing in self.doings if who in (None, doing.actor)]
         stops = any(doing.verb in (st.Verb.BRAKE, st.Verb.STAND) for doing in own)
-        if not own or not (self.orders if courtesy == "first" else stops is (courtesy == "yields")):
+        if not own or stops is not (courtesy == "yields"):
             self.refuse("it is not said what is done to yield, or instead", quote, "say where it stops or passes")
 
     def _keep(self, actor: int, quote: st.Quote) -> None:
@@ -251,3 +257,41 @@ class Narrative(Cast):
 def steady(actor: int, quote: st.Quote) -> st.Measure:
     """Return that somebody keeps its speed, whichever that is."""
     return st.Measure(actor, st.Quantity.RATE, "==", st.Amount(Fraction(0), "m/s^2"), quote=quote)
+
+
+# -- lines with a label in front ------------------------------------------------------------------------------------
+def take_labels(text: str, narrative: Narrative) -> str:
+    """Give title, map, manner and parameters to `narrative`; return the text with their lines blank: offsets stay."""
+    manner: list[tuple[str, Fraction, None]] = []
+
+    def take(match: re.Match[str]) -> str:
+        (label, said), value = match.groups(), _VALUE.fullmatch(match[2])
+        if label == "Title:":
+            narrative.title = said
+        elif label == "Map:":
+            narrative.map_name = said
+        elif value is None or (label == "Manner:" and value[2] is None):
+            return match[0]
+        elif label == "Manner:":
+            manner.append((value[1], _in(unit_of(value[1]), value, 2) or Fraction(0), None))
+        else:
+            unit = unit_of_name(value[1])
+            if unit is None:
+                fix = "end its name in _m, _s, _mps or _mpss"
+                raise UnknownWordsError(f"parameter {value[1]} has no unit", found=match[0], fix=fix)
+            told, low, high = (each and each / unit.si_factor for at in (2, 4, 6) for each in [_in(unit, value, at)])
+            narrative.parameters.append(Parameter(value[1], told, low, high))
+        return " " * len(match[0])
+
+    text = _LINE.sub(take, text)
+    if manner:
+        narrative.manner = manner_of(manner)
+    return text
+
+
+def _in(unit: Unit, match: re.Match[str], at: int) -> Fraction | None:
+    """Return an amount in SI units, which is one of `unit` where no other is told; None where it is open."""
+    told = UNITS.get(match[at + 1] or unit.symbol)
+    if told is None or told.dimension != unit.dimension:
+        raise UnknownWordsError(f"'{match[at + 1]}' is no unit of {unit.dimension}", found=match[0])
+    return None if match[at] is None else Fraction(match[at]) * told.si_factor

@@ -17,14 +17,13 @@ from scenewright.translate import story as st
 from scenewright.translate.read.chunks import Chunk, sentences
 from scenewright.translate.read.clauses import PEOPLE, Clause
 from scenewright.translate.read.items import Segment, items_of, parted, segments_of
-from scenewright.translate.read.labels import take_labels
-from scenewright.translate.read.narrative import COURTESIES, Doing, Narrative, steady
+from scenewright.translate.read.narrative import COURTESIES, Doing, Narrative, steady, take_labels
 
 _ORDERS = ("before", "after", "no later than")
 _HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
 _LEADS = ("then", "then left", "then right", "at once", "later", "meanwhile", "start")
 _SAYS_NOTHING = {"unknown", "comma", "harmless", "be", "joint", "quality", "name", "mood", "other"}
-_COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "yields", "insists", "order", "side", "link"}
+_COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "side", "link"}  # "This tests how the ego reacts."
 
 
 def read(text: str, answers: Mapping[str, str] | None = None, name: str = "description") -> st.Story:
@@ -34,7 +33,7 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
         narrative.quote = st.Quote(chunks[0].start, chunks[-1].end, text[chunks[0].start : chunks[-1].end])
         narrative.assumptions += [f"'{chunk.text}' is read with '{word}'" for chunk in chunks for word in chunk.slips]
         kinds = {chunk.kind for chunk in chunks}
-        if kinds <= _SAYS_NOTHING or _comments(narrative, chunks):
+        if kinds <= _SAYS_NOTHING or ("comment" in kinds and kinds <= _COMMENT):
             narrative.asides.append(narrative.quote)
             continue
         chunks = [chunk for chunk in chunks if chunk.kind != "harmless"]
@@ -48,17 +47,6 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
             error.place = error.place or Where(name, text, narrative.quote.span)
             raise
     return narrative.story()
-
-
-def _comments(narrative: Narrative, chunks: list[Chunk]) -> bool:
-    """Whether a sentence says what is tested; who yields in it, or goes first, is checked against what is told."""
-    people = [chunk.value for chunk in chunks if chunk.kind in ("actor", "name")]
-    kinds = {chunk.kind for chunk in chunks}
-    if "comment" not in kinds or people[:1] not in ([], ["ego"]) or not kinds <= _COMMENT:
-        return False
-    narrative.courtesies += [(None, each.value, each.quote) for each in chunks
-                             if each.kind in ("yields", "insists", "order")]  # fmt: skip
-    return True
 
 
 @dataclass(slots=True)
