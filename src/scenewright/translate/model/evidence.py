@@ -68,19 +68,13 @@ class _Evidence(Measured):
         plain = [each for name in self.claim.called[actor.id] for own in Heard(name, {}).said for each in own]
         known = {each.value for each in plain if each.kind == "actor"}
         kinds = known - {"ego", "hero", "car"}
-        if ("hero" if actor.id == EGO else "ego") in known:
-            yield f"'{actor.quote.text}' is {'not ' if actor.id == EGO else ''}under test, not {actor.name}"
-        elif kinds and actor.kind not in known:
+        if kinds and actor.kind not in known:
             yield f"{actor.name} is no {actor.kind}: the text calls it {', '.join(sorted(kinds))}"
         for each in actor.relations:
             if each.quote is None:
                 yield f"no words are quoted for '{each.kind}' of {actor.name}"
                 continue
             said = self.heard.within(each.quote.span)
-            turned = {"ahead": "behind", "behind": "ahead"}.get(each.kind)
-            if any((one.kind, one.value) == ("side", turned) for one in said):  # who follows has the other ahead
-                yield from self.says(each.quote, said, turned or "", each.of, other=actor.id)
-                continue
             own = [one for one in said if one.kind == "relation" or (one.kind, one.value) == ("side", each.kind)]
             own = [one for one in own if one.value == each.kind or one.value != "same way"]
             yield from self.says(each.quote, own, each.kind, actor.id, other=each.of)
@@ -115,7 +109,7 @@ class _Evidence(Measured):
     def _told_at(self, number: int, link: str = "") -> Iterator[tuple[set[int], st.Quote | None]]:
         """Yield who does or is something at a moment, with the words for it; "when" a deed begins, "until" it ends."""
         moment = self.claim.story.moments[number]
-        for each in (atom for condition in moment.conditions for atom in st.atoms(condition)):
+        for each in st.within(moment.conditions, st.Measure):
             yield st.people_in(each), each.quote
         for deed in self.claim.story.deeds:
             if number == deed.begins or (number == deed.ends and not moment.conditions):
@@ -135,8 +129,7 @@ class _Evidence(Measured):
         stopped = any(each.ends == deed.begins and each.verb == st.Verb.BRAKE for each in others)
         if deed.verb == st.Verb.DRIVE and all(meaning(each) != deed.verb for each in verbs):
             # What somebody does until its first deed, and after its last, is said with who it is.
-            names = [each.start for each in said if each.kind == "who"]
-            yield from self.subject(deed.actor, quote, [quote.start, *names])
+            yield from self.subject(deed.actor, quote, [quote.start])
         elif deed.verb in set(st.Verb) and not (deed.verb == st.Verb.STAND and stopped and STANDS.search(quote.text)):
             yield from self.says(quote, verbs, deed.verb, deed.actor, *DOES[deed.verb])
 

@@ -15,10 +15,7 @@ from scenewright.program.types import EGO
 from scenewright.translate.model.schema import locate
 from scenewright.translate.read.chunks import Chunk, sentences
 
-_CUTS = ("comma", "joint", "link")  # what parts one thing that is said from another
-_COLOURS = ("unknown", "harmless", "relation", "heading", "turn")  # what may stand before a name and belong to it
-_PREDICATES = ("be", "state", "event", "phase", "deed", "turn", "mood", "order", "kept")
-_WHOLE = ("place", "amount", "area", "standstill")  # what needs nobody after it
+_PREDICATES = ("be", "state", "event", "phase", "deed", "turn", "mood", "order", "kept", "amount")
 
 
 def people(*chunks: Chunk) -> set[int]:
@@ -42,14 +39,10 @@ def words_in(*texts: str) -> set[str]:
 
 
 def _is_head(own: Sequence[Chunk], at: int) -> bool:
-    """Whether a name or "it" is whom a clause speaks of: it stands at its beginning."""
+    """Whether a name or "it" is whom a clause speaks of: what it does or is follows."""
     if own[at].kind != "who" and (own[at].kind, own[at].value) != ("pronoun", "it"):
         return False
-    before = next((each for each in reversed(own[:at]) if each.kind not in _COLOURS), None)
-    follows = own[at + 1].kind if at + 1 < len(own) else ""
-    if before and before.kind == "side":
-        return before.value in ("before", "after", "with") and follows in (*_PREDICATES, "amount")
-    return before is None or before.kind in (*_CUTS, *_WHOLE) or follows in _PREDICATES
+    return at + 1 < len(own) and own[at + 1].kind in _PREDICATES
 
 
 @dataclass(slots=True)
@@ -111,15 +104,10 @@ class Heard:
         return places[0].value if places else None
 
     def subjects(self, at: int) -> set[int]:
-        """Return who may be spoken of at a place: the nearest, whom the clause is of before others."""
+        """Return who may be spoken of at a place: who is named last before it, else next after it."""
         number, own, index = self.sentence(at)
-        start = max((place for place, each in enumerate(own[:index]) if each.kind in _CUTS), default=-1)
-
-        def rank(place: int) -> tuple[bool, bool, bool, int]:
-            return place > index, place < start, not _is_head(own, place), abs(place - index)
-
         named = (place for place, each in enumerate(own) if each.kind == "who" or _is_head(own, place))
-        found = min(named, key=rank, default=0)
+        found = min(named, key=lambda place: (place > index, abs(place - index)), default=0)
         if own[found].kind == "who":
             return people(own[found])
         # "It", or nobody: those named before in the sentence, and in those before, back to one that begins with a name.

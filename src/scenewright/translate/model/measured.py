@@ -132,12 +132,10 @@ class Measured:
     def _place(self, measure: st.Measure, place: st.Place, quote: st.Quote, at: int | None) -> Iterator[str]:
         """Check a place: that it is named, by whom it is passed, and on which side of it somebody is."""
         said, told = self.heard.within(quote.span), PLACES[place.name]
-        own = [each for each in said if each.kind == "place" or each.value == place.name]
-        marks = [each.start for each in own if each.value == place.name]
+        marks = [each.start for each in said if each.value == place.name]
         plain = [each for each in said if each.kind not in ("pronoun", "possessive", "unknown")]  # "past its stop line"
-        turns = [one.start for one, two in pairwise(plain) if two.kind == "turn" or two.value == "turn"
-                 if _OF_TURNS.get(one.value) == place.name]  # fmt: skip
-        marks += turns  # "begins its left turn"
+        marks += [one.start for one, two in pairwise(plain) if two.kind == "turn" or two.value == "turn"
+                  if _OF_TURNS.get(one.value) == place.name]  # "begins its left turn" # fmt: skip
         if not marks:
             yield from self.silent(quote, f"does not name the {told}: quote on to where it is named", told)
         elif at is not None and self.heard.place(at) not in (None, place.name):

@@ -182,8 +182,6 @@ class Narrative(Cast):
                 return doing.begins
             doing.ends = self.new_moment() if doing.ends is None else doing.ends
             return doing.ends
-        if clause.measures and "event" in clause.notes:  # "begins its turn into the driveway"
-            self.tell(clause)
         if not clause.measures or clause.says_more_than("measures", "times"):
             self.refuse("this is no event", clause.quote)
         moment = self._moment_with(clause.measures, one=True)
