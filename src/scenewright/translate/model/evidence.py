@@ -1,7 +1,7 @@
 """Nothing is believed that its own words do not say: holds what a reply claims against the stretches that it quotes.
 
 What enters: a `Claim` and the text. What leaves: a `TranslationError` with every fault, for the model. Who, ways,
-deeds, orders and what holds are checked here, amounts and measures in `measured`; and whether all of the text was used.
+deeds, orders and what holds are checked here, amounts and measures in `heard`; and whether all of the text was used.
 """
 
 from __future__ import annotations
@@ -15,8 +15,7 @@ from scenewright.errors import Span, TranslationError
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
 from scenewright.translate.compile import COMPASS
-from scenewright.translate.model.heard import Heard, lies_in, meets, people, words_in
-from scenewright.translate.model.measured import STANDS, Measured, meaning
+from scenewright.translate.model.heard import STANDS, Heard, Measured, lies_in, meaning, meets, people, words_in
 from scenewright.translate.model.schema import Claim, locate
 from scenewright.translate.phrases import COMPASS_WORDS, DOES
 from scenewright.translate.read.chunks import Chunk
@@ -75,8 +74,13 @@ class _Evidence(Measured):
                 yield f"no words are quoted for '{each.kind}' of {actor.name}"
                 continue
             said = self.heard.within(each.quote.span)
-            own = [one for one in said if one.kind == "relation" or (one.kind, one.value) == ("side", each.kind)]
-            own = [one for one in own if one.value == each.kind or one.value != "same way"]
+            turned = {"ahead": "behind", "behind": "ahead"}.get(each.kind)
+            if any((one.kind, one.value) == ("side", turned) for one in said):  # who follows has the other ahead
+                yield from self.says(each.quote, said, turned or "", each.of, other=actor.id)
+                continue
+            own = [
+                one for one in said if one.value == each.kind or (one.kind == "relation" and one.value != "same way")
+            ]
             yield from self.says(each.quote, own, each.kind, actor.id, other=each.of)
 
     def _way(self, actor: st.Actor, quote: st.Quote | None) -> Iterator[str]:
@@ -129,7 +133,8 @@ class _Evidence(Measured):
         stopped = any(each.ends == deed.begins and each.verb == st.Verb.BRAKE for each in others)
         if deed.verb == st.Verb.DRIVE and all(meaning(each) != deed.verb for each in verbs):
             # What somebody does until its first deed, and after its last, is said with who it is.
-            yield from self.subject(deed.actor, quote, [quote.start])
+            names = [each.start for each in said if each.kind == "who"]
+            yield from self.subject(deed.actor, quote, [quote.start, *names])
         elif deed.verb in set(st.Verb) and not (deed.verb == st.Verb.STAND and stopped and STANDS.search(quote.text)):
             yield from self.says(quote, verbs, deed.verb, deed.actor, *DOES[deed.verb])
 
