@@ -78,9 +78,8 @@ class _Evidence(Measured):
             if any((one.kind, one.value) == ("side", turned) for one in said):  # who follows has the other ahead
                 yield from self.says(each.quote, said, turned or "", each.of, other=actor.id)
                 continue
-            own = [
-                one for one in said if one.value == each.kind or (one.kind == "relation" and one.value != "same way")
-            ]
+            own = [one for one in said if one.kind == "relation" or (one.kind, one.value) == ("side", each.kind)]
+            own = [one for one in own if one.value == each.kind or one.value != "same way"]
             yield from self.says(each.quote, own, each.kind, actor.id, other=each.of)
 
     def _way(self, actor: st.Actor, quote: st.Quote | None) -> Iterator[str]:
@@ -116,15 +115,19 @@ class _Evidence(Measured):
         for each in st.within(moment.conditions, st.Measure):
             yield st.people_in(each), each.quote
         for deed in self.claim.story.deeds:
-            if number == deed.begins or (number == deed.ends and not moment.conditions):
-                yield {deed.actor}, deed.quote
+            if number == deed.begins or (number == deed.ends and link == "until"):
+                yield {deed.actor}, deed.quote if link != "until" or number == deed.ends else None
+            elif number == deed.ends:
+                yield {deed.actor}, deed.quote if not moment.conditions and link != "when" else None
 
     def _time(self, number: int, moment: st.Moment) -> Iterator[str]:
         """Check that a moment's time is told with what is so then."""
         quote = moment.time.quote if moment.time else None
         if quote is not None:
-            near = {self.heard.sentence(words.start)[0] for _, words in self._told_at(number) if words}
-            if near and self.heard.sentence(quote.start)[0] not in near:
+            sentence, own, index = self.heard.sentence(quote.start)
+            link = next((each.value for each in reversed(own[:index]) if each.kind == "link"), "")
+            near = {self.heard.sentence(words.start)[0] for _, words in self._told_at(number, link) if words}
+            if near and sentence not in near:
                 yield f"'{quote.text}' is not told with what is so then: say it as an order from start"
 
     def _deed(self, deed: st.Deed, quote: st.Quote) -> Iterator[str]:

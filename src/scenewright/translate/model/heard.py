@@ -55,9 +55,8 @@ def words_in(*texts: str) -> set[str]:
 
 def _is_head(own: Sequence[Chunk], at: int) -> bool:
     """Whether a name or "it" is whom a clause speaks of: what it does or is follows."""
-    if own[at].kind != "who" and (own[at].kind, own[at].value) != ("pronoun", "it"):
-        return False
-    return at + 1 < len(own) and own[at + 1].kind in _PREDICATES
+    is_name = own[at].kind == "who" or (own[at].kind, own[at].value) == ("pronoun", "it")
+    return is_name and at + 1 < len(own) and own[at + 1].kind in _PREDICATES
 
 
 @dataclass(slots=True)

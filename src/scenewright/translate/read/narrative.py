@@ -230,12 +230,8 @@ class Narrative(Cast):
         """Return where a deed begins after one whose end is known; what lies between is standing or driving on."""
         assert before.ends is not None
         stands = st.standstill(before.actor) in self.moments[before.ends].conditions
-        waits = (
-            stands
-            and verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)
-            and "at once" not in leads
-            and before.verb != st.Verb.STAND
-        )
+        sets_off = verb in (st.Verb.DRIVE, st.Verb.SPEED_UP) and before.verb != st.Verb.STAND
+        waits = stands and sets_off and "at once" not in leads
         if moment == before.ends or (moment is None and not waits):
             return before.ends
         between = Doing(before.actor, st.Verb.STAND if stands else st.Verb.DRIVE, before.ends, quote=before.quote)

@@ -234,10 +234,9 @@ class _Sentence:
         drives_on = bool(begins) and clause.deed != st.Verb.STAND  # "it brakes 15 m before the stop line"
         if clause.deed == "turn":
             told = () if moment is None else story.moments[moment].conditions
+            # Where it is told where it is then, it turns later.
             if not any(isinstance(each, st.Measure) and each.actor == clause.subject and each.place for each in told):
-                begins.append(
-                    self._at(clause.subject, "turn_start")
-                )  # else it is told where it is then, and it turns later
+                begins.append(self._at(clause.subject, "turn_start"))
             ends.append(self._at(clause.subject, "turn_end"))
         elif clause.deed == "go first":
             ends.append(self._at(clause.subject, "conflict_point"))
