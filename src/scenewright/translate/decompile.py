@@ -261,7 +261,7 @@ class Decompiled:
 
 def _of_times(compare: ex.Compare) -> Linear | None:
     """Return what a comparison of times holds against zero; None for other comparisons."""
-    form = difference(compare)
+    form = linear(compare.left).minus(linear(compare.right))
     only = len(form.atoms) == len(form.of(ex.Elapsed, ex.ParameterRef))
     return form if only and form.of(ex.Elapsed) else None
 
@@ -284,7 +284,7 @@ def parts_of(formula: ex.Formula) -> Iterator[ex.Formula]:
 # -- a comparison as the one measure that it is ---------------------------------------------------------------------
 def measure_of(compare: ex.Compare, program: pt.Program) -> st.Measure | None:
     """Return the measure that `compare` is, at whatever instant, or None."""
-    form = difference(compare)
+    form = linear(compare.left).minus(linear(compare.right))
     states = [atom for atom in form.atoms if isinstance(atom, ex.State | ex.Derived)]
     if form.of(ex.Elapsed) or not states or len({state.at is None for state in states}) > 1:
         return None
@@ -342,11 +342,6 @@ def _place(landmark: ex.Landmark, actor: int, program: pt.Program) -> st.Place:
     owner = landmark.actor if landmark.actor is not None else actor
     usual = landmark.other in (None, usual_partner(program, owner))
     return st.Place(landmark.name, None if owner == actor else owner, None if usual else landmark.other)
-
-
-def difference(compare: ex.Compare) -> Linear:
-    """Return what a comparison holds against zero."""
-    return linear(compare.left).minus(linear(compare.right))
 
 
 def right_side(form: Linear, dimension: Dimension) -> tuple[bool, st.Amount]:

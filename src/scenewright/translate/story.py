@@ -297,11 +297,6 @@ def within(thing: object, kind: type[T]) -> Iterator[T]:
         yield from within(each, kind)
 
 
-def atoms(condition: Condition) -> Iterator[Measure]:
-    """Yield the measures that a condition is made of."""
-    return within(condition, Measure)
-
-
 def standstill(actor: int) -> Measure:
     """Return that somebody stands."""
     return Measure(actor, Quantity.SPEED, "==", Amount(Fraction(0), "m/s"))
@@ -315,7 +310,7 @@ def is_event(each: Condition) -> TypeGuard[Measure]:
 def people_in(condition: Condition) -> set[int]:
     """Return whom a condition speaks of."""
     places = {who for place in within(condition, Place) for who in (place.of, place.partner)}
-    measured = {who for each in atoms(condition) for who in (each.actor, each.other)}
+    measured = {who for each in within(condition, Measure) for who in (each.actor, each.other)}
     return {who for who in places | measured if who is not None}
 
 

@@ -1,12 +1,17 @@
-"""Who is spoken of, and which place: what sentences leave possible."""
+"""Who is spoken of, and which place; amounts and measures against their words: one fault at a time."""
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import pytest
 
-from scenewright.translate.model.heard import Heard
+from scenewright.errors import Span
+from scenewright.translate import story as st
+from scenewright.translate.model.heard import Heard, Measured, read_amounts
+from scenewright.translate.model.schema import Claim, locate
 
-CALLED = {0: ("the ego", "The ego", "ego"), 1: ("the van", "A van", "van")}
+NAMES = {0: ("the ego", "The ego", "ego"), 1: ("the van", "A van", "van")}
 
 
 @pytest.mark.parametrize(
@@ -25,7 +30,7 @@ CALLED = {0: ("the ego", "The ego", "ego"), 1: ("the van", "A van", "van")}
     ],
 )
 def test_who_is_spoken_of(text: str, at: str, who: set[int]) -> None:
-    assert Heard(text, CALLED).subjects(text.index(at)) == who
+    assert Heard(text, NAMES).subjects(text.index(at)) == who
 
 
 @pytest.mark.parametrize(
@@ -39,7 +44,7 @@ def test_who_is_spoken_of(text: str, at: str, who: set[int]) -> None:
     ],
 )
 def test_to_which_place_an_amount_is_counted(text: str, at: str, place: str | None) -> None:
-    assert Heard(text, CALLED).place(text.index(at)) == place
+    assert Heard(text, NAMES).place(text.index(at)) == place
 
 
 def test_longest_name_is_heard_and_a_name_of_two_is_of_both() -> None:
@@ -51,7 +56,7 @@ def test_longest_name_is_heard_and_a_name_of_two_is_of_both() -> None:
 
 def test_clause_of_a_place() -> None:
     text = "The ego is 25 m and the van is 15 m before the stop line."
-    told = [each.text for each in Heard(text, CALLED).clause(text.index("15"))]
+    told = [each.text for each in Heard(text, NAMES).clause(text.index("15"))]
     assert told == ["the van", "is", "15 m", "before", "the stop line"]
 
 
@@ -59,3 +64,95 @@ def test_text_without_any_word_of_meaning_is_heard_too() -> None:
     heard = Heard("the a", {0: ("the",)})
     assert heard.subjects(0) == {0}
     assert heard.place(4) is None
+
+
+CALLED = {0: ("The ego", "the ego"), 1: ("the van", "A van")}
+ACTORS = (st.Actor(0, "ego"), st.Actor(1, "van", kind="van"))
+
+
+def quote(words: str, text: str) -> st.Quote:
+    span = locate(words, text)[0]
+    return st.Quote(span.start, span.end, span.excerpt(text))
+
+
+def faults(text: str, value: str, unit: str, words: str, owned: str = "", **slots: object) -> str:
+    """Return what the words of a whole text say against a measure of it."""
+    amount = st.Amount(Fraction(value), unit, None, quote(words, text)) if value else None
+    claim = Claim(st.Story(ACTORS), CALLED, owned=[(Span(0, len(text)), owned)])
+    given = {
+        "actor": 1,
+        "quantity": st.Quantity.PLACE,
+        "op": "==",
+        "amount": amount,
+        "quote": quote(text, text),
+        **slots,
+    }
+    checked = Measured(claim, text, Heard(text, CALLED))
+    found = [] if amount is None else [*checked.amount(amount, quote(words, text))]
+    return "; ".join([*found, *checked.measure(st.Measure(**given), quote(text, text))])  # type: ignore[arg-type]
+
+
+SPEED, GAP = st.Quantity.SPEED, st.Quantity.GAP
+STOP_LINE = {"place": st.Place("stop_line")}
+NEAR = "The ego is 25 m and the van is 15 m before the stop line"
+
+
+@pytest.mark.parametrize(
+    ("text", "value", "unit", "words", "slots", "fault"),
+    [
+        (NEAR, "15", "m", "15 m", STOP_LINE, ""),
+        (NEAR, "25", "m", "25 m", STOP_LINE, "is said of ego, not of van"),
+        (NEAR, "15", "m", "15 m", {"place": st.Place("turn")}, "does not name the turn"),
+        (NEAR, "15", "ft", "15 m", STOP_LINE, "'15 m' is not 15 ft"),
+        (NEAR, "15", "m", "15 m", {**STOP_LINE, "op": ">="}, "no bound"),
+        (NEAR, "15", "m", "15 m", {**STOP_LINE, "opposite": True}, "`opposite` is true for past it alone"),
+        ("the van is at least 15 m before the stop line", "15", "m", "15 m", STOP_LINE, "says >=, not =="),
+        ("the van must not exceed 20 km/h", "20", "km/h", "20 km/h", {"quantity": SPEED, "op": "<="}, ""),
+        ("the van drives at 20 km/h", "20", "km/h", "20 km/h", {"quantity": SPEED, "op": ">="}, "no bound"),
+        ("the van passes the stop line", "", "m", "", STOP_LINE, ""),
+        ("the van passes the stop line", "", "m", "", {**STOP_LINE, "op": ">"}, "`op` is =="),
+        ("the van brakes at 3 m/s^2", "3", "m/s^2", "3 m/s^2", {"quantity": st.Quantity.RATE}, "slowing alone"),
+        ("the van is 20 m behind the ego", "20", "m", "20 m", {"quantity": GAP, "other": 0}, ""),
+        ("the van is 20 m ahead of the ego", "20", "m", "20 m", {"quantity": GAP, "other": 0}, "the other way"),
+        ("the van has a time to collision of 2 s with the ego", "2", "s", "2 s",
+         {"quantity": st.Quantity.HEADWAY, "other": 0}, "does not speak of a headway"),
+        ("the van is 2 s behind the ego", "2", "s", "2 s",
+         {"quantity": st.Quantity.COLLISION, "other": 0}, "does not speak of a time to collision"),
+        ("the van drives faster than the ego", "", "s", "", {"quantity": SPEED, "other": 0, "op": "<"}, "says faster"),
+        ("the van is 15 m before the stop line of the ego", "15", "m", "15 m", {"place": st.Place("stop_line", 0)}, ""),
+    ],
+)  # fmt: skip
+def test_measure_against_its_words(
+    text: str, value: str, unit: str, words: str, slots: dict[str, object], fault: str
+) -> None:
+    found = faults(text, value, unit, words, **slots)
+    assert fault in found if fault else found == ""
+
+
+def test_assumption_owns_to_a_unit_that_is_unsaid() -> None:
+    text = "the van is 15 before the stop line"
+    assert "does not say 15 m" in faults(text, "15", "m", "15", **STOP_LINE)
+    assert faults(text, "15", "m", "15", owned="15 is in metres", **STOP_LINE) == ""
+    assert faults(text, "16", "m", "15", owned="16 is in metres", **STOP_LINE) != ""
+
+
+@pytest.mark.parametrize(
+    ("words", "value", "unit"),
+    [
+        ("25 m", "25", "m"), ("sixty feet", "60", "ft"), ("sixty-five metres", "65", "m"), ("1.5 m/s²", "3/2", "m/s^2"),
+        ("half a second", "1/2", "s"), ("two and a half seconds", "5/2", "s"), ("a hundred and twenty m", "120", "m"),
+        ("2½ s", "5/2", "s"), ("½ s", "1/2", "s"), ("1,200 m", "1200", "m"), ("2,5 s", "5/2", "s"),
+        ("30-mph", "30", "mph"), ("50 kilometres per hour", "50", "km/h"), ("-3 m/s^2", "3", "m/s^2"),
+        ("4 metres per second squared", "4", "m/s^2"), ("10/3 min", "10/3", "min"), ("just before", "5", "m"),
+        ("a second", "1", "s"),
+    ],
+)  # fmt: skip
+def test_numbers_and_units_in_many_words(words: str, value: str, unit: str) -> None:
+    assert (Fraction(value), unit) in read_amounts(words)
+
+
+def test_parameters_numbers_without_units_and_nothing() -> None:
+    assert set(read_amounts("{hero_gap_m}")) == {("hero_gap_m", "m")}
+    assert set(read_amounts("about 20")) == {(Fraction(20), None)}
+    assert list(read_amounts("brakes")) == []
+    assert (Fraction(4), "m/s") not in read_amounts("4 metres per second squared")

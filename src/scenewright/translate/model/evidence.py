@@ -1,7 +1,7 @@
 """Nothing is believed that its own words do not say: holds what a reply claims against the stretches that it quotes.
 
 What enters: a `Claim` and the text. What leaves: a `TranslationError` with every fault, for the model. Who, ways,
-deeds, orders and what holds are checked here, amounts and measures in `measured`; and whether all of the text was used.
+deeds, orders and what holds are checked here, amounts and measures in `heard`; and whether all of the text was used.
 """
 
 from __future__ import annotations
@@ -15,8 +15,7 @@ from scenewright.errors import Span, TranslationError
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
 from scenewright.translate.compile import COMPASS
-from scenewright.translate.model.heard import Heard, lies_in, meets, people, words_in
-from scenewright.translate.model.measured import STANDS, Measured, meaning
+from scenewright.translate.model.heard import STANDS, Heard, Measured, lies_in, meaning, meets, people, words_in
 from scenewright.translate.model.schema import Claim, locate
 from scenewright.translate.phrases import COMPASS_WORDS, DOES
 from scenewright.translate.read.chunks import Chunk
@@ -68,9 +67,7 @@ class _Evidence(Measured):
         plain = [each for name in self.claim.called[actor.id] for own in Heard(name, {}).said for each in own]
         known = {each.value for each in plain if each.kind == "actor"}
         kinds = known - {"ego", "hero", "car"}
-        if ("hero" if actor.id == EGO else "ego") in known:
-            yield f"'{actor.quote.text}' is {'not ' if actor.id == EGO else ''}under test, not {actor.name}"
-        elif kinds and actor.kind not in known:
+        if kinds and actor.kind not in known:
             yield f"{actor.name} is no {actor.kind}: the text calls it {', '.join(sorted(kinds))}"
         for each in actor.relations:
             if each.quote is None:
@@ -115,18 +112,22 @@ class _Evidence(Measured):
     def _told_at(self, number: int, link: str = "") -> Iterator[tuple[set[int], st.Quote | None]]:
         """Yield who does or is something at a moment, with the words for it; "when" a deed begins, "until" it ends."""
         moment = self.claim.story.moments[number]
-        for each in (atom for condition in moment.conditions for atom in st.atoms(condition)):
+        for each in st.within(moment.conditions, st.Measure):
             yield st.people_in(each), each.quote
         for deed in self.claim.story.deeds:
-            if number == deed.begins or (number == deed.ends and not moment.conditions):
-                yield {deed.actor}, deed.quote
+            if number == deed.begins or (number == deed.ends and link == "until"):
+                yield {deed.actor}, deed.quote if link != "until" or number == deed.ends else None
+            elif number == deed.ends:
+                yield {deed.actor}, deed.quote if not moment.conditions and link != "when" else None
 
     def _time(self, number: int, moment: st.Moment) -> Iterator[str]:
         """Check that a moment's time is told with what is so then."""
         quote = moment.time.quote if moment.time else None
         if quote is not None:
-            near = {self.heard.sentence(words.start)[0] for _, words in self._told_at(number) if words}
-            if near and self.heard.sentence(quote.start)[0] not in near:
+            sentence, own, index = self.heard.sentence(quote.start)
+            link = next((each.value for each in reversed(own[:index]) if each.kind == "link"), "")
+            near = {self.heard.sentence(words.start)[0] for _, words in self._told_at(number, link) if words}
+            if near and sentence not in near:
                 yield f"'{quote.text}' is not told with what is so then: say it as an order from start"
 
     def _deed(self, deed: st.Deed, quote: st.Quote) -> Iterator[str]:

@@ -182,8 +182,6 @@ class Narrative(Cast):
                 return doing.begins
             doing.ends = self.new_moment() if doing.ends is None else doing.ends
             return doing.ends
-        if clause.measures and "event" in clause.notes:  # "begins its turn into the driveway"
-            self.tell(clause)
         if not clause.measures or clause.says_more_than("measures", "times"):
             self.refuse("this is no event", clause.quote)
         moment = self._moment_with(clause.measures, one=True)
@@ -232,12 +230,8 @@ class Narrative(Cast):
         """Return where a deed begins after one whose end is known; what lies between is standing or driving on."""
         assert before.ends is not None
         stands = st.standstill(before.actor) in self.moments[before.ends].conditions
-        waits = (
-            stands
-            and verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)
-            and "at once" not in leads
-            and before.verb != st.Verb.STAND
-        )
+        sets_off = verb in (st.Verb.DRIVE, st.Verb.SPEED_UP) and before.verb != st.Verb.STAND
+        waits = stands and sets_off and "at once" not in leads
         if moment == before.ends or (moment is None and not waits):
             return before.ends
         between = Doing(before.actor, st.Verb.STAND if stands else st.Verb.DRIVE, before.ends, quote=before.quote)

@@ -235,10 +235,9 @@ class _Sentence:
         if clause.deed == "turn":
             start, told = story.moments[st.START].conditions, () if moment is None else story.moments[moment].conditions
             told = (*told, *start) if st.standstill(clause.subject) in start else told  # it turns from where it stands
+            # Where it is told where it is then, it turns later.
             if not any(isinstance(each, st.Measure) and each.actor == clause.subject and each.place for each in told):
-                begins.append(
-                    self._at(clause.subject, "turn_start")
-                )  # else it is told where it is then, and it turns later
+                begins.append(self._at(clause.subject, "turn_start"))
             ends = ends or [self._at(clause.subject, "turn_end")]  # "turns left and passes the conflict point"
         elif clause.deed == "go first":
             ends.append(self._at(clause.subject, "conflict_point"))
