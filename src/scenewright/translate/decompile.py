@@ -191,9 +191,8 @@ class Decompiled:
         instants, op = self._instants(form), compare.operator
         if sorted(instants.values()) not in ([-1], [1], [-1, 1]):
             raise untold("a sum of times", "ask for the time from one moment to another", compare)
-        first, second = (
-            next((moment for moment, own in instants.items() if own == factor), st.START) for factor in (-1, 1)
-        )
+        moments = {factor: moment for moment, factor in instants.items()}
+        first, second = moments.get(Fraction(-1), st.START), moments.get(Fraction(1), st.START)
         below_zero, amount = right_side(form, "time")
         margin = None if amount.value == 0 else amount
         if below_zero or (margin is None and op in ("<", "<=")):

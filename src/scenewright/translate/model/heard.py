@@ -1,9 +1,8 @@
 """What the words of a text say: who is spoken of at a place of it, and whether amounts and measures are as they claim.
 
-What enters: a text with the words by which it names each actor, and parts of a `Claim`. What leaves: sets of what is
-possible, empty where the words do not tell, and faults, as sentences for the model. Words either contradict a slot,
-which is always a fault, or are silent about it; then an assumption or a question that quotes them must own to it. Words
-that nobody knows are no fault: they only leave more open.
+What enters: a text with the words by which it names each actor, and parts of a `Claim`. What leaves: who is possible,
+and faults, as sentences for the model. Words either contradict a slot, which is always a fault, or are silent about it:
+then an assumption or a question that quotes them must own to it. Words that nobody knows only leave more open.
 """
 
 from __future__ import annotations

@@ -60,6 +60,8 @@ def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
         if orders and (_is_clause(chunks[index + 1 :]) or _is_elided(found[-1].chunks, chunks[index + 1 :])):
             found.append(Segment(chunk.value, margin=_margin(found[-1].chunks)))
         elif chunk.kind == "link" and chunk.value in LINKS:
+            if found[-1].chunks and found[-1].chunks[-1].kind == "bound":  # "exactly when"
+                found[-1].chunks.pop()
             found.append(Segment(chunk.value))
         else:
             found[-1].chunks.append(chunk)
@@ -160,8 +162,11 @@ class _Items:
         if self.at >= len(self.chunks):
             self.people.refuse("a condition is missing", fix="say what is so")
         chunk = self.chunks[self.at]
-        joins = chunk.value == "both" and self.at + 1 < len(self.chunks) and self.chunks[self.at + 1].kind in PEOPLE
-        if joins or (chunk.kind == "joint" and chunk.value in (*_JOINTS, "not so")):
+        kinds = [each.kind for each in self.chunks[self.at + 1 : self.at + 4]] + [""] * 3
+        joins = chunk.value == "both" and kinds[0] in PEOPLE
+        if joins and kinds[2] in PEOPLE and self.chunks[self.at + 2].value == "and":  # "both the ego and the hero"
+            self.at += 1
+        elif joins or (chunk.kind == "joint" and chunk.value in (*_JOINTS, "not so")):
             return self._joined(chunk, inside)
         return self._clause(inside)
 

@@ -102,10 +102,9 @@ class Narrative(Cast):
             if actor == EGO or first is not None:
                 self.refuse("it is not clear until when a speed is kept", quote)
             first = self.begin(actor, st.Verb.DRIVE, None, set())
-        own = (
-            each for each in self.moments[st.START].conditions if isinstance(each, st.Measure) and each.actor == actor
-        )
-        speeds = [each for each in own if (each.quantity, each.op, each.other) == (st.Quantity.SPEED, "==", None)]
+        start = (each for each in self.moments[st.START].conditions if isinstance(each, st.Measure))
+        its_speed = (actor, st.Quantity.SPEED, "==", None)
+        speeds = [each for each in start if (each.actor, each.quantity, each.op, each.other) == its_speed]
         kept = speeds[0] if len(speeds) == 1 else steady(actor, quote)
         deeds = (doing for doing in self.doings if doing.actor == actor)
         for doing in takewhile(lambda each: each.verb == st.Verb.DRIVE, deeds):  # "goes first" is no change of speed

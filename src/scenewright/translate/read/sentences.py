@@ -23,7 +23,7 @@ _ORDERS = ("before", "after", "no later than")
 _HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
 _LEADS = ("then", "then left", "then right", "at once", "later", "meanwhile", "start")
 _SAYS_NOTHING = {"unknown", "comma", "harmless", "be", "joint", "quality", "name", "mood", "other"}
-_COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "side", "link"}  # "This tests how the ego reacts."
+_COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "yields", "insists", "order", "side", "link"}
 
 
 def read(text: str, answers: Mapping[str, str] | None = None, name: str = "description") -> st.Story:
