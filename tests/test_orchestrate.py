@@ -18,7 +18,7 @@ from scenewright.program.resolve import resolve
 from scenewright.program.text import parse_program
 from scenewright.roads import find_conflict
 from scenewright.trace.files import read_trace
-from scenewright.translate.model.settings import TranslatorSettings
+from scenewright.translate.model.exchange import TranslatorSettings
 from scenewright.translate.sources import read_scenario
 from scenewright.translate.understand import read_answers
 

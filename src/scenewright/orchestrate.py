@@ -31,7 +31,7 @@ from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
 from scenewright.solve.holding import NotHeld, not_held
 from scenewright.solve.limits import Limits
-from scenewright.translate.model.settings import TranslatorSettings
+from scenewright.translate.model.exchange import TranslatorSettings
 from scenewright.translate.sources import read_scenario
 
 if TYPE_CHECKING:

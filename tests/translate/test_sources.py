@@ -8,7 +8,7 @@ import pytest
 
 from scenewright.errors import InputError
 from scenewright.program.printer import print_program
-from scenewright.translate.model.settings import TranslatorSettings
+from scenewright.translate.model.exchange import TranslatorSettings
 from scenewright.translate.sources import is_program, read_scenario, text_of
 
 SENTENCE = (

@@ -19,7 +19,7 @@ from scenewright.cli.options import SOURCE, AsJson, MapName, Translator
 from scenewright.cli.running import carry_out, data_without_a_run, tell_map_notes, tell_no_plan
 from scenewright.cli.translators import Asked, with_asked, with_translator
 from scenewright.errors import InputError, OutputError, Place
-from scenewright.translate.model.settings import TranslatorSettings
+from scenewright.translate.model.exchange import TranslatorSettings
 
 ProgramFile = Annotated[
     Path | None,

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 import typer
 
 from scenewright.cli.options import Ego, MapName, Parameters, Source, Translator, parameters_of
-from scenewright.translate.model.settings import (
+from scenewright.translate.model.exchange import (
     DEFAULT_MAX_TOKENS,
     DEFAULT_REPAIRS,
     DEFAULT_TIMEOUT_S,

@@ -15,7 +15,7 @@ from scenewright.program.check import check_program
 from scenewright.program.limits import TEXT_CHARACTERS
 from scenewright.program.types import DEFAULT_MAP, Program
 from scenewright.roads.load import load_map
-from scenewright.translate.model.settings import TranslatorSettings
+from scenewright.translate.model.exchange import TranslatorSettings
 
 if TYPE_CHECKING:
     from scenewright.translate.understand import Understanding

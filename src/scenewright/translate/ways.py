@@ -47,9 +47,8 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
             found = [found[straights[0]]]
             assumed.append(f"{actor.name} goes straight on")
         if len(found) > 1:
-            straight = straights[0] if straights else 0
             asked, told_ways = f"Which way does {phrases.name(actor.id)} go?", tuple(map(phrases.way, found))
-            question = st.Question(f"way of {actor.name}", asked, told_ways, straight, actor.quote)
+            question = st.Question(f"way of {actor.name}", asked, told_ways, next(iter(straights), 0), actor.quote)
             told = (answers or {}).get(question.slot, "")
             if told not in question.alternatives:
                 questions.append(question)
@@ -57,9 +56,7 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
             found = [found[question.alternatives.index(told)]]
         relations = tuple(each for each in actor.relations if each.kind not in BEARINGS)
         settled.append(replace(actor, way=found[0], relations=relations))
-    placed = replace(
-        _in_line(story), actors=tuple(settled), questions=tuple(questions), assumptions=tuple(dict.fromkeys(assumed))
-    )
+    placed = replace(_in_line(story), actors=tuple(settled), questions=tuple(questions), assumptions=tuple(assumed))
     return _fits_ways(placed, answers or {})
 
 
@@ -114,8 +111,7 @@ def _fitting(actor: st.Actor, road_map: RoadMap) -> list[Route]:
 
 def _keep_related(fitting: dict[int, list[Route]], actor: int, relation: st.Relation) -> None:
     """Leave only the ways of both that lie as the relation says to some way of the other."""
-    quarters = BEARINGS.get(relation.kind)
-    if quarters is None:
+    if (quarters := BEARINGS.get(relation.kind)) is None:
         return
 
     def lies(own: Route, other: Route) -> bool:

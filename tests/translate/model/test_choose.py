@@ -9,10 +9,9 @@ from talk import Server, says
 
 from scenewright.errors import InputError, TranslationError
 from scenewright.translate.model.choose import Configured, configured, model_named, settings_file, tried
-from scenewright.translate.model.exchange import Call, Model
+from scenewright.translate.model.exchange import Call, Model, TranslatorSettings
 from scenewright.translate.model.files import NoReplyYetError
 from scenewright.translate.model.providers import ServedModel
-from scenewright.translate.model.settings import TranslatorSettings
 
 
 def keep(text: str) -> Path:

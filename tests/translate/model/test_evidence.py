@@ -25,8 +25,8 @@ from scenewright.program.types import DEFAULT_MAP
 from scenewright.roads.load import load_map
 from scenewright.translate.model import prompt
 from scenewright.translate.model.evidence import check_evidence
+from scenewright.translate.model.exchange import TranslatorSettings
 from scenewright.translate.model.schema import claim_of, read_reply
-from scenewright.translate.model.settings import TranslatorSettings
 from scenewright.translate.model.translator import understand_by_model
 from scenewright.translate.tell import tell
 

@@ -14,10 +14,9 @@ from talk import GOOD, TEXT, Said, reply_to
 from scenewright.errors import OutputError, ScenewrightError, TranslationError
 from scenewright.roads.load import load_map
 from scenewright.translate.model.choose import model_named
-from scenewright.translate.model.exchange import Call, GaveUpError, Message, key_of
+from scenewright.translate.model.exchange import Call, GaveUpError, Message, TranslatorSettings, key_of
 from scenewright.translate.model.files import NoReplyYetError, answering_by_files, recording, replayed
 from scenewright.translate.model.prompt import PROMPT_VERSION
-from scenewright.translate.model.settings import TranslatorSettings
 from scenewright.translate.model.translator import understand_by_model
 from scenewright.translate.understand import Understanding
 

@@ -14,7 +14,7 @@ from talk import KEY, TEXT, Server, fails, reply_to, says
 from scenewright.errors import InputError, ScenewrightError
 from scenewright.roads.load import load_map
 from scenewright.translate.model.choose import key_for, model_named, scrubbed
-from scenewright.translate.model.settings import TranslatorSettings
+from scenewright.translate.model.exchange import TranslatorSettings
 from scenewright.translate.model.translator import understand_by_model
 
 

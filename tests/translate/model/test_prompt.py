@@ -13,8 +13,8 @@ from scenewright.errors import ScenewrightError, TranslationError
 from scenewright.roads.load import load_map
 from scenewright.roads.routes import all_routes, find_routes
 from scenewright.translate.model import prompt
+from scenewright.translate.model.exchange import TranslatorSettings
 from scenewright.translate.model.schema import locate, read_reply, sheet
-from scenewright.translate.model.settings import TranslatorSettings
 from scenewright.translate.model.translator import understand_by_model
 
 MAP = load_map("t_intersection")

@@ -26,8 +26,7 @@ from talk import (
 from scenewright.errors import InputError, MissingExtraError, ScenewrightError, TranslationError
 from scenewright.roads.load import load_map
 from scenewright.translate.model.choose import model_named
-from scenewright.translate.model.exchange import GaveUpError
-from scenewright.translate.model.settings import TranslatorSettings
+from scenewright.translate.model.exchange import GaveUpError, TranslatorSettings
 from scenewright.translate.model.translator import understand_by_model
 from scenewright.translate.understand import Understanding
 

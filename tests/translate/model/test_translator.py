@@ -12,7 +12,7 @@ from talk import GOOD, QUESTION, STORY, TEXT, Said, reply_to
 from scenewright.errors import InputError, TranslationError
 from scenewright.roads.load import load_map
 from scenewright.translate import story as st
-from scenewright.translate.model.settings import TranslatorSettings
+from scenewright.translate.model.exchange import TranslatorSettings
 from scenewright.translate.model.translator import understand_by_model
 from scenewright.translate.understand import OpenQuestionsError, Understanding
 

@@ -15,8 +15,7 @@ from importlib import import_module
 from pathlib import Path
 
 from scenewright.errors import InputError, Place
-from scenewright.translate.model.exchange import Answer, Call, Message, Model
-from scenewright.translate.model.settings import TranslatorSettings
+from scenewright.translate.model.exchange import Answer, Call, Message, Model, TranslatorSettings
 
 # By provider: where its key is looked for, in this order. `openai-compatible` has one of its own: the key of a provider
 # never goes to another server because both speak one protocol.

@@ -1,6 +1,6 @@
-"""One exchange with a model: the messages that go out, the text that comes back, and the key both are kept under.
+"""One exchange with a model: the messages that go out, the text that comes back, the key both are kept under, settings.
 
-What enters: messages. What leaves: data classes, among them whoever answers. Nothing is sent here.
+What enters: messages, options. What leaves: data classes, among them whoever answers. Nothing is sent here.
 """
 
 from __future__ import annotations
@@ -9,10 +9,17 @@ import hashlib
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
 
 from scenewright.errors import TranslationError
 
+if TYPE_CHECKING:
+    from scenewright.translate.story import Question
+
+DEFAULT_REPAIRS = 3
+DEFAULT_TIMEOUT_S = 120.0
+DEFAULT_MAX_TOKENS = 16_000  # a reply takes one to three thousand; models that think before they write count that too
 CUT_OFF = "[cut off by the limit of tokens]"  # what stands at the end of a reply that came to no end
 LONGEST_REPLY = 100_000  # characters; a whole reply of a model is some thousands
 
@@ -80,3 +87,21 @@ def key_of(model: str, call: Call) -> str:
     said = [[message.role, message.content] for message in call.messages]
     data = json.dumps([model, said], ensure_ascii=False)
     return hashlib.sha256(data.encode("utf-8", "surrogatepass")).hexdigest()[:24]
+
+
+@dataclass(frozen=True, slots=True)
+class TranslatorSettings:
+    """How to translate; the offline reader knows `strict`, `ask` and `answers` alone."""
+
+    base_url: str | None = None  # of an OpenAI-compatible server, or of a proxy of a provider
+    repairs: int = DEFAULT_REPAIRS  # how often a reply that does not hold goes back to the model
+    strict: bool = False  # refuse a text that leaves something open, instead of taking a default
+    record: Path | None = None  # folder in which exchanges are kept
+    replay: Path | None = None  # folder from which replies are taken, without asking anybody
+    timeout_s: float = DEFAULT_TIMEOUT_S  # for one reply, waits that a busy server asks for included
+    reply_wait_s: float = 0.0  # for a reply file of ``files:DIR``; with 0 the call gives up and leaves the request
+    max_tokens: int = DEFAULT_MAX_TOKENS  # that one reply may hold
+    ask: Callable[[Question], str] | None = None  # the user's choice; None where nobody can be asked
+    answers: Mapping[str, str] = field(default_factory=dict)  # that were given before, by the slot of their question
+    second_opinion: bool = False  # let a second call judge the story that was told
+    say: Callable[[str], None] | None = None  # told what is being waited for

@@ -17,8 +17,15 @@ from urllib.parse import urlsplit
 
 from scenewright.errors import InputError, MissingExtraError, ScenewrightError, TranslationError
 from scenewright.translate.model.choose import KEY_VARIABLES, key_for, scrubbed
-from scenewright.translate.model.exchange import CUT_OFF, Answer, Call, GaveUpError, Usage
-from scenewright.translate.model.settings import DEFAULT_MAX_TOKENS, DEFAULT_TIMEOUT_S
+from scenewright.translate.model.exchange import (
+    CUT_OFF,
+    DEFAULT_MAX_TOKENS,
+    DEFAULT_TIMEOUT_S,
+    Answer,
+    Call,
+    GaveUpError,
+    Usage,
+)
 
 if TYPE_CHECKING:
     from httpx2 import AsyncClient

@@ -18,9 +18,8 @@ from scenewright.translate import story as st
 from scenewright.translate.compile import compile_story
 from scenewright.translate.model import prompt
 from scenewright.translate.model.evidence import check_evidence
-from scenewright.translate.model.exchange import Answer, Call, Message, Model, Usage
+from scenewright.translate.model.exchange import Answer, Call, Message, Model, TranslatorSettings, Usage
 from scenewright.translate.model.schema import KNOWN, claim_of, locate, read_reply, reply_schema
-from scenewright.translate.model.settings import TranslatorSettings
 from scenewright.translate.tell import tell
 from scenewright.translate.understand import Answers, Understanding, defaults_of, understand
 from scenewright.translate.ways import put_on_map

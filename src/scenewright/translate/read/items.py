@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
+from itertools import pairwise, takewhile
 from typing import Literal
 
 from scenewright.errors import UnknownWordsError
@@ -57,7 +57,7 @@ def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
         found, chunks = [*found, Segment("when")], chunks[1:]
     for index, chunk in enumerate(chunks):
         orders = chunk.kind == "side" and chunk.value in ("before", "after")
-        if orders and (_is_clause(chunks[index + 1 :]) or _is_elided(found[-1].chunks, chunks[index + 1 :])):
+        if orders and _is_clause(chunks[index + 1 :], found[-1].chunks):
             found.append(Segment(chunk.value, margin=_margin(found[-1].chunks)))
         elif chunk.kind == "link" and chunk.value in LINKS:
             if found[-1].chunks and found[-1].chunks[-1].kind == "bound":  # "exactly when"
@@ -75,22 +75,13 @@ def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
     return found
 
 
-def _is_clause(chunks: Sequence[Chunk]) -> bool:
-    """Whether somebody does or is something here, before the next link."""
-    if not chunks or chunks[0].kind not in PEOPLE:
+def _is_clause(chunks: Sequence[Chunk], before: Sequence[Chunk]) -> bool:
+    """Whether somebody does or is something here, or is named alone: who does what whoever was told of before does."""
+    kinds = [chunk.kind for chunk in takewhile(lambda each: each.kind not in ("link", "comma", "joint"), chunks)]
+    if not kinds or kinds[0] not in PEOPLE:
         return False
-    ends = (number for number, chunk in enumerate(chunks) if chunk.kind in ("link", "comma", "joint", "possessive"))
-    return any(chunk.kind in _PREDICATES for chunk in chunks[: next(ends, len(chunks))])
-
-
-def _is_elided(before: Sequence[Chunk], chunks: Sequence[Chunk]) -> bool:
-    """Whether somebody is named here, and nothing more, after an event: who does the same."""
-    ends = next(
-        (number for number, chunk in enumerate(chunks) if chunk.kind in ("link", "comma", "joint")), len(chunks)
-    )
-    kinds = [chunk.kind for chunk in chunks[:ends]]
-    named = kinds[:1] != [] and kinds[0] in PEOPLE and kinds[1:] in ([], ["mood"])
-    return named and any(chunk.kind == "event" for chunk in before)
+    does_the_same = kinds[1:] in ([], ["mood"]) and any(chunk.kind == "event" for chunk in before)
+    return does_the_same or any(kind in _PREDICATES for kind in takewhile(lambda kind: kind != "possessive", kinds))
 
 
 def _margin(chunks: list[Chunk]) -> tuple[st.Operator, st.Amount] | None:
