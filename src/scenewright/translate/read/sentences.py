@@ -33,7 +33,8 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
         narrative.quote = st.Quote(chunks[0].start, chunks[-1].end, text[chunks[0].start : chunks[-1].end])
         narrative.assumptions += [f"'{chunk.text}' is read with '{word}'" for chunk in chunks for word in chunk.slips]
         kinds = {chunk.kind for chunk in chunks}
-        if kinds <= _SAYS_NOTHING or ("comment" in kinds and kinds <= _COMMENT):
+        first = next((chunk.value for chunk in chunks if chunk.kind in ("actor", "name")), "ego")
+        if kinds <= _SAYS_NOTHING or ("comment" in kinds and kinds <= _COMMENT and first == "ego"):
             narrative.asides.append(narrative.quote)
             continue
         chunks = [chunk for chunk in chunks if chunk.kind != "harmless"]
