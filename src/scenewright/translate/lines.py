@@ -76,10 +76,8 @@ def told_formulas(program: Program) -> Mapping[Formula, str]:
         found = decompiled(program, leniently=True)
         teller = _knowing_all(found.story)
         for formula, became in found.taken.items():
-            if not became:
-                continue  # what the deeds of somebody say already
             with suppress(TranslationError):
-                told[formula] = listed([_clause(teller, *each) for each in became])
+                told[formula] = listed([_clause(teller, *each) for each in became]) if became else told[formula]
     return told
 
 
