@@ -7,7 +7,7 @@ import pytest
 from followers import CRUISE_MPS, idm
 
 from scenewright.motion.profile import Profile, chain
-from scenewright.plan.following import Leader, foresee_follower, wanted_speed_mps
+from scenewright.plan.following import Leader, foresee_follower
 from scenewright.plan.prediction import ConstantAcceleration
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from stories import HERO, driven
@@ -56,17 +56,3 @@ def test_a_hero_that_is_followed_hardly_stirs_before_its_trigger(ego: str) -> No
     times = np.linspace(0.0, hero.knot_times_s["t1"] - 1e-3, 500)
     changed_mps = np.abs(np.diff([hero.state(float(t))[1] for t in times])).sum()
     assert changed_mps < 0.8
-
-
-@pytest.mark.parametrize("speed_mps", [3.0, 6.0, 9.0, 13.0])
-@pytest.mark.parametrize("wanted_mps", [6.5, 10.0, 13.9])
-def test_how_fast_one_would_like_to_drive_is_read_from_how_it_speeds_up(speed_mps: float, wanted_mps: float) -> None:
-    accel = 1.5 * (1.0 - (speed_mps / wanted_mps) ** 4)
-    expected = max(speed_mps, wanted_mps)  # one that slows down does so for something else
-    assert wanted_speed_mps((0.0, 50.0, speed_mps, accel), CRUISE_MPS) == pytest.approx(expected)
-
-
-def test_nobody_is_taken_to_like_to_be_faster_than_people_are_but_who_is() -> None:
-    assert wanted_speed_mps((0.0, 50.0, 12.0, 1.4), CRUISE_MPS) == CRUISE_MPS
-    assert wanted_speed_mps((0.0, 50.0, 12.0, 3.0), CRUISE_MPS) == CRUISE_MPS
-    assert wanted_speed_mps((0.0, 50.0, 18.0, 0.5), CRUISE_MPS) == 18.0

@@ -39,13 +39,6 @@ def test_behind_a_slower_hero_the_ego_is_foreseen_to_slow_down_and_the_more_the_
     assert near < far <= 12.5
 
 
-def test_one_that_begins_evenly_is_not_foreseen_to_speed_up_behind_a_hero_far_ahead() -> None:
-    follower = foresight(BRAKES_GAP, ConstantAcceleration())
-    follower.begin((0.0, 150.0, 6.0, 0.0))
-    assert follower.samples == [(0.0, 150.0, 6.0, 0.0)]
-    assert follower.foreseen(leading(60.0, 9.0)).state(4.0)[1] == pytest.approx(6.0, abs=0.2)
-
-
 def test_one_that_crosses_its_way_is_not_followed() -> None:
     assert foresight(YIELDS_DISTANCE, ConstantAcceleration()).leaders == {}
 

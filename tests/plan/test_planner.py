@@ -122,19 +122,6 @@ def test_an_ego_that_follows_is_led_to_the_distance_asked_for_however_it_starts(
     check(scene, attempt, planner.limits[HERO])
 
 
-@pytest.mark.parametrize(("headway_s", "ahead_s"), [(1.5, 2.5), (1.8, 2.8)])
-def test_a_headway_shorter_than_an_ego_likes_is_had_before_it_keeps_its_own(headway_s: float, ahead_s: float) -> None:
-    row = next(row for row in benchmark_rows() if row.id == 41)
-    parameters = {
-        "initial_ego_tta_behind_stop_line_s": 12.0 + ahead_s,
-        "initial_hero_tta_behind_stop_line_s": 12.0,
-        "ego_headway_behind_hero_s": headway_s,
-        "hero_deceleration_mpss": 4.0,
-    }
-    scene, attempt, planner = planned(row.program_text, tuple(parameters.items()), "idm")
-    check(scene, attempt, planner.limits[HERO])
-
-
 def test_the_same_situation_has_the_same_plan() -> None:
     scene, plans = scene_of(YIELDS_DISTANCE), []
     for _ in range(2):

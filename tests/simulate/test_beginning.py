@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from scenewright.orchestrate import Request, Stages, begin
+from scenewright.orchestrate import Request, Stages, begin, orchestrate
 from scenewright.program.types import EGO
 from scenewright.simulate.beginning import first_plan, is_timed_by_ego
 from scenewright.simulate.ego_start import ego_starts
@@ -91,3 +91,17 @@ def test_where_it_cannot_start_so_slowly_there_is_no_plan() -> None:
 )
 def test_whether_a_trigger_waits_for_the_time_of_the_ego(text: str, timed: bool) -> None:
     assert is_timed_by_ego(world_of(text)) is timed
+
+
+def test_nobody_starts_where_only_hard_braking_saves_it() -> None:
+    """The time to collision that is asked for would be there at once if the ego began behind a slow truck, too near."""
+    text = (
+        "The ego drives westbound along the road. A truck drives ahead of it in the same lane. "
+        "When the TTC is 2.5 s, the truck brakes at 4 m/s^2 to a standstill."
+    )
+    result = orchestrate(Request(text, ego="idm", takes=1))
+    assert result.run is not None
+    ego = result.run.trace.actors["ego"]
+    assert ego.accel_mps2[ego.time_s < 1.0].min() > -3.0
+    assert result.verdict is not None
+    assert result.status == "success" or result.verdict.cause is not None

@@ -104,16 +104,6 @@ def foresee_follower(base: Profile, history: Sequence[EgoSample], leader: Leader
     return Profile(chain(time_s, start_m, start_mps, moves))
 
 
-def wanted_speed_mps(first: EgoSample, usual_mps: float) -> float:
-    """Return how fast the ego would like to drive, as its first state tells, in which it is still by itself.
-
-    Whoever speeds up little is nearly as fast as it likes to be: the model's free road, the other way round.
-    """
-    _, _, speed_mps, accel = first
-    left = 1.0 - accel / _ACCEL_MPSS
-    return usual_mps if left <= 0.0 else min(max(usual_mps, speed_mps), speed_mps / min(left, 1.0) ** 0.25)
-
-
 def _interaction(time_s: float, s_m: float, speed_mps: float, leader: Leader, headway_s: float = _HEADWAY_S) -> float:
     room_m, leader_mps = leader.ahead(time_s, s_m)
     return following_accel(

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from scenewright.motion.profile import Profile
 from scenewright.plan.clearance import Clearance
-from scenewright.plan.following import Leader, foresee_follower, wanted_speed_mps
+from scenewright.plan.following import Leader, foresee_follower
 from scenewright.plan.prediction import ConstantSpeed, EgoSample, Predictor, jumped, lately
 from scenewright.plan.situation import Answer, Lanes, Otherwise, SeenAndForeseen
 from scenewright.program.structure import Structure
@@ -35,7 +35,7 @@ class Foresight:
     predictor
         Foresees it where it follows nobody.
     cruise_mps
-        How fast people drive where it does; once it has begun, how fast it would like to drive.
+        How fast people drive where it does.
     samples
         What was seen of it, in time order.
     """
@@ -57,10 +57,6 @@ class Foresight:
     @property
     def _distances(self) -> dict[int, Clearance]:
         return {hero: lane for hero, lane in self._on_lane.items() if lane.of_distance}
-
-    def begin(self, first: EgoSample) -> None:
-        """Take note of its first state, in which it is still by itself."""
-        self.samples, self.cruise_mps = [first], wanted_speed_mps(first, self.cruise_mps)
 
     @property
     def is_sure(self) -> bool:

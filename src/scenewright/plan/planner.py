@@ -36,7 +36,6 @@ _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
 # First plans are solved for from these speeds (shares of the natural one) and, where both decide, triggers (s): Newton
 # finds the nearest plan, not the best.
 _PACES, _JOINT_S = (0.8, 0.45, 0.25), (3.5, 6.0)
-_EARLY_S = 1.0  # and, where an ego that follows lets nothing good come of these, before it keeps the distance it likes
 # What a step has to gain for each further hero: the next tick goes on from there. Chosen; a tight
 # tolerance that is missed costs hundreds.
 _ENOUGH_EACH = 0.3
@@ -143,8 +142,7 @@ class Planner:
     def begin(self, ego: EgoSample) -> Attempt:
         """Plan from the ego's first state; the plan is kept."""
         started = time.perf_counter()
-        self._ego.begin(ego)
-        self._times.ego_began = ego[1:3]
+        self._ego.samples, self._times.ego_began = [ego], ego[1:3]
         self.ego_knots_s = {self.scene.program.ego.sketch.knots[0]: 0.0}
         prediction = self._ego.predictor.predict([ego])
         joint = any(self._trigger(hero) is not None and not self._times.ego_decides(hero) for hero in self._heroes)
@@ -163,11 +161,6 @@ class Planner:
         self._keep(best)
         if self._ego.leaders:
             best = self._led(best)
-            if best.solution.missed.by > GOOD and not meetings:
-                self._moments_s, self._others = {}, {}
-                guesses, _ = even(_EARLY_S, _PACES[0])
-                early = self._led(self._planned_first(prediction, _EARLY_S, guesses))
-                best = min(best, early, key=lambda found: found.solution.cost)
         if meetings and not placed:
             self._keep(best)
             self._meetings = in_order(meetings, self.scene, self.structure, best.plan.profiles)
