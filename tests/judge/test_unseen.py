@@ -94,4 +94,4 @@ CLOCK = Play(
     ],
 )
 def test_what_is_seen_more_than_once_may_be_either(pieces: list[tuple[float, float]], holds: bool) -> None:
-    assert failing(judge(CLOCK.with_hero(pieces=pieces).case())) == (set() if holds else {"c1"})
+    assert failing(judge(CLOCK.with_hero(pieces=pieces).case())) == (set() if holds else {"hero_onset"})

@@ -42,8 +42,7 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
                 expected=f"one of: {there_are}",
             )
         straights = [number for number, way in enumerate(found) if way.turn == "straight"]
-        is_told = actor.way != st.Way() or actor.relations  # who has "an open way" is asked about
-        if is_told and len(straights) == 1 < len(found) and not _beside_who_turns(actor, story):
+        if len(straights) == 1 < len(found) and not _is_open(actor, story):
             found = [found[straights[0]]]
             assumed.append(f"{actor.name} goes straight on")
         if len(found) > 1:
@@ -60,11 +59,12 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
     return _fits_ways(placed, answers or {})
 
 
-def _beside_who_turns(actor: st.Actor, story: st.Story) -> bool:
-    """Whether somebody drives in one line with one who is said to turn: it may be meant to turn, too."""
+def _is_open(actor: st.Actor, story: st.Story) -> bool:
+    """Whether a way is asked about: nothing is told of it, or just that it is in one line with one who turns."""
     beside = {each.of for each in actor.relations if each.kind in IN_LINE}
     beside |= {one.id for one in story.actors if any(e.of == actor.id and e.kind in IN_LINE for e in one.relations)}
-    return any(one.id in beside and one.way.turn not in (None, "straight") for one in story.actors)
+    may_turn = any(one.id in beside and one.way.turn not in (None, "straight") for one in story.actors)
+    return actor.way.heading is None and (may_turn or (actor.way == st.Way() and not actor.relations))
 
 
 def _fits_ways(story: st.Story, answers: Mapping[str, str]) -> st.Story:
