@@ -16,7 +16,7 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
 
-# Places that lie further apart than this tell who is ahead.
+# Places that lie further apart than this tell who is ahead: a car and as much room as is kept from the ego.
 _TELLING_M = VEHICLE_LENGTH_M + 1.5
 # A difference of places may depend on speeds too: what people drive in town tells the side.
 _TYPICAL_MPS = 10.0

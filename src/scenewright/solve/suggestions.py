@@ -31,7 +31,7 @@ from scenewright.solve.tolerances import compared_dimension
 from scenewright.translate.lines import in_words
 from scenewright.units import SI_SYMBOL, decimal_fraction, format_fraction
 
-_QUERY_S = 0.5
+_QUERY_S = 0.5  # for one value; chosen: a check takes 20 ms, the hardest ones some tenths of a second
 _ALL_S = 3.0  # of the processor, so that a busy machine proposes the same
 _BISECTIONS = 10
 _SUGGESTIONS = 4

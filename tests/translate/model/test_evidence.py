@@ -106,6 +106,30 @@ def test_two_distances_exchanged() -> None:
         assert fault_of(reply, TEXT) is not None
 
 
+def test_who_is_under_test_is_not_taken_for_another() -> None:
+    """With the names exchanged all else of the reply would be said of the right one."""
+    reply = reply_to()
+    ego, truck = reply["story"]["actors"]
+    ego["called"], truck["called"] = truck["called"], ego["called"]
+    assert fault_of_words(reply_to(), TEXT) is None
+    fault = fault_of_words(reply, TEXT)
+    assert fault is not None
+    assert "truck is under test: ['The AV']" in (fault.found or "")
+
+
+def test_relations_of_an_ego_that_is_we_are_held_against_their_words() -> None:
+    text = "We drive west. A truck drives ahead of us in the same lane. When we are 20 m behind the truck, it brakes."
+    actors = [
+        {"name": "ego", "called": [], "way": {"words": "We drive west", "heading": "W"},
+         "relations": [{"kind": "oncoming", "of": "truck", "words": "ahead of us in the same lane"}]},
+        {"name": "truck", "called": ["A truck", "the truck"], "kind": "truck", "way": {}},
+    ]  # fmt: skip
+    story = {"actors": actors, "moments": [{"name": "start"}], "ego": [], "deeds": [], "asides": [text]}
+    assert "does not say 'oncoming'" in str(
+        fault_of_words({"readings": [{"words": text, "means": "all"}], "story": story}, text)
+    )
+
+
 @pytest.mark.parametrize(
     ("slots", "told"),
     [

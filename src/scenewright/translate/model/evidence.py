@@ -59,15 +59,14 @@ class _Evidence(Measured):
 
     # -- who ----------------------------------------------------------------------------------------------------------
     def _actor(self, actor: st.Actor) -> Iterator[str]:
-        if actor.quote is None and actor.id == EGO and any(EGO in people(*own) for own in self.heard.said):
-            return  # "we"
-        if actor.quote is None:
+        if actor.quote is None and not (actor.id == EGO and EGO in people(*chain(*self.heard.said))):  # "we"
             yield f"nothing in `called` says how the text names {actor.name}"
-            return
         plain = [each for name in self.claim.called[actor.id] for own in Heard(name, {}).said for each in own]
-        known = {each.value for each in plain if each.kind == "actor"}
+        known = {"ego" if each.kind == "who" else each.value for each in plain if each.kind in ("who", "actor")}
         kinds = known - {"ego", "hero", "car"}
-        if kinds and actor.kind not in known:
+        if ("hero" if actor.id == EGO else "ego") in known:
+            yield f"{actor.name} is {'not ' if actor.id == EGO else ''}under test: {self.claim.called[actor.id]}"
+        elif kinds and actor.kind not in known:
             yield f"{actor.name} is no {actor.kind}: the text calls it {', '.join(sorted(kinds))}"
         for each in actor.relations:
             if each.quote is None:
