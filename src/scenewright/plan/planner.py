@@ -460,7 +460,8 @@ class Planner:
         standing one on that a reactive constraint speaks of, up to the moment they have begun to move again.
         """
         times, sketch = self.plan.profiles[hero.id].knot_times_s, hero.sketch
-        current = sum(1 for knot in sketch.knots[1:] if times.get(knot, float("inf")) <= time_s)
+        soon_s = time_s + SHORTEST_LEAD_S  # what comes sooner could only be put off
+        current = sum(1 for knot in sketch.knots[1:] if times.get(knot, float("inf")) < soon_s)
         trigger = self._asked.adapts_until.get(hero.id)
         if trigger is None:
             return None
