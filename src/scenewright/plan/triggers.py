@@ -90,7 +90,7 @@ class TriggerTimes:
         stands = _standing(side, time_s, prediction, arrival_s)
         if stands is not None:
             return min(max(planned_s, stands[0]), stands[1])
-        arrival_s = min(arrival_s, time_s + _LATEST_S)
+        arrival_s = min(arrival_s, max(time_s + _LATEST_S, planned_s))
         return (
             self._as_good_s(side, time_s, prediction, planned_s) if arrival_s > planned_s + _MUCH_LATER_S else arrival_s
         )
