@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from scenewright.motion.profile import Profile
 from scenewright.plan.clearance import Clearance
 from scenewright.plan.following import Leader, foresee_follower
-from scenewright.plan.prediction import ConstantSpeed, EgoSample, Predictor, jumped, lately
+from scenewright.plan.prediction import CHANGED, ConstantSpeed, EgoSample, Predictor, jumped, lately
 from scenewright.plan.situation import Answer, Lanes, Otherwise, SeenAndForeseen
 from scenewright.program.structure import Structure
 from scenewright.roads.grounding import Scene
@@ -66,7 +66,7 @@ class Foresight:
     @property
     def has_jumped(self) -> bool:
         """Whether it has just changed its mind."""
-        return jumped(lately(self.samples, _EVEN_S))
+        return jumped(lately(self.samples, _EVEN_S), CHANGED)
 
     @property
     def leaders(self) -> dict[int, Clearance]:

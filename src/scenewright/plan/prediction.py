@@ -27,6 +27,7 @@ _LATERAL_MPSS = 2.5
 _BEND_STEP_M, _STRAIGHT = 2.0, 1e-3
 # An acceleration that changes by more than this from one step to the next is another intention, not a twitch.
 _JUMP_MPSS = 1.0
+CHANGED = 2  # steps that are to bear it out
 # Who has gained this much a second over the last second is speeding up on purpose.
 _LATELY_S, _SPEEDS_UP_MPSS = 1.0, 0.6
 _STEP_S, _MOST_STEPS = 0.5, 20
@@ -41,15 +42,19 @@ _FEW_TURNS, _FEWEST_ONE_WAY, _RECENT, _MOVES_S = 2, 3, 5, 0.5
 _CRAWLS = 0.25
 
 
-def since_jump(accels_mpss: Sequence[float]) -> int:
-    """Return how many of the last accelerations (m/s^2), the newest first, came after a jump; all where there is none.
+def since_jump(accels_mpss: Sequence[float]) -> Sequence[float]:
+    """Return those of the last accelerations (m/s^2), the newest first, that tell how the ego drives now.
 
-    The ego has changed its mind where it was even before and is even since; one that jitters has not.
+    It has changed its mind where it was even before and is even since, for `CHANGED` steps at least; one that jitters has
+    not, and what lasts for a step only may be a twitch.
     """
-    return next((k for k in range(1, len(accels_mpss)) if jumped(accels_mpss, k)), len(accels_mpss))
+    if jumped(accels_mpss, 1):
+        return accels_mpss[1:]
+    count = next((k for k in range(CHANGED, len(accels_mpss)) if jumped(accels_mpss, k)), len(accels_mpss))
+    return accels_mpss[:count]
 
 
-def jumped(accels_mpss: Sequence[float], count: int = 1) -> bool:
+def jumped(accels_mpss: Sequence[float], count: int) -> bool:
     """Whether the last `count` of some accelerations (m/s^2), the newest first, came after a jump."""
     after, before = accels_mpss[:count], accels_mpss[count:]
     if not before or max(max(after) - min(after), max(before) - min(before)) > _JUMP_MPSS:
@@ -84,12 +89,11 @@ class Foot:
     @classmethod
     def of(cls, history: Sequence[EgoSample], average_s: float) -> Foot:
         """Read it from the ego's last moments."""
-        recent = lately(history, average_s)
-        recent = recent[: since_jump(recent)]
+        recent = since_jump(lately(history, average_s))
         mean = sum(recent) / len(recent)
         accel = 0.0 if abs(mean) < 0.02 else max(-9.0, min(5.0, mean))
-        values = lately(history, _UNSTEADY_FOR_S, 60)
-        changes = [after - before for after, before in pairwise(values[: since_jump(values)])]
+        values = since_jump(lately(history, _UNSTEADY_FOR_S, 60))
+        changes = [after - before for after, before in pairwise(values)]
         sizes = sorted(abs(change) for change in changes)
         if sum(1 for after, before in pairwise(changes) if after * before < 0.0) > _FEW_TURNS:
             return cls(accel, trembles=len(sizes) >= _FEWEST_CHANGES and sizes[len(sizes) // 2] > _UNSTEADY_MPSS)
