@@ -185,12 +185,25 @@ def test_after_its_trigger_a_plan_stays_as_it_is() -> None:
     assert not planner.is_alarmed, "nobody can answer any more"
 
 
-def test_a_change_of_mind_is_answered_at_once() -> None:
+@pytest.mark.parametrize("soon_s", [0.001, 0.01, 0.019])
+def test_a_trigger_that_is_due_is_not_put_off_by_a_tick(soon_s: float) -> None:
+    """What begins within the next step cannot be answered any more: solved again it could only come later."""
+    planner = planner_of(scene_of(YIELDS_DISTANCE))
+    planner.begin((0.0, 200.0, 9.0, 0.0))
+    trigger_s = planner.plan.profiles[HERO].knot_times_s["t1"]
+    driven_on(planner, 0.0, round(trigger_s - soon_s, 2))
+    assert planner.tick(trigger_s - soon_s).status == "frozen"
+    assert planner.plan.profiles[HERO].knot_times_s["t1"] == trigger_s
+
+
+def test_a_change_of_mind_is_answered_as_soon_as_it_is_borne_out() -> None:
     planner = planner_of(scene_of(YIELDS_DISTANCE))
     planner.begin((0.0, 150.0, 9.0, 0.0))
     driven_on(planner, 0.0, 1.0)
     assert not planner.is_alarmed
     driven_on(planner, 1.0, 1.02, mpss=-3.0)
+    assert not planner.is_alarmed
+    driven_on(planner, 1.02, 1.04, mpss=-3.0)
     assert planner.is_alarmed
 
 

@@ -70,23 +70,25 @@ def test_constant_acceleration_lasts_for_a_while() -> None:
 
 
 @pytest.mark.parametrize(
-    ("newest_first", "count"),
+    ("newest_first", "since"),
     [
-        ([-3.0, 0.4, 0.3, 0.4], 1),  # it has just begun to brake
-        ([-3.0, -2.8, 0.4, 0.3], 2),
-        ([0.4, 0.2, 0.5, 0.3], 4),  # even all the time
-        ([-1.0, 0.2, -0.8, 0.4, -0.9], 5),  # jitter is no change of mind
-        ([1.2], 1),
+        ([-3.0, 0.4, 0.3, 0.4], [0.4, 0.3, 0.4]),  # it brakes, or is it a twitch?
+        ([-3.0, -2.8, 0.4, 0.3], [-3.0, -2.8]),  # it has begun to brake
+        ([0.4, 0.2, 0.5, 0.3], [0.4, 0.2, 0.5, 0.3]),  # even all the time
+        ([-1.0, 0.2, -0.8, 0.4, -0.9], [-1.0, 0.2, -0.8, 0.4, -0.9]),  # jitter is no change of mind
+        ([1.2], [1.2]),
     ],
 )
-def test_a_jump_is_a_change_of_mind(newest_first: list[float], count: int) -> None:
-    assert since_jump(newest_first) == count
+def test_a_jump_that_lasts_is_a_change_of_mind(newest_first: list[float], since: list[float]) -> None:
+    assert list(since_jump(newest_first)) == since
 
 
 def test_what_was_before_a_jump_tells_nothing_of_what_comes() -> None:
     past = steadily(50.0, 8.0, 0.3)
     time_s, s_m, speed_mps, _ = past[-1]
-    braking = [*past, (time_s + 0.02, s_m + 0.16, speed_mps - 0.06, -3.0)]
+    twitch = [*past, (time_s + 0.02, s_m + 0.16, speed_mps - 0.06, -3.0)]
+    assert Foot.of(twitch, 0.1).accel_mpss == pytest.approx(0.3)
+    braking = [*twitch, (time_s + 0.04, s_m + 0.32, speed_mps - 0.12, -3.0)]
     assert Foot.of(braking, 0.1).accel_mpss == -3.0
     assert Foot.of(past, 0.1).accel_mpss == pytest.approx(0.3)
 

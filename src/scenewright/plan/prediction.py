@@ -45,8 +45,8 @@ _CRAWLS = 0.25
 def since_jump(accels_mpss: Sequence[float]) -> Sequence[float]:
     """Return those of the last accelerations (m/s^2), the newest first, that tell how the ego drives now.
 
-    It has changed its mind where it was even before and is even since, for `CHANGED` steps at least; one that jitters has
-    not, and what lasts for a step only may be a twitch.
+    It has changed its mind where it was even before and is even since, for `CHANGED` steps at least; one that jitters
+    has not, and what lasts for a step only may be a twitch.
     """
     if jumped(accels_mpss, 1):
         return accels_mpss[1:]
