@@ -18,7 +18,7 @@ from pathlib import Path
 from scenewright.errors import ScenewrightError
 from scenewright.judge.judgement import judge
 from scenewright.judge.tolerance import LOOSE, TIGHT
-from scenewright.judge.verdict import Condition
+from scenewright.judge.verdict import Verdict
 from scenewright.orchestrate import Request, Result, case_of, orchestrate
 from scenewright.program.evaluate import violation
 from scenewright.roads.grounding import Scene
@@ -46,7 +46,7 @@ What each stage does with every form that a constraint can take. `make forms` wr
 | resolved | it parses, its dimensions fit, and all that it leaves open is filled in |
 | proven | `check` refutes the impossible one, and names it among what clashes |
 | witnessed | `check` finds a motion in which the possible one holds, which the scenario alone does not ask for |
-| judged | the judge finds that it holds in that motion, and that it is broken in another that breaks it |
+| judged | the judge finds that it holds in that motion, and does not grant another that breaks it alone |
 | planned | it holds within the tight tolerance where it is driven in closed loop against an ego, in the first take |
 
 *Refused by name*: nothing is driven, and the message says which constraint the planner cannot hold yet: this one, or
@@ -109,9 +109,9 @@ def judged(form: Form) -> str:
     if not violation(formula, PlanWorld(scene, broken.profiles, values)) > 0:
         return "nothing breaks it"
     said = []
-    if not _judged(scene, kept).holds_at(TIGHT):
+    if not _judged(scene, kept).condition(PROBE).holds_at(TIGHT):
         said.append("a witness is rejected")
-    if _judged(scene, broken).holds_at(TIGHT):
+    if _judged(scene, broken).holds_at(TIGHT):  # a moment at which it holds is not one at which all else does
         said.append("a breach is accepted")
     return ", ".join(said) or YES
 
@@ -137,9 +137,9 @@ def _witness(result: Result) -> Witness | None:
     return result.feasibility.witness if result.feasibility is not None else None
 
 
-def _judged(scene: Scene, witness: Witness) -> Condition:
+def _judged(scene: Scene, witness: Witness) -> Verdict:
     limits = World(scene, "idm", 0, Rates()).limits
-    return judge(case_of(scene, run_of_witness(scene, limits, witness), limits)).condition(PROBE)
+    return judge(case_of(scene, run_of_witness(scene, limits, witness), limits))
 
 
 def _declared(form: Form, which: int) -> str:
