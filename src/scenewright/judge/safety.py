@@ -32,10 +32,11 @@ def safety_facts(case: Case) -> dict[str, Any]:
     return {f"{case.name(a)}, {case.name(b)}": _pair(case, a, b) for a, b in _pairs(case)}
 
 
-def clear_conditions(case: Case, measured: Measured, facts: dict[str, Any]) -> list[Condition]:
+def clear_conditions(case: Case, measured: Measured, came: frozenset[int], facts: dict[str, Any]) -> list[Condition]:
     """Judge that the ego is clear of all up to the trigger and orchestrated actors of each other throughout.
 
     But for those whom the program puts into each other at a trigger. What "clear" means is in the program's manner.
+    Where the trigger of a hero is not among those that `came`, all of the run is before it.
     """
     clear_m = float(case.program.manner.clear_m)
     room = f" (and is more than {clear_m:g} m from anybody)" if clear_m else ""
@@ -49,7 +50,7 @@ def clear_conditions(case: Case, measured: Measured, facts: dict[str, Any]) -> l
         return min((time_s for time_s in times if time_s is not None), default=None)
 
     text = f"the ego collides with nobody before the trigger{room}"
-    clear = [_clear("no_collision", text, first_s(True), _trigger_time_s(case, measured))]
+    clear = [_clear("no_collision", text, first_s(True), _trigger_time_s(case, measured, came))]
     if len(case.program.heroes) > 1:
         text = f"orchestrated actors do not collide with each other{room}"
         clear.append(_clear("heroes_apart", text, first_s(False), case.end_s))
@@ -78,8 +79,10 @@ def _pairs(case: Case) -> Iterator[tuple[int, int]]:
     return combinations(sorted(actor.id for actor in case.program.actors), 2)
 
 
-def _trigger_time_s(case: Case, measured: Measured) -> float:
+def _trigger_time_s(case: Case, measured: Measured, came: frozenset[int]) -> float:
     """Return when the last trigger came; the end of the run where one never did or there is none."""
+    if not came.issuperset(case.structure.triggers):
+        return case.end_s
     knots = ((hero.id, case.structure.trigger_knot(hero.id)) for hero in case.program.heroes)
     times = [float(np.max(measured.moments.knots.get((hero, knot), np.inf))) for hero, knot in knots if knot]
     return min(max(times, default=np.inf), case.end_s)
