@@ -8,8 +8,9 @@ from plays import Motion, actor_trace
 
 from scenewright.judge.case import Case
 from scenewright.judge.judgement import judge
-from scenewright.judge.start import HARD_MPSS, start_condition
+from scenewright.judge.start import start_condition
 from scenewright.judge.tolerance import LOOSE
+from scenewright.program.starts import HARD_MPSS
 from scenewright.program.text import parse_program
 from scenewright.trace.model import Trace
 
@@ -52,11 +53,16 @@ def test_who_brakes_for_nobody_has_its_own_reasons(gap_m: float) -> None:
     assert hardest(gap_m) is None
 
 
-def test_far_away_is_too_near_for_who_could_not_stop_evenly() -> None:
+def test_far_away_is_too_near_for_who_has_to_brake_hard_not_to_meet_it() -> None:
     """45 m before one that stands it takes 20^2 / (2 * 42.75) m/s^2, though it is more than two seconds away."""
     fast = Motion(0.0, 20.0, [(4.0, -4.7)])
     assert hardest(47.25, ego=fast, lead_mps=0.0) == pytest.approx(4.7)
-    assert hardest(47.25, ego=fast, lead_mps=19.0) is None
+    assert hardest(47.25, ego=fast, lead_mps=12.0) is None
+
+
+def test_who_brakes_harder_than_it_has_to_was_not_put_there() -> None:
+    """27.5 m behind at 13.9 m/s against 9.1, it takes 0.5 m/s^2 not to touch; but IDM brakes with 4."""
+    assert hardest(27.5, ego=Motion(0.0, 13.9, [(1.0, -4.1)]), lead_mps=9.1) is None
 
 
 @pytest.mark.parametrize("rate_mpss", [0.0, HARD_MPSS])
@@ -79,6 +85,8 @@ def test_a_hero_that_is_put_behind_another_is_judged_as_the_ego_is() -> None:
     [
         ("headway(A0, A1, t0) == 0.2 s", True),
         ("ttc(A0, A1, t0) == 1.2 s", True),
+        ("tta(A0, stop_line, t0) == 5 s\ntta(A1, stop_line, t0) == 4 s", True),
+        ("tta(A0, stop_line, t0) == 5 s", False),
         ("gap(A0, A1, t0) == 7 m\nA0v(t0) == 12", True),
         ("A0x(t0) == 0\nA1x(t0) == 7\nA0v(t0) == 12", True),
         ("gap(A0, A1, t0) == 7 m", False),  # an ego that began more slowly would do

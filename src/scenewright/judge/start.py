@@ -16,15 +16,14 @@ from scenewright.judge.case import Case
 from scenewright.judge.knots import Measured, conjuncts
 from scenewright.judge.terms import Moments, sides
 from scenewright.judge.verdict import Condition, bounded
-from scenewright.program.expressions import Compare, Derived, Node, State, walk
+from scenewright.program.expressions import Compare, Derived, walk
+from scenewright.program.starts import HARD_MPSS, TAILGATES_S, says_how_near
 from scenewright.program.structure import Role, knots_of
 from scenewright.program.types import EGO, PieceKind
 from scenewright.translate.lines import told_formulas
 
-# What most drivers find comfortable (AASHTO, A Policy on Geometric Design of Highways and Streets, 3.2.2: 11.2 ft/s^2).
-HARD_MPSS = 3.4
 _AT_ONCE_S = 1.0
-_KEPT_S = 2.0  # the distance that drivers are told to keep, the rule of two seconds
+_INSTANT_S = 0.05  # times to collision are told in tenths
 
 
 def start_condition(case: Case) -> Condition:
@@ -47,7 +46,7 @@ def falling_conditions(case: Case, measured: Measured) -> Iterator[Condition]:
             if own is None or not (isinstance(part, Compare) and part.operator == "==" and isinstance(own.target, int)):
                 continue
             moments = [float(np.max(measured.moments.knots.get(key, np.inf))) for key in knots_of(part)]
-            if np.isfinite(moments).all() and not _is_asked_for(case, own.actor, own.target):
+            if np.isfinite(moments).all() and not says_how_near(case.program, case.structure, own.actor, own.target):
                 yield _falls(case, measured, part, f"{constraint.id}_falls", told.get(part, constraint.id))
 
 
@@ -78,27 +77,20 @@ def _put_near(case: Case) -> Iterator[int]:
         if actor.id != EGO and actor.sketch.pieces[0] is PieceKind.DEC:
             continue
         others = (other.id for other in case.program.actors if other.id != actor.id)
-        if any(_is_near(case, actor.id, other) and not _is_asked_for(case, actor.id, other) for other in others):
+        if any(
+            _is_near(case, actor.id, other) and not says_how_near(case.program, case.structure, actor.id, other)
+            for other in others
+        ):
             yield actor.id
 
 
 def _is_near(case: Case, actor: int, other: int) -> bool:
-    """Whether an actor begins less than two seconds from where the other is, or cannot evenly stop before they meet."""
+    """Whether an actor begins less than a second behind where the other is, or has to brake hard not to meet it."""
     at = np.array([case.start_s])
     own, theirs = (moving_box(case.timelines[each].states, case.box(each), at) for each in (actor, other))
     headway_s = times_to_collision_s(own, replace(theirs, speed_mps=np.zeros(1)))[0]
-    meets_s = times_to_collision_s(own, theirs)[0]
-    ahead = np.cos(own.heading_rad) * (theirs.x_m - own.x_m) + np.sin(own.heading_rad) * (theirs.y_m - own.y_m)
-    return bool(ahead[0] > 0 and (headway_s < _KEPT_S or meets_s < own.speed_mps[0] / HARD_MPSS))
-
-
-def _is_asked_for(case: Case, actor: int, other: int) -> bool:
-    """Whether the program says how near the two begin, in time, or in metres and how fast the actor is."""
-    asked: list[Node] = []
-    for constraint in case.program.constraints:
-        if case.structure.roles[constraint.id] is Role.INITIAL and isinstance(constraint.formula, Compare):
-            asked += walk(constraint.formula) if constraint.formula.operator == "==" else ()
-    apart = {node.kind for node in asked if isinstance(node, Derived) and {node.actor, node.target} == {actor, other}}
-    placed = {node.actor for node in asked if isinstance(node, State) and node.order == 0}
-    is_fast = any(isinstance(node, State) and (node.actor, node.order) == (actor, 1) for node in asked)
-    return bool(apart & {"headway", "ttc"} or (is_fast and ("gap" in apart or {actor, other} <= placed)))
+    if not np.isfinite(headway_s):
+        return False
+    meets_s = max(float(times_to_collision_s(own, theirs)[0]), _INSTANT_S)
+    apart_m = headway_s * own.speed_mps[0]
+    return bool(headway_s < TAILGATES_S or apart_m / (2.0 * meets_s**2) > HARD_MPSS)

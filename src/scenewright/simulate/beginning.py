@@ -6,18 +6,29 @@ What enters: a `World` and how the ego is foreseen. What leaves: the best first 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
 
+from scenewright.errors import PolicyError
 from scenewright.motion.profile import Profile
 from scenewright.plan.planner import GOOD, Attempt, Planner
 from scenewright.plan.prediction import Predictor
-from scenewright.program.types import EGO
+from scenewright.program.expressions import Compare, Derived, Knot, Number
+from scenewright.program.starts import HARD_MPSS, TAILGATES_S, says_how_near
+from scenewright.program.structure import Structure, read_structure
+from scenewright.program.types import EGO, Constraint
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
+from scenewright.roads.conflicts import shared_offset_m
+from scenewright.roads.grounding import Scene
 from scenewright.simulate.ego_start import EgoFirstState, ego_starts
 from scenewright.simulate.heroes import HeroDriver
+from scenewright.simulate.port import Start
+from scenewright.simulate.vehicles import seen
 from scenewright.simulate.world import World
 from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.feasibility import check_feasibility
+from scenewright.solve.limits import Limits
 
 _SHIFTS = 4  # of a start, until an ego that slows down for a bend is where it is to be
 
@@ -35,22 +46,83 @@ def first_plan(
         The share of their speed at which heroes come to their triggers.
     """
     limits = {actor: own if actor == EGO else own.at_pace(pace) for actor, own in world.limits.items()}
-    conditions = linear_conditions(world.scene, world.structure)
-    best: tuple[Planner, EgoFirstState, Attempt] | None = None
+    best: _Planned | None = None
     for start in _starts(world, predictor):
         # An ego that does not hold its speed may still let come about what no plan promises.
-        promised = best is not None and (best[2].promises_outcome or not world.ego_bounds.holds_speed)
-        if start.last_resort and best is not None and best[2].is_good and promised:
+        promised = best is not None and (best.attempt.promises_outcome or not world.ego_bounds.holds_speed)
+        if start.last_resort and best is not None and best.attempt.is_good and not best.too_near and promised:
             break
         if start.speed_mps >= slower_than_mps:
             continue
-        planner = Planner(world.scene, world.structure, limits, predictor, conditions)
-        attempt = planner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
-        if best is None or _rank(attempt) < _rank(best[2]):
-            best = planner, start, attempt
-        if attempt.is_good and attempt.promises_outcome:
+        found = _plan_from(world, start, limits, predictor)
+        if best is None or found.rank < best.rank:
+            best = found
+        if found.attempt.is_good and not found.too_near and found.attempt.promises_outcome:
             break
-    return best
+    return (best.planner, best.start, best.attempt) if best is not None else None
+
+
+@dataclass(frozen=True, slots=True)
+class _Planned:
+    """A start, what is planned from it, and whom the ego would then have to brake hard for at once."""
+
+    planner: Planner
+    start: EgoFirstState
+    attempt: Attempt
+    too_near: tuple[int, ...]
+
+    @property
+    def rank(self) -> tuple[bool, bool, float, float]:
+        """How it compares with others: nobody is too near, it does what was asked, is hardly late, misses little."""
+        missed = 0.0 if self.attempt.is_good else round(self.attempt.missed.by / GOOD)
+        late_s = round(max(0.0, self.attempt.missed.late_s), 1)
+        return bool(self.too_near), not self.attempt.is_good, late_s, missed
+
+
+def _plan_from(world: World, start: EgoFirstState, limits: Mapping[int, Limits], predictor: Predictor) -> _Planned:
+    """Plan from a start; where the ego would begin too near to somebody, once more from further away."""
+    now = (0.0, start.s_m, start.speed_mps, start.accel_mpss)
+    scene, structure = world.scene, world.structure
+    planner = Planner(scene, structure, limits, predictor, linear_conditions(scene, structure))
+    attempt = planner.begin(now)
+    if near := _too_near(world, start, attempt):
+        scene = _kept_apart(scene, structure, near)
+        structure = read_structure(scene.program)
+        planner = Planner(scene, structure, limits, predictor, linear_conditions(scene, structure))
+        attempt = planner.begin(now)
+        near = _too_near(world, start, attempt)
+    return _Planned(planner, start, attempt, near)
+
+
+def _too_near(world: World, start: EgoFirstState, attempt: Attempt) -> tuple[int, ...]:
+    """Return the heroes whom the ego would follow by less than a second and brake hard for at once, unless asked to."""
+    ego, scene, routes = world.ego, world.scene, world.scene.routes
+    first = Start.of(scene, ego, (start.s_m, start.speed_mps), attempt.plan.profiles).first
+    near = []
+    for hero in scene.program.heroes:
+        offset_m = shared_offset_m(routes[EGO], routes[hero.id])
+        if offset_m is not None and not says_how_near(scene.program, world.structure, EGO, hero.id):
+            apart_m = first[hero.id].s_m + offset_m - start.s_m - VEHICLE_LENGTH_M
+            near += [hero.id] * (0.0 < apart_m < TAILGATES_S * start.speed_mps)
+    if not near:
+        return ()
+    try:
+        ego.reset(start.s_m, start.speed_mps)
+        ego.decide(0.0, seen(scene, first), world.rates.step_s)
+    except PolicyError:
+        return ()  # the run itself will tell
+    return tuple(near) if ego.state.accel_mps2 < -HARD_MPSS else ()
+
+
+def _kept_apart(scene: Scene, structure: Structure, heroes: Iterable[int]) -> Scene:
+    """Return a scene whose program says besides that the ego begins a second or more behind some heroes."""
+    knot = Knot(structure.starts[EGO])
+    further = (Derived("headway", EGO, hero, knot) for hero in heroes)
+    more = [
+        Constraint(f"begins_behind_{each.target}", Compare(">=", each, Number(Fraction(TAILGATES_S))))
+        for each in further
+    ]
+    return replace(scene, program=replace(scene.program, constraints=(*scene.program.constraints, *more)))
 
 
 def first_plan_of_smt(world: World) -> tuple[HeroDriver, EgoFirstState, Attempt] | str:
@@ -107,9 +179,3 @@ def _on_time(start: EgoFirstState, motion: Profile, world: World, predictor: Pre
             late_m = motion.state(then_s)[0] - foreseen.state(then_s)[0]
             start = replace(start, s_m=max(0.0, start.s_m + late_m))
     return start
-
-
-def _rank(attempt: Attempt) -> tuple[bool, float, float]:
-    """Return how a first plan compares with others: it does what was asked, is hardly late, misses little."""
-    missed = 0.0 if attempt.is_good else round(attempt.missed.by / GOOD)
-    return not attempt.is_good, round(max(0.0, attempt.missed.late_s), 1), missed
