@@ -70,4 +70,5 @@ def _judge(case: Case) -> Verdict:
         "pairs": pairs,
         "kinematics": {case.name(EGO): kinematic_facts(case, EGO)},
     }
-    return Verdict(tuple(conditions), aftermath(case, pairs), facts)
+    acts_s = min((measured.triggers[hero] for hero in came), default=None)
+    return Verdict(tuple(conditions), aftermath(case, acts_s, pairs), facts)
