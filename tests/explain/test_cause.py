@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from scenewright.explain.cause import cause_of
 from scenewright.judge.files import cause_told, write_verdict
-from scenewright.judge.verdict import Cause
-from scenewright.orchestrate import Request, Result, orchestrate
+from scenewright.judge.tolerance import TIGHT
+from scenewright.judge.verdict import Cause, bounded
+from scenewright.orchestrate import Request, Result, Stages, orchestrate, set_up
 from stories import STORIES, driven
 
 # Story, ego, further settings, and what it is.
@@ -86,3 +89,72 @@ def test_what_an_ego_alone_is_asked_for_is_its_own_to_miss() -> None:
     found = cause(orchestrate(Request(text, ego="answering:Heedless:keep_mps=10.5", takes=1)))
     assert (found.kind, found.evidence["condition"]) == ("ego", "afterwards")
     assert "the ego alone decides" in found.text.lower()
+
+
+@pytest.mark.parametrize(("name", "told"), [("start", "brakes with 6.0 m/s^2 at once"), ("c1", "no first plan")])
+def test_a_run_that_fails_by_its_beginning_is_told_what_its_first_plan_gave_up(name: str, told: str) -> None:
+    request = Request(STORIES["yields, distance"], ego="constant", takes=1)
+    result, world = orchestrate(request), set_up(request, Stages(None))[0]
+    run, verdict = result.run, result.verdict
+    assert run is not None
+    assert verdict is not None
+    kind = "safety" if name == "start" else "initial"
+    begun = bounded(name, kind, "begins", required=3.4, measured=6.0, error=2.6, dimension="acceleration")
+    held = tuple(each for each in verdict.conditions if each.id != name)
+    found = cause_of(world, run, replace(verdict, conditions=(*held, begun)), TIGHT, None)
+    assert (found.kind, found.evidence["misses"]) == ("plan", name)
+    assert told in found.text.lower()
+
+
+BETWEEN = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2, go, t3]
+
+Actor 1 (hero):
+- E, N
+- [t0, go, t1, go, t2]
+
+Actor 2 (other):
+- W
+- [t0, go, t1, dec, t2]
+
+Constraints:
+A0(t1) == A1(t1)
+A0x(t1) == A0.conflict_point(A1) - 20
+A1x(t1) == A1.conflict_point(A0) - 12
+A0(t2) == A2(t1)
+A0x(t2) == A0.conflict_point(A1) + 40
+gap(A0, A2, t2) == 25
+A2v(t2) == 0
+"""
+
+
+def test_who_drives_into_a_hero_after_its_trigger_spoils_what_others_were_to_do() -> None:
+    found = orchestrate(Request(BETWEEN, ego="constant", takes=1))
+    assert found.status == "failure"
+    told = cause(found)
+    assert (told.kind, told.evidence["hero"]) == ("ego", "hero")
+    assert told.evidence["trigger_s"] < told.evidence["time_s"]
+    assert "the ego hit the hero" in told.text.lower()
+
+
+def test_a_run_that_ends_with_the_road_of_the_ego_says_so() -> None:
+    program = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (hero):
+- S, W
+- [t0, stop, t1, acc, t2]
+
+Constraints:
+A0x(t0) == A0.conflict_point - 100
+A1x(t0) == stop_line - 2
+A1(t1) == 30 s
+A1v(t2) == 6
+"""
+    found = cause(orchestrate(Request(program, ego="constant", takes=1)))
+    assert (found.kind, found.evidence["at_the_end_of_its_road"]) == ("plan", True)
+    assert found.text.startswith("The ego came to the end of its road at ")

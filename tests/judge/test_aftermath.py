@@ -48,7 +48,22 @@ def test_the_ego_hits_a_standing_hero_and_it_happened_as_described() -> None:
     assert came.collision.relative_speed_mps == pytest.approx(10.0)
     assert (came.closest_m, came.min_ttc_s, came.post_encroachment_s) == (0.0, 0.0, None)
     hit = "the ego hit the hero at 9.9 s, 10.0 m/s against 0.0 m/s"
-    assert came.in_words() == f"{hit}; until then the ego did not brake"
+    on = "the run goes on as if they had not touched, for what was still to come"
+    assert came.in_words() == f"{hit}; until then the ego did not brake; {on}"
+
+
+def test_a_run_that_ends_with_the_collision_does_not_go_on() -> None:
+    assert came_of(replace(HIT, duration_s=9.92)).in_words().endswith("until then the ego did not brake")
+
+
+def test_braking_before_the_trigger_is_not_told_as_an_answer_to_it() -> None:
+    # 2 s at 10 m/s, 8.5 m of braking, and 12 m at 7 m/s to the place of the trigger, which it comes to at 4.7 s.
+    early = CROSSES.with_ego(s_m=-5.0, pieces=[(2.0, 0.0), (1.0, -3.0)])
+    early = replace(early, text=early.text.replace("conflict_point - 20", "conflict_point - 34.5"))
+    came = came_of(early)
+    assert came.ego_hardest_braking_time_s == pytest.approx(2.0, abs=0.03)
+    assert "the ego braked with 3.0 m/s^2 at most, 2.7 s before the trigger" in came.in_words()
+    assert "before the trigger" not in came_of(BRAKES).in_words()
 
 
 def test_who_drives_into_whom_comes_first() -> None:
@@ -105,6 +120,14 @@ def test_one_passes_after_the_other() -> None:
     assert came.in_words().startswith("no collision; closest ")
 
 
+def test_who_follows_in_one_lane_passes_nobody() -> None:
+    near = replace(CROSSES, hero=Motion(8.0, 10.0, []), hero_line=AHEAD)
+    one_lane = {"ego": {"conflict_point": 70.0}, "hero": {"conflict_point": 70.0}}
+    came = judge(replace(near.case(), landmarks=one_lane)).aftermath
+    assert came.post_encroachment_s is None
+    assert "ways cross" not in came.in_words(), "0.35 s behind, both are where the junction begins"
+
+
 def test_a_hair_s_breadth_does_not_read_as_a_touch() -> None:
     came = came_of(replace(CROSSES, hero=Motion(4.504, 10.0, []), hero_line=AHEAD))
     assert came.collision is None
@@ -133,7 +156,8 @@ def test_verdict_has_it_as_plain_data_beside_conditions_and_facts() -> None:
     assert data["success"]["tight"] is True
     assert data["facts"]["pairs"]["ego, hero"]["collision_time_s"] == data["aftermath"]["collision"]["time_s"]
     assert set(data["aftermath"]) == {
-        "collision", "closest_m", "min_ttc_s", "post_encroachment_s", "ego_hardest_braking_mps2", "text",
+        "collision", "closest_m", "min_ttc_s", "post_encroachment_s", "ego_hardest_braking_mps2",
+        "ego_hardest_braking_time_s", "text",
     }  # fmt: skip
     assert set(data["aftermath"]["collision"]) == {"time_s", "actors", "speeds_mps", "relative_speed_mps"}
     assert data["aftermath"]["text"] == judge(HIT.case()).aftermath.in_words()

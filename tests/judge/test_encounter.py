@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from plays import BRAKES, YIELDS, YIELDS_AT_S, Play
 
@@ -56,3 +57,10 @@ def test_sides_that_were_met_at_other_times_are_told_how_far_apart() -> None:
     assert judge(YIELDS.case()).facts["trigger_sides_apart_s"] == pytest.approx(0.0, abs=1e-6)
     never = judge(YIELDS.with_hero(s_m=-60.0, pieces=[(1.0, 0.0), (9.0, -4.0)]).case()).facts
     assert never["trigger_sides_apart_s"] is None
+
+
+def test_a_trigger_that_is_missed_by_far_never_came_though_some_instant_is_nearest() -> None:
+    assert judge(YIELDS.case()).facts["trigger_came"] == {"hero": True}
+    late = judge(YIELDS.with_hero(s_m=YIELDS.hero.s_m - 24.0).case())
+    assert np.isfinite(late.facts["trigger_time_s"]["hero"])
+    assert late.facts["trigger_came"] == {"hero": False}

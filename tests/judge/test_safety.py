@@ -188,3 +188,11 @@ def test_safety_facts_of_a_crossing() -> None:
     # The ego stops 100 / 4.4 m after 75 m, the hero at 103 m; between the centres lie 4.5 m of cars.
     assert following["min_distance_m"] == pytest.approx(103.0 - 75.0 - 100 / 4.4 - 4.5, abs=1e-3)
     assert following["min_ttc_s"] is not None
+
+
+def test_where_the_trigger_never_came_all_of_the_run_is_before_it() -> None:
+    """The ego is nearest to its line at the start, and passes it never; it is hit long after that."""
+    program = PROGRAM.replace("A0x(t1) == stop_line", "A0x(t1) == stop_line - 75")
+    verdict = judged(Motion(104.5, 10.0, []), Motion(4.5 + 2.0 * 9.0, 8.0, []), program=program)
+    assert verdict.facts["trigger_time_s"]["first"] == 0.0
+    assert collisions(verdict) == {"no_collision"}

@@ -13,7 +13,7 @@ from scenewright.judge.tolerance import LOOSE, TIGHT
 from scenewright.judge.verdict import Cause, Condition, Verdict, WayOut, bounded, unjudged
 from scenewright.units import Dimension
 
-CALM = Aftermath(None, 3.0, None, None, 1.5)
+CALM = Aftermath(None, 3.0, None, None, 1.5, 4.0, None, 20.0)
 
 
 def off(error: float, dimension: Dimension | None, exact: bool = False) -> Condition:

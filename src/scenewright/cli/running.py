@@ -322,8 +322,18 @@ def _trigger(verdict: Verdict) -> str:
     facts = verdict.facts
     if facts.get("ego_never_met_condition"):
         return "The ego never came within the tight tolerance of its side of the trigger."
-    told = (facts.get("trigger_time_s") or {}).items()
+    came, told = facts.get("trigger_came") or {}, (facts.get("trigger_time_s") or {}).items()
     times = {hero: time_s for hero, time_s in told if time_s is not None and math.isfinite(time_s)}
-    if len(times) > 1:
-        return "The triggers came at " + ", ".join(f"{time_s:.2f} s ({hero})" for hero, time_s in times.items()) + "."
-    return "".join(f"The trigger came at {time_s:.2f} s." for time_s in times.values()) or "No trigger came."
+    met = {hero: time_s for hero, time_s in times.items() if came.get(hero, True)}
+    several = len(times) > 1
+    lines = [
+        f"The trigger{f' of {hero}' if several else ''} never came; it was nearest at {time_s:.2f} s."
+        for hero, time_s in times.items()
+        if hero not in met
+    ]
+    if several and met:
+        moments = ", ".join(f"{time_s:.2f} s ({hero})" for hero, time_s in met.items())
+        lines.insert(0, f"The trigger{'s' if len(met) > 1 else ''} came at {moments}.")
+    elif met:
+        lines = [f"The trigger came at {time_s:.2f} s." for time_s in met.values()]
+    return " ".join(lines) or "No trigger came."

@@ -12,6 +12,7 @@ from dataclasses import asdict
 from scenewright.explain.evidence import (
     Finding,
     came_too_late,
+    crashed_between_triggers,
     ego_never_there,
     foreseen_otherwise,
     last_good,
@@ -21,9 +22,10 @@ from scenewright.explain.evidence import (
 from scenewright.explain.in_way import hero_in_way
 from scenewright.judge.tolerance import Tolerance
 from scenewright.judge.verdict import Cause, CauseKind, Condition, Verdict
+from scenewright.plan.planner import GOOD
 from scenewright.program.structure import Role, actors_of
 from scenewright.program.types import EGO, Actor, Constraint, Program
-from scenewright.simulate.loop import Run
+from scenewright.simulate.loop import ROUTE_END_M, Run
 from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
 from scenewright.translate.lines import in_words
@@ -33,13 +35,14 @@ from scenewright.translate.phrases import called
 def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, proof: Feasibility | None) -> Cause:
     """Return why a run missed at `tolerance`: the first of these that the evidence shows.
 
-    1. *ego*: it never came to its side of the trigger, no hero could have done it against its drive (`proof`), or a
-       condition on it alone failed. Where it slowed down for a hero, that is in the *way*, and it is never the ego's
-       doing; nor is a crash before the trigger then.
+    1. *ego*: it never came to its side of the trigger, no hero could have done it against its drive (`proof`), a
+       condition on it alone failed, or it crashed with a hero after that one's trigger and before another's. Where it
+       slowed down for a hero, that is in the *way*, and it is never the ego's doing; nor is a crash before the trigger.
     2. *order*: all was well but who came first.
     3. *authority*: from the last plan on that would have done, a hero was at a limit of its motion.
     4. *prediction*: the ego did not drive as that plan foresaw.
-    5. *plan*: none of these; so it was planned.
+    5. *plan*: none of these; so it was planned. A run that fails by how it begins is of this kind before all that
+       came of it.
     """
     missed = [condition for condition in verdict.conditions if not condition.holds_at(tolerance)]
     asked = {constraint.id: constraint for constraint in world.scene.program.constraints}
@@ -50,9 +53,15 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
         return _cause("way", Finding(_capital(f"{in_way}; what it did then is no finding about it"), asdict(in_way)))
     if ego is not None:
         return _cause("ego", ego)
+    names = {hero.name: hero for hero in world.scene.program.heroes}
+    if (crashed := crashed_between_triggers(verdict, names)) is not None:
+        return _cause("ego", crashed)
     late = [came_too_late(world, run, verdict, constraint) for constraint in failed if orders_with_ego(constraint)]
     if late and len(late) == len(missed) and late[0] is not None:
         return _cause("order", late[0])
+    begun = [each for each in missed if each.id == "start"] or [each for each in missed if each.kind == "initial"]
+    if begun and (begun[0].id == "start" or len(begun) == len(missed)):
+        return _cause("plan", _begun_so(run, begun[0]))
     hero = _hero(world.scene.program, failed)
     # What is asked of both after the trigger is missed by how the ego then drives; all else by what came to be at it.
     later = len(failed) == len(missed) and all(world.structure.roles[each.id] is Role.OUTCOME for each in failed)
@@ -61,13 +70,15 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
     until_s = min(max(knots_s.values()) if later else acted_s, run.trace.duration_s)
     good = last_good(run, until_s)
     otherwise = good and foreseen_otherwise(world, run, good, until_s, at_trigger=not later)
-    limit = limit_reached(world, run, hero, good.time_s if good else 0.0, until_s)
+    # Where no plan ever did it, what stands against it may lie in what was to follow.
+    to_s = until_s if good else min(max(knots_s.values()), run.trace.duration_s)
+    limit = limit_reached(world, run, hero, good.time_s if good else 0.0, to_s)
     if limit is not None and otherwise:
         why = in_way or f"the ego drove otherwise than foreseen from {otherwise.evidence['since_s']:.1f} s on"
         return _cause("authority", Finding(f"{limit.text}, and {why}", {**otherwise.evidence, **limit.evidence}))
     if limit is not None:
         return _cause("authority", limit)
-    left = otherwise or _planned_so(run, hero, until_s)
+    left = otherwise or _planned_so(world, run, hero, until_s, missed)
     if in_way is not None:
         left = Finding(f"{left.text}; {in_way}", {**left.evidence, "in_way": asdict(in_way)})
     return _cause("prediction" if otherwise else "plan", left)
@@ -112,15 +123,42 @@ def _hero(program: Program, failed: Sequence[Constraint]) -> Actor:
     return next((hero for hero in heroes if hero.id in spoken_of), heroes[0])
 
 
-def _planned_so(run: Run, hero: Actor, until_s: float) -> Finding:
+def _begun_so(run: Run, condition: Condition) -> Finding:
+    """Return what the first plan gave up of how the run was to begin."""
+    evidence = {"misses": condition.id, "measured": condition.measured, "missed": run.replans[0].tolerance}
+    if condition.id == "start":
+        return Finding(
+            f"no plan was found that begins well and does all that was asked: somebody begins so near to another that "
+            f"it brakes with {condition.measured or 0.0:.1f} m/s^2 at once",
+            evidence,
+        )
+    off = "" if condition.error is None else f" by {abs(condition.error):.2f} {condition.unit}".rstrip()
+    return Finding(f'no first plan was found that does all that was asked: it misses "{condition.text}"{off}', evidence)
+
+
+def _planned_so(world: World, run: Run, hero: Actor, until_s: float, missed: Sequence[Condition]) -> Finding:
     """Return what is left: it was planned so, though nothing stood against it."""
     planned = [tick for tick in run.replans if tick.foreseen is not None and tick.time_s < until_s]
     last = planned[-1] if planned else run.replans[0]
     acts_s, end_s = max(run.last_plan.profiles[hero.id].knot_times_s.values()), run.trace.duration_s
     if acts_s > end_s:
+        at_end = [
+            called(actor.name)
+            for actor in (world.scene.program.ego, hero)
+            if run.trace.actors[actor.name].s_m[-1] >= world.scene.routes[actor.id].landmarks["route_end"] - ROUTE_END_M
+        ]
+        who = called(hero.name)
+        why = f"{at_end[0]} came to the end of its road" if at_end else "the run ended"
+        then = "it" if at_end[:1] == [who] else who
         return Finding(
-            f"the run ended at {end_s:.1f} s, before {called(hero.name)} was to have done all of it at {acts_s:.1f} s",
-            {"hero": hero.name, "end_s": end_s, "planned_s": acts_s},
+            f"{why} at {end_s:.1f} s, before {then} was to have done all of it at {acts_s:.1f} s",
+            {"hero": hero.name, "end_s": end_s, "planned_s": acts_s, "at_the_end_of_its_road": bool(at_end)},
+        )
+    if last.tolerance <= GOOD:
+        return Finding(
+            f"the last plan, of {last.time_s:.1f} s, does all that was asked of {called(hero.name)}, as far as it was "
+            f'foreseen; what came of it misses "{missed[0].text}"',
+            {"hero": hero.name, "time_s": last.time_s, "missed": last.tolerance, "misses": missed[0].id},
         )
     return Finding(
         f"no plan was found that does all that was asked of {called(hero.name)}, though it was at no limit of its "

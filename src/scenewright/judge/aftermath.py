@@ -15,6 +15,7 @@ import numpy as np
 
 from scenewright.judge.boxes import moving_box
 from scenewright.judge.case import Case
+from scenewright.judge.tolerance import TIGHT
 from scenewright.program.types import EGO
 from scenewright.translate.phrases import called
 
@@ -54,8 +55,10 @@ class Aftermath:
         Between the ego and whoever it was least for. None where there is no such number: nobody was on a collision
         course, or did not pass a conflict zone one after the other. Post-encroachment time is negative where both were
         in the zone at once.
-    ego_hardest_braking_mps2
-        Until the first collision, after which the simulation drives the bodies through each other.
+    ego_hardest_braking_mps2, ego_hardest_braking_time_s
+        How hard and when; until the first collision, after which the simulation drives the bodies through each other.
+    acts_s, end_s
+        When the first trigger came, None where none did; and the last instant of the run.
     """
 
     collision: Collision | None
@@ -63,13 +66,21 @@ class Aftermath:
     min_ttc_s: float | None
     post_encroachment_s: float | None
     ego_hardest_braking_mps2: float
+    ego_hardest_braking_time_s: float
+    acts_s: float | None
+    end_s: float
 
     def in_words(self) -> str:
         """Return what came of it, in one line without a full stop."""
         rate = self.ego_hardest_braking_mps2
         braked = f"the ego braked with {rate:.1f} m/s^2 at most" if rate >= _BRAKES_MPS2 else "the ego did not brake"
+        early_s = 0.0 if self.acts_s is None else self.acts_s - self.ego_hardest_braking_time_s
+        if rate >= _BRAKES_MPS2 and early_s > TIGHT.time_s:  # not in answer to what was done at the trigger
+            braked += f", {early_s:.1f} s before the trigger"
         if self.collision is not None:
-            return f"{self.collision.in_words()}; until then {braked}"
+            on = self.end_s - self.collision.time_s > TIGHT.time_s
+            then = "; the run goes on as if they had not touched, for what was still to come" if on else ""
+            return f"{self.collision.in_words()}; until then {braked}{then}"
         measures = [
             # A hair's breadth is not to read as a touch.
             (self.closest_m, "closest {:.1g} m" if (self.closest_m or 0.0) < _NEAR_M else "closest {:.1f} m"),
@@ -80,22 +91,27 @@ class Aftermath:
 
     def as_dict(self) -> dict[str, Any]:
         """Return what came of it in the form of `verdict.json`, its words as `text`."""
-        return {**asdict(self), "text": self.in_words()}
+        told = {name: value for name, value in asdict(self).items() if name not in ("acts_s", "end_s")}
+        return {**told, "text": self.in_words()}
 
 
-def aftermath(case: Case, pairs: Mapping[str, Mapping[str, Any]]) -> Aftermath:
-    """Return what came of a run; `pairs` as `safety.safety_facts` has them."""
+def aftermath(case: Case, acts_s: float | None, pairs: Mapping[str, Mapping[str, Any]]) -> Aftermath:
+    """Return what came of a run whose first trigger came at `acts_s`; `pairs` as `safety.safety_facts` has them."""
     collision = min(_collisions(case, pairs), key=lambda hit: hit.time_s, default=None)
     of_ego = [pairs[f"{case.name(EGO)}, {hero.name}"] for hero in case.program.heroes]
     states = case.timelines[EGO].states
     before = states.time_s < (np.inf if collision is None else collision.time_s)
+    rates = np.where(before, states.accel_mps2, 0.0)
     return Aftermath(
         collision,
         _least(pair["min_distance_m"] for pair in of_ego),
         _least(pair["min_ttc_s"] for pair in of_ego),
         # Who drives through another has not passed it.
         _least(pair["post_encroachment_time_s"] for pair in of_ego if pair["collision_time_s"] is None),
-        0.0 - float(np.min(states.accel_mps2[before], initial=0.0)),  # and not -0.0
+        0.0 - float(np.min(rates, initial=0.0)),  # and not -0.0
+        float(states.time_s[np.argmin(rates)]),
+        acts_s,
+        case.end_s,
     )
 
 

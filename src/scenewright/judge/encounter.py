@@ -7,6 +7,7 @@ orchestrate.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -16,12 +17,27 @@ from scenewright.judge.formulas import miss_of
 from scenewright.judge.instants import minima
 from scenewright.judge.knots import Measured, sides_of
 from scenewright.judge.terms import Moments
-from scenewright.judge.tolerance import TIGHT, FloatArray, dimension_of, normalised, unit_symbol
+from scenewright.judge.tolerance import LOOSE, TIGHT, FloatArray, dimension_of, normalised, unit_symbol
+from scenewright.judge.verdict import Condition
 from scenewright.program.expressions import Compare, Derived, Formula, State, walk
 from scenewright.program.printer import print_expression
-from scenewright.program.structure import KnotKey
+from scenewright.program.structure import KnotKey, Role, knots_of
 from scenewright.program.types import EGO
 from scenewright.translate.lines import told_formulas
+
+
+def triggers_that_came(case: Case, asked: Sequence[Condition]) -> frozenset[int]:
+    """Return the heroes whose trigger came: all that is asked of its moment holds at the loose tolerance.
+
+    There is always an instant that is nearest to a trigger. Where that is not near enough, it never came.
+    """
+    held = {condition.id for condition in asked if condition.holds_at(LOOSE)}
+    of_triggers = [each for each in case.program.constraints if case.structure.roles[each.id] is Role.TRIGGER]
+    return frozenset(
+        hero
+        for hero, instant in case.structure.triggers.items()
+        if all(each.id in held for each in of_triggers if set(knots_of(each.formula)) <= instant)
+    )
 
 
 def encounter_facts(case: Case, measured: Measured) -> dict[str, Any]:

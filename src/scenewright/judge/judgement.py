@@ -12,11 +12,12 @@ import numpy as np
 from scenewright.judge.aftermath import aftermath
 from scenewright.judge.case import Case
 from scenewright.judge.conditions import program_conditions
-from scenewright.judge.encounter import encounter_facts
+from scenewright.judge.encounter import encounter_facts, triggers_that_came
 from scenewright.judge.interaction import interaction_conditions, interaction_facts
 from scenewright.judge.kinematics import kinematic_conditions, kinematic_facts
 from scenewright.judge.route import route_conditions
 from scenewright.judge.safety import clear_conditions, safety_facts
+from scenewright.judge.start import falling_conditions, start_condition
 from scenewright.judge.unseen import measured_at_best
 from scenewright.judge.verdict import Condition, Verdict
 from scenewright.program.types import EGO
@@ -45,12 +46,15 @@ def judge(case: Case) -> Verdict:
 
 def _judge(case: Case) -> Verdict:
     measured = measured_at_best(case)
-    pairs = safety_facts(case)
+    pairs, asked = safety_facts(case), program_conditions(case, measured)
+    came = triggers_that_came(case, asked)
     conditions: list[Condition] = [
         *route_conditions(case),
-        *program_conditions(case, measured),
+        *asked,
+        *falling_conditions(case, measured),
         *interaction_conditions(case, measured),
-        *clear_conditions(case, measured, pairs),
+        start_condition(case),
+        *clear_conditions(case, measured, came, pairs),
         *kinematic_conditions(case),
     ]
     conditions.sort(key=lambda condition: _ORDER.index(condition.kind))
@@ -59,10 +63,12 @@ def _judge(case: Case) -> Verdict:
         knot_times[case.name(actor_id)][knot] = time_s
     facts: dict[str, Any] = {
         "trigger_time_s": {case.name(hero): time_s for hero, time_s in measured.triggers.items()},
+        "trigger_came": {case.name(hero): hero in came for hero in measured.triggers},
         "knot_times_s": knot_times,
         **encounter_facts(case, measured),
         "interaction": interaction_facts(case, measured),
         "pairs": pairs,
         "kinematics": {case.name(EGO): kinematic_facts(case, EGO)},
     }
-    return Verdict(tuple(conditions), aftermath(case, pairs), facts)
+    acts_s = min((measured.triggers[hero] for hero in came), default=None)
+    return Verdict(tuple(conditions), aftermath(case, acts_s, pairs), facts)

@@ -24,6 +24,7 @@ from scenewright.program.types import EGO
 from scenewright.translate.phrases import called
 
 _SUB_STEPS = 5  # the samples, and four instants between each two
+_ONE_LINE_M = 0.1  # lines that merge are further apart than this a vehicle's length before they do
 _INSTANT_S = 0.001  # a collision at the trigger itself, or in the last instant of a run, is one, too
 
 
@@ -32,10 +33,11 @@ def safety_facts(case: Case) -> dict[str, Any]:
     return {f"{case.name(a)}, {case.name(b)}": _pair(case, a, b) for a, b in _pairs(case)}
 
 
-def clear_conditions(case: Case, measured: Measured, facts: dict[str, Any]) -> list[Condition]:
+def clear_conditions(case: Case, measured: Measured, came: frozenset[int], facts: dict[str, Any]) -> list[Condition]:
     """Judge that the ego is clear of all up to the trigger and orchestrated actors of each other throughout.
 
     But for those whom the program puts into each other at a trigger. What "clear" means is in the program's manner.
+    Where the trigger of a hero is not among those that `came`, all of the run is before it.
     """
     clear_m = float(case.program.manner.clear_m)
     room = f" (and is more than {clear_m:g} m from anybody)" if clear_m else ""
@@ -49,7 +51,7 @@ def clear_conditions(case: Case, measured: Measured, facts: dict[str, Any]) -> l
         return min((time_s for time_s in times if time_s is not None), default=None)
 
     text = f"the ego collides with nobody before the trigger{room}"
-    clear = [_clear("no_collision", text, first_s(True), _trigger_time_s(case, measured))]
+    clear = [_clear("no_collision", text, first_s(True), _trigger_time_s(case, measured, came))]
     if len(case.program.heroes) > 1:
         text = f"orchestrated actors do not collide with each other{room}"
         clear.append(_clear("heroes_apart", text, first_s(False), case.end_s))
@@ -78,8 +80,10 @@ def _pairs(case: Case) -> Iterator[tuple[int, int]]:
     return combinations(sorted(actor.id for actor in case.program.actors), 2)
 
 
-def _trigger_time_s(case: Case, measured: Measured) -> float:
+def _trigger_time_s(case: Case, measured: Measured, came: frozenset[int]) -> float:
     """Return when the last trigger came; the end of the run where one never did or there is none."""
+    if not came.issuperset(case.structure.triggers):
+        return case.end_s
     knots = ((hero.id, case.structure.trigger_knot(hero.id)) for hero in case.program.heroes)
     times = [float(np.max(measured.moments.knots.get((hero, knot), np.inf))) for hero, knot in knots if knot]
     return min(max(times, default=np.inf), case.end_s)
@@ -124,12 +128,17 @@ def _pair(case: Case, a: int, b: int) -> dict[str, Any]:
 def _post_encroachment_s(case: Case, a: int, b: int) -> float | None:
     """Return the time between one leaving the conflict zone and the other entering; negative where both were in it.
 
-    The zone is where one's box can be while the other's width covers the conflict point.
+    The zone is where one's box can be while the other's width covers the conflict point. None where they did not both
+    pass it, or come to it in one lane.
     """
     try:
-        first, second = sorted((_stay(case, a, b), _stay(case, b, a)))
+        stays = {a: _stay(case, a, b), b: _stay(case, b, a)}
     except (CannotJudge, TypeError):
         return None
+    boxes = [moving_box(case.timelines[who].states, case.box(who), np.array([stay[0]])) for who, stay in stays.items()]
+    if float(np.hypot(boxes[0].x_m - boxes[1].x_m, boxes[0].y_m - boxes[1].y_m)[0]) < _ONE_LINE_M:
+        return None  # they come to it along one line: one follows the other, and passes nobody
+    first, second = sorted(stays.values())
     return second[0] - first[1]
 
 

@@ -6,19 +6,32 @@ What enters: a `World` and how the ego is foreseen. What leaves: the best first 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
 
+from scenewright.errors import PolicyError
 from scenewright.motion.profile import Profile
 from scenewright.plan.planner import GOOD, Attempt, Planner
 from scenewright.plan.prediction import Predictor
-from scenewright.program.types import EGO
+from scenewright.program.expressions import Compare, Derived, DerivedKind, Knot, Number
+from scenewright.program.starts import HARD_MPSS, TAILGATES_S, says_how_near
+from scenewright.program.structure import Structure, read_structure
+from scenewright.program.types import EGO, Constraint
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
+from scenewright.roads.conflicts import shared_offset_m
+from scenewright.roads.grounding import Scene
 from scenewright.simulate.ego_start import EgoFirstState, ego_starts
 from scenewright.simulate.heroes import HeroDriver
+from scenewright.simulate.port import on_route
+from scenewright.simulate.vehicles import seen
 from scenewright.simulate.world import World
 from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.feasibility import check_feasibility
+from scenewright.solve.limits import Limits
 
+_AT_ONCE_S = 1.0
+_BESIDE_M = 1.0
 _SHIFTS = 4  # of a start, until an ego that slows down for a bend is where it is to be
 
 
@@ -35,22 +48,106 @@ def first_plan(
         The share of their speed at which heroes come to their triggers.
     """
     limits = {actor: own if actor == EGO else own.at_pace(pace) for actor, own in world.limits.items()}
-    conditions = linear_conditions(world.scene, world.structure)
-    best: tuple[Planner, EgoFirstState, Attempt] | None = None
+    best: _Planned | None = None
     for start in _starts(world, predictor):
         # An ego that does not hold its speed may still let come about what no plan promises.
-        promised = best is not None and (best[2].promises_outcome or not world.ego_bounds.holds_speed)
-        if start.last_resort and best is not None and best[2].is_good and promised:
+        promised = best is not None and (best.attempt.promises_outcome or not world.ego_bounds.holds_speed)
+        if start.last_resort and best is not None and best.attempt.is_good and not best.is_saved and promised:
             break
         if start.speed_mps >= slower_than_mps:
             continue
-        planner = Planner(world.scene, world.structure, limits, predictor, conditions)
-        attempt = planner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
-        if best is None or _rank(attempt) < _rank(best[2]):
-            best = planner, start, attempt
-        if attempt.is_good and attempt.promises_outcome:
+        found = _plan_from(world, start, limits, predictor)
+        if best is None or found.rank < best.rank:
+            best = found
+        if found.attempt.is_good and not found.is_saved and found.attempt.promises_outcome:
             break
-    return best
+    return (best.planner, best.start, best.attempt) if best is not None else None
+
+
+@dataclass(frozen=True, slots=True)
+class _Planned:
+    """A start, what is planned from it, and whether the ego begins too near to somebody and brakes hard at once."""
+
+    planner: Planner
+    start: EgoFirstState
+    attempt: Attempt
+    is_saved: bool = False
+
+    @property
+    def rank(self) -> tuple[bool, bool, float, float]:
+        """How it compares with others: nobody is saved, it does what was asked, is hardly late, misses little."""
+        missed = 0.0 if self.attempt.is_good else round(self.attempt.missed.by / GOOD)
+        late_s = round(max(0.0, self.attempt.missed.late_s), 1)
+        return self.is_saved, not self.attempt.is_good, late_s, missed
+
+
+def _plan_from(world: World, start: EgoFirstState, limits: Mapping[int, Limits], predictor: Predictor) -> _Planned:
+    """Plan from a start; where the ego would begin too near to somebody and brake hard, from further away."""
+    found = _planned(world, world.scene, start, limits, predictor)
+    near = _too_near(world, start, found.attempt)
+    if not near or not _brakes_hard(world, start, found.attempt):
+        return found
+    apart = _kept_apart(world.scene, world.structure, near, start.speed_mps)
+    further = _planned(world, apart, start, limits, predictor)
+    still = bool(_too_near(world, start, further.attempt)) and _brakes_hard(world, start, further.attempt)
+    return replace(further, is_saved=still)
+
+
+def _planned(
+    world: World, scene: Scene, start: EgoFirstState, limits: Mapping[int, Limits], predictor: Predictor
+) -> _Planned:
+    structure = read_structure(scene.program)
+    planner = Planner(scene, structure, limits, predictor, linear_conditions(scene, structure))
+    return _Planned(planner, start, planner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss)))
+
+
+def _too_near(world: World, start: EgoFirstState, attempt: Attempt) -> list[int]:
+    """Return the heroes whom the ego would follow by less than a second, or has to brake hard for, if not asked to."""
+    scene, routes, near = world.scene, world.scene.routes, []
+    ego = on_route(routes[EGO], (start.s_m, start.speed_mps, 0.0))
+    for hero in scene.program.heroes:
+        offset_m = shared_offset_m(routes[EGO], routes[hero.id])
+        if offset_m is None or says_how_near(scene.program, world.structure, EGO, hero.id):
+            continue
+        there = on_route(routes[hero.id], attempt.plan.profiles[hero.id].state(0.0))
+        ahead_m, closing_mps = there.s_m + offset_m - ego.s_m, max(0.0, ego.speed_mps - there.speed_mps)
+        # Who is still on another road is further away than along the road that the two will share.
+        same_road = math.hypot(there.x_m - ego.x_m, there.y_m - ego.y_m) < ahead_m + _BESIDE_M
+        kept_m = max(TAILGATES_S * ego.speed_mps, closing_mps**2 / (2.0 * HARD_MPSS))
+        if same_road and 0.0 < ahead_m - VEHICLE_LENGTH_M < kept_m:
+            near.append(hero.id)
+    return near
+
+
+def _brakes_hard(world: World, start: EgoFirstState, attempt: Attempt) -> bool:
+    """Whether the policy, shown the heroes as they are planned, brakes hard in the first second."""
+    ego, scene, step_s, plans = world.ego, world.scene, world.rates.step_s, attempt.plan.profiles
+    try:
+        ego.reset(start.s_m, start.speed_mps)
+        for step in range(round(_AT_ONCE_S / step_s)):
+            now_s = round(step * step_s, 9)
+            there = {i: on_route(scene.routes[i], plans[i].state(now_s)) for i in plans if i != EGO}
+            action = ego.decide(now_s, seen(scene, there), step_s)
+            if ego.state.accel_mps2 < -HARD_MPSS:
+                return True
+            ego.advance(action, step_s)
+    except PolicyError:
+        pass  # the run itself will tell
+    return False
+
+
+def _kept_apart(scene: Scene, structure: Structure, heroes: Iterable[int], speed_mps: float) -> Scene:
+    """Return a scene whose program says besides that an ego of this speed begins further behind some heroes.
+
+    Nobody closes in on another faster than it drives: that long before a collision, even braking is enough.
+    """
+    knot, more = Knot(structure.starts[EGO]), []
+    least: list[tuple[DerivedKind, float]] = [("headway", TAILGATES_S), ("ttc", speed_mps / (2.0 * HARD_MPSS))]
+    for hero in heroes:
+        for kind, least_s in least:
+            said = Compare(">=", Derived(kind, EGO, hero, knot), Number(Fraction(least_s).limit_denominator(1000)))
+            more.append(Constraint(f"begins_{kind}_{hero}", said))
+    return replace(scene, program=replace(scene.program, constraints=(*scene.program.constraints, *more)))
 
 
 def first_plan_of_smt(world: World) -> tuple[HeroDriver, EgoFirstState, Attempt] | str:
@@ -107,9 +204,3 @@ def _on_time(start: EgoFirstState, motion: Profile, world: World, predictor: Pre
             late_m = motion.state(then_s)[0] - foreseen.state(then_s)[0]
             start = replace(start, s_m=max(0.0, start.s_m + late_m))
     return start
-
-
-def _rank(attempt: Attempt) -> tuple[bool, float, float]:
-    """Return how a first plan compares with others: it does what was asked, is hardly late, misses little."""
-    missed = 0.0 if attempt.is_good else round(attempt.missed.by / GOOD)
-    return not attempt.is_good, round(max(0.0, attempt.missed.late_s), 1), missed

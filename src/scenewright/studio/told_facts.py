@@ -24,16 +24,15 @@ def told_facts(facts: Mapping[str, Any]) -> list[Told]:
 
 
 def _triggers(facts: Mapping[str, Any]) -> Iterator[Told]:
+    came = facts.get("trigger_came") or {}
     for hero, time_s in (facts.get("trigger_time_s") or {}).items():
         moment = _number(time_s)
-        yield (
-            (f"The trigger of {hero} came at {moment:.2f} s.", moment)
-            if moment is not None
-            else (
-                f"The trigger of {hero} never came.",
-                None,
-            )
-        )
+        if moment is None:
+            yield f"The trigger of {hero} never came.", None
+        elif came.get(hero, True):
+            yield f"The trigger of {hero} came at {moment:.2f} s.", moment
+        else:
+            yield f"The trigger of {hero} never came; it was nearest at {moment:.2f} s.", moment
     for side in facts.get("closest") or ():
         error, moment = _number(side.get("error")), _number(side.get("time_s"))
         if error is None or moment is None:
