@@ -44,7 +44,7 @@ def first_plan(
             break
         if start.speed_mps >= slower_than_mps:
             continue
-        planner = Planner(world.scene, world.structure, limits, predictor, conditions)
+        planner = Planner(world.planned, world.structure, limits, predictor, conditions)
         attempt = planner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
         if best is None or _rank(attempt) < _rank(best[2]):
             best = planner, start, attempt
