@@ -97,14 +97,14 @@ def lowered(scene: Scene, ego: EgoBounds = EGO) -> tuple[Events, Lowering]:
     return events, lowering
 
 
-def plant(seed: int) -> Planted:
-    """Draw motions, and constraints that are true of them."""
+def plant(seed: int, begin_m: tuple[int, int] = (40, 90)) -> Planted:
+    """Draw motions that begin within some places, and constraints that are true of them."""
     chance = random.Random(seed)
     routes, sketch = chance.choice(PAIRS), SKETCHES[seed % len(SKETCHES)].split()
-    hero, hero_times = _drive(chance, sketch)
+    hero, hero_times = _drive(chance, sketch, begin_m)
     trigger = 1
     when = hero_times[trigger]
-    ego, ego_times = _drive(chance, ["go", "go"], when, (-4, 2))
+    ego, ego_times = _drive(chance, ["go", "go"], begin_m, when, (-4, 2))
     head = "".join(
         f"Actor {number} ({name}):\n- {route}\n- [{_knots(pieces)}]\n\n"
         for number, name, route, pieces in ((0, "ego", routes[0], ["go", "go"]), (1, "hero", routes[1], sketch))
@@ -120,7 +120,11 @@ def _knots(pieces: list[str]) -> str:
 
 
 def _drive(
-    chance: random.Random, sketch: list[str], first_lasts: Fraction | None = None, go: tuple[int, int] = RATES["go"]
+    chance: random.Random,
+    sketch: list[str],
+    begin_m: tuple[int, int],
+    first_lasts: Fraction | None = None,
+    go: tuple[int, int] = RATES["go"],
 ) -> tuple[Motion, list[Fraction]]:
     """Draw a motion piece by piece: several rates in each, never backwards, a `stop` from and at a standstill."""
     first = speed = Fraction(chance.randint(30, 110), 10)
@@ -145,7 +149,7 @@ def _drive(
             moves.append((lasts, rate))
             speed += lasts * rate
         times.append(begun + left)
-    return Motion(Fraction(chance.randint(40, 90)), first, tuple(moves)), times
+    return Motion(Fraction(chance.randint(*begin_m)), first, tuple(moves)), times
 
 
 def _facts(

@@ -50,6 +50,22 @@ def test_what_has_happened_is_never_called_impossible(seed: int) -> None:
         assert broken(asked.scene, asked.structure, asked.limits, asked.ego, decision.witness) == []
 
 
+@pytest.mark.parametrize(
+    ("piece", "constraints", "core"),
+    [
+        ("go", "A1x(t2) == turn_start + 5\nA1v(t2) == 16", {"c1", "c2"}),
+        ("go", "turn_start + 5 <= A1x(t2) <= turn_end - 5\nA1v(t2) >= 14", {"c1", "c2"}),
+        ("go", "A1x(t1) <= turn_start\nA1x(t2) >= turn_end\nalways[A1(t1), A1(t2)] (A1v >= 12)", {"c1", "c2", "c3"}),
+        ("acc", "A1x(t1) <= turn_start\nA1x(t2) >= turn_end\nA1v(t1) == 12", {"c1", "c2", "c3"}),
+    ],
+)
+def test_a_bend_that_nobody_takes_so_fast_is_proven(piece: str, constraints: str, core: set[str]) -> None:
+    head = HEAD[: HEAD.index("A0x")].replace("dec", piece)
+    decision = decide(question(head + constraints.replace("turn_", "A1.turn_") + "\n"))
+    assert decision.answer == "infeasible"
+    assert set(decision.core) >= {*core, "hero takes bends at 6 m/s^2 sideways at most"}
+
+
 def test_nearly_everything_that_has_happened_is_shown_to_be_possible() -> None:
     answers = [decide(plant(seed).question(), explain=False).answer for seed in range(1000, 1040)]
     assert answers.count("feasible") >= 36, "two that touch or turn too fast in the planted motion may stay undecided"
