@@ -15,6 +15,7 @@ from typing import Any
 from scenewright.program.expressions import (
     Arithmetic,
     Compare,
+    Formula,
     Logic,
     Negate,
     Number,
@@ -29,7 +30,7 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.proofs.decide import Question, decide
 from scenewright.solve.tolerances import compared_dimension
 from scenewright.translate.lines import in_words
-from scenewright.units import SI_SYMBOL, decimal_fraction, format_fraction
+from scenewright.units import SI_SYMBOL, Dimension, decimal_fraction, format_fraction
 
 _QUERY_S = 0.5  # for one value; chosen: a check takes 20 ms, the hardest ones some tenths of a second
 _ALL_S = 3.0  # of the processor, so that a busy machine proposes the same
@@ -112,13 +113,12 @@ def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
     for constraint in program.constraints:
         if constraint.id not in constraints:
             continue
-        for node in walk(constraint.formula):
+        for node, dimension in _numbers(constraint.formula):
             if isinstance(node, ParameterRef) and node.name in scene.parameters and node.name not in seen:
                 seen.add(node.name)
                 parameter = next(p for p in program.parameters if p.name == node.name)
                 yield Lever(node.name, scene.parameters[node.name], parameter.unit.dimension, node.name)
             elif isinstance(node, Number):
-                dimension = compared_dimension(constraint.formula)
                 if node.value == 0 and dimension not in _FROM_ZERO:
                     continue
                 is_code = program.description is None  # whoever wrote the program looks for its line
@@ -127,13 +127,27 @@ def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
                 yield Lever(what, node.value, dimension, f"free_{constraint.id}", constraint, node)
 
 
+def _numbers(formula: Formula) -> Iterator[tuple[ParameterRef | Number, Dimension]]:
+    """Yield numbers and parameters that a formula compares, with the dimension of what they are compared with."""
+    for part in walk(formula):
+        if isinstance(part, Compare):
+            yield from ((n, compared_dimension(part)) for n in walk(part) if isinstance(n, ParameterRef | Number))
+
+
 def _nearest(question: Question, lever: Lever) -> Fraction | None:
     """Return the value nearest to the lever's own with which there is a witness, rounded to a readable number."""
     freed = replace(question, scene=_freed(question.scene, lever))
 
     def possible(low: Fraction, high: Fraction) -> Fraction | None:
         decision = decide(replace(freed, freed={lever.name: (low, high)}), _QUERY_S, explain=False)
-        return decimal_fraction(f"{decision.witness.parameters[lever.name]:.6f}") if decision.witness else None
+        if decision.witness is not None:
+            return decimal_fraction(f"{decision.witness.parameters[lever.name]:.6f}")
+        if decision.answer == "infeasible":
+            return None
+        # As a number it bounds a law of motion, where that is what it does; as an unknown it cannot.
+        furthest = max(low, high, key=lambda each: abs(each - lever.value))
+        told = replace(question, scene=_told(question.scene, lever, furthest))
+        return furthest if decide(told, _QUERY_S, explain=False).answer == "feasible" else None
 
     value, sign = lever.value, -1 if lever.value < 0 else 1
     ends = (sign * 10 * abs(value) + 20 * sign, Fraction(0) if value else Fraction(-20))
@@ -154,6 +168,12 @@ def _freed(scene: Scene, lever: Lever) -> Scene:
     program = lever.put(scene.program, ParameterRef(lever.name))
     declared = tuple(p for p in program.parameters if p.name != lever.name)
     return replace(scene, program=replace(program, parameters=declared), parameters=parameters)
+
+
+def _told(scene: Scene, lever: Lever, value: Fraction) -> Scene:
+    """Return the scene in which the lever's number is another."""
+    parameters = {**scene.parameters, lever.name: value} if lever.number is None else scene.parameters
+    return replace(scene, program=lever.put(scene.program, Number(value)), parameters=parameters)
 
 
 def _nearest_towards(

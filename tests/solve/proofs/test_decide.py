@@ -66,6 +66,13 @@ def test_a_bend_that_nobody_takes_so_fast_is_proven(piece: str, constraints: str
     assert set(decision.core) >= {*core, "hero takes bends at 6 m/s^2 sideways at most"}
 
 
+@pytest.mark.parametrize("before", ["A1x <= 80", "A1x < 100"])
+def test_what_is_bounded_up_to_a_place_is_free_past_it(before: str) -> None:
+    head = HEAD[: HEAD.index("A0x")]
+    text = f"{head}A1x(t0) == 100\nA1v(t0) == 10\nalways[A1(t0), A1(t1)] ({before} implies A1v <= 5)\n"
+    assert decide(question(text)).answer == "feasible"
+
+
 def test_nearly_everything_that_has_happened_is_shown_to_be_possible() -> None:
     answers = [decide(plant(seed).question(), explain=False).answer for seed in range(1000, 1040)]
     assert answers.count("feasible") >= 36, "two that touch or turn too fast in the planted motion may stay undecided"
