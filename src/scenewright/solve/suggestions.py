@@ -100,7 +100,7 @@ def suggest(question: Question, core: set[str]) -> Iterator[Suggestion]:
     for lever in levers(question.scene, core):
         if found >= _SUGGESTIONS or time.process_time() > until:
             return
-        nearest = _nearest(question, lever)
+        nearest = _nearest(question, lever, until)
         if nearest is not None:
             found += 1
             yield Suggestion(lever.what, float(lever.value), float(nearest), lever.unit)
@@ -134,8 +134,11 @@ def _numbers(formula: Formula) -> Iterator[tuple[ParameterRef | Number, Dimensio
             yield from ((n, compared_dimension(part)) for n in walk(part) if isinstance(n, ParameterRef | Number))
 
 
-def _nearest(question: Question, lever: Lever) -> Fraction | None:
-    """Return the value nearest to the lever's own with which there is a witness, rounded to a readable number."""
+def _nearest(question: Question, lever: Lever, until: float) -> Fraction | None:
+    """Return the value nearest to the lever's own with which there is a witness, rounded to a readable number.
+
+    After `until`, in time of the processor, what is near enough is looked for no longer.
+    """
     freed = replace(question, scene=_freed(question.scene, lever))
 
     def possible(low: Fraction, high: Fraction) -> Fraction | None:
@@ -151,7 +154,7 @@ def _nearest(question: Question, lever: Lever) -> Fraction | None:
 
     value, sign = lever.value, -1 if lever.value < 0 else 1
     ends = (sign * 10 * abs(value) + 20 * sign, Fraction(0) if value else Fraction(-20))
-    found = [nearest for end in ends if (nearest := _nearest_towards(value, end, possible)) is not None]
+    found = [nearest for end in ends if (nearest := _nearest_towards(value, end, possible, until)) is not None]
     if not found:
         return None
     best = min(found, key=lambda candidate: abs(candidate - value))
@@ -177,14 +180,16 @@ def _told(scene: Scene, lever: Lever, value: Fraction) -> Scene:
 
 
 def _nearest_towards(
-    value: Fraction, end: Fraction, possible: Callable[[Fraction, Fraction], Fraction | None]
+    value: Fraction, end: Fraction, possible: Callable[[Fraction, Fraction], Fraction | None], until: float
 ) -> Fraction | None:
     """Bisect between `value`, which does not work, and what works on the way to `end`; None where nothing does."""
-    far = possible(min(value, end), max(value, end))
+    far = possible(min(value, end), max(value, end)) if time.process_time() < until else None
     if far is None:
         return None
     near = value
     for _ in range(_BISECTIONS):
+        if time.process_time() > until:
+            break
         middle = (near + far) / 2
         better = possible(min(middle, value), max(middle, value))
         if better is None:

@@ -163,6 +163,8 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
         if bending := {each.actor for each in hunt.amiss if each.what == "turn"} - question.bending:
             question = replace(question, bending=question.bending | bending)
             plain, formulas = _Case(question, plan=False), []
+        if formulas and time.monotonic() > until:
+            break
         formulas = formulas or plain.relaxation()  # most witnesses need none
         answer = question.refuter.ask(plain.events.unknowns, formulas, min(proof_s, until - time.monotonic()))
         if answer.kind == "refuted" and not question.refuter.capabilities.exact:

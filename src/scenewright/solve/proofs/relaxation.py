@@ -100,7 +100,7 @@ def _motion(events: Events, narrowings: Sequence[Narrowing], actor: int, least: 
             for late in inside:
                 if early == late or least[late, early] > _CERTAIN:
                     continue
-                if _parted(inside, stretch, early, late, least):
+                if _parted(inside, early, late, least):
                     continue
                 law, besides = _narrowed(narrowings, actor, stretch.law, early, late, least)
                 yield Named(_between(events, actor, stretch, early, late, law, least), origin, besides)
@@ -113,14 +113,10 @@ def _possibly_inside(stretch: Stretch, instant: int, least: NDArray[np.float64])
     return not before and not after
 
 
-def _certainly_inside(stretch: Stretch, instant: int, least: NDArray[np.float64]) -> bool:
-    return bool(least[stretch.first, instant] >= 0 and (stretch.last is None or least[instant, stretch.last] >= 0))
-
-
-def _parted(inside: list[int], stretch: Stretch, early: int, late: int, least: NDArray[np.float64]) -> bool:
-    """Whether a third moment in the stretch lies between for certain: the laws on either side then say it all."""
+def _parted(inside: list[int], early: int, late: int, least: NDArray[np.float64]) -> bool:
+    """Whether a third moment lies between for certain: where both are in the stretch the laws on either side say it."""
     for middle in inside:
-        if middle in (early, late) or not _certainly_inside(stretch, middle, least):
+        if middle in (early, late):
             continue
         if least[early, middle] >= 0 and least[middle, late] >= 0:
             tied = least[middle, early] >= 0 or least[late, middle] >= 0
