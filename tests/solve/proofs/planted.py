@@ -186,6 +186,7 @@ def _facts(
             f"always[A{actor}(t0), A{actor}(t1)] (A{actor}x <= {_said(motion.place - 5)} implies A{actor}v <= 1)",
             f"always[A{actor}(t0), A{actor}(t1)] (A{actor}x < {_said(motion.place)} implies A{actor}v <= 1)",
             f"always[A{actor}(t0), A{actor}(t2)] (A{actor}x >= {_said(motion.place + 200)} implies A{actor}v <= 1)",
+            f"always[A1(t1) - {_said(knots[1, 't1'] + 3)}, A1(t1) - {_said(knots[1, 't1'] + 1)}] (A{actor}v <= 1)",
         ]
     first, last = knots[1, "t1"], knots[1, "t2"]
     mean = (motions[1].state(last)[1] - motions[1].state(first)[1]) / (last - first)

@@ -73,6 +73,20 @@ def test_what_is_bounded_up_to_a_place_is_free_past_it(before: str) -> None:
     assert decide(question(text)).answer == "feasible"
 
 
+@pytest.mark.parametrize(
+    ("constraint", "answer"),
+    [
+        ("always[-5, -2] (A1v <= 5)", "feasible"),
+        ("eventually[-5, -2] (A1v >= 5)", "infeasible"),
+        ("eventually[A1(t1) - 4, A1(t1) - 2] (A1v >= 5)", "infeasible"),
+        ("always[A1(t0) - 4, A1(t0)] (A1v <= 5)", "infeasible"),
+    ],
+)
+def test_nothing_holds_or_happens_before_the_start(constraint: str, answer: str) -> None:
+    head = HEAD[: HEAD.index("A0x")]
+    assert decide(question(f"{head}A1v(t0) == 10\nA1(t1) <= 1.5\n{constraint}\n"), explain=False).answer == answer
+
+
 def test_nearly_everything_that_has_happened_is_shown_to_be_possible() -> None:
     answers = [decide(plant(seed).question(), explain=False).answer for seed in range(1000, 1040)]
     assert answers.count("feasible") >= 36, "two that touch or turn too fast in the planted motion may stay undecided"

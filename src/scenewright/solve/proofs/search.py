@@ -18,7 +18,7 @@ from scenewright.motion.laws import Law, bounded, capped, fixed
 from scenewright.solve.proofs.compiled import Compiled
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.narrowing import Narrowing
-from scenewright.solve.proofs.order import impossible, least_differences, told_values
+from scenewright.solve.proofs.order import impossible, least_differences, tightened, told_values
 from scenewright.solve.proofs.polynomials import All, Atom, Formula, Some
 
 Array = NDArray[np.float64]
@@ -46,7 +46,7 @@ class Search:
         self.narrowings = narrowings
         self.steps = 0
         self._least = least_differences(events, formulas)
-        self._told = told_values(events.unknowns, formulas)
+        self._told = told_values(tightened(events.unknowns, formulas))
         size = len(self.events.unknowns)
         self._size = size
         self._compiled = Compiled(self.formulas, size, self._ruled_out)
