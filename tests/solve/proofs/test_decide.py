@@ -87,6 +87,13 @@ def test_nothing_holds_or_happens_before_the_start(constraint: str, answer: str)
     assert decide(question(f"{head}A1v(t0) == 10\nA1(t1) <= 1.5\n{constraint}\n"), explain=False).answer == answer
 
 
+@pytest.mark.parametrize("end", ["tta(A1, conflict_point, t1)", "(A1x(t1) - 5) / A1v(t1)"])
+def test_a_stretch_of_time_that_ends_at_a_quotient_is_refused_by_name(end: str) -> None:
+    decision = decide(question(f"{HEAD}probe: always[0, {end}] (A1v <= 5)\n"))
+    assert decision.answer == "undecided"
+    assert set(decision.left_out) == {"probe"}
+
+
 def test_nearly_everything_that_has_happened_is_shown_to_be_possible() -> None:
     answers = [decide(plant(seed).question(), explain=False).answer for seed in range(1000, 1040)]
     assert answers.count("feasible") >= 36, "two that touch or turn too fast in the planted motion may stay undecided"
