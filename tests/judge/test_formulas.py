@@ -60,6 +60,8 @@ def judged(play: Play, formula: str) -> Condition:
         ("eventually[0, 8](A1v <= 2)", True, True),
         ("always[A1(t2), A1(t1)](A1v == 99)", True, True),  # at no instant
         ("eventually[A1(t2), A1(t1)](A1v <= 99)", False, False),
+        ("always[-5, -2](A1v == 99)", True, True),  # over before the start
+        ("eventually[-5, -2](A1v <= 99)", False, False),
         ("eventually[0, 4](A1v <= 2)", False, False),
         ("never[0, A1(t1)](A1v < 11)", True, True),
         ("never[0, A1(t2)](A1v < 3)", False, False),

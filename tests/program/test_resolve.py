@@ -80,7 +80,13 @@ def test_places_of_several_actors_are_compared_along_one_route(text: str, frames
 
 
 @pytest.mark.parametrize(
-    "text", ["A0x(t1) == conflict_point - 3", "A1x(t1) == A0x(t1) + 20", "tta(A0, A0.turn, t1) < 3 or A1v(t1) == 0"]
+    "text",
+    [
+        "A0x(t1) == conflict_point - 3",
+        "A1x(t1) == A0x(t1) + 20",
+        "tta(A0, A0.turn, t1) < 3 or A1v(t1) == 0",
+        "always[0, tta(A1, conflict_point, t1)] (A1v <= 5)",
+    ],
 )
 def test_resolving_again_changes_nothing_and_what_is_printed_is_what_was_written(text: str) -> None:
     program = parsed(text, "A0(t1) == A2(t1)")

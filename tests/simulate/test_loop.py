@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from many_heroes import PROGRAMS, drive
 
 from scenewright.judge.tolerance import TIGHT
+from scenewright.orchestrate import Request, orchestrate
 from scenewright.plan.planner import GOOD
 from scenewright.program.types import PieceKind
 from scenewright.simulate.hindsight import ego_left_no_room
 from scenewright.simulate.loop import Run
 from scenewright.solve.limits import ACCEL_MAX_MPSS, BRAKE_MAX_MPSS
-from stories import HERO, STEP_S, STORIES, TICK_S, Scripted, Stage, driven
+from stories import HERO, STEP_S, STORIES, TICK_S, Scripted, Stage, driven, program
 
 TABLE = [
     ("yields, distance", "constant", 0),
@@ -184,3 +187,15 @@ def test_a_run_goes_on_while_anybody_may_still_do_what_is_asked() -> None:
     left_s = traces["leaves"].time_s[traces["leaves"].s_m > ends_m][0]
     assert driven.verdict.facts["trigger_time_s"]["car1"] > left_s
     assert driven.met == 2
+
+
+def test_a_run_goes_on_until_what_is_told_by_the_clock(tmp_path: Path) -> None:
+    """The hero stands long before, and so nothing else keeps the run going."""
+    hero = "A1x(t1) == conflict_point - 25\nA1x(t2) == conflict_point - 5\nA1v(t2) == 0\nlate: A1v(25) == 0\n"
+    trigger = "A0x(t0) == conflict_point - 120\nA0(t1) == A1(t1)\nA0x(t1) == conflict_point - 30\n"
+    path = tmp_path / "late.scene"
+    path.write_text(program("E, N", "t0, go, t1, dec, t2", trigger + hero))
+    result = orchestrate(Request(source=str(path), ego="constant", takes=1))
+    assert result.run is not None
+    assert result.run.trace.actors["hero"].time_s[-1] >= 25.0
+    assert result.status == "success"

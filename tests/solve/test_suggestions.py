@@ -99,3 +99,24 @@ def test_every_suggestion_makes_it_possible() -> None:
         further = suggestion.nearest + 0.05 * (suggestion.value - suggestion.nearest)
         short = text.replace(formula, f"{formula.removesuffix(number)}{further:.4f}")
         assert answer(short) == "infeasible"
+
+
+@pytest.mark.parametrize(
+    ("line", "unit", "nearest"),
+    [
+        ("A1a(dec) <= -20", "m/s^2", -8.0),
+        ("A1a(dec) == -20", "m/s^2", -8.0),
+        ("always[A1(t1), A1(t2)] (A1a <= -50)", "m/s^2", -8.0),
+        ("always[1, 2] (A1v >= 100)", "m/s", 18.0),
+        ("always[A1(t0), A1(t1)] (A1x >= 0 implies A1v >= 100)", "m/s", 18.0),
+    ],
+)
+def test_bounds_of_a_stretch_of_time_have_ways_out_in_their_own_unit(line: str, unit: str, nearest: float) -> None:
+    """As unknowns they bound no law of motion, so they are tried as numbers; and no empty stretch is proposed."""
+    head = "Actor 0 (ego):\n- W\n- [t0, go, t1, go, t2]\n\nActor 1 (hero):\n- E, N\n- [t0, go, t1, dec, t2]\n\n"
+    text = f"{head}Constraints:\nA0(t1) == A1(t1)\nA1x(t2) <= conflict_point - 5\nprobe: {line}\n"
+    scene = ground(parse_program(text), T)
+    probe = print_expression(scene.program.constraint("probe").formula)
+    found = [each for each in feasibility(scene).suggestions if each.what.endswith(probe) and each.unit == unit]
+    assert len(found) == 1
+    assert found[0].nearest == pytest.approx(nearest, abs=0.3)

@@ -121,7 +121,7 @@ def _temporal(case: Case, formula: Temporal, moments: Moments, negated: bool) ->
     if any(isinstance(node, Temporal) for node in walk(formula.body)):
         raise CannotJudge("one temporal operator inside another")
     start, end = sides(case, Compare("<=", formula.start, formula.end), moments)
-    start_s, end_s = case.start_s + float(start), case.start_s + float(end)
+    start_s, end_s = case.start_s + max(0.0, float(start)), case.start_s + float(end)
     if not np.isfinite(start_s) or start_s > case.end_s:
         raise CannotJudge("the run ended before the stretch of time began")
     lasting = (formula.operator != "eventually") != negated

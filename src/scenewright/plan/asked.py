@@ -118,7 +118,7 @@ class Asked:
         changes = np.array([_along(gradient, slopes) for gradient in gradients]) / norms[:, None]
         missed = np.where(equal, np.abs(levels), levels)
         # An alternative that does not hold is none where nothing that is still to be planned changes it.
-        settled = (missed > 0.0) & ~np.any(changes != 0.0, axis=1)
+        settled = (missed > 1.0) & ~np.any(changes != 0.0, axis=1)
         for k in self._formulas.chosen(np.where(settled, np.inf, missed)):
             yield Row(float(levels[k]), changes[k], bool(equal[k]), self._orders[k] and not equal[k])
 

@@ -291,6 +291,8 @@ class HeroRows:
         shot, law = self.shot, narrowing.law
         begin_s = max(self.moments[k].value(shot.z) for k in narrowing.begins())
         end_s = min(self.moments[k].value(shot.z) for k in narrowing.ends())
+        if narrowing.place is not None and begin_s >= end_s:
+            return  # the place was passed before, or never is
         for node, accel in self._within(begin_s, end_s):
             _, v, _, d_v = shot.at_node(node)
             self._within_bounds(v, d_v, float(law.speed_low), float(law.speed_high), _TIGHT_SPEED)

@@ -55,8 +55,11 @@ class _Resolver:
         match formula:
             case ex.Logic(operands=operands):
                 return replace(formula, operands=tuple(self.formula(operand) for operand in operands))
-            case ex.Temporal(body=body):
-                return replace(formula, body=self.formula(body))
+            case ex.Temporal(start=start, end=end, body=body):
+                start, end = (
+                    self._compare(ex.Compare("==", edge, ex.Number(Fraction(0)))).left for edge in (start, end)
+                )
+                return replace(formula, start=start, end=end, body=self.formula(body))
             case ex.Compare():
                 return self._compare(formula)
 

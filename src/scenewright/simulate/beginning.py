@@ -83,11 +83,11 @@ class _Planned:
 
 def _plan_from(world: World, start: EgoFirstState, limits: Mapping[int, Limits], predictor: Predictor) -> _Planned:
     """Plan from a start; where the ego would begin too near to somebody and brake hard, from further away."""
-    found = _planned(world, world.scene, start, limits, predictor)
+    found = _planned(world, world.planned, start, limits, predictor)
     near = _too_near(world, start, found.attempt)
     if not near or not _brakes_hard(world, start, found.attempt):
         return found
-    apart = _kept_apart(world.scene, world.structure, near, start.speed_mps)
+    apart = _kept_apart(world.planned, world.structure, near, start.speed_mps)
     further = _planned(world, apart, start, limits, predictor)
     still = bool(_too_near(world, start, further.attempt)) and _brakes_hard(world, start, further.attempt)
     return replace(further, is_saved=still)

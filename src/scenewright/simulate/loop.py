@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from scenewright.errors import PolicyError, ScenewrightError, SimulatorError
-from scenewright.program.types import EGO
+from scenewright.program import expressions as ex
+from scenewright.program.types import EGO, Program
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.port import SIMULATORS, Simulator, Snapshot, Start
 from scenewright.trace.model import ActorState, ActorTrace, Trace
@@ -83,6 +84,7 @@ def simulate(
     scene, first_plan, log = start.scene, heroes.plan, _Log(start.scene)
     steps_a_tick = max(1, round(rates.replan_s / rates.step_s)) if rates.replan_s else 0
     status, fault, step, astray_m = "finished", None, 0, 0.0
+    clock_s = _told_by_the_clock_s(scene.program)
     with SIMULATORS.blamed(simulator):
         simulator.reset(start, rates.step_s)
         now = simulator.observe()
@@ -100,7 +102,7 @@ def simulate(
             driven = {hero: now.actors[hero] for hero in motions}
             for hero, there in driven.items():
                 astray_m = max(astray_m, hypot(there.s_m - motions[hero].state(now.time_s)[0], there.d_m))
-            if _is_over(scene, heroes, now.actors[EGO], driven, now.time_s):
+            if _is_over(scene, heroes, now.actors[EGO], driven, now.time_s, clock_s):
                 break
             with SIMULATORS.blamed(simulator):
                 simulator.step()
@@ -152,16 +154,26 @@ class _Log:
         return Trace(actors)
 
 
+def _told_by_the_clock_s(program: Program) -> float:
+    """Return the latest time that a program tells by the clock (s), if it tells any."""
+    nodes = [node for constraint in program.constraints for node in ex.walk(constraint.formula)]
+    told: list[object] = [node.at for node in nodes if isinstance(node, ex.State | ex.Derived)]
+    told += [edge for node in nodes if isinstance(node, ex.Temporal) for edge in (node.start, node.end)]
+    return max((float(time.value) for time in told if isinstance(time, ex.Number)), default=0.0)
+
+
 def _is_over(
-    scene: Scene, heroes: HeroDriver, ego: ActorState, states: Mapping[int, ActorState], time_s: float
+    scene: Scene, heroes: HeroDriver, ego: ActorState, states: Mapping[int, ActorState], time_s: float, clock_s: float
 ) -> bool:
-    """Whether all that the program tells of has happened, or will not happen any more."""
+    """Whether all that the program tells of has happened, the latest at `clock_s`, or will not happen any more."""
     if time_s >= LONGEST_RUN_S:
         return True
     route = scene.routes[EGO]
     end_m = route.landmarks["route_end"]
     if ego.s_m >= end_m - ROUTE_END_M:
         return True
+    if time_s < clock_s:
+        return _stalled(heroes, time_s)
     # Whoever is at the end of its route does nothing more that a program asks for; others may.
     going = [heroes.plan.profiles[hero] for hero in states if not _is_at_end(scene, hero, states)]
     last_knot_s = max((max(profile.knot_times_s.values()) for profile in going), default=-_WAIT_FOR_EGO_S)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.loading import load_policy
+from scenewright.plan.alternatives import decided
 from scenewright.plan.prediction import ConstantSpeed, Predictor, predictor_called
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.types import EGO
@@ -36,6 +37,11 @@ class World:
     simulator
         The name of what everybody drives in. One that drives the ego itself keeps no promise of the policy's.
 
+    Attributes
+    ----------
+    planned
+        The scene as heroes are planned in it: what lasts is decided.
+
     Raises
     ------
     ScenewrightError
@@ -52,7 +58,7 @@ class World:
         solver: str = "z3",
         simulator: str = "builtin",
     ) -> None:
-        self.scene = scene
+        self.scene = self.planned = scene
         self.rates = rates
         self.policy = load_policy(ego)
         guarded = GuardedPolicy(self.policy.policy, self.policy.name)
@@ -75,4 +81,5 @@ class World:
     def choose_and_check(self) -> Feasibility:
         """Give open parameters values, and ask whether the scenario can happen with them."""
         self.scene, answer = settle(self.scene, self.structure, self.limits, self.ego_bounds, self.refuter)
+        self.planned = decided(self.scene, answer.witness) if answer.witness is not None else self.scene
         return answer

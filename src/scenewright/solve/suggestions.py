@@ -15,6 +15,7 @@ from typing import Any
 from scenewright.program.expressions import (
     Arithmetic,
     Compare,
+    Formula,
     Logic,
     Negate,
     Number,
@@ -29,7 +30,7 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.proofs.decide import Question, decide
 from scenewright.solve.tolerances import compared_dimension
 from scenewright.translate.lines import in_words
-from scenewright.units import SI_SYMBOL, decimal_fraction, format_fraction
+from scenewright.units import SI_SYMBOL, Dimension, decimal_fraction, format_fraction
 
 _QUERY_S = 0.5  # for one value; chosen: a check takes 20 ms, the hardest ones some tenths of a second
 _ALL_S = 3.0  # of the processor, so that a busy machine proposes the same
@@ -99,7 +100,7 @@ def suggest(question: Question, core: set[str]) -> Iterator[Suggestion]:
     for lever in levers(question.scene, core):
         if found >= _SUGGESTIONS or time.process_time() > until:
             return
-        nearest = _nearest(question, lever)
+        nearest = _nearest(question, lever, until)
         if nearest is not None:
             found += 1
             yield Suggestion(lever.what, float(lever.value), float(nearest), lever.unit)
@@ -112,13 +113,12 @@ def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
     for constraint in program.constraints:
         if constraint.id not in constraints:
             continue
-        for node in walk(constraint.formula):
+        for node, dimension in _numbers(constraint.formula):
             if isinstance(node, ParameterRef) and node.name in scene.parameters and node.name not in seen:
                 seen.add(node.name)
                 parameter = next(p for p in program.parameters if p.name == node.name)
                 yield Lever(node.name, scene.parameters[node.name], parameter.unit.dimension, node.name)
             elif isinstance(node, Number):
-                dimension = compared_dimension(constraint.formula)
                 if node.value == 0 and dimension not in _FROM_ZERO:
                     continue
                 is_code = program.description is None  # whoever wrote the program looks for its line
@@ -127,17 +127,34 @@ def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
                 yield Lever(what, node.value, dimension, f"free_{constraint.id}", constraint, node)
 
 
-def _nearest(question: Question, lever: Lever) -> Fraction | None:
-    """Return the value nearest to the lever's own with which there is a witness, rounded to a readable number."""
+def _numbers(formula: Formula) -> Iterator[tuple[ParameterRef | Number, Dimension]]:
+    """Yield numbers and parameters that a formula compares, with the dimension of what they are compared with."""
+    for part in walk(formula):
+        if isinstance(part, Compare):
+            yield from ((n, compared_dimension(part)) for n in walk(part) if isinstance(n, ParameterRef | Number))
+
+
+def _nearest(question: Question, lever: Lever, until: float) -> Fraction | None:
+    """Return the value nearest to the lever's own with which there is a witness, rounded to a readable number.
+
+    After `until`, in time of the processor, what is near enough is looked for no longer.
+    """
     freed = replace(question, scene=_freed(question.scene, lever))
 
     def possible(low: Fraction, high: Fraction) -> Fraction | None:
         decision = decide(replace(freed, freed={lever.name: (low, high)}), _QUERY_S, explain=False)
-        return decimal_fraction(f"{decision.witness.parameters[lever.name]:.6f}") if decision.witness else None
+        if decision.witness is not None:
+            return decimal_fraction(f"{decision.witness.parameters[lever.name]:.6f}")
+        if decision.answer == "infeasible":
+            return None
+        # As a number it bounds a law of motion, where that is what it does; as an unknown it cannot.
+        furthest = max(low, high, key=lambda each: abs(each - lever.value))
+        told = replace(question, scene=_told(question.scene, lever, furthest))
+        return furthest if decide(told, _QUERY_S, explain=False).answer == "feasible" else None
 
     value, sign = lever.value, -1 if lever.value < 0 else 1
     ends = (sign * 10 * abs(value) + 20 * sign, Fraction(0) if value else Fraction(-20))
-    found = [nearest for end in ends if (nearest := _nearest_towards(value, end, possible)) is not None]
+    found = [nearest for end in ends if (nearest := _nearest_towards(value, end, possible, until)) is not None]
     if not found:
         return None
     best = min(found, key=lambda candidate: abs(candidate - value))
@@ -156,15 +173,23 @@ def _freed(scene: Scene, lever: Lever) -> Scene:
     return replace(scene, program=replace(program, parameters=declared), parameters=parameters)
 
 
+def _told(scene: Scene, lever: Lever, value: Fraction) -> Scene:
+    """Return the scene in which the lever's number is another."""
+    parameters = {**scene.parameters, lever.name: value} if lever.number is None else scene.parameters
+    return replace(scene, program=lever.put(scene.program, Number(value)), parameters=parameters)
+
+
 def _nearest_towards(
-    value: Fraction, end: Fraction, possible: Callable[[Fraction, Fraction], Fraction | None]
+    value: Fraction, end: Fraction, possible: Callable[[Fraction, Fraction], Fraction | None], until: float
 ) -> Fraction | None:
     """Bisect between `value`, which does not work, and what works on the way to `end`; None where nothing does."""
-    far = possible(min(value, end), max(value, end))
+    far = possible(min(value, end), max(value, end)) if time.process_time() < until else None
     if far is None:
         return None
     near = value
     for _ in range(_BISECTIONS):
+        if time.process_time() > until:
+            break
         middle = (near + far) / 2
         better = possible(min(middle, value), max(middle, value))
         if better is None:

@@ -97,14 +97,14 @@ def lowered(scene: Scene, ego: EgoBounds = EGO) -> tuple[Events, Lowering]:
     return events, lowering
 
 
-def plant(seed: int) -> Planted:
-    """Draw motions, and constraints that are true of them."""
+def plant(seed: int, begin_m: tuple[int, int] = (40, 90)) -> Planted:
+    """Draw motions that begin within some places, and constraints that are true of them."""
     chance = random.Random(seed)
     routes, sketch = chance.choice(PAIRS), SKETCHES[seed % len(SKETCHES)].split()
-    hero, hero_times = _drive(chance, sketch)
+    hero, hero_times = _drive(chance, sketch, begin_m)
     trigger = 1
     when = hero_times[trigger]
-    ego, ego_times = _drive(chance, ["go", "go"], when, (-4, 2))
+    ego, ego_times = _drive(chance, ["go", "go"], begin_m, when, (-4, 2))
     head = "".join(
         f"Actor {number} ({name}):\n- {route}\n- [{_knots(pieces)}]\n\n"
         for number, name, route, pieces in ((0, "ego", routes[0], ["go", "go"]), (1, "hero", routes[1], sketch))
@@ -120,7 +120,11 @@ def _knots(pieces: list[str]) -> str:
 
 
 def _drive(
-    chance: random.Random, sketch: list[str], first_lasts: Fraction | None = None, go: tuple[int, int] = RATES["go"]
+    chance: random.Random,
+    sketch: list[str],
+    begin_m: tuple[int, int],
+    first_lasts: Fraction | None = None,
+    go: tuple[int, int] = RATES["go"],
 ) -> tuple[Motion, list[Fraction]]:
     """Draw a motion piece by piece: several rates in each, never backwards, a `stop` from and at a standstill."""
     first = speed = Fraction(chance.randint(30, 110), 10)
@@ -145,7 +149,7 @@ def _drive(
             moves.append((lasts, rate))
             speed += lasts * rate
         times.append(begun + left)
-    return Motion(Fraction(chance.randint(40, 90)), first, tuple(moves)), times
+    return Motion(Fraction(chance.randint(*begin_m)), first, tuple(moves)), times
 
 
 def _facts(
@@ -179,6 +183,10 @@ def _facts(
             f"never[0, {_said(last)}] (A{actor}v < {_said(min(speeds))})",
             f"always[A{actor}(t0), {_said(last)}] (A{actor}a <= {_said(max(rates))})",
             f"always[A{actor}(t0), A{actor}(t1) + 1] (A{actor}x >= {_said(motion.place)})",
+            f"always[A{actor}(t0), A{actor}(t1)] (A{actor}x <= {_said(motion.place - 5)} implies A{actor}v <= 1)",
+            f"always[A{actor}(t0), A{actor}(t1)] (A{actor}x < {_said(motion.place)} implies A{actor}v <= 1)",
+            f"always[A{actor}(t0), A{actor}(t2)] (A{actor}x >= {_said(motion.place + 200)} implies A{actor}v <= 1)",
+            f"always[A1(t1) - {_said(knots[1, 't1'] + 3)}, A1(t1) - {_said(knots[1, 't1'] + 1)}] (A{actor}v <= 1)",
         ]
     first, last = knots[1, "t1"], knots[1, "t2"]
     mean = (motions[1].state(last)[1] - motions[1].state(first)[1]) / (last - first)

@@ -50,6 +50,50 @@ def test_what_has_happened_is_never_called_impossible(seed: int) -> None:
         assert broken(asked.scene, asked.structure, asked.limits, asked.ego, decision.witness) == []
 
 
+@pytest.mark.parametrize(
+    ("piece", "constraints", "core"),
+    [
+        ("go", "A1x(t2) == turn_start + 5\nA1v(t2) == 16", {"c1", "c2"}),
+        ("go", "turn_start + 5 <= A1x(t2) <= turn_end - 5\nA1v(t2) >= 14", {"c1", "c2"}),
+        ("go", "A1x(t1) <= turn_start\nA1x(t2) >= turn_end\nalways[A1(t1), A1(t2)] (A1v >= 12)", {"c1", "c2", "c3"}),
+        ("acc", "A1x(t1) <= turn_start\nA1x(t2) >= turn_end\nA1v(t1) == 12", {"c1", "c2", "c3"}),
+    ],
+)
+def test_a_bend_that_nobody_takes_so_fast_is_proven(piece: str, constraints: str, core: set[str]) -> None:
+    head = HEAD[: HEAD.index("A0x")].replace("dec", piece)
+    decision = decide(question(head + constraints.replace("turn_", "A1.turn_") + "\n"))
+    assert decision.answer == "infeasible"
+    assert set(decision.core) >= {*core, "hero takes bends at 6 m/s^2 sideways at most"}
+
+
+@pytest.mark.parametrize("before", ["A1x <= 80", "A1x < 100"])
+def test_what_is_bounded_up_to_a_place_is_free_past_it(before: str) -> None:
+    head = HEAD[: HEAD.index("A0x")]
+    text = f"{head}A1x(t0) == 100\nA1v(t0) == 10\nalways[A1(t0), A1(t1)] ({before} implies A1v <= 5)\n"
+    assert decide(question(text)).answer == "feasible"
+
+
+@pytest.mark.parametrize(
+    ("constraint", "answer"),
+    [
+        ("always[-5, -2] (A1v <= 5)", "feasible"),
+        ("eventually[-5, -2] (A1v >= 5)", "infeasible"),
+        ("eventually[A1(t1) - 4, A1(t1) - 2] (A1v >= 5)", "infeasible"),
+        ("always[A1(t0) - 4, A1(t0)] (A1v <= 5)", "infeasible"),
+    ],
+)
+def test_nothing_holds_or_happens_before_the_start(constraint: str, answer: str) -> None:
+    head = HEAD[: HEAD.index("A0x")]
+    assert decide(question(f"{head}A1v(t0) == 10\nA1(t1) <= 1.5\n{constraint}\n"), explain=False).answer == answer
+
+
+@pytest.mark.parametrize("end", ["tta(A1, conflict_point, t1)", "(A1x(t1) - 5) / A1v(t1)"])
+def test_a_stretch_of_time_that_ends_at_a_quotient_is_refused_by_name(end: str) -> None:
+    decision = decide(question(f"{HEAD}probe: always[0, {end}] (A1v <= 5)\n"))
+    assert decision.answer == "undecided"
+    assert set(decision.left_out) == {"probe"}
+
+
 def test_nearly_everything_that_has_happened_is_shown_to_be_possible() -> None:
     answers = [decide(plant(seed).question(), explain=False).answer for seed in range(1000, 1040)]
     assert answers.count("feasible") >= 36, "two that touch or turn too fast in the planted motion may stay undecided"

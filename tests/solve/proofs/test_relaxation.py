@@ -11,6 +11,7 @@ from posed import violation
 
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.lowering import Lowering
+from scenewright.solve.proofs.refinement import Refinement
 from scenewright.solve.proofs.refuters import core, refuter_called
 from scenewright.solve.proofs.relaxation import relaxation, resting_on
 
@@ -67,20 +68,28 @@ def passing_s(motion: Motion, place_m: float, end_s: float) -> float:
     return high
 
 
-def check_planted(planted: Planted) -> None:
-    """Check that all formulas are true of the motions."""
+def check_planted(planted: Planted) -> int:
+    """Check that all formulas are true of the motions; return how many bounds there are on speeds in bends."""
     events, lowering = lowered(planted.scene())
-    formulas = relaxation(events, lowering.narrowings, lowering.lower(events.scene.program.constraints))
+    more, constraints = Refinement(events, lowering, planted.limits()), events.scene.program.constraints
+    more.bound_in_bend(1, [each.formula for each in lowering.lower(constraints)])
+    formulas = relaxation(events, [*lowering.narrowings, *more.narrowings], lowering.lower(constraints))
     point = values_of(planted, events, lowering)
     for unknown, value in zip(events.unknowns, point, strict=True):
         assert float(unknown.low) - 1e-6 <= value <= float(unknown.high) + 1e-6, unknown
     for each in formulas:
         assert violation(each.formula, point) < 1e-5, (each.origin, planted.text)
+    return sum("sideways" in origin for each in formulas for origin in each.origins)
 
 
 @pytest.mark.parametrize("seed", range(70))  # ten of each sketch
 def test_planted_motions_satisfy_every_formula(seed: int) -> None:
     check_planted(plant(seed))
+
+
+def test_motions_through_bends_satisfy_every_formula() -> None:
+    """They begin just before the junction, and are pressed sideways as much as they just may."""
+    assert sum(check_planted(plant(seed, (276, 306))) > 0 for seed in range(70)) > 30
 
 
 def test_what_is_false_of_the_motions_is_among_the_formulas_too() -> None:

@@ -79,7 +79,10 @@ class Decision:
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """What is asked: a scene, who is bounded how; what is freed, or how the ego drove, where that matters; of whom."""
+    """What is asked: a scene, who is bounded how; what is freed, or how the ego drove, where that matters; of whom.
+
+    Of those who are `bending` proofs take into account how fast their bends can be driven.
+    """
 
     scene: Scene
     structure: Structure
@@ -88,6 +91,7 @@ class Question:
     freed: Mapping[str, tuple[Fraction, Fraction]] = field(default_factory=dict)
     drive: EgoDrive | None = None
     refuter: Refuter = field(default_factory=refuter_called)
+    bending: frozenset[int] = frozenset()
 
     def constraints(self) -> tuple[Constraint, ...]:
         """Return the constraints to be met; what the ego did alone is a fact, where its drive is given."""
@@ -110,6 +114,8 @@ class _Case:
         self.more = Refinement(self.events, self.lowering, question.limits)
         if plan:
             self.more.lasting_rates()
+        for actor in question.bending:
+            self.more.bound_in_bend(actor, [each.formula for each in self.lowered])
         if owed != "nothing":
             self.more.manner(throughout=owed == "throughout")
 
@@ -135,7 +141,7 @@ class _Case:
     def relaxation(self) -> list[Named]:
         """Return what a refutation rests on."""
         self.lower()
-        return relaxation(self.events, self.lowering.narrowings, self.lowered)
+        return relaxation(self.events, [*self.lowering.narrowings, *self.more.narrowings], self.lowered)
 
 
 def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> Decision:
@@ -154,6 +160,11 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     for guesses, proof_s in zip(_GUESSES, _PROOF_S, strict=True):
         if not left_out and question.drive is None and (found := hunt.witness(guesses)) is not None:
             return Decision("feasible", found)
+        if bending := {each.actor for each in hunt.amiss if each.what == "turn"} - question.bending:
+            question = replace(question, bending=question.bending | bending)
+            plain, formulas = _Case(question, plan=False), []
+        if formulas and time.monotonic() > until:
+            break
         formulas = formulas or plain.relaxation()  # most witnesses need none
         answer = question.refuter.ask(plain.events.unknowns, formulas, min(proof_s, until - time.monotonic()))
         if answer.kind == "refuted" and not question.refuter.capabilities.exact:

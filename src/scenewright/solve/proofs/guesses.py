@@ -6,13 +6,13 @@ possible: the search mends it. Later guesses are drawn, not made.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.solve.proofs.events import Events
-from scenewright.solve.proofs.order import told_values
+from scenewright.solve.proofs.events import Events, Unknown
+from scenewright.solve.proofs.order import tightened, told_values
 from scenewright.solve.proofs.polynomials import Formula, Polynomial
 from scenewright.solve.proofs.witness import Witness
 
@@ -22,12 +22,13 @@ _SPEED_MPS, _GAP_S, _LATER_S = 8.0, 3.0, 4.0
 
 def first_guess(events: Events, formulas: Iterable[Formula], generator: np.random.Generator | None) -> Array:
     """Return a guess; without a generator the plain one: everybody drives at one speed from place to place."""
-    told = told_values(events.unknowns, formulas)
+    ranges = tightened(events.unknowns, formulas)
+    told = told_values(ranges)
     speed = _SPEED_MPS if generator is None else float(generator.uniform(3.0, 13.0))
     point = np.array([0.5 * float(each.low + each.high) if each.kind == "other" else 0.0 for each in events.unknowns])
     for number, value in told.items():
         point[number] = value
-    times = _times(events, told, point, speed, generator)
+    times = _times(events, ranges, told, point, speed, generator)
     for actor in events.scene.program.actors:
         instants = sorted(events.instants_of(actor.id), key=times.__getitem__)
         anchors = [(times[k], told[number]) for k in instants if (number := _place(events, actor.id, k)) in told] or [
@@ -44,13 +45,19 @@ def first_guess(events: Events, formulas: Iterable[Formula], generator: np.rando
 
 
 def _times(
-    events: Events, told: Mapping[int, float], point: Array, speed: float, generator: np.random.Generator | None
+    events: Events,
+    ranges: Sequence[Unknown],
+    told: Mapping[int, float],
+    point: Array,
+    speed: float,
+    generator: np.random.Generator | None,
 ) -> dict[int, float]:
-    """Guess when each moment is, and put it into `point`."""
+    """Guess when each moment is, within its range, and put it into `point`."""
     times = {number: float(value) for number, time in enumerate(events.times) if (value := time.constant) is not None}
 
     def put(instant: int, time_s: float) -> None:
-        times[instant] = point[_number(events.times[instant])] = time_s
+        number = _number(events.times[instant])
+        times[instant] = point[number] = min(max(time_s, float(ranges[number].low)), float(ranges[number].high))
 
     for actor in events.scene.program.actors:
         knots = [events.knot(actor.id, name) for name in actor.sketch.knots]
@@ -62,8 +69,8 @@ def _times(
             here, there = (told.get(_place(events, actor.id, k)) for k in (before, knot))
             later = _GAP_S if generator is None else float(generator.uniform(1.0, 6.0))
             now += later if here is None or there is None else max(0.5, (there - here) / speed)
-            now = told.get(_number(events.times[knot]), now)
             put(knot, now)
+            now = times[knot]
     for instant, defined in events.defined.items():
         put(instant, max(0.0, defined.value(point)))
     for instant in range(len(events.times)):

@@ -8,6 +8,7 @@ of too high a degree is named; a proof may leave it out, a plan may not.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
@@ -17,6 +18,7 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.forms import actors_at, asserted, free_actors
 from scenewright.solve.proofs.narrowing import Narrowing, narrowings_of
+from scenewright.solve.proofs.order import least_value
 from scenewright.solve.proofs.polynomials import (
     ONE,
     TRUE,
@@ -77,15 +79,16 @@ class Lowering:
         self.narrowings.clear()
         formulas = [asserted(constraint.formula, self.events.scene.program) for constraint in constraints]
         for constraint, formula in zip(constraints, formulas, strict=True):
-            self._make_moments(formula)
-            self.narrowings += (replace(each, origin=constraint.id) for each in narrowings_of(self, formula))
+            with suppress(TooHigh):  # told below
+                self._make_moments(formula)
+                self.narrowings += (replace(each, origin=constraint.id) for each in narrowings_of(self, formula))
         return [self._lowered(*each) for each in zip(constraints, formulas, strict=True)]
 
     def _lowered(self, constraint: Constraint, formula: ex.Formula) -> Lowered:
         try:
             return Lowered(constraint, self.formula(formula, None))
-        except TooHigh:
-            return Lowered(constraint, TRUE, "it multiplies more than two unknowns")
+        except TooHigh as why:
+            return Lowered(constraint, TRUE, str(why))
 
     # -- moments ------------------------------------------------------------------------------------------------------
     def _make_moments(self, formula: ex.Formula) -> None:
@@ -103,11 +106,21 @@ class Lowering:
         """Return the instants at which a stretch of time begins and ends."""
         return self._edge(formula.start), self._edge(formula.end)
 
+    def ends_early(self, formula: ex.Temporal) -> Polynomial | None:
+        """Return when a stretch of time ends that may end before the start: there is nothing of it then."""
+        ends = self._time(formula.end)
+        return None if least_value(ends, self.events.unknowns) >= 0 else ends
+
     def _edge(self, term: ex.Term) -> int:
         if isinstance(term, ex.Elapsed):
             return self.events.knot(term.actor, term.knot)
+        return self.events.moment(self._time(term), "edge")
+
+    def _time(self, term: ex.Term) -> Polynomial:
         top, below = self.plain(term)
-        return self.events.moment(top if below.constant == 1 else top * (1 / (below.constant or ONE)), "edge")
+        if not below.constant:
+            raise TooHigh("it is of a stretch of time that begins or ends at a quotient of unknowns")
+        return top if below.constant == 1 else top * (1 / below.constant)
 
     def plain(self, term: ex.Term) -> tuple[Polynomial, Polynomial]:
         """Return a term in which nobody's order matters as numerator and denominator."""
@@ -136,9 +149,11 @@ class Lowering:
             case ex.Logic(operator="or", operands=operands):
                 return some([self.formula(operand, now) for operand in operands])
             case ex.Temporal(operator="always", body=body):
-                return self._always(*self.stretch_of(formula), body)
+                held, early = self._always(*self.stretch_of(formula), body), self.ends_early(formula)
+                return held if early is None else some([compare("<", early, ZERO), held])
             case ex.Temporal(operator="eventually", body=body):
-                return self._eventually(*self.stretch_of(formula), body)
+                happens, early = self._eventually(*self.stretch_of(formula), body), self.ends_early(formula)
+                return happens if early is None else every([compare(">=", early, ZERO), happens])
             case _:
                 raise TypeError(f"not an asserted formula: {formula!r}")
 

@@ -41,6 +41,7 @@ class Narrowing:
     law: Law
     proven: Law | None = None
     place: int | None = None  # the moment at a place that it holds from, or up to, within first and last
+    place_m: Fraction = ZERO
     up_to_place: bool = False
     even: bool = False  # whether a plan keeps to one rate between each two moments
     origin: str = ""  # the constraint that it comes from, by id
@@ -71,9 +72,11 @@ def narrowings_of(lowering: Lowering, formula: ex.Formula) -> Iterator[Narrowing
             place, law = _place_of(lowering, past), _law_of(lowering, then)
             if place is not None and law is not None and law[0] == place[0]:
                 made = lowering.events.at_place(*place[:2])
-                yield Narrowing(law[0], *lowering.stretch_of(formula), law[1], law[1], made, place[2])
+                proven = law[1] if lowering.ends_early(formula) is None else None
+                yield Narrowing(law[0], *lowering.stretch_of(formula), law[1], proven, made, *place[1:])
         case ex.Temporal(operator="always", body=body) if law := _law_of(lowering, body):
-            yield Narrowing(law[0], *lowering.stretch_of(formula), law[1], law[1], said=body)
+            proven = law[1] if lowering.ends_early(formula) is None else None
+            yield Narrowing(law[0], *lowering.stretch_of(formula), law[1], proven, said=body)
         case ex.Compare() if (node := ex.piece_of(formula)) is not None and isinstance(node.at, ex.PieceRef):
             ends = lowering.piece_ends(node.actor, node.at.name)
             if formula.operator == "==":  # a rate that is one number is one all through

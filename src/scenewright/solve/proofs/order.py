@@ -42,23 +42,30 @@ def tightened(unknowns: Sequence[Unknown], formulas: Iterable[Formula], passes: 
     return found
 
 
-def told_values(unknowns: Sequence[Unknown], formulas: Iterable[Formula]) -> dict[int, float]:
+def told_values(ranges: Sequence[Unknown]) -> dict[int, float]:
     """Return the unknowns of which only one value is left."""
-    found = tightened(unknowns, formulas)
-    return {number: float(each.low) for number, each in enumerate(found) if each.low == each.high}
+    return {number: float(each.low) for number, each in enumerate(ranges) if each.low == each.high}
 
 
 def _narrow(left: Polynomial, found: list[Unknown]) -> None:
     """Narrow the ranges of unknowns by ``left <= 0``."""
-    terms = [(key[0], factor) for key, factor in left.terms.items() if key]
-    ends = [factor * (found[number].low if factor > 0 else found[number].high) for number, factor in terms]
-    least = left.terms.get((), ZERO) + sum(ends)
-    for (number, factor), end in zip(terms, ends, strict=True):
-        each, bound = found[number], (end - least) / factor
+    least = least_value(left, found)
+    for number, factor in [(key[0], factor) for key, factor in left.terms.items() if key]:
+        each = found[number]
+        bound = (each.low if factor > 0 else each.high) - least / factor
         if factor > 0 and bound < each.high:
             found[number] = replace(each, high=bound)
         elif factor < 0 and bound > each.low:
             found[number] = replace(each, low=bound)
+
+
+def least_value(left: Polynomial, unknowns: Sequence[Unknown]) -> Fraction:
+    """Return the least that a linear polynomial can be."""
+    least = left.terms.get((), ZERO)
+    for key, factor in left.terms.items():
+        if key:
+            least += factor * (unknowns[key[0]].low if factor > 0 else unknowns[key[0]].high)
+    return least
 
 
 # -- order ------------------------------------------------------------------------------------------------------------

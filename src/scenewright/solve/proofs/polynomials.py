@@ -65,7 +65,7 @@ class Polynomial:
         for left, a in self.terms.items():
             for right, b in other.terms.items():
                 if len(left) + len(right) > 2:
-                    raise TooHigh
+                    raise TooHigh("it multiplies more than two unknowns")
                 key = tuple(sorted(left + right))
                 product[key] = product.get(key, ZERO) + a * b
         return Polynomial({key: value for key, value in product.items() if value})

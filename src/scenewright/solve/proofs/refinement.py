@@ -26,6 +26,7 @@ from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.forms import asserted, free_actors
 from scenewright.solve.proofs.lowering import RATE_LASTS_S, Lowering
 from scenewright.solve.proofs.narrowing import Narrowing
+from scenewright.solve.proofs.order import places_within
 from scenewright.solve.proofs.polynomials import ZERO, Formula, compare, every, some
 from scenewright.solve.proofs.witness import Broken, Witness, bends
 from scenewright.units import pin
@@ -197,6 +198,32 @@ class Refinement:
         kept = pin(_SAFETY * math.sqrt(self.limits[broken.actor].lateral_max_mpss / (tighter * tightest)))
         self.narrowings.append(Narrowing(broken.actor, first, last, replace(ANY, speed_high=kept)))
         return True
+
+    def bound_in_bend(self, actor: int, asked: Sequence[Formula]) -> None:
+        """Say for proofs how fast the sharpest bend of a route can be driven: at each moment, and all through it.
+
+        Of each part of it the least bend counts, so that every legal motion keeps to it. All through it is for one who
+        surely drives through it, by what is `asked`.
+        """
+        events, (places, sharpness) = self.events, bends(self.events.scene.routes[actor])
+        most_mpss, peak = self.limits[actor].lateral_max_mpss, int(np.argmax(sharpness))
+        words = f"{events.scene.program.actor(actor).name} takes bends at {most_mpss:.3g} m/s^2 sideways at most"
+        driven = [within for (owner, _), within in places_within(events, asked).items() if owner == actor]
+        for share in SHARES:
+            least = share * float(sharpness[peak])
+            if most_mpss >= least * float(events.law_of(actor).speed_high) ** 2:
+                break
+            softer = np.flatnonzero(sharpness < least)
+            begin, end = softer[softer < peak].max(initial=-1) + 1, softer[softer > peak].min(initial=len(places)) - 1
+            first_m, last_m = (pin(float(places[k])) for k in (begin, end))
+            held = replace(ANY, speed_high=pin(math.sqrt(most_mpss / least) / _SAFETY))
+            through = any(high < first_m for _, high in driven) and any(low > last_m for low, _ in driven)
+            if share == SHARES[0] and through:
+                ends = events.at_place(actor, first_m), events.at_place(actor, last_m)
+                self.narrowings.append(Narrowing(actor, *ends, held, held, origin=words))
+            for state in (events.state(actor, instant) for instant in events.instants_of(actor)):
+                elsewhere = [compare("<", state.place, first_m), compare(">", state.place, last_m)]
+                events.rules.append((some([*elsewhere, compare("<=", state.speed, held.speed_high)]), words))
 
     # -- apart --------------------------------------------------------------------------------------------------------
     def _keep_apart(self, broken: Broken, witness: Witness) -> bool:

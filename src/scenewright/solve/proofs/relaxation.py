@@ -7,8 +7,9 @@ known to lie within the scenario.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import pairwise
 
 import numpy as np
@@ -19,7 +20,7 @@ from scenewright.program.types import EGO
 from scenewright.solve.proofs.events import Events, Stretch
 from scenewright.solve.proofs.lowering import Lowered
 from scenewright.solve.proofs.narrowing import Narrowing
-from scenewright.solve.proofs.order import least_differences
+from scenewright.solve.proofs.order import least_differences, places_within
 from scenewright.solve.proofs.polynomials import (
     FALSE,
     TRUE,
@@ -62,12 +63,20 @@ def relaxation(events: Events, narrowings: Sequence[Narrowing], constraints: Seq
     """Return all that must hold of any motion; of `narrowings` what is proven of them."""
     found = [Named(each.formula, each.constraint.id) for each in constraints]
     found += [Named(formula, origin) for formula, origin in events.rules]
-    least = least_differences(events, (each.formula for each in constraints))
+    formulas = [each.formula for each in constraints]
+    least, within = least_differences(events, formulas), places_within(events, formulas)
+    narrowings = [each for each in narrowings if not each.up_to_place or _begins_before(each, within)]
     found += _order_of_knots(events)
     for actor in events.scene.program.actors:
         if not (actor.is_ego and events.drive is not None):  # how it drove is a fact
             found += _motion(events, narrowings, actor.id, least)
     return [each for each in found if each.formula != TRUE]
+
+
+def _begins_before(narrowing: Narrowing, within: Mapping[tuple[int, int], tuple[Fraction, Fraction]]) -> bool:
+    """Whether what holds up to a place begins before it for certain: else it may hold of no time at all."""
+    begins = within.get((narrowing.actor, narrowing.first))
+    return begins is not None and begins[1] < narrowing.place_m
 
 
 def _order_of_knots(events: Events) -> Iterator[Named]:
@@ -91,7 +100,7 @@ def _motion(events: Events, narrowings: Sequence[Narrowing], actor: int, least: 
             for late in inside:
                 if early == late or least[late, early] > _CERTAIN:
                     continue
-                if _parted(inside, stretch, early, late, least):
+                if _parted(inside, early, late, least):
                     continue
                 law, besides = _narrowed(narrowings, actor, stretch.law, early, late, least)
                 yield Named(_between(events, actor, stretch, early, late, law, least), origin, besides)
@@ -104,14 +113,10 @@ def _possibly_inside(stretch: Stretch, instant: int, least: NDArray[np.float64])
     return not before and not after
 
 
-def _certainly_inside(stretch: Stretch, instant: int, least: NDArray[np.float64]) -> bool:
-    return bool(least[stretch.first, instant] >= 0 and (stretch.last is None or least[instant, stretch.last] >= 0))
-
-
-def _parted(inside: list[int], stretch: Stretch, early: int, late: int, least: NDArray[np.float64]) -> bool:
-    """Whether a third moment in the stretch lies between for certain: the laws on either side then say it all."""
+def _parted(inside: list[int], early: int, late: int, least: NDArray[np.float64]) -> bool:
+    """Whether a third moment lies between for certain: where both are in the stretch the laws on either side say it."""
     for middle in inside:
-        if middle in (early, late) or not _certainly_inside(stretch, middle, least):
+        if middle in (early, late):
             continue
         if least[early, middle] >= 0 and least[middle, late] >= 0:
             tied = least[middle, early] >= 0 or least[late, middle] >= 0

@@ -18,7 +18,7 @@ from scenewright.motion.laws import Law, bounded, capped, fixed
 from scenewright.solve.proofs.compiled import Compiled
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.narrowing import Narrowing
-from scenewright.solve.proofs.order import impossible, least_differences, told_values
+from scenewright.solve.proofs.order import impossible, least_differences, tightened, told_values
 from scenewright.solve.proofs.polynomials import All, Atom, Formula, Some
 
 Array = NDArray[np.float64]
@@ -46,7 +46,7 @@ class Search:
         self.narrowings = narrowings
         self.steps = 0
         self._least = least_differences(events, formulas)
-        self._told = told_values(events.unknowns, formulas)
+        self._told = told_values(tightened(events.unknowns, formulas))
         size = len(self.events.unknowns)
         self._size = size
         self._compiled = Compiled(self.formulas, size, self._ruled_out)
@@ -149,8 +149,9 @@ class Search:
     def way_of(self, point: Array, actor: int) -> tuple[list[int], list[Law]]:
         """Return an actor's instants in the order of their times, and the laws between them."""
         line = next(line for line in self._actors if line.actor == actor)
-        order = line.sorted(np.append(point, 1.0))
-        return [line.instants[k] for k in order], line.laws_between(order, self.narrowings)[0]
+        point = np.append(point, 1.0)
+        order = line.sorted(point)
+        return [line.instants[k] for k in order], line.laws_between(order, point, self.narrowings)[0]
 
 
 @dataclass(slots=True)
@@ -202,7 +203,7 @@ class _Line:
         """Return the laws between neighbours, linearised."""
         order = self.sorted(point)
         early, late = np.array(order[:-1], dtype=np.intp), np.array(order[1:], dtype=np.intp)
-        laws, even = self.laws_between(order, narrowings)
+        laws, even = self.laws_between(order, point, narrowings)
         bounds = np.array([[float(getattr(law, name)) for law in laws] for name in _BOUNDS])
         times, place = self.time_factor * point[self.time], point[self.place]
         ends = (
@@ -233,10 +234,13 @@ class _Line:
         return flat[keep] / norms[keep, None], (levels.reshape(-1) / norms)[keep], np.repeat(equal, count)[keep]
 
     def laws_between(
-        self, order: Sequence[int], narrowings: Sequence[Narrowing]
+        self, order: Sequence[int], point: Array, narrowings: Sequence[Narrowing]
     ) -> tuple[list[Law], NDArray[np.bool_]]:
-        """Return the law between each two neighbours, and whether there is to be one rate."""
-        where = {self.instants[k]: number for number, k in enumerate(order)}
+        """Return the law between each two neighbours, and whether there is to be one rate.
+
+        What ends at a place that is passed when it begins, or begins at one that is passed never, narrows nothing.
+        """
+        where, place = {self.instants[k]: number for number, k in enumerate(order)}, point[self.place]
         starts = sorted((where[self.instants[k]], number, law) for number, (k, law) in enumerate(self.laws))
         laws, even = [starts[0][2]] * (len(order) - 1), np.zeros(len(order) - 1, dtype=bool)
         for start, _, law in starts:
@@ -245,6 +249,10 @@ class _Line:
             if narrowing.actor == self.actor:
                 begin = max(where[instant] for instant in narrowing.begins())
                 end = min(where[instant] for instant in narrowing.ends())
+                edge = where[narrowing.first if narrowing.up_to_place else narrowing.last]
+                past = place[order[edge]] > float(narrowing.place_m) - _CLEAR
+                if narrowing.place is not None and past == narrowing.up_to_place:
+                    continue
                 even[begin:end] |= narrowing.even
                 laws[begin:end] = [law.meet(narrowing.law) for law in laws[begin:end]]
         return laws, even

@@ -1,0 +1,44 @@
+"""What has to hold all through a stretch of time is decided before it begins: of alternatives, that which can hold.
+
+What enters: a scene, and a motion that shows that it can happen. What leaves: the scene with such alternatives decided
+as they are in that motion, for a planner. Alternatives that speak of moments alone stay open until these come.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from scenewright.program import expressions as ex
+from scenewright.program.evaluate import violation
+from scenewright.roads.grounding import Scene
+from scenewright.solve.plan import PlanWorld
+from scenewright.solve.proofs.forms import asserted
+from scenewright.solve.proofs.witness import Witness
+
+
+def decided(scene: Scene, witness: Witness) -> Scene:
+    """Return the scene in which of alternatives that last there is the one that holds best in a motion."""
+    world, program = PlanWorld(scene, witness.profiles, witness.parameters), scene.program
+    formulas = [_decided(asserted(each.formula, program), world) for each in program.constraints]
+    constraints = tuple(
+        replace(each, formula=formula) if formula != asserted(each.formula, program) else each
+        for each, formula in zip(program.constraints, formulas, strict=True)
+    )
+    return replace(scene, program=replace(program, constraints=constraints))
+
+
+def _decided(formula: ex.Formula, world: PlanWorld) -> ex.Formula:
+    match formula:
+        case ex.Logic(operator="or", operands=operands) if any(map(_lasts, operands)):
+            return _decided(min(operands, key=lambda each: violation(each, world)), world)
+        case ex.Logic(operands=operands):
+            return replace(formula, operands=tuple(_decided(each, world) for each in operands))
+    return formula
+
+
+def _lasts(formula: ex.Formula) -> bool:
+    """Whether a formula is of a stretch of time, or of a whole piece."""
+    return any(
+        isinstance(node, ex.Temporal) or (isinstance(node, ex.State) and isinstance(node.at, ex.PieceRef))
+        for node in ex.walk(formula)
+    )

@@ -1,0 +1,60 @@
+"""Of alternatives that last the one that holds in a motion is planned; what speaks of moments stays open."""
+
+from __future__ import annotations
+
+import pytest
+from situations import scene_of
+
+from scenewright.plan.alternatives import decided
+from scenewright.program import expressions as ex
+from scenewright.program.evaluate import violation
+from scenewright.program.printer import print_expression
+from scenewright.program.structure import read_structure
+from scenewright.roads.grounding import Scene
+from scenewright.solve.feasibility import check_feasibility
+from scenewright.solve.limits import limits_on
+from scenewright.solve.plan import PlanWorld
+from scenewright.solve.proofs.witness import Witness
+from stories import program
+
+SYNC = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 30\nA1x(t1) == conflict_point - 25\nA1v(t2) == 0\n"
+SLOWLY = "always[A1(t0), A1(t1)] (A1v <= 5.5)"
+
+
+def found(line: str) -> tuple[Scene, Witness]:
+    scene = scene_of(program("E, N", "t0, go, t1, dec, t2", f"{SYNC}tested: {line}"))
+    limits = {actor: limits_on(route, scene.road_map) for actor, route in scene.routes.items()}
+    witness = check_feasibility(scene, read_structure(scene.program), limits).witness
+    assert witness is not None
+    return scene, witness
+
+
+@pytest.mark.parametrize(
+    ("line", "left"),
+    [
+        (f"A1v(t1) == 50 or {SLOWLY}", SLOWLY),
+        (f"A1v(t1) <= 50 implies {SLOWLY}", SLOWLY),
+        (f"A1v(t1) >= 0 and (A1v(t1) == 50 or {SLOWLY})", f"A1v(t1) >= 0 and {SLOWLY}"),
+        ("not (A1v(t1) <= 50 and eventually[A1(t0), A1(t1)] (A1v > 5.5))", SLOWLY),
+        ("A1v(t1) == 50 or A1a(dec) == -4", "A1a(dec) == -4"),
+        ("A1v(t1) == 50 or A1v(dec) <= 5", "always[A1(t1), A1(t2)] (A1v <= 5)"),
+    ],
+)
+def test_what_lasts_is_decided_as_a_motion_has_it(line: str, left: str) -> None:
+    scene, witness = found(line)
+    formula = decided(scene, witness).program.constraint("tested").formula
+    assert print_expression(formula).replace(" ", "") == left.replace(" ", "")
+    assert violation(formula, PlanWorld(scene, witness.profiles, witness.parameters)) <= 1e-2
+
+
+@pytest.mark.parametrize("line", ["A1v(t1) == 6 or A1v(t1) == 8", "A1(t2) < A0(t2) or A0(t2) < A1(t2)", SLOWLY])
+def test_what_speaks_of_moments_stays_as_it_is(line: str) -> None:
+    scene, witness = found(line)
+    assert decided(scene, witness) == scene
+
+
+def test_all_other_constraints_stay_as_they_are() -> None:
+    scene, witness = found(f"A1v(t1) == 50 or {SLOWLY}")
+    before, after = ({c.id: c.formula for c in each.program.constraints} for each in (scene, decided(scene, witness)))
+    assert [name for name, formula in before.items() if formula != after[name]] == ["tested"]
+    assert not any(isinstance(node, ex.Logic) for node in ex.walk(after["tested"]))
