@@ -86,3 +86,62 @@ def test_what_an_ego_alone_is_asked_for_is_its_own_to_miss() -> None:
     found = cause(orchestrate(Request(text, ego="answering:Heedless:keep_mps=10.5", takes=1)))
     assert (found.kind, found.evidence["condition"]) == ("ego", "afterwards")
     assert "the ego alone decides" in found.text.lower()
+
+
+FOLLOWS = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (lead):
+- W
+- [t0, go, t1, dec, t2]
+
+Constraints:
+A1(t1) == 0.8 s
+{trigger}
+A0v(A1(t1)) >= 8
+A1v(t2) == 0
+"""
+
+
+def test_a_start_that_only_hard_braking_saves_is_told_as_the_plan_that_it_is() -> None:
+    """So soon, so near and so fast can only be driven from a start that nobody would choose."""
+    text = FOLLOWS.format(trigger="gap(A0, A1, A1(t1)) == 6.5 m")
+    found = orchestrate(Request(text, ego="idm", takes=1))
+    assert found.status == "failure"
+    assert (cause(found).kind, cause(found).evidence["misses"]) == ("plan", "start")
+    assert "brakes with" in cause(found).text
+
+
+BETWEEN = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2, go, t3]
+
+Actor 1 (hero):
+- E, N
+- [t0, go, t1, go, t2]
+
+Actor 2 (other):
+- W
+- [t0, go, t1, dec, t2]
+
+Constraints:
+A0(t1) == A1(t1)
+A0x(t1) == A0.conflict_point(A1) - 20
+A1x(t1) == A1.conflict_point(A0) - 12
+A0(t2) == A2(t1)
+A0x(t2) == A0.conflict_point(A1) + 40
+gap(A0, A2, t2) == 25
+A2v(t2) == 0
+"""
+
+
+def test_who_drives_into_a_hero_after_its_trigger_spoils_what_others_were_to_do() -> None:
+    found = orchestrate(Request(BETWEEN, ego="constant", takes=1))
+    assert found.status == "failure"
+    told = cause(found)
+    assert (told.kind, told.evidence["hero"]) == ("ego", "hero")
+    assert told.evidence["trigger_s"] < told.evidence["time_s"]
+    assert "the ego hit the hero" in told.text.lower()

@@ -12,6 +12,7 @@ from dataclasses import asdict
 from scenewright.explain.evidence import (
     Finding,
     came_too_late,
+    crashed_between_triggers,
     ego_never_there,
     foreseen_otherwise,
     last_good,
@@ -34,9 +35,9 @@ from scenewright.translate.phrases import called
 def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, proof: Feasibility | None) -> Cause:
     """Return why a run missed at `tolerance`: the first of these that the evidence shows.
 
-    1. *ego*: it never came to its side of the trigger, no hero could have done it against its drive (`proof`), or a
-       condition on it alone failed. Where it slowed down for a hero, that is in the *way*, and it is never the ego's
-       doing; nor is a crash before the trigger then.
+    1. *ego*: it never came to its side of the trigger, no hero could have done it against its drive (`proof`), a
+       condition on it alone failed, or it crashed with a hero after that one's trigger and before another's. Where it
+       slowed down for a hero, that is in the *way*, and it is never the ego's doing; nor is a crash before the trigger.
     2. *order*: all was well but who came first.
     3. *authority*: from the last plan on that would have done, a hero was at a limit of its motion.
     4. *prediction*: the ego did not drive as that plan foresaw.
@@ -52,6 +53,9 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
         return _cause("way", Finding(_capital(f"{in_way}; what it did then is no finding about it"), asdict(in_way)))
     if ego is not None:
         return _cause("ego", ego)
+    names = {hero.name: hero for hero in world.scene.program.heroes}
+    if (crashed := crashed_between_triggers(verdict, names)) is not None:
+        return _cause("ego", crashed)
     late = [came_too_late(world, run, verdict, constraint) for constraint in failed if orders_with_ego(constraint)]
     if late and len(late) == len(missed) and late[0] is not None:
         return _cause("order", late[0])

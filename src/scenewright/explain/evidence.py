@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from scenewright.judge.tolerance import TIGHT
+from scenewright.judge.tolerance import LOOSE, TIGHT
 from scenewright.judge.verdict import Verdict
 from scenewright.plan.planner import GOOD, Replan
 from scenewright.program.expressions import Compare, Elapsed
@@ -76,6 +76,22 @@ def _never(words: str, off: str | None, time_s: float | None, evidence: Mapping[
     return Finding(
         f'the ego never came to its side of the trigger ("{words}"){near}',
         {**evidence, "time_s": time_s, "proof": [f"{words}{near}"]},
+    )
+
+
+def crashed_between_triggers(verdict: Verdict, heroes: Mapping[str, Actor]) -> Finding | None:
+    """Return how the ego crashed with a hero whose trigger had come, before that of another; None where it did not."""
+    hit, held = verdict.aftermath.collision, verdict.condition("no_collision").holds_at(LOOSE)
+    name = next((actor for actor in hit.actors if actor in heroes), None) if hit is not None and not held else None
+    if hit is None or name is None or not verdict.facts["trigger_came"].get(name):
+        return None
+    came_s = verdict.facts["trigger_time_s"][name]
+    if hit.time_s < came_s:
+        return None
+    words = f"{hit.in_words()}, {hit.time_s - came_s:.1f} s after the trigger of {called(name)}"
+    return Finding(
+        f"{words}: what was to come at a later trigger is of no account then",
+        {"hero": name, "time_s": hit.time_s, "trigger_s": came_s, "proof": [words]},
     )
 
 

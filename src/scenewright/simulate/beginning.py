@@ -14,7 +14,7 @@ from scenewright.errors import PolicyError
 from scenewright.motion.profile import Profile
 from scenewright.plan.planner import GOOD, Attempt, Planner
 from scenewright.plan.prediction import Predictor
-from scenewright.program.expressions import Compare, Derived, Knot, Number
+from scenewright.program.expressions import Compare, Derived, DerivedKind, Knot, Number
 from scenewright.program.starts import HARD_MPSS, TAILGATES_S, says_how_near
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.types import EGO, Constraint
@@ -86,7 +86,7 @@ def _plan_from(world: World, start: EgoFirstState, limits: Mapping[int, Limits],
     planner = Planner(scene, structure, limits, predictor, linear_conditions(scene, structure))
     attempt = planner.begin(now)
     if near := _too_near(world, start, attempt):
-        scene = _kept_apart(scene, structure, near)
+        scene = _kept_apart(scene, structure, near, start.speed_mps)
         structure = read_structure(scene.program)
         planner = Planner(scene, structure, limits, predictor, linear_conditions(scene, structure))
         attempt = planner.begin(now)
@@ -95,15 +95,18 @@ def _plan_from(world: World, start: EgoFirstState, limits: Mapping[int, Limits],
 
 
 def _too_near(world: World, start: EgoFirstState, attempt: Attempt) -> tuple[int, ...]:
-    """Return the heroes whom the ego would follow by less than a second and brake hard for at once, unless asked to."""
+    """Return the heroes for whom the ego would brake hard at once, and has to, unless it is asked to begin so."""
     ego, scene, routes = world.ego, world.scene, world.scene.routes
     first = Start.of(scene, ego, (start.s_m, start.speed_mps), attempt.plan.profiles).first
     near = []
     for hero in scene.program.heroes:
         offset_m = shared_offset_m(routes[EGO], routes[hero.id])
-        if offset_m is not None and not says_how_near(scene.program, world.structure, EGO, hero.id):
-            apart_m = first[hero.id].s_m + offset_m - start.s_m - VEHICLE_LENGTH_M
-            near += [hero.id] * (0.0 < apart_m < TAILGATES_S * start.speed_mps)
+        if offset_m is None or says_how_near(scene.program, world.structure, EGO, hero.id):
+            continue
+        apart_m = first[hero.id].s_m + offset_m - start.s_m - VEHICLE_LENGTH_M
+        closing_mps = max(0.0, start.speed_mps - first[hero.id].speed_mps)
+        if 0.0 < apart_m < max(TAILGATES_S * start.speed_mps, closing_mps**2 / (2.0 * HARD_MPSS)):
+            near.append(hero.id)
     if not near:
         return ()
     try:
@@ -114,14 +117,17 @@ def _too_near(world: World, start: EgoFirstState, attempt: Attempt) -> tuple[int
     return tuple(near) if ego.state.accel_mps2 < -HARD_MPSS else ()
 
 
-def _kept_apart(scene: Scene, structure: Structure, heroes: Iterable[int]) -> Scene:
-    """Return a scene whose program says besides that the ego begins a second or more behind some heroes."""
-    knot = Knot(structure.starts[EGO])
-    further = (Derived("headway", EGO, hero, knot) for hero in heroes)
-    more = [
-        Constraint(f"begins_behind_{each.target}", Compare(">=", each, Number(Fraction(TAILGATES_S))))
-        for each in further
-    ]
+def _kept_apart(scene: Scene, structure: Structure, heroes: Iterable[int], speed_mps: float) -> Scene:
+    """Return a scene whose program says besides that an ego of this speed begins further behind some heroes.
+
+    Nobody closes in on another faster than it drives: that long before a collision, even braking is enough.
+    """
+    knot, more = Knot(structure.starts[EGO]), []
+    least: list[tuple[DerivedKind, float]] = [("headway", TAILGATES_S), ("ttc", speed_mps / (2.0 * HARD_MPSS))]
+    for hero in heroes:
+        for kind, least_s in least:
+            said = Compare(">=", Derived(kind, EGO, hero, knot), Number(Fraction(least_s).limit_denominator(1000)))
+            more.append(Constraint(f"begins_{kind}_{hero}", said))
     return replace(scene, program=replace(scene.program, constraints=(*scene.program.constraints, *more)))
 
 
