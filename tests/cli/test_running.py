@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import signal
 from importlib import import_module
@@ -9,8 +10,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from rich.console import Console
 
-from scenewright.cli.running import _Shield
+from scenewright.cli.running import _Shield, report_verdict
+from scenewright.judge.aftermath import Aftermath
+from scenewright.judge.verdict import Verdict
 from scenewright.orchestrate import EXIT_STATUS, Request, orchestrate
 from stories import STORIES
 
@@ -60,3 +64,27 @@ def test_after_the_first_take_it_keeps_what_was_driven(
     assert (result.status, EXIT_STATUS[result.status]) == ("interrupted", 130)
     assert result.verdict is not None
     assert (tmp_path / "run" / "trace.parquet").is_file()
+
+
+@pytest.mark.parametrize(
+    ("times", "came", "told"),
+    [
+        ({"hero": 4.0}, {"hero": True}, "The trigger came at 4.00 s."),
+        ({"hero": 4.0}, {"hero": False}, "The trigger never came; it was nearest at 4.00 s."),
+        ({"a": 4.0, "b": 5.0}, {"a": True, "b": True}, "The triggers came at 4.00 s (a), 5.00 s (b)."),
+        (
+            {"a": 4.0, "b": 5.0},
+            {"a": True, "b": False},
+            "The trigger came at 4.00 s (a). The trigger of b never came; it was nearest at 5.00 s.",
+        ),
+        ({"hero": float("inf")}, {"hero": False}, "No trigger came."),
+    ],
+)
+def test_a_trigger_that_never_came_is_not_told_as_one_that_did(
+    times: dict[str, float], came: dict[str, bool], told: str
+) -> None:
+    calm = Aftermath(None, 3.0, None, None, 0.0, 0.0, None, 20.0)
+    verdict = Verdict((), calm, {"trigger_time_s": times, "trigger_came": came})
+    console = Console(record=True, width=100, file=io.StringIO())
+    report_verdict(console, verdict, "tight")
+    assert told in console.export_text()

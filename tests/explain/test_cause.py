@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from scenewright.explain.cause import cause_of
 from scenewright.judge.files import cause_told, write_verdict
-from scenewright.judge.verdict import Cause
-from scenewright.orchestrate import Request, Result, orchestrate
+from scenewright.judge.tolerance import TIGHT
+from scenewright.judge.verdict import Cause, bounded
+from scenewright.orchestrate import Request, Result, Stages, orchestrate, set_up
 from stories import STORIES, driven
 
 # Story, ego, further settings, and what it is.
@@ -88,30 +91,19 @@ def test_what_an_ego_alone_is_asked_for_is_its_own_to_miss() -> None:
     assert "the ego alone decides" in found.text.lower()
 
 
-FOLLOWS = """
-Actor 0 (ego):
-- W
-- [t0, go, t1, go, t2]
-
-Actor 1 (lead):
-- W
-- [t0, go, t1, dec, t2]
-
-Constraints:
-A1(t1) == 0.8 s
-{trigger}
-A0v(A1(t1)) >= 8
-A1v(t2) == 0
-"""
-
-
-def test_a_start_that_only_hard_braking_saves_is_told_as_the_plan_that_it_is() -> None:
-    """So soon, so near and so fast can only be driven from a start that nobody would choose."""
-    text = FOLLOWS.format(trigger="gap(A0, A1, A1(t1)) == 6.5 m")
-    found = orchestrate(Request(text, ego="idm", takes=1))
-    assert found.status == "failure"
-    assert (cause(found).kind, cause(found).evidence["misses"]) == ("plan", "start")
-    assert "brakes with" in cause(found).text
+@pytest.mark.parametrize(("name", "told"), [("start", "brakes with 6.0 m/s^2 at once"), ("c1", "no first plan")])
+def test_a_run_that_fails_by_its_beginning_is_told_what_its_first_plan_gave_up(name: str, told: str) -> None:
+    request = Request(STORIES["yields, distance"], ego="constant", takes=1)
+    result, world = orchestrate(request), set_up(request, Stages(None))[0]
+    run, verdict = result.run, result.verdict
+    assert run is not None
+    assert verdict is not None
+    kind = "safety" if name == "start" else "initial"
+    begun = bounded(name, kind, "begins", required=3.4, measured=6.0, error=2.6, dimension="acceleration")
+    held = tuple(each for each in verdict.conditions if each.id != name)
+    found = cause_of(world, run, replace(verdict, conditions=(*held, begun)), TIGHT, None)
+    assert (found.kind, found.evidence["misses"]) == ("plan", name)
+    assert told in found.text.lower()
 
 
 BETWEEN = """

@@ -7,6 +7,7 @@ import math
 import pytest
 
 from scenewright.orchestrate import Request, Stages, begin, orchestrate
+from scenewright.program.starts import HARD_MPSS
 from scenewright.program.types import EGO
 from scenewright.simulate.beginning import first_plan, is_timed_by_ego
 from scenewright.simulate.ego_start import ego_starts
@@ -105,3 +106,38 @@ def test_nobody_starts_where_only_hard_braking_saves_it() -> None:
     assert ego.accel_mps2[ego.time_s < 1.0].min() > -3.0
     assert result.verdict is not None
     assert result.status == "success" or result.verdict.cause is not None
+
+
+TAILS = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (lead):
+- W
+- [t0, go, t1, dec, t2]
+
+Constraints:
+A0(t1) == A1(t1)
+headway(A0, A1, t1) == 1.2 s
+A1a(dec) == -3 m/s^2
+A1v(t2) == 0
+{asked}
+"""
+
+
+def at_once_mpss(asked: str) -> float:
+    """Return how hard the ego has braked by the first second of a run in which it is to follow closely."""
+    result = orchestrate(Request(TAILS.format(asked=asked), ego="idm", takes=1, explain="nothing"))
+    assert result.run is not None
+    ego = result.run.trace.actors["ego"]
+    return -float(ego.accel_mps2[ego.time_s < 1.0].min())
+
+
+def test_an_ego_that_would_brake_hard_begins_further_behind() -> None:
+    """Planned from anywhere, it begins 1.5 m behind the other: the headway is met as it grows."""
+    assert at_once_mpss("") < HARD_MPSS
+
+
+def test_who_is_asked_to_begin_near_does() -> None:
+    assert at_once_mpss("headway(A0, A1, t0) == 0.3 s") > HARD_MPSS

@@ -48,6 +48,8 @@ def test_what_went_wrong_is_told() -> None:
 
 def test_nothing_known_is_nothing_told() -> None:
     assert told_facts({}) == []
+    missed = {"trigger_time_s": {"hero": 4.0}, "trigger_came": {"hero": False}}
+    assert told_facts(missed) == [("The trigger of hero never came; it was nearest at 4.00 s.", 4.0)]
     assert told_facts({"pairs": {}, "kinematics": {"ego": {}}, "trigger_time_s": {"hero": float("inf")}}) == [
         ("The trigger of hero never came.", None)
     ]
