@@ -137,3 +137,24 @@ def test_who_drives_into_a_hero_after_its_trigger_spoils_what_others_were_to_do(
     assert (told.kind, told.evidence["hero"]) == ("ego", "hero")
     assert told.evidence["trigger_s"] < told.evidence["time_s"]
     assert "the ego hit the hero" in told.text.lower()
+
+
+def test_a_run_that_ends_with_the_road_of_the_ego_says_so() -> None:
+    program = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (hero):
+- S, W
+- [t0, stop, t1, acc, t2]
+
+Constraints:
+A0x(t0) == A0.conflict_point - 100
+A1x(t0) == stop_line - 2
+A1(t1) == 30 s
+A1v(t2) == 6
+"""
+    found = cause(orchestrate(Request(program, ego="constant", takes=1)))
+    assert (found.kind, found.evidence["at_the_end_of_its_road"]) == ("plan", True)
+    assert found.text.startswith("The ego came to the end of its road at ")

@@ -10,7 +10,7 @@ import pytest
 from plays import BRAKES, GOES_AFTER, Play
 
 from scenewright.judge.judgement import judge
-from scenewright.judge.tolerance import TIGHT
+from scenewright.judge.tolerance import LOOSE, TIGHT
 from scenewright.judge.verdict import Verdict
 from scenewright.program.manner import NUMBERS
 
@@ -83,3 +83,12 @@ def test_a_condition_names_the_numbers_that_it_was_judged_by(
 ) -> None:
     text = judged(play, *numbers).condition(condition).text
     assert {number.split(" = ")[1] for number in numbers} <= set(re.findall(r"\d+(?:\.\d+)?", text))
+
+
+def test_what_the_run_was_too_short_to_show_is_not_shown() -> None:
+    """The gap of 20 m comes 0.3 s after the start: that the hero was settled for half a second before nobody saw."""
+    soon = BRAKES.with_hero(s_m=20.6, pieces=[(0.3, 0.0), (5.0, -4.0)])
+    settled = judged(soon).condition("hero_settled")
+    assert (settled.holds_at(TIGHT), settled.holds_at(LOOSE)) == (False, True)
+    assert "0.20 s are not seen" in settled.text
+    assert judged(soon, "settled_s = 0.3").condition("hero_settled").holds_at(TIGHT)

@@ -25,7 +25,7 @@ from scenewright.judge.verdict import Cause, CauseKind, Condition, Verdict
 from scenewright.plan.planner import GOOD
 from scenewright.program.structure import Role, actors_of
 from scenewright.program.types import EGO, Actor, Constraint, Program
-from scenewright.simulate.loop import Run
+from scenewright.simulate.loop import ROUTE_END_M, Run
 from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
 from scenewright.translate.lines import in_words
@@ -78,7 +78,7 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
         return _cause("authority", Finding(f"{limit.text}, and {why}", {**otherwise.evidence, **limit.evidence}))
     if limit is not None:
         return _cause("authority", limit)
-    left = otherwise or _planned_so(run, hero, until_s, missed)
+    left = otherwise or _planned_so(world, run, hero, until_s, missed)
     if in_way is not None:
         left = Finding(f"{left.text}; {in_way}", {**left.evidence, "in_way": asdict(in_way)})
     return _cause("prediction" if otherwise else "plan", left)
@@ -136,15 +136,18 @@ def _begun_so(run: Run, condition: Condition) -> Finding:
     return Finding(f'no first plan was found that does all that was asked: it misses "{condition.text}"{off}', evidence)
 
 
-def _planned_so(run: Run, hero: Actor, until_s: float, missed: Sequence[Condition]) -> Finding:
+def _planned_so(world: World, run: Run, hero: Actor, until_s: float, missed: Sequence[Condition]) -> Finding:
     """Return what is left: it was planned so, though nothing stood against it."""
     planned = [tick for tick in run.replans if tick.foreseen is not None and tick.time_s < until_s]
     last = planned[-1] if planned else run.replans[0]
     acts_s, end_s = max(run.last_plan.profiles[hero.id].knot_times_s.values()), run.trace.duration_s
     if acts_s > end_s:
+        ego, route = run.trace.actors[world.scene.program.ego.name], world.scene.routes[EGO]
+        at_end = float(ego.s_m[-1]) >= route.landmarks["route_end"] - ROUTE_END_M
+        why = "the ego came to the end of its road" if at_end else "the run ended"
         return Finding(
-            f"the run ended at {end_s:.1f} s, before {called(hero.name)} was to have done all of it at {acts_s:.1f} s",
-            {"hero": hero.name, "end_s": end_s, "planned_s": acts_s},
+            f"{why} at {end_s:.1f} s, before {called(hero.name)} was to have done all of it at {acts_s:.1f} s",
+            {"hero": hero.name, "end_s": end_s, "planned_s": acts_s, "at_the_end_of_its_road": at_end},
         )
     if last.tolerance <= GOOD:
         return Finding(

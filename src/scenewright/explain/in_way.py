@@ -13,7 +13,7 @@ import numpy as np
 
 from scenewright.errors import PolicyError
 from scenewright.judge.tolerance import TIGHT, FloatArray
-from scenewright.simulate.loop import Run
+from scenewright.simulate.loop import ROUTE_END_M, Run
 from scenewright.simulate.world import World
 
 
@@ -85,7 +85,7 @@ def _drive_alone(world: World, s_m: float, speed_mps: float, for_s: float) -> tu
         for step in range(round(for_s / step_s)):
             ego.advance(ego.decide(round(step * step_s, 9), (), step_s), step_s)
             states.append((ego.state.s_m, ego.state.speed_mps))
-            if ego.state.s_m >= ego.route.path.length_m - 3.0:
+            if ego.state.s_m >= ego.route.path.length_m - ROUTE_END_M:
                 break
     except PolicyError:
         return None

@@ -14,6 +14,7 @@ import numpy as np
 from scenewright.judge.case import Case
 from scenewright.judge.knots import SIGN_OF, Measured, demands_standstill
 from scenewright.judge.phases import move_off_after, rest_after
+from scenewright.judge.tolerance import TIGHT, Every, Leaf
 from scenewright.judge.verdict import Condition, bounded, unjudged
 from scenewright.program.types import Actor, PieceKind
 from scenewright.translate.phrases import called, does
@@ -81,11 +82,13 @@ def _beginning(case: Case, measured: Measured, hero: Actor, kind: PieceKind) -> 
     before = (times[:-1] >= until - settled_s) & (times[1:] <= until + 1e-9)
     pull = SIGN_OF[kind] * timeline.slopes()[before]
     worst = max(0.0, float(np.max(pull, initial=0.0)))
-    yield bounded(
-        f"{hero.name}_settled", "interaction",
-        f"in the {settled_s:g} s before, {called(hero.name)} does not {verb} by more than {settled_mpss:g} m/s^2",
-        required=settled_mpss, measured=worst, error=max(0.0, worst - settled_mpss), dimension="acceleration",
-    )  # fmt: skip
+    text = f"in the {settled_s:g} s before, {called(hero.name)} does not {verb} by more than {settled_mpss:g} m/s^2"
+    unseen_s = max(0.0, settled_s - (phase.start_s - case.start_s))
+    if unseen_s > TIGHT.time_s:
+        text += f" (of these, {unseen_s:.2f} s are not seen: the run had not begun)"
+    over = max(0.0, worst - settled_mpss)
+    miss = Every((Leaf(over, "acceleration"), Leaf(unseen_s, "time")))
+    yield Condition(f"{hero.name}_settled", "interaction", text, settled_mpss, worst, over, "m/s^2", miss)
 
 
 def _piece(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[Condition]:

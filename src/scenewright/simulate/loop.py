@@ -33,6 +33,7 @@ _SEEN_S = 0.5  # beyond what a stand has to last, for it to be seen to
 _WAIT_FOR_EGO_S = 10.0
 _STALLED_S = 20.0
 _MOVES_MPS = 0.5
+ROUTE_END_M = 3.0  # who is so near to the end of its road has come to it
 _NOTED_M = 0.01  # what a finding with two decimals can say
 _DRIVES_EGO = "The simulator drove the ego by itself; the policy of --ego only told how it would start."
 
@@ -159,7 +160,7 @@ def _is_over(
         return True
     route = scene.routes[EGO]
     end_m = route.landmarks["route_end"]
-    if ego.s_m >= end_m - 3.0:
+    if ego.s_m >= end_m - ROUTE_END_M:
         return True
     # Whoever is at the end of its route does nothing more that a program asks for; others may.
     going = [heroes.plan.profiles[hero] for hero in states if not _is_at_end(scene, hero, states)]
@@ -174,7 +175,7 @@ def _is_over(
 
 
 def _is_at_end(scene: Scene, hero: int, states: Mapping[int, ActorState]) -> bool:
-    return states[hero].s_m >= scene.routes[hero].landmarks["route_end"] - 3.0
+    return states[hero].s_m >= scene.routes[hero].landmarks["route_end"] - ROUTE_END_M
 
 
 def _any_turning(scene: Scene, states: Mapping[int, ActorState]) -> bool:
