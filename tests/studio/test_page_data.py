@@ -65,6 +65,11 @@ def test_the_trigger_carries_the_distances_that_define_it(run_dir: Path) -> None
     }
 
 
+def test_a_trigger_that_never_came_is_no_moment_to_jump_to(run_dir: Path, edit: Edit) -> None:
+    edit(run_dir / "verdict.json", lambda v: v["facts"].update(trigger_came={"hero": False}))
+    assert collect(run_dir)["triggers"] == []
+
+
 def test_times_measured_by_the_judge_come_before_recorded_ones(run_dir: Path, edit: Edit) -> None:
     edit(run_dir / "verdict.json", lambda v: v["facts"]["knot_times_s"].update(hero={"t1": 4.07}, ego={"t1": 4.07}))
     data = collect(run_dir)

@@ -54,8 +54,10 @@ def collect(run_dir: Path) -> Json:
         missing.append(scene.problem)
     chosen = _chosen_samples(trace)
     knots = _knots(manifest, verdict)
-    reached = triggers(program, knots, manifest.get("landmarks") or {}) if program else []
     facts = (verdict or {}).get("facts") or {}
+    came = facts.get("trigger_came") or {}  # of one that never did, the nearest moment is no trigger
+    known = triggers(program, knots, manifest.get("landmarks") or {}) if program else []
+    reached = [trigger for trigger in known if came.get(trigger["hero"], True)]
     data: Json = {
         "schema_version": 1,
         "name": run_dir.resolve().name if manifest.get("name") in (None, "", *UNNAMED) else manifest["name"],
