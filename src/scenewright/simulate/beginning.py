@@ -23,13 +23,15 @@ from scenewright.roads.conflicts import shared_offset_m
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.ego_start import EgoFirstState, ego_starts
 from scenewright.simulate.heroes import HeroDriver
-from scenewright.simulate.port import Start
+from scenewright.simulate.port import on_route
 from scenewright.simulate.vehicles import seen
 from scenewright.simulate.world import World
 from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.feasibility import check_feasibility
 from scenewright.solve.limits import Limits
 
+_AT_ONCE_S = 1.0
+_BESIDE_M = 1.0
 _SHIFTS = 4  # of a start, until an ego that slows down for a bend is where it is to be
 
 
@@ -50,71 +52,91 @@ def first_plan(
     for start in _starts(world, predictor):
         # An ego that does not hold its speed may still let come about what no plan promises.
         promised = best is not None and (best.attempt.promises_outcome or not world.ego_bounds.holds_speed)
-        if start.last_resort and best is not None and best.attempt.is_good and not best.too_near and promised:
+        if start.last_resort and best is not None and best.attempt.is_good and not best.is_saved and promised:
             break
         if start.speed_mps >= slower_than_mps:
             continue
         found = _plan_from(world, start, limits, predictor)
         if best is None or found.rank < best.rank:
             best = found
-        if found.attempt.is_good and not found.too_near and found.attempt.promises_outcome:
+        if found.attempt.is_good and not found.is_near and found.attempt.promises_outcome:
             break
     return (best.planner, best.start, best.attempt) if best is not None else None
 
 
 @dataclass(frozen=True, slots=True)
 class _Planned:
-    """A start, what is planned from it, and whom the ego would then have to brake hard for at once."""
+    """A start, what is planned from it, whether the ego begins too near to somebody, and has to brake hard at once."""
 
     planner: Planner
     start: EgoFirstState
     attempt: Attempt
-    too_near: tuple[int, ...]
+    is_near: bool = False
+    is_saved: bool = False
 
     @property
-    def rank(self) -> tuple[bool, bool, float, float]:
-        """How it compares with others: nobody is too near, it does what was asked, is hardly late, misses little."""
+    def rank(self) -> tuple[bool, bool, bool, float, float]:
+        """How it compares: nobody has to be saved, it does what was asked, from far enough, on time, misses little."""
         missed = 0.0 if self.attempt.is_good else round(self.attempt.missed.by / GOOD)
         late_s = round(max(0.0, self.attempt.missed.late_s), 1)
-        return bool(self.too_near), not self.attempt.is_good, late_s, missed
+        return self.is_saved, not self.attempt.is_good, self.is_near, late_s, missed
 
 
 def _plan_from(world: World, start: EgoFirstState, limits: Mapping[int, Limits], predictor: Predictor) -> _Planned:
     """Plan from a start; where the ego would begin too near to somebody, once more from further away."""
-    now = (0.0, start.s_m, start.speed_mps, start.accel_mpss)
-    scene, structure = world.scene, world.structure
+    found = _planned(world, world.scene, start, limits, predictor)
+    near = _too_near(world, start, found.attempt)
+    if not near:
+        return found
+    apart = _kept_apart(world.scene, world.structure, near, start.speed_mps)
+    tried = [found, _planned(world, apart, start, limits, predictor)]
+    for which, each in enumerate(tried):
+        if _too_near(world, start, each.attempt):
+            tried[which] = replace(each, is_near=True, is_saved=_brakes_hard(world, start, each.attempt))
+    return min(tried, key=lambda each: each.rank)
+
+
+def _planned(
+    world: World, scene: Scene, start: EgoFirstState, limits: Mapping[int, Limits], predictor: Predictor
+) -> _Planned:
+    structure = read_structure(scene.program)
     planner = Planner(scene, structure, limits, predictor, linear_conditions(scene, structure))
-    attempt = planner.begin(now)
-    if near := _too_near(world, start, attempt):
-        scene = _kept_apart(scene, structure, near, start.speed_mps)
-        structure = read_structure(scene.program)
-        planner = Planner(scene, structure, limits, predictor, linear_conditions(scene, structure))
-        attempt = planner.begin(now)
-        near = _too_near(world, start, attempt)
-    return _Planned(planner, start, attempt, near)
+    return _Planned(planner, start, planner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss)))
 
 
-def _too_near(world: World, start: EgoFirstState, attempt: Attempt) -> tuple[int, ...]:
-    """Return the heroes for whom the ego would brake hard at once, and has to, unless it is asked to begin so."""
-    ego, scene, routes = world.ego, world.scene, world.scene.routes
-    first = Start.of(scene, ego, (start.s_m, start.speed_mps), attempt.plan.profiles).first
-    near = []
+def _too_near(world: World, start: EgoFirstState, attempt: Attempt) -> list[int]:
+    """Return the heroes whom the ego would follow by less than a second, or has to brake hard for, if not asked to."""
+    scene, routes, near = world.scene, world.scene.routes, []
+    ego = on_route(routes[EGO], (start.s_m, start.speed_mps, 0.0))
     for hero in scene.program.heroes:
         offset_m = shared_offset_m(routes[EGO], routes[hero.id])
         if offset_m is None or says_how_near(scene.program, world.structure, EGO, hero.id):
             continue
-        apart_m = first[hero.id].s_m + offset_m - start.s_m - VEHICLE_LENGTH_M
-        closing_mps = max(0.0, start.speed_mps - first[hero.id].speed_mps)
-        if 0.0 < apart_m < max(TAILGATES_S * start.speed_mps, closing_mps**2 / (2.0 * HARD_MPSS)):
+        there = on_route(routes[hero.id], attempt.plan.profiles[hero.id].state(0.0))
+        ahead_m, closing_mps = there.s_m + offset_m - ego.s_m, max(0.0, ego.speed_mps - there.speed_mps)
+        # Who is still on another road is further away than along the road that the two will share.
+        same_road = math.hypot(there.x_m - ego.x_m, there.y_m - ego.y_m) < ahead_m + _BESIDE_M
+        kept_m = max(TAILGATES_S * ego.speed_mps, closing_mps**2 / (2.0 * HARD_MPSS))
+        if same_road and 0.0 < ahead_m - VEHICLE_LENGTH_M < kept_m:
             near.append(hero.id)
-    if not near:
-        return ()
+    return near
+
+
+def _brakes_hard(world: World, start: EgoFirstState, attempt: Attempt) -> bool:
+    """Whether the policy, shown the heroes as they are planned, brakes hard in the first second."""
+    ego, scene, step_s, plans = world.ego, world.scene, world.rates.step_s, attempt.plan.profiles
     try:
         ego.reset(start.s_m, start.speed_mps)
-        ego.decide(0.0, seen(scene, first), world.rates.step_s)
+        for step in range(round(_AT_ONCE_S / step_s)):
+            now_s = round(step * step_s, 9)
+            there = {i: on_route(scene.routes[i], plans[i].state(now_s)) for i in plans if i != EGO}
+            action = ego.decide(now_s, seen(scene, there), step_s)
+            if ego.state.accel_mps2 < -HARD_MPSS:
+                return True
+            ego.advance(action, step_s)
     except PolicyError:
-        return ()  # the run itself will tell
-    return tuple(near) if ego.state.accel_mps2 < -HARD_MPSS else ()
+        pass  # the run itself will tell
+    return False
 
 
 def _kept_apart(scene: Scene, structure: Structure, heroes: Iterable[int], speed_mps: float) -> Scene:
