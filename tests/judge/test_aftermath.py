@@ -120,6 +120,14 @@ def test_one_passes_after_the_other() -> None:
     assert came.in_words().startswith("no collision; closest ")
 
 
+def test_who_follows_in_one_lane_passes_nobody() -> None:
+    near = replace(CROSSES, hero=Motion(8.0, 10.0, []), hero_line=AHEAD)
+    one_lane = {"ego": {"conflict_point": 70.0}, "hero": {"conflict_point": 70.0}}
+    came = judge(replace(near.case(), landmarks=one_lane)).aftermath
+    assert came.post_encroachment_s is None
+    assert "ways cross" not in came.in_words(), "0.35 s behind, both are where the junction begins"
+
+
 def test_a_hair_s_breadth_does_not_read_as_a_touch() -> None:
     came = came_of(replace(CROSSES, hero=Motion(4.504, 10.0, []), hero_line=AHEAD))
     assert came.collision is None

@@ -24,6 +24,7 @@ from scenewright.program.types import EGO
 from scenewright.translate.phrases import called
 
 _SUB_STEPS = 5  # the samples, and four instants between each two
+_ONE_LINE_M = 0.1  # lines that merge are further apart than this a vehicle's length before they do
 _INSTANT_S = 0.001  # a collision at the trigger itself, or in the last instant of a run, is one, too
 
 
@@ -127,12 +128,17 @@ def _pair(case: Case, a: int, b: int) -> dict[str, Any]:
 def _post_encroachment_s(case: Case, a: int, b: int) -> float | None:
     """Return the time between one leaving the conflict zone and the other entering; negative where both were in it.
 
-    The zone is where one's box can be while the other's width covers the conflict point.
+    The zone is where one's box can be while the other's width covers the conflict point. None where they did not both
+    pass it, or come to it in one lane.
     """
     try:
-        first, second = sorted((_stay(case, a, b), _stay(case, b, a)))
+        stays = {a: _stay(case, a, b), b: _stay(case, b, a)}
     except (CannotJudge, TypeError):
         return None
+    boxes = [moving_box(case.timelines[who].states, case.box(who), np.array([stay[0]])) for who, stay in stays.items()]
+    if float(np.hypot(boxes[0].x_m - boxes[1].x_m, boxes[0].y_m - boxes[1].y_m)[0]) < _ONE_LINE_M:
+        return None  # they come to it along one line: one follows the other, and passes nobody
+    first, second = sorted(stays.values())
     return second[0] - first[1]
 
 
