@@ -30,7 +30,8 @@ def test_moves_as_the_witness_says(case: Example) -> None:
         told = [profile.state(float(t))[0] for t in middle]
         assert np.allclose([trace.position(float(t)) for t in middle], told, atol=5e-3)
         assert run.trace.duration_s >= max(profile.knot_times_s.values()) - 1e-9
-    assert judge(case_of(scene, run, limits)).holds_at(TIGHT)
+    missed = {each.id for each in judge(case_of(scene, run, limits)).conditions if not each.holds_at(TIGHT)}
+    assert missed <= {"start"}, "a witness shows that it can happen, from whatever start"
 
 
 def test_what_follows_ends_before_a_crash() -> None:
