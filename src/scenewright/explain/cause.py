@@ -142,12 +142,15 @@ def _planned_so(world: World, run: Run, hero: Actor, until_s: float, missed: Seq
     last = planned[-1] if planned else run.replans[0]
     acts_s, end_s = max(run.last_plan.profiles[hero.id].knot_times_s.values()), run.trace.duration_s
     if acts_s > end_s:
-        ego, route = run.trace.actors[world.scene.program.ego.name], world.scene.routes[EGO]
-        at_end = float(ego.s_m[-1]) >= route.landmarks["route_end"] - ROUTE_END_M
-        why = "the ego came to the end of its road" if at_end else "the run ended"
+        at_end = [
+            called(actor.name)
+            for actor in (world.scene.program.ego, hero)
+            if run.trace.actors[actor.name].s_m[-1] >= world.scene.routes[actor.id].landmarks["route_end"] - ROUTE_END_M
+        ]
+        why = f"{at_end[0]} came to the end of its road" if at_end else "the run ended"
         return Finding(
             f"{why} at {end_s:.1f} s, before {called(hero.name)} was to have done all of it at {acts_s:.1f} s",
-            {"hero": hero.name, "end_s": end_s, "planned_s": acts_s, "at_the_end_of_its_road": at_end},
+            {"hero": hero.name, "end_s": end_s, "planned_s": acts_s, "at_the_end_of_its_road": bool(at_end)},
         )
     if last.tolerance <= GOOD:
         return Finding(
