@@ -147,9 +147,11 @@ def _planned_so(world: World, run: Run, hero: Actor, until_s: float, missed: Seq
             for actor in (world.scene.program.ego, hero)
             if run.trace.actors[actor.name].s_m[-1] >= world.scene.routes[actor.id].landmarks["route_end"] - ROUTE_END_M
         ]
+        who = called(hero.name)
         why = f"{at_end[0]} came to the end of its road" if at_end else "the run ended"
+        then = "it" if at_end[:1] == [who] else who
         return Finding(
-            f"{why} at {end_s:.1f} s, before {called(hero.name)} was to have done all of it at {acts_s:.1f} s",
+            f"{why} at {end_s:.1f} s, before {then} was to have done all of it at {acts_s:.1f} s",
             {"hero": hero.name, "end_s": end_s, "planned_s": acts_s, "at_the_end_of_its_road": bool(at_end)},
         )
     if last.tolerance <= GOOD:
