@@ -59,41 +59,38 @@ def first_plan(
         found = _plan_from(world, start, limits, predictor)
         if best is None or found.rank < best.rank:
             best = found
-        if found.attempt.is_good and not found.is_near and found.attempt.promises_outcome:
+        if found.attempt.is_good and not found.is_saved and found.attempt.promises_outcome:
             break
     return (best.planner, best.start, best.attempt) if best is not None else None
 
 
 @dataclass(frozen=True, slots=True)
 class _Planned:
-    """A start, what is planned from it, whether the ego begins too near to somebody, and has to brake hard at once."""
+    """A start, what is planned from it, and whether the ego begins too near to somebody and brakes hard at once."""
 
     planner: Planner
     start: EgoFirstState
     attempt: Attempt
-    is_near: bool = False
     is_saved: bool = False
 
     @property
-    def rank(self) -> tuple[bool, bool, bool, float, float]:
-        """How it compares: nobody has to be saved, it does what was asked, from far enough, on time, misses little."""
+    def rank(self) -> tuple[bool, bool, float, float]:
+        """How it compares with others: nobody is saved, it does what was asked, is hardly late, misses little."""
         missed = 0.0 if self.attempt.is_good else round(self.attempt.missed.by / GOOD)
         late_s = round(max(0.0, self.attempt.missed.late_s), 1)
-        return self.is_saved, not self.attempt.is_good, self.is_near, late_s, missed
+        return self.is_saved, not self.attempt.is_good, late_s, missed
 
 
 def _plan_from(world: World, start: EgoFirstState, limits: Mapping[int, Limits], predictor: Predictor) -> _Planned:
-    """Plan from a start; where the ego would begin too near to somebody, once more from further away."""
+    """Plan from a start; where the ego would begin too near to somebody and brake hard, from further away."""
     found = _planned(world, world.scene, start, limits, predictor)
     near = _too_near(world, start, found.attempt)
-    if not near:
+    if not near or not _brakes_hard(world, start, found.attempt):
         return found
     apart = _kept_apart(world.scene, world.structure, near, start.speed_mps)
-    tried = [found, _planned(world, apart, start, limits, predictor)]
-    for which, each in enumerate(tried):
-        if _too_near(world, start, each.attempt):
-            tried[which] = replace(each, is_near=True, is_saved=_brakes_hard(world, start, each.attempt))
-    return min(tried, key=lambda each: each.rank)
+    further = _planned(world, apart, start, limits, predictor)
+    still = bool(_too_near(world, start, further.attempt)) and _brakes_hard(world, start, further.attempt)
+    return replace(further, is_saved=still)
 
 
 def _planned(
