@@ -112,6 +112,17 @@ def fallen(ego: Motion, asked: str = "", said: str = "ttc(A0, A1, t1) == 2.5 s")
 def test_a_time_to_collision_is_met_as_it_falls() -> None:
     """35.5 m behind at 12 m/s it is 8.9 s, and 2.5 s after 6.4 s."""
     assert fallen(Motion(0.0, 12.0, [])) == (pytest.approx(2.5), True)
+    assert fallen(Motion(0.0, 12.0, []), said="ttc(A0, A1, A1(t1)) == 2.5 s") == (pytest.approx(2.5), True)
+
+
+def test_one_of_two_that_share_no_lane_is_not_judged_twice() -> None:
+    time_s = np.arange(0.0, 12.0, 0.02)
+    motions = {"ego": Motion(0.0, 12.0, []), "lead": Motion(40.0, 8.0, [])}
+    trace = Trace({name: actor_trace(motion, time_s, LINE) for name, motion in motions.items()})
+    text = PROGRAM.format(asked="A0x(t1) == 20", first="go").replace("headway", "ttc")
+    verdict = judge(Case(parse_program(text), {}, {}, {("ego", "lead"): None}, trace))
+    assert not [each for each in verdict.conditions if each.id.endswith("_falls")]
+    assert [each.id for each in verdict.conditions if "share no lane" in each.text]
 
 
 def test_one_that_is_met_as_it_grows_had_been_shorter() -> None:
