@@ -58,6 +58,8 @@ def test_far_away_is_too_near_for_who_has_to_brake_hard_not_to_meet_it() -> None
     fast = Motion(0.0, 20.0, [(4.0, -4.7)])
     assert hardest(47.25, ego=fast, lead_mps=0.0) == pytest.approx(4.7)
     assert hardest(47.25, ego=fast, lead_mps=12.0) is None
+    # 30 m before it at 13.9 m/s, 3.2 m/s^2 would do for who brakes at once, and 6 for who takes a second.
+    assert hardest(34.8, ego=Motion(0.0, 13.9, [(1.0, -8.0)]), lead_mps=0.0) == 8.0
 
 
 def test_who_brakes_harder_than_it_has_to_was_not_put_there() -> None:

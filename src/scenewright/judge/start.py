@@ -18,7 +18,7 @@ from scenewright.judge.knots import Measured, conjuncts
 from scenewright.judge.terms import Moments, sides
 from scenewright.judge.verdict import Condition, bounded
 from scenewright.program.expressions import Compare, Derived, walk
-from scenewright.program.starts import HARD_MPSS, TAILGATES_S, says_how_near
+from scenewright.program.starts import HARD_MPSS, kept_m, says_how_near
 from scenewright.program.structure import Role, knots_of
 from scenewright.program.types import EGO, PieceKind
 from scenewright.translate.lines import told_formulas
@@ -85,12 +85,11 @@ def _is_put_near(case: Case, actor_id: int) -> bool:
 
 
 def _is_near(case: Case, actor: int, other: int) -> bool:
-    """Whether an actor begins less than a second behind where the other is, or has to brake hard not to meet it."""
+    """Whether an actor begins with less room before where the other is than anybody would choose."""
     at = np.array([case.start_s])
     own, theirs = (moving_box(case.timelines[each].states, case.box(each), at) for each in (actor, other))
     headway_s = times_to_collision_s(own, replace(theirs, speed_mps=np.zeros(1)))[0]
     if not np.isfinite(headway_s):
         return False
-    meets_s = max(float(times_to_collision_s(own, theirs)[0]), _INSTANT_S)
-    apart_m = headway_s * own.speed_mps[0]
-    return bool(headway_s < TAILGATES_S or apart_m / (2.0 * meets_s**2) > HARD_MPSS)
+    apart_m, meets_s = headway_s * own.speed_mps[0], max(float(times_to_collision_s(own, theirs)[0]), _INSTANT_S)
+    return bool(apart_m < kept_m(float(own.speed_mps[0]), apart_m / meets_s))
