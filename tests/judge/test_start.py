@@ -58,6 +58,8 @@ def test_far_away_is_too_near_for_who_has_to_brake_hard_not_to_meet_it() -> None
     fast = Motion(0.0, 20.0, [(4.0, -4.7)])
     assert hardest(47.25, ego=fast, lead_mps=0.0) == pytest.approx(4.7)
     assert hardest(47.25, ego=fast, lead_mps=12.0) is None
+    # 30 m before it at 13.9 m/s, 3.2 m/s^2 would do for who brakes at once, and 6 for who takes a second.
+    assert hardest(34.8, ego=Motion(0.0, 13.9, [(1.0, -8.0)]), lead_mps=0.0) == 8.0
 
 
 def test_who_brakes_harder_than_it_has_to_was_not_put_there() -> None:
@@ -112,6 +114,17 @@ def fallen(ego: Motion, asked: str = "", said: str = "ttc(A0, A1, t1) == 2.5 s")
 def test_a_time_to_collision_is_met_as_it_falls() -> None:
     """35.5 m behind at 12 m/s it is 8.9 s, and 2.5 s after 6.4 s."""
     assert fallen(Motion(0.0, 12.0, [])) == (pytest.approx(2.5), True)
+    assert fallen(Motion(0.0, 12.0, []), said="ttc(A0, A1, A1(t1)) == 2.5 s") == (pytest.approx(2.5), True)
+
+
+def test_one_of_two_that_share_no_lane_is_not_judged_twice() -> None:
+    time_s = np.arange(0.0, 12.0, 0.02)
+    motions = {"ego": Motion(0.0, 12.0, []), "lead": Motion(40.0, 8.0, [])}
+    trace = Trace({name: actor_trace(motion, time_s, LINE) for name, motion in motions.items()})
+    text = PROGRAM.format(asked="A0x(t1) == 20", first="go").replace("headway", "ttc")
+    verdict = judge(Case(parse_program(text), {}, {}, {("ego", "lead"): None}, trace))
+    assert not [each for each in verdict.conditions if each.id.endswith("_falls")]
+    assert [each.id for each in verdict.conditions if "share no lane" in each.text]
 
 
 def test_one_that_is_met_as_it_grows_had_been_shorter() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from scenewright.program.resolve import resolve
-from scenewright.program.starts import says_how_near
+from scenewright.program.starts import HARD_MPSS, kept_m, says_how_near
 from scenewright.program.structure import read_structure
 from scenewright.program.text import parse_program
 
@@ -44,3 +44,11 @@ def test_what_is_said_of_the_start(said: str, ego: bool, lead: bool) -> None:
     program = resolve(parse_program(PROGRAM.format(said=said)))
     structure = read_structure(program)
     assert (says_how_near(program, structure, 0, 1), says_how_near(program, structure, 1, 0)) == (ego, lead)
+
+
+@pytest.mark.parametrize(("speed_mps", "closing_mps"), [(14.0, 0.0), (14.0, 5.0), (14.0, 14.0), (20.0, 8.0)])
+def test_room_is_a_seconds_way_and_enough_to_brake_after_a_second(speed_mps: float, closing_mps: float) -> None:
+    room_m = kept_m(speed_mps, closing_mps)
+    assert room_m >= speed_mps
+    left_m = room_m - closing_mps  # after a second
+    assert closing_mps**2 <= 2.0 * HARD_MPSS * left_m + 1e-9

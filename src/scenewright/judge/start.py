@@ -7,17 +7,18 @@ grows as it falls: one that is met while it rises was there before, and nobody a
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
 
 from scenewright.judge.boxes import moving_box, times_to_collision_s
-from scenewright.judge.case import Case
+from scenewright.judge.case import CannotJudge, Case
 from scenewright.judge.knots import Measured, conjuncts
 from scenewright.judge.terms import Moments, sides
 from scenewright.judge.verdict import Condition, bounded
 from scenewright.program.expressions import Compare, Derived, walk
-from scenewright.program.starts import HARD_MPSS, TAILGATES_S, says_how_near
+from scenewright.program.starts import HARD_MPSS, kept_m, says_how_near
 from scenewright.program.structure import Role, knots_of
 from scenewright.program.types import EGO, PieceKind
 from scenewright.translate.lines import told_formulas
@@ -28,8 +29,8 @@ _INSTANT_S = 0.05  # times to collision are told in tenths
 
 def start_condition(case: Case) -> Condition:
     """Judge that nobody who begins near to another has to brake hard at once."""
-    braked = (_hardest_braking_mpss(case, who) for who in _put_near(case))
-    hardest = max(braked, default=0.0)
+    braked = {actor.id: _hardest_braking_mpss(case, actor.id) for actor in case.program.actors}
+    hardest = max((rate for who, rate in braked.items() if rate > HARD_MPSS and _is_put_near(case, who)), default=0.0)
     text = "nobody begins so near to another that it brakes hard at once, unless the program puts it there"
     return bounded(
         "start", "safety", text,
@@ -47,7 +48,8 @@ def falling_conditions(case: Case, measured: Measured) -> Iterator[Condition]:
                 continue
             moments = [float(np.max(measured.moments.knots.get(key, np.inf))) for key in knots_of(part)]
             if np.isfinite(moments).all() and not says_how_near(case.program, case.structure, own.actor, own.target):
-                yield _falls(case, measured, part, f"{constraint.id}_falls", told.get(part, constraint.id))
+                with suppress(CannotJudge):  # then the trigger itself fails, and says why
+                    yield _falls(case, measured, part, f"{constraint.id}_falls", told.get(part, constraint.id))
 
 
 def _falls(case: Case, measured: Measured, part: Compare, name: str, words: str) -> Condition:
@@ -71,26 +73,23 @@ def _hardest_braking_mpss(case: Case, actor: int) -> float:
     return max(0.0, -float(states.accel_mps2[at_once].min()))
 
 
-def _put_near(case: Case) -> Iterator[int]:
-    """Yield those who begin near to another whom they drive towards, though nothing asks them to, nor to brake."""
-    for actor in case.program.actors:
-        if actor.id != EGO and actor.sketch.pieces[0] is PieceKind.DEC:
-            continue
-        others = (other.id for other in case.program.actors if other.id != actor.id)
-        if any(
-            _is_near(case, actor.id, other) and not says_how_near(case.program, case.structure, actor.id, other)
-            for other in others
-        ):
-            yield actor.id
+def _is_put_near(case: Case, actor_id: int) -> bool:
+    """Whether somebody begins near to another whom it drives towards, though nothing asks it to, nor to brake."""
+    if actor_id != EGO and case.program.actor(actor_id).sketch.pieces[0] is PieceKind.DEC:
+        return False
+    others = (other.id for other in case.program.actors if other.id != actor_id)
+    return any(
+        _is_near(case, actor_id, other) and not says_how_near(case.program, case.structure, actor_id, other)
+        for other in others
+    )
 
 
 def _is_near(case: Case, actor: int, other: int) -> bool:
-    """Whether an actor begins less than a second behind where the other is, or has to brake hard not to meet it."""
+    """Whether an actor begins with less room before where the other is than anybody would choose."""
     at = np.array([case.start_s])
     own, theirs = (moving_box(case.timelines[each].states, case.box(each), at) for each in (actor, other))
     headway_s = times_to_collision_s(own, replace(theirs, speed_mps=np.zeros(1)))[0]
     if not np.isfinite(headway_s):
         return False
-    meets_s = max(float(times_to_collision_s(own, theirs)[0]), _INSTANT_S)
-    apart_m = headway_s * own.speed_mps[0]
-    return bool(headway_s < TAILGATES_S or apart_m / (2.0 * meets_s**2) > HARD_MPSS)
+    apart_m, meets_s = headway_s * own.speed_mps[0], max(float(times_to_collision_s(own, theirs)[0]), _INSTANT_S)
+    return bool(apart_m < kept_m(float(own.speed_mps[0]), apart_m / meets_s))

@@ -15,6 +15,11 @@ HARD_MPSS = 3.4
 TAILGATES_S = 1.0  # half of what drivers are told to keep, and about what is fined in Germany (BKatV, 12: 0.9 s)
 
 
+def kept_m(speed_mps: float, closing_mps: float) -> float:
+    """Return how much room (m) nobody gives up by choice: a second's way, or one to react and then brake evenly."""
+    return max(TAILGATES_S * speed_mps, TAILGATES_S * closing_mps + closing_mps**2 / (2.0 * HARD_MPSS))
+
+
 def says_how_near(program: Program, structure: Structure, actor: int, other: int) -> bool:
     """Whether a program says how near two begin: in time, or in metres and how fast the first is."""
     asked: list[Node] = []

@@ -15,7 +15,7 @@ from scenewright.motion.profile import Profile
 from scenewright.plan.planner import GOOD, Attempt, Planner
 from scenewright.plan.prediction import Predictor
 from scenewright.program.expressions import Compare, Derived, DerivedKind, Knot, Number
-from scenewright.program.starts import HARD_MPSS, TAILGATES_S, says_how_near
+from scenewright.program.starts import HARD_MPSS, TAILGATES_S, kept_m, says_how_near
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
@@ -113,8 +113,7 @@ def _too_near(world: World, start: EgoFirstState, attempt: Attempt) -> list[int]
         ahead_m, closing_mps = there.s_m + offset_m - ego.s_m, max(0.0, ego.speed_mps - there.speed_mps)
         # Who is still on another road is further away than along the road that the two will share.
         same_road = math.hypot(there.x_m - ego.x_m, there.y_m - ego.y_m) < ahead_m + _BESIDE_M
-        kept_m = max(TAILGATES_S * ego.speed_mps, closing_mps**2 / (2.0 * HARD_MPSS))
-        if same_road and 0.0 < ahead_m - VEHICLE_LENGTH_M < kept_m:
+        if same_road and 0.0 < ahead_m - VEHICLE_LENGTH_M < kept_m(ego.speed_mps, closing_mps):
             near.append(hero.id)
     return near
 
@@ -139,10 +138,11 @@ def _brakes_hard(world: World, start: EgoFirstState, attempt: Attempt) -> bool:
 def _kept_apart(scene: Scene, structure: Structure, heroes: Iterable[int], speed_mps: float) -> Scene:
     """Return a scene whose program says besides that an ego of this speed begins further behind some heroes.
 
-    Nobody closes in on another faster than it drives: that long before a collision, even braking is enough.
+    Nobody closes in faster than it drives: that long before a collision, even braking is enough a second later.
     """
     knot, more = Knot(structure.starts[EGO]), []
-    least: list[tuple[DerivedKind, float]] = [("headway", TAILGATES_S), ("ttc", speed_mps / (2.0 * HARD_MPSS))]
+    meets_s = TAILGATES_S + speed_mps / (2.0 * HARD_MPSS)
+    least: list[tuple[DerivedKind, float]] = [("headway", TAILGATES_S), ("ttc", meets_s)]
     for hero in heroes:
         for kind, least_s in least:
             said = Compare(">=", Derived(kind, EGO, hero, knot), Number(Fraction(least_s).limit_denominator(1000)))
