@@ -36,9 +36,9 @@ _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
 # First plans are solved for from these speeds (shares of the natural one) and, where both decide, triggers (s): Newton
 # finds the nearest plan, not the best.
 _PACES, _JOINT_S = (0.8, 0.45, 0.25), (3.5, 6.0)
-# What a step has to gain, for the first hero and for each further one: the next tick goes on from there. Chosen; a tight
-# tolerance that is missed costs hundreds.
-_ENOUGH, _ENOUGH_EACH = 0.01, 0.3
+# What a step has to gain in a tick, from which the next one goes on, and more for each further hero in any plan. Chosen;
+# a tight tolerance that is missed costs hundreds.
+_ENOUGH_TICK, _ENOUGH_EACH = 0.01, 0.3
 # How often a first plan is solved for again with an ego that follows a hero and answers what that does; chosen. It
 # ends before where nothing is missed.
 _AGAIN_LED = 16
@@ -306,7 +306,7 @@ class Planner:
             situation, moved_s = self._situation(time_s, prediction)
             problem = Problem(self._asked, situation, self._meetings)
             steps = _TICK_STEPS + min(_MOST_STEPS_MORE, int(_STEPS_A_SECOND * moved_s))
-            solution = solve(problem, problem.guess, steps, self._enough)
+            solution = solve(problem, problem.guess, steps, _ENOUGH_TICK + self._enough)
             self._keep(self._made(problem, solution, prediction))
             foreseen = self.plan.profiles[EGO]
             record = Replan(time_s, _status(solution), "daqp", 0.0, solution.missed.by, "", foreseen)
@@ -420,7 +420,7 @@ class Planner:
 
     @property
     def _enough(self) -> float:
-        return _ENOUGH + _ENOUGH_EACH * (len(self.scene.program.heroes) - 1)
+        return _ENOUGH_EACH * (len(self.scene.program.heroes) - 1)
 
     def _trigger(self, hero: Actor) -> str | None:
         return self.structure.trigger_knot(hero.id)
