@@ -155,23 +155,25 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     left_out = {each.constraint.id: each.refused for each in plain.lowered if each.refused}
     if question.drive is None and (clashing := crowded(plain.events, plain.lowered)):
         return Decision("infeasible", core=clashing, left_out=left_out)
-    formulas: list[Named] = []
+    cases: dict[frozenset[int], tuple[Sequence[Unknown], list[Named]]] = {}
     hunt = _Hunt(question, until)
     for guesses, proof_s in zip(_GUESSES, _PROOF_S, strict=True):
         if not left_out and question.drive is None and (found := hunt.witness(guesses)) is not None:
             return Decision("feasible", found)
-        if bending := {each.actor for each in hunt.amiss if each.what == "turn"} - question.bending:
-            question = replace(question, bending=question.bending | bending)
-            plain, formulas = _Case(question, plan=False), []
-        if formulas and time.monotonic() > until:
-            break
-        formulas = formulas or plain.relaxation()  # most witnesses need none
-        answer = question.refuter.ask(plain.events.unknowns, formulas, min(proof_s, until - time.monotonic()))
-        if answer.kind == "refuted" and not question.refuter.capabilities.exact:
-            return Decision("undecided", left_out=left_out, amiss=hunt.amiss, doubted_by=question.refuter.name)
-        if answer.kind == "refuted":
-            clashing = _core(question, plain.events.unknowns, formulas) if explain else ()
-            return Decision("infeasible", core=clashing, left_out=left_out)
+        turning = frozenset(each.actor for each in hunt.amiss if each.what == "turn")
+        for bending in dict.fromkeys((question.bending, question.bending | turning)):  # what needs no bends is easier
+            bent = replace(question, bending=bending)
+            if cases and time.monotonic() > until:
+                break
+            if bending not in cases:  # most witnesses need none
+                case = plain if bending == question.bending else _Case(bent, plan=False)
+                cases[bending] = case.events.unknowns, case.relaxation()
+            answer = question.refuter.ask(*cases[bending], min(proof_s, until - time.monotonic()))
+            if answer.kind == "refuted" and not question.refuter.capabilities.exact:
+                return Decision("undecided", left_out=left_out, amiss=hunt.amiss, doubted_by=question.refuter.name)
+            if answer.kind == "refuted":
+                clashing = _core(bent, *cases[bending]) if explain else ()
+                return Decision("infeasible", core=clashing, left_out=left_out)
     return Decision("undecided", left_out=left_out, amiss=hunt.amiss)
 
 
