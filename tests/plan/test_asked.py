@@ -69,6 +69,20 @@ def test_a_time_to_arrival_is_off_by_its_own_tolerance(mps: float, off: float) -
     assert abs(row.level) == pytest.approx(abs(off) * mps / slowest, abs=1e-3)
 
 
+@given(short_mps=st.floats(0.0, 0.6))
+def test_nobody_who_stands_at_its_place_is_a_time_from_it(short_mps: float) -> None:
+    """No way at no speed takes as long as one likes, as far as a product of the two can tell."""
+    asked = asked_for("tta(A1, conflict_point, t1) == 5")
+    place, speed = state(asked, HERO, "t1")
+    place_m = asked.scene.landmark_m(HERO, "conflict_point", EGO)
+    mps = asked.wanted.moves_mps - short_mps
+    found = {speed: mps, place: place_m - 5.0 * mps}
+    (row,) = [row for row in rows_at(asked, found) if np.flatnonzero(row.slope).tolist() == [speed]]
+    assert not row.equal
+    assert row.level == pytest.approx(short_mps / TIGHT["speed"])
+    assert row.slope[speed] < 0.0
+
+
 @pytest.mark.parametrize(("faster", "chosen"), [(9.8, "speed"), (9.0, "place")])
 def test_of_alternatives_the_nearest_to_holding_is_asked(faster: float, chosen: str) -> None:
     asked = asked_for("A1v(t1) >= 10 or A1x(t1) <= conflict_point - 60")

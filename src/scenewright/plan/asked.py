@@ -119,8 +119,13 @@ class Asked:
         missed = np.where(equal, np.abs(levels), levels)
         # An alternative that does not hold is none where nothing that is still to be planned changes it.
         settled = (missed > 1.0) & ~np.any(changes != 0.0, axis=1)
-        for k in self._formulas.chosen(np.where(settled, np.inf, missed)):
+        chosen = self._formulas.chosen(np.where(settled, np.inf, missed))
+        for k in chosen:
             yield Row(float(levels[k]), changes[k], bool(equal[k]), self._orders[k] and not equal[k])
+        for k, _, speed in self._quotients:
+            if k in chosen and equal[k] and np.any(slopes[speed]):  # who stands where it is to be arrives at no time
+                short_mps = self.wanted.moves_mps - float(point[speed])
+                yield Row(short_mps / TIGHT["speed"], -slopes[speed] / TIGHT["speed"], equal=False, order=False)
 
     def _is_order(self, atom: Atom) -> bool:
         """Whether a comparison is of nothing but times, the ego's among them."""
