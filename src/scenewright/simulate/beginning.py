@@ -21,14 +21,15 @@ from scenewright.program.types import EGO, Constraint
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import shared_offset_m
 from scenewright.roads.grounding import Scene
+from scenewright.simulate.builtin import BuiltIn
 from scenewright.simulate.ego_start import EgoFirstState, ego_starts
 from scenewright.simulate.heroes import HeroDriver
-from scenewright.simulate.port import on_route
-from scenewright.simulate.vehicles import seen
+from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
 from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.feasibility import check_feasibility
 from scenewright.solve.limits import Limits
+from scenewright.trace.model import ActorState
 
 _AT_ONCE_S = 1.0
 _BESIDE_M = 1.0
@@ -52,14 +53,14 @@ def first_plan(
     for start in _starts(world, predictor):
         # An ego that does not hold its speed may still let come about what no plan promises.
         promised = best is not None and (best.attempt.promises_outcome or not world.ego_bounds.holds_speed)
-        if start.last_resort and best is not None and best.attempt.is_good and not best.is_saved and promised:
+        if start.last_resort and best is not None and best.is_good and promised:
             break
         if start.speed_mps >= slower_than_mps:
             continue
         found = _plan_from(world, start, limits, predictor)
         if best is None or found.rank < best.rank:
             best = found
-        if found.attempt.is_good and not found.is_saved and found.attempt.promises_outcome:
+        if found.is_good and found.attempt.promises_outcome:
             break
     return (best.planner, best.start, best.attempt) if best is not None else None
 
@@ -74,6 +75,11 @@ class _Planned:
     is_saved: bool = False
 
     @property
+    def is_good(self) -> bool:
+        """Whether it does what was asked, and nobody is saved."""
+        return self.attempt.is_good and not self.is_saved
+
+    @property
     def rank(self) -> tuple[bool, bool, float, float]:
         """How it compares with others: nobody is saved, it does what was asked, is hardly late, misses little."""
         missed = 0.0 if self.attempt.is_good else round(self.attempt.missed.by / GOOD)
@@ -84,13 +90,12 @@ class _Planned:
 def _plan_from(world: World, start: EgoFirstState, limits: Mapping[int, Limits], predictor: Predictor) -> _Planned:
     """Plan from a start; where the ego would begin too near to somebody and brake hard, from further away."""
     found = _planned(world, world.planned, start, limits, predictor)
-    near = _too_near(world, start, found.attempt)
-    if not near or not _brakes_hard(world, start, found.attempt):
+    near = _saved_from(world, start, found.attempt)
+    if not near:
         return found
     apart = _kept_apart(world.planned, world.structure, near, start.speed_mps)
     further = _planned(world, apart, start, limits, predictor)
-    still = bool(_too_near(world, start, further.attempt)) and _brakes_hard(world, start, further.attempt)
-    return replace(further, is_saved=still)
+    return replace(further, is_saved=bool(_saved_from(world, start, further.attempt)))
 
 
 def _planned(
@@ -101,35 +106,35 @@ def _planned(
     return _Planned(planner, start, planner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss)))
 
 
-def _too_near(world: World, start: EgoFirstState, attempt: Attempt) -> list[int]:
-    """Return the heroes whom the ego would follow by less than a second, or has to brake hard for, if not asked to."""
-    scene, routes, near = world.scene, world.scene.routes, []
-    ego = on_route(routes[EGO], (start.s_m, start.speed_mps, 0.0))
-    for hero in scene.program.heroes:
-        offset_m = shared_offset_m(routes[EGO], routes[hero.id])
-        if offset_m is None or says_how_near(scene.program, world.structure, EGO, hero.id):
-            continue
-        there = on_route(routes[hero.id], attempt.plan.profiles[hero.id].state(0.0))
-        ahead_m, closing_mps = there.s_m + offset_m - ego.s_m, max(0.0, ego.speed_mps - there.speed_mps)
-        # Who is still on another road is further away than along the road that the two will share.
-        same_road = math.hypot(there.x_m - ego.x_m, there.y_m - ego.y_m) < ahead_m + _BESIDE_M
-        if same_road and 0.0 < ahead_m - VEHICLE_LENGTH_M < kept_m(ego.speed_mps, closing_mps):
-            near.append(hero.id)
-    return near
+def _saved_from(world: World, start: EgoFirstState, attempt: Attempt) -> list[int]:
+    """Return the heroes that the ego begins too near to, where its policy brakes hard in the first second."""
+    heroes = {hero.id: attempt.plan.profiles[hero.id] for hero in world.scene.program.heroes}
+    begins = Start.of(world.scene, world.ego, (start.s_m, start.speed_mps), heroes)
+    near = [hero for hero in heroes if _is_too_near(world, begins.first[EGO], hero, begins.first[hero])]
+    return near if near and _brakes_hard(begins, heroes, world.rates.step_s) else []
 
 
-def _brakes_hard(world: World, start: EgoFirstState, attempt: Attempt) -> bool:
+def _is_too_near(world: World, ego: ActorState, hero: int, there: ActorState) -> bool:
+    """Whether the ego would follow a hero by less than a second, or has to brake hard for it, if not asked to."""
+    offset_m = shared_offset_m(world.scene.routes[EGO], world.scene.routes[hero])
+    if offset_m is None or says_how_near(world.scene.program, world.structure, EGO, hero):
+        return False
+    ahead_m, closing_mps = there.s_m + offset_m - ego.s_m, max(0.0, ego.speed_mps - there.speed_mps)
+    # Who is still on another road is further away than along the road that the two will share.
+    same_road = math.hypot(there.x_m - ego.x_m, there.y_m - ego.y_m) < ahead_m + _BESIDE_M
+    return same_road and 0.0 < ahead_m - VEHICLE_LENGTH_M < kept_m(ego.speed_mps, closing_mps)
+
+
+def _brakes_hard(start: Start, heroes: Mapping[int, Profile], step_s: float) -> bool:
     """Whether the policy, shown the heroes as they are planned, brakes hard in the first second."""
-    ego, scene, step_s, plans = world.ego, world.scene, world.rates.step_s, attempt.plan.profiles
+    drive = BuiltIn()
     try:
-        ego.reset(start.s_m, start.speed_mps)
-        for step in range(round(_AT_ONCE_S / step_s)):
-            now_s = round(step * step_s, 9)
-            there = {i: on_route(scene.routes[i], plans[i].state(now_s)) for i in plans if i != EGO}
-            action = ego.decide(now_s, seen(scene, there), step_s)
-            if ego.state.accel_mps2 < -HARD_MPSS:
+        drive.reset(start, step_s)
+        for _ in range(round(_AT_ONCE_S / step_s)):
+            drive.apply(heroes)
+            if drive.observe().actors[EGO].accel_mps2 < -HARD_MPSS:
                 return True
-            ego.advance(action, step_s)
+            drive.step()
     except PolicyError:
         pass  # the run itself will tell
     return False

@@ -7,7 +7,7 @@ or by a policy or a simulator that fails, keeps what it had.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import hypot
 from typing import TYPE_CHECKING
@@ -81,7 +81,7 @@ def simulate(
     progress
         Called with the simulated time (s) at every re-solve.
     """
-    scene, first_plan, log = start.scene, heroes.plan, _Log(start.scene)
+    scene, first_plan, log = start.scene, heroes.plan, list[Snapshot]()
     steps_a_tick = max(1, round(rates.replan_s / rates.step_s)) if rates.replan_s else 0
     status, fault, step, astray_m = "finished", None, 0, 0.0
     clock_s = _told_by_the_clock_s(scene.program)
@@ -98,7 +98,7 @@ def simulate(
             with SIMULATORS.blamed(simulator):
                 simulator.apply(motions)
                 now = simulator.observe()
-            log.add(now)
+            log.append(now)
             driven = {hero: now.actors[hero] for hero in motions}
             for hero, there in driven.items():
                 astray_m = max(astray_m, hypot(there.s_m - motions[hero].state(now.time_s)[0], there.d_m))
@@ -111,47 +111,28 @@ def simulate(
             ego = now.actors[EGO]
             heroes.observe((now.time_s, ego.s_m, ego.speed_mps, ego.accel_mps2))
     except KeyboardInterrupt:
-        if not log.steps:
+        if not log:
             raise  # nothing was driven, so nothing is kept
         status = "interrupted"
     except (PolicyError, SimulatorError) as error:
-        if not log.steps:
+        if not log:
             raise
         status, fault = "failed", error
     findings = [_DRIVES_EGO] if simulator.capabilities.drives_ego else list(start.ego.policy.findings)
     if astray_m >= _NOTED_M:
         findings.append(f"In this simulator heroes were up to {astray_m:.2f} m from where they were to be.")
-    return Run(log.trace(), first_plan, heroes.plan, heroes.records, status, fault, dict(heroes.ego_knots_s), findings)
+    trace, knots_s = _trace(scene, log), dict(heroes.ego_knots_s)
+    return Run(trace, first_plan, heroes.plan, heroes.records, status, fault, knots_s, findings)
 
 
-class _Log:
-    """What happened, step by step. A step that was interrupted while it was written down is left out of the trace."""
-
-    def __init__(self, scene: Scene) -> None:
-        self._times: list[float] = []
-        self._scene = scene
-        self._rows: dict[int, list[ActorState]] = {actor.id: [] for actor in scene.program.actors}
-
-    def add(self, now: Snapshot) -> None:
-        """Write down the state of everybody at the beginning of a step."""
-        self._times.append(now.time_s)
-        for actor, rows in self._rows.items():
-            rows.append(now.actors[actor])
-
-    @property
-    def steps(self) -> int:
-        """Number of complete steps."""
-        return min(len(self._times), *(len(rows) for rows in self._rows.values()))
-
-    def trace(self) -> Trace:
-        """Return all complete steps, of which there must be one."""
-        count = self.steps
-        time_s, actors = np.asarray(self._times[:count]), {}
-        for actor in self._scene.program.actors:
-            # Each quantity contiguous: traces are asked for single states very often.
-            columns = np.ascontiguousarray(np.asarray(self._rows[actor.id][:count], dtype=np.float64).T)
-            actors[actor.name] = ActorTrace(time_s, *columns)
-        return Trace(actors)
+def _trace(scene: Scene, log: Sequence[Snapshot]) -> Trace:
+    """Return what happened, from everybody at the beginning of each step, of which there must be one."""
+    time_s, actors = np.array([now.time_s for now in log]), {}
+    for actor in scene.program.actors:
+        # Each quantity contiguous: traces are asked for single states very often.
+        columns = np.ascontiguousarray(np.array([now.actors[actor.id] for now in log], dtype=np.float64).T)
+        actors[actor.name] = ActorTrace(time_s, *columns)
+    return Trace(actors)
 
 
 def _told_by_the_clock_s(program: Program) -> float:
@@ -175,7 +156,8 @@ def _is_over(
     if time_s < clock_s:
         return _stalled(heroes, time_s)
     # Whoever is at the end of its route does nothing more that a program asks for; others may.
-    going = [heroes.plan.profiles[hero] for hero in states if not _is_at_end(scene, hero, states)]
+    ends_m = {hero: scene.routes[hero].landmarks["route_end"] - ROUTE_END_M for hero in states}
+    going = [heroes.plan.profiles[hero] for hero, there in states.items() if there.s_m < ends_m[hero]]
     last_knot_s = max((max(profile.knot_times_s.values()) for profile in going), default=-_WAIT_FOR_EGO_S)
     stands_s = float(scene.program.manner.stands_s) + _SEEN_S
     if time_s < last_knot_s + max(_AFTER_HEROES_S, stands_s):
@@ -184,10 +166,6 @@ def _is_over(
         return False
     passed = ego.s_m > route.landmarks.get("junction_end", end_m) + 5.0
     return passed or time_s >= last_knot_s + _WAIT_FOR_EGO_S
-
-
-def _is_at_end(scene: Scene, hero: int, states: Mapping[int, ActorState]) -> bool:
-    return states[hero].s_m >= scene.routes[hero].landmarks["route_end"] - ROUTE_END_M
 
 
 def _any_turning(scene: Scene, states: Mapping[int, ActorState]) -> bool:
