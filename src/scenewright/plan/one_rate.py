@@ -358,7 +358,7 @@ def _named(lowered: Sequence[Lowered]) -> list[Named]:
 
 # -- what is known --------------------------------------------------------------------------------------------------
 def _equal(value: Polynomial, number: float) -> dict[int, Fraction]:
-    return {} if value.constant is not None else {next(iter(value.terms))[0]: pin(number)}
+    return {} if value.constant is not None else {value.number: pin(number)}
 
 
 def _told(state: State, values: Sequence[float]) -> dict[int, Fraction]:

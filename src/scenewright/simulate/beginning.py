@@ -16,7 +16,7 @@ from scenewright.plan.planner import GOOD, Attempt, Planner
 from scenewright.plan.prediction import Predictor
 from scenewright.program.expressions import Compare, Derived, DerivedKind, Knot, Number
 from scenewright.program.starts import HARD_MPSS, TAILGATES_S, kept_m, says_how_near
-from scenewright.program.structure import Structure, read_structure
+from scenewright.program.structure import read_structure
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import shared_offset_m
@@ -29,7 +29,6 @@ from scenewright.simulate.world import World
 from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.feasibility import check_feasibility
 from scenewright.solve.limits import Limits
-from scenewright.trace.model import ActorState
 
 _AT_ONCE_S = 1.0
 _BESIDE_M = 1.0
@@ -52,8 +51,7 @@ def first_plan(
     best: _Planned | None = None
     for start in _starts(world, predictor):
         # An ego that does not hold its speed may still let come about what no plan promises.
-        promised = best is not None and (best.attempt.promises_outcome or not world.ego_bounds.holds_speed)
-        if start.last_resort and best is not None and best.is_good and promised:
+        if start.last_resort and best is not None and best.is_good and not world.ego_bounds.holds_speed:
             break
         if start.speed_mps >= slower_than_mps:
             continue
@@ -67,35 +65,32 @@ def first_plan(
 
 @dataclass(frozen=True, slots=True)
 class _Planned:
-    """A start, what is planned from it, and whether the ego begins too near to somebody and brakes hard at once."""
+    """A start, what is planned from it, and the heroes that only hard braking saves the ego from."""
 
     planner: Planner
     start: EgoFirstState
     attempt: Attempt
-    is_saved: bool = False
+    saved_from: list[int]
 
     @property
     def is_good(self) -> bool:
         """Whether it does what was asked, and nobody is saved."""
-        return self.attempt.is_good and not self.is_saved
+        return self.attempt.is_good and not self.saved_from
 
     @property
     def rank(self) -> tuple[bool, bool, float, float]:
         """How it compares with others: nobody is saved, it does what was asked, is hardly late, misses little."""
         missed = 0.0 if self.attempt.is_good else round(self.attempt.missed.by / GOOD)
         late_s = round(max(0.0, self.attempt.missed.late_s), 1)
-        return self.is_saved, not self.attempt.is_good, late_s, missed
+        return bool(self.saved_from), not self.attempt.is_good, late_s, missed
 
 
 def _plan_from(world: World, start: EgoFirstState, limits: Mapping[int, Limits], predictor: Predictor) -> _Planned:
     """Plan from a start; where the ego would begin too near to somebody and brake hard, from further away."""
     found = _planned(world, world.planned, start, limits, predictor)
-    near = _saved_from(world, start, found.attempt)
-    if not near:
+    if not found.saved_from:
         return found
-    apart = _kept_apart(world.planned, world.structure, near, start.speed_mps)
-    further = _planned(world, apart, start, limits, predictor)
-    return replace(further, is_saved=bool(_saved_from(world, start, further.attempt)))
+    return _planned(world, _kept_apart(world.planned, found.saved_from, start.speed_mps), start, limits, predictor)
 
 
 def _planned(
@@ -103,26 +98,26 @@ def _planned(
 ) -> _Planned:
     structure = read_structure(scene.program)
     planner = Planner(scene, structure, limits, predictor, linear_conditions(scene, structure))
-    return _Planned(planner, start, planner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss)))
+    attempt = planner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
+    return _Planned(planner, start, attempt, _saved_from(world, start, attempt))
 
 
 def _saved_from(world: World, start: EgoFirstState, attempt: Attempt) -> list[int]:
-    """Return the heroes that the ego begins too near to, where its policy brakes hard in the first second."""
-    heroes = {hero.id: attempt.plan.profiles[hero.id] for hero in world.scene.program.heroes}
-    begins = Start.of(world.scene, world.ego, (start.s_m, start.speed_mps), heroes)
-    near = [hero for hero in heroes if _is_too_near(world, begins.first[EGO], hero, begins.first[hero])]
+    """Return the heroes that the ego begins too near to, if not asked to, where its policy brakes hard at once."""
+    scene, near = world.scene, []
+    heroes = {hero.id: attempt.plan.profiles[hero.id] for hero in scene.program.heroes}
+    begins = Start.of(scene, world.ego, (start.s_m, start.speed_mps), heroes)
+    ego = begins.first[EGO]
+    for hero in heroes:
+        offset_m, there = shared_offset_m(scene.routes[EGO], scene.routes[hero]), begins.first[hero]
+        if offset_m is None or says_how_near(scene.program, world.structure, EGO, hero):
+            continue
+        ahead_m, closing_mps = there.s_m + offset_m - ego.s_m, max(0.0, ego.speed_mps - there.speed_mps)
+        # Who is still on another road is further away than along the road that the two will share.
+        same_road = math.hypot(there.x_m - ego.x_m, there.y_m - ego.y_m) < ahead_m + _BESIDE_M
+        if same_road and 0.0 < ahead_m - VEHICLE_LENGTH_M < kept_m(ego.speed_mps, closing_mps):
+            near.append(hero)
     return near if near and _brakes_hard(begins, heroes, world.rates.step_s) else []
-
-
-def _is_too_near(world: World, ego: ActorState, hero: int, there: ActorState) -> bool:
-    """Whether the ego would follow a hero by less than a second, or has to brake hard for it, if not asked to."""
-    offset_m = shared_offset_m(world.scene.routes[EGO], world.scene.routes[hero])
-    if offset_m is None or says_how_near(world.scene.program, world.structure, EGO, hero):
-        return False
-    ahead_m, closing_mps = there.s_m + offset_m - ego.s_m, max(0.0, ego.speed_mps - there.speed_mps)
-    # Who is still on another road is further away than along the road that the two will share.
-    same_road = math.hypot(there.x_m - ego.x_m, there.y_m - ego.y_m) < ahead_m + _BESIDE_M
-    return same_road and 0.0 < ahead_m - VEHICLE_LENGTH_M < kept_m(ego.speed_mps, closing_mps)
 
 
 def _brakes_hard(start: Start, heroes: Mapping[int, Profile], step_s: float) -> bool:
@@ -140,12 +135,12 @@ def _brakes_hard(start: Start, heroes: Mapping[int, Profile], step_s: float) -> 
     return False
 
 
-def _kept_apart(scene: Scene, structure: Structure, heroes: Iterable[int], speed_mps: float) -> Scene:
+def _kept_apart(scene: Scene, heroes: Iterable[int], speed_mps: float) -> Scene:
     """Return a scene whose program says besides that an ego of this speed begins further behind some heroes.
 
     Nobody closes in faster than it drives: that long before a collision, even braking is enough a second later.
     """
-    knot, more = Knot(structure.starts[EGO]), []
+    knot, more = Knot(scene.program.ego.sketch.knots[0]), []
     meets_s = TAILGATES_S + speed_mps / (2.0 * HARD_MPSS)
     least: list[tuple[DerivedKind, float]] = [("headway", TAILGATES_S), ("ttc", meets_s)]
     for hero in heroes:
@@ -201,11 +196,11 @@ def _starts(world: World, predictor: Predictor) -> Iterator[EgoFirstState]:
 
 def _on_time(start: EgoFirstState, motion: Profile, world: World, predictor: Predictor) -> EgoFirstState:
     """Return a start from which an ego that does not hold its speed is where `motion` is when triggers come there."""
-    knots = [name for instant in world.structure.triggers.values() for actor, name in instant if actor == EGO]
-    for name in knots[:1]:
-        then_s = motion.knot_times_s[name]
-        for _ in range(_SHIFTS):
-            foreseen = predictor.predict([(0.0, start.s_m, start.speed_mps, start.accel_mpss)])
-            late_m = motion.state(then_s)[0] - foreseen.state(then_s)[0]
-            start = replace(start, s_m=max(0.0, start.s_m + late_m))
+    if (name := world.structure.trigger_knot(EGO)) is None:
+        return start
+    then_s = motion.knot_times_s[name]
+    for _ in range(_SHIFTS):
+        foreseen = predictor.predict([(0.0, start.s_m, start.speed_mps, start.accel_mpss)])
+        late_m = motion.state(then_s)[0] - foreseen.state(then_s)[0]
+        start = replace(start, s_m=max(0.0, start.s_m + late_m))
     return start

@@ -22,7 +22,7 @@ from scenewright.solve.limits import limits_on
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.polynomials import ZERO, Formula, compare, every, some
-from scenewright.solve.proofs.refuters import refuter_called
+from scenewright.solve.proofs.refuters import SOLVERS
 from scenewright.solve.proofs.relaxation import Named
 
 _TIMEOUT_S = 2.0
@@ -180,7 +180,7 @@ class _Asking:
         self._unknowns = [
             replace(each, low=ZERO if each.kind in ("time", "speed") else -_FAR, high=_FAR) for each in events.unknowns
         ]
-        self._refuter = refuter_called()
+        self._refuter = SOLVERS.called("z3")
 
     def follows(self, wanted: _Said, given: Sequence[_Said]) -> bool:
         """Whether `wanted` holds wherever all of `given` do; no answer in time counts as no."""

@@ -16,18 +16,19 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from scenewright.motion.profile import Profile
 from scenewright.program.structure import Structure, actors_of
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.apart import apart
 from scenewright.solve.proofs.crowding import crowded
-from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, EgoDrive, Events, Unknown
+from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, Events, Unknown
 from scenewright.solve.proofs.guesses import carried_over, first_guess
 from scenewright.solve.proofs.lowering import Lowered, Lowering
 from scenewright.solve.proofs.polynomials import ZERO, Formula
 from scenewright.solve.proofs.refinement import Refinement
-from scenewright.solve.proofs.refuters import Refuter, core, refuter_called
+from scenewright.solve.proofs.refuters import SOLVERS, Refuter, core
 from scenewright.solve.proofs.relaxation import Named, relaxation, resting_on
 from scenewright.solve.proofs.search import Search
 from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
@@ -89,8 +90,8 @@ class Question:
     limits: Mapping[int, Limits]
     ego: EgoBounds = field(default_factory=EgoBounds)
     freed: Mapping[str, tuple[Fraction, Fraction]] = field(default_factory=dict)
-    drive: EgoDrive | None = None
-    refuter: Refuter = field(default_factory=refuter_called)
+    drive: Profile | None = None
+    refuter: Refuter = field(default_factory=lambda: SOLVERS.called("z3"))
     bending: frozenset[int] = frozenset()
 
     def constraints(self) -> tuple[Constraint, ...]:

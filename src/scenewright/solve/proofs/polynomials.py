@@ -84,6 +84,11 @@ class Polynomial:
         """The most unknowns that are multiplied."""
         return max((len(key) for key in self.terms), default=0)
 
+    @property
+    def number(self) -> int:
+        """Which unknown it is, where it is one."""
+        return next(iter(self.terms))[0]
+
     def value(self, point: Point) -> float:
         """Return the value at a point."""
         total = 0.0
@@ -152,42 +157,35 @@ def atom(left: Scalar, relation: Relation) -> Formula:
 
 def compare(operator: str, left: Scalar, right: Scalar) -> Formula:
     """Return ``left operator right``, with any of ``== <= < >= >``."""
-    left, right = polynomial(left), polynomial(right)
     match operator:
-        case "==":
-            return atom(left - right, "==")
-        case "<=" | "<":
-            return atom(left - right, "<=" if operator == "<=" else "<")
+        case "==" | "<=" | "<":
+            return atom(polynomial(left) - right, operator)
         case ">=":
-            return atom(right - left, "<=")
+            return atom(polynomial(right) - left, "<=")
         case _:
-            return atom(right - left, "<")
+            return atom(polynomial(right) - left, "<")
 
 
 def every(parts: Iterable[Formula]) -> Formula:
     """Return the conjunction of `parts`, flat."""
-    found: list[Formula] = []
-    for part in parts:
-        if isinstance(part, All):
-            found += part.parts
-        elif part == FALSE:
-            return FALSE
-        else:
-            found.append(part)
-    return found[0] if len(found) == 1 else All(tuple(found))
+    return _joined(All, parts, FALSE)
 
 
 def some(parts: Iterable[Formula]) -> Formula:
     """Return the disjunction of `parts`, flat."""
+    return _joined(Some, parts, TRUE)
+
+
+def _joined(kind: type[All | Some], parts: Iterable[Formula], deciding: Formula) -> Formula:
     found: list[Formula] = []
     for part in parts:
-        if isinstance(part, Some):
+        if isinstance(part, kind):
             found += part.parts
-        elif part == TRUE:
-            return TRUE
+        elif part == deciding:
+            return deciding
         else:
             found.append(part)
-    return found[0] if len(found) == 1 else Some(tuple(found))
+    return found[0] if len(found) == 1 else kind(tuple(found))
 
 
 def atoms(formula: Formula) -> Iterator[Atom]:

@@ -84,21 +84,6 @@ class Refuter(Protocol):
         ...
 
 
-def refuter_called(name: str = "z3") -> Refuter:
-    """Return the solver of that name.
-
-    Raises
-    ------
-    InputError
-        Where there is none.
-    MissingExtraError
-        Where it needs something that is not installed.
-    SolverError
-        Where it cannot be imported.
-    """
-    return SOLVERS.called(name)
-
-
 def core(refuter: Refuter, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float) -> tuple[str, ...]:
     """Return origins that already clash, each of them needed as far as that could be told in time."""
     origins = list(dict.fromkeys(origin for each in formulas for origin in each.origins))

@@ -140,27 +140,19 @@ def _narrowed(
     return law, tuple(dict.fromkeys(origins))
 
 
-def _if_inside(
-    events: Events, stretch: Stretch, instants: list[int], held: Formula, least: NDArray[np.float64]
-) -> Formula:
-    """Return that `held`, unless one of the moments lies outside the stretch."""
-    outside = []
-    for instant in instants:
-        if least[stretch.first, instant] < 0:
-            outside.append(compare("<", events.times[instant], events.times[stretch.first]))
-        if stretch.last is not None and least[instant, stretch.last] < 0:
-            outside.append(compare(">", events.times[instant], events.times[stretch.last]))
-    return some([*outside, held])
-
-
 def _between(
     events: Events, actor: int, stretch: Stretch, early: int, late: int, law: Law, least: NDArray[np.float64]
 ) -> Formula:
     """Return the reach of a law between two moments, unless they come the other way round or lie outside."""
-    held = reach_formula(events, actor, early, late, law)
+    times, unless = events.times, []
+    for instant in (early, late):
+        if least[stretch.first, instant] < 0:
+            unless.append(compare("<", times[instant], times[stretch.first]))
+        if stretch.last is not None and least[instant, stretch.last] < 0:
+            unless.append(compare(">", times[instant], times[stretch.last]))
     if least[early, late] < 0:
-        held = some([compare("<", events.times[late], events.times[early]), held])
-    return _if_inside(events, stretch, [early, late], held, least)
+        unless.append(compare("<", times[late], times[early]))
+    return some([*unless, reach_formula(events, actor, early, late, law)])
 
 
 def reach_formula(events: Events, actor: int, early: int, late: int, law: Law) -> Formula:

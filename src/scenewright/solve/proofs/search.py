@@ -175,7 +175,7 @@ class _Line:
         time, factor = [], []
         for instant in instants:
             constant = events.times[instant].constant
-            time.append(size if constant is not None else next(iter(events.times[instant].terms))[0])
+            time.append(size if constant is not None else events.times[instant].number)
             factor.append(1.0 if constant is None else float(constant))
         states = [events.state(actor, instant) for instant in instants]
         laws = [(where[stretch.first], stretch.law) for stretch in events.stretches[actor]]
@@ -184,8 +184,8 @@ class _Line:
             instants,
             np.array(time, dtype=np.intp),
             np.array(factor),
-            np.array([next(iter(state.place.terms))[0] for state in states], dtype=np.intp),
-            np.array([next(iter(state.speed.terms))[0] for state in states], dtype=np.intp),
+            np.array([state.place.number for state in states], dtype=np.intp),
+            np.array([state.speed.number for state in states], dtype=np.intp),
             least[np.ix_(instants, instants)] >= 0.0,
             laws,
         )
