@@ -179,7 +179,7 @@ class Decompiled:
         assert isinstance(piece.at, ex.PieceRef)
         sketch = self.program.actor(piece.actor).sketch
         index = sketch.piece_index(piece.at.name)
-        measure = measure_of(ex.with_state(compare, piece, replace(piece, at=None)), self.program)
+        measure = measure_of(ex.at_each_moment(compare, piece), self.program)
         if piece.actor == pt.EGO or measure is None or measure.other is not None:
             raise untold("this condition on a piece", "ask for it from one moment until another", compare)
         measure = replace(measure, quote=self._quote)

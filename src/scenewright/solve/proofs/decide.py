@@ -104,14 +104,13 @@ class _Case:
     """One scene's events with what was added to them, grown as motions show the need."""
 
     def __init__(self, question: Question, owed: Owed = "nothing", plan: bool = True) -> None:
-        self.scene, self.structure, self.limits = question.scene, question.structure, question.limits
         self.events = Events(question.scene, question.limits, question.ego, question.drive, question.freed)
         self.lowering = Lowering(self.events, Fraction(1) if question.drive else ZERO)
         self.constraints = question.constraints()
         self._sizes = (0, 0)
         self.lowered: list[Lowered] = []
         self.lower()
-        self.events.rules += apart(self.events, self.structure, self.constraints)
+        self.events.rules += apart(self.events, question.structure, self.constraints)
         self.more = Refinement(self.events, self.lowering, question.limits)
         if plan:
             self.more.lasting_rates()
@@ -209,7 +208,8 @@ class _Hunt:
             if point is None:
                 return None
             witness = realised(case.events, search, point)
-            self.amiss = tuple(broken(case.scene, case.structure, case.limits, case.events.ego, witness))
+            asked = self.question
+            self.amiss = tuple(broken(asked.scene, asked.structure, asked.limits, asked.ego, witness))
             if not self.amiss:
                 return witness
             if time.monotonic() > self.until or not case.more.mend(self.amiss, witness):

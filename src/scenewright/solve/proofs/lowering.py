@@ -287,12 +287,8 @@ class Lowering:
 
     def piece_ends(self, actor: int, piece: str) -> tuple[int, int]:
         """Return the instants at which a piece begins and ends."""
-        sketch = self.events.scene.program.actor(actor).sketch
-        number = sketch.piece_index(piece)
-        return (
-            self.events.knot(actor, sketch.knots[number]),
-            self.events.knot(actor, sketch.knots[number + 1]),
-        )
+        begins, ends = self.events.scene.program.actor(actor).sketch.piece_ends(piece)
+        return self.events.knot(actor, begins), self.events.knot(actor, ends)
 
     # -- stretches of time --------------------------------------------------------------------------------------------
     def _always(self, first: int, last: int, body: ex.Formula) -> Formula:
