@@ -72,7 +72,7 @@ class SmtPlanner:
     @property
     def refused(self) -> str:
         """Name the constraints that no solver takes, with what is wrong with them; nothing where there are none."""
-        return "; ".join(f"{self._words([each.constraint.id])} ({each.refused})" for each in self._motions.refused)
+        return "; ".join(f"{self._words([each.origin])} ({each.refused})" for each in self._motions.refused)
 
     def begin(self, ego: EgoSample) -> Attempt | None:
         """Plan from the ego's first state, and keep the plan; None where there is none, and `why` says why."""

@@ -17,7 +17,7 @@ from scenewright.errors import InputError, MissingExtraError, SolverError
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
 from scenewright.solve.proofs.events import Unknown
-from scenewright.solve.proofs.polynomials import compare, some
+from scenewright.solve.proofs.polynomials import Named, compare, some
 from scenewright.solve.proofs.refuters import (
     GROUP,
     SOLVERS,
@@ -25,7 +25,7 @@ from scenewright.solve.proofs.refuters import (
     Refuter,
     core,
 )
-from scenewright.solve.proofs.relaxation import Named, relaxation
+from scenewright.solve.proofs.relaxation import relaxation
 
 OTHERS = ("cvc5", "scip")
 SLIGHTLY = Fraction(1, 1000)

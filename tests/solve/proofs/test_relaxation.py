@@ -11,9 +11,10 @@ from posed import violation
 
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.lowering import Lowering
+from scenewright.solve.proofs.polynomials import resting_on
 from scenewright.solve.proofs.refinement import Refinement
 from scenewright.solve.proofs.refuters import SOLVERS, core
-from scenewright.solve.proofs.relaxation import relaxation, resting_on
+from scenewright.solve.proofs.relaxation import relaxation
 
 HEAD = """Actor 0 (ego):
 - W

@@ -25,11 +25,11 @@ from scenewright.solve.proofs.apart import apart
 from scenewright.solve.proofs.crowding import crowded
 from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, Events, Unknown
 from scenewright.solve.proofs.guesses import carried_over, first_guess
-from scenewright.solve.proofs.lowering import Lowered, Lowering
-from scenewright.solve.proofs.polynomials import ZERO, Formula
+from scenewright.solve.proofs.lowering import Lowering
+from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, resting_on
 from scenewright.solve.proofs.refinement import Refinement
 from scenewright.solve.proofs.refuters import SOLVERS, Refuter, core
-from scenewright.solve.proofs.relaxation import Named, relaxation, resting_on
+from scenewright.solve.proofs.relaxation import relaxation
 from scenewright.solve.proofs.search import Search
 from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
 
@@ -108,7 +108,7 @@ class _Case:
         self.lowering = Lowering(self.events, Fraction(1) if question.drive else ZERO)
         self.constraints = question.constraints()
         self._sizes = (0, 0)
-        self.lowered: list[Lowered] = []
+        self.lowered: list[Named] = []
         self.lower()
         self.events.rules += apart(self.events, question.structure, self.constraints)
         self.more = Refinement(self.events, self.lowering, question.limits)
@@ -127,11 +127,7 @@ class _Case:
 
     def formulas(self) -> list[Formula]:
         """Return all that a plan owes."""
-        return [
-            *(each.formula for each in self.lowered),
-            *(formula for formula, _ in self.events.rules),
-            *self.more.owed,
-        ]
+        return [*(each.formula for each in (*self.lowered, *self.events.rules)), *self.more.owed]
 
     def search(self) -> Search:
         """Return a search over what there is now."""
@@ -152,7 +148,7 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     """
     until = time.monotonic() + limit_s
     plain = _Case(question, plan=False)
-    left_out = {each.constraint.id: each.refused for each in plain.lowered if each.refused}
+    left_out = {each.origin: each.refused for each in plain.lowered if each.refused}
     if question.drive is None and (clashing := crowded(plain.events, plain.lowered)):
         return Decision("infeasible", core=clashing, left_out=left_out)
     formulas: list[Named] = []

@@ -19,7 +19,7 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.polynomials import (
     ZERO,
-    Formula,
+    Named,
     Polynomial,
     compare,
     every,
@@ -97,7 +97,7 @@ class Events:
     times: list[Polynomial] = field(default_factory=list)
     states: dict[tuple[int, int], State] = field(default_factory=dict)
     stretches: dict[int, list[Stretch]] = field(default_factory=dict)
-    rules: list[tuple[Formula, str]] = field(default_factory=list)
+    rules: list[Named] = field(default_factory=list)
     parameters: dict[str, Polynomial] = field(default_factory=dict)
     start: int = 0
     defined: dict[int, Polynomial] = field(default_factory=dict)
@@ -150,8 +150,9 @@ class Events:
         made = self.instant(name)
         self.defined[made] = time
         mine = self.times[made]
-        self.rules.append((compare(">=", mine, time), "an interval begins and ends when it is said to"))
-        self.rules.append((some([compare("<=", mine, time), compare("<=", mine, ZERO)]), self.rules[-1][1]))
+        words = "an interval begins and ends when it is said to"
+        self.rules.append(Named(compare(">=", mine, time), words))
+        self.rules.append(Named(some([compare("<=", mine, time), compare("<=", mine, ZERO)]), words))
         return made
 
     def at_place(self, actor: int, place_m: Fraction) -> int:
@@ -165,7 +166,7 @@ class Events:
         there = compare("==", state.place, place_m)
         past = every([compare("<=", now, ZERO), compare(">=", state.place, place_m)])
         never = every([compare("<=", state.place, place_m), *(compare("<=", self.times[k], now) for k in others)])
-        self.rules.append((some([there, past, never]), "whoever drives passes one place after another"))
+        self.rules.append(Named(some([there, past, never]), "whoever drives passes one place after another"))
         return made
 
     def knot(self, actor: int, name: str) -> int:

@@ -6,7 +6,7 @@ conjunctions and disjunctions with comparisons to zero as leaves. Negation is pu
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
@@ -143,6 +143,30 @@ class Some:
 
 Formula = Atom | All | Some
 TRUE, FALSE = All(()), Some(())
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """A formula, and what it rests on: a constraint's id, or a law in words.
+
+    `besides` are ids of constraints that it rests on, too: those that make a law narrower. `refused` says why a
+    constraint could not be lowered, where it could not; there is nothing in its formula then.
+    """
+
+    formula: Formula
+    origin: str
+    besides: tuple[str, ...] = ()
+    refused: str = ""
+
+    @property
+    def origins(self) -> tuple[str, ...]:
+        """All that it rests on."""
+        return (self.origin, *self.besides)
+
+
+def resting_on(formulas: Sequence[Named], origins: Collection[str]) -> list[Named]:
+    """Return the formulas that rest on `origins` alone."""
+    return [each for each in formulas if all(origin in origins for origin in each.origins)]
 
 
 def atom(left: Scalar, relation: Relation) -> Formula:

@@ -16,7 +16,7 @@ from typing import Literal, Protocol
 from scenewright.errors import SolverError
 from scenewright.plugins import Kind
 from scenewright.solve.proofs.events import Unknown
-from scenewright.solve.proofs.relaxation import Named, resting_on
+from scenewright.solve.proofs.polynomials import Named, resting_on
 
 GROUP = "scenewright.solvers"
 _OURS = tuple(

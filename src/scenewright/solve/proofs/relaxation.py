@@ -7,8 +7,7 @@ known to lie within the scenario.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
 
@@ -18,7 +17,6 @@ from numpy.typing import NDArray
 from scenewright.motion.laws import Law, reach
 from scenewright.program.types import EGO
 from scenewright.solve.proofs.events import Events, Stretch
-from scenewright.solve.proofs.lowering import Lowered
 from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.order import least_differences, places_within
 from scenewright.solve.proofs.polynomials import (
@@ -26,6 +24,7 @@ from scenewright.solve.proofs.polynomials import (
     TRUE,
     ZERO,
     Formula,
+    Named,
     Polynomial,
     atom,
     compare,
@@ -37,32 +36,9 @@ from scenewright.translate.phrases import does
 _CERTAIN = 1e-9
 
 
-@dataclass(frozen=True, slots=True)
-class Named:
-    """A formula, and what it rests on: a constraint's id, or a law in words.
-
-    `besides` are ids of constraints that it rests on, too: those that make a law narrower.
-    """
-
-    formula: Formula
-    origin: str
-    besides: tuple[str, ...] = ()
-
-    @property
-    def origins(self) -> tuple[str, ...]:
-        """All that it rests on."""
-        return (self.origin, *self.besides)
-
-
-def resting_on(formulas: Sequence[Named], origins: Collection[str]) -> list[Named]:
-    """Return the formulas that rest on `origins` alone."""
-    return [each for each in formulas if all(origin in origins for origin in each.origins)]
-
-
-def relaxation(events: Events, narrowings: Sequence[Narrowing], constraints: Sequence[Lowered]) -> list[Named]:
+def relaxation(events: Events, narrowings: Sequence[Narrowing], constraints: Sequence[Named]) -> list[Named]:
     """Return all that must hold of any motion; of `narrowings` what is proven of them."""
-    found = [Named(each.formula, each.constraint.id) for each in constraints]
-    found += [Named(formula, origin) for formula, origin in events.rules]
+    found = [*constraints, *events.rules]
     formulas = [each.formula for each in constraints]
     least, within = least_differences(events, formulas), places_within(events, formulas)
     narrowings = [each for each in narrowings if not each.up_to_place or _begins_before(each, within)]
