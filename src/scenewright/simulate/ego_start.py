@@ -29,15 +29,13 @@ _SPEED_SHARES = (1.0, 0.85, 0.7, 0.55, 0.42, 0.32, 0.24, 0.18, 0.13, 0.1, 0.08, 
 class EgoFirstState:
     """A first state of the ego, with the acceleration that it has there when it drives by itself.
 
-    A last resort is only for when no other state leads to a plan; one by choice, which the policy would leave at once,
-    for when none that it would hold promises the outcome.
+    A last resort is only for when no other state leads to a plan.
     """
 
     s_m: float
     speed_mps: float
     accel_mpss: float = 0.0
     last_resort: bool = False
-    by_choice: bool = False
 
 
 def ego_starts(
@@ -49,7 +47,7 @@ def ego_starts(
     holds by itself, then slower states by choice, from which it will speed up.
     """
     for start in _possible_starts(scene, ego, limits, conditions):
-        if start.last_resort or not _is_past_something(scene, conditions, start):
+        if not _is_past_something(scene, conditions, start):
             yield start
 
 
@@ -94,7 +92,7 @@ def _possible_starts(
     for share in _SLOWER_SHARES:
         speed = max(share * steady.speed_mps, MOVING_MPS)
         position = _position(scene, place, speed, conditions)
-        yield EgoFirstState(position, speed, _first_acceleration(ego, position, speed), by_choice=True)
+        yield EgoFirstState(position, speed, _first_acceleration(ego, position, speed))
 
 
 def _position(
