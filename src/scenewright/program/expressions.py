@@ -17,6 +17,9 @@ from scenewright.units import Dimension
 Order = Literal[0, 1, 2]
 ORDER_LETTERS = ("x", "v", "a")
 ComparisonOperator = Literal["==", "<=", ">=", "<", ">"]
+# What says the same with its sides exchanged; what says the contrary (of an equality that is two, either way).
+FLIPPED: dict[ComparisonOperator, ComparisonOperator] = {"==": "==", "<=": ">=", ">=": "<=", "<": ">", ">": "<"}
+CONTRARY: dict[ComparisonOperator, ComparisonOperator] = {"<=": ">", ">=": "<", "<": ">=", ">": "<="}
 LANDMARKS = (
     "stop_line",
     "conflict_point",

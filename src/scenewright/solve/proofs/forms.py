@@ -10,8 +10,6 @@ from dataclasses import replace
 from scenewright.program import expressions as ex
 from scenewright.program.types import Program
 
-_CONTRARY: dict[str, ex.ComparisonOperator] = {"<=": ">", "<": ">=", ">=": "<", ">": "<="}
-
 
 def asserted(formula: ex.Formula, program: Program, denied: bool = False) -> ex.Formula:
     """Return a formula, or its contrary, as `and`, `or`, `always` and `eventually` of comparisons and nothing else.
@@ -38,7 +36,7 @@ def asserted(formula: ex.Formula, program: Program, denied: bool = False) -> ex.
         case ex.Compare(operator="==") if denied:
             return ex.Logic("or", (replace(formula, operator="<"), replace(formula, operator=">")))
         case ex.Compare() if denied:
-            return replace(formula, operator=_CONTRARY[formula.operator])
+            return replace(formula, operator=ex.CONTRARY[formula.operator])
     return formula
 
 

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from scenewright.solve.proofs.lowering import Lowering
 
 _RATE_ROOM_MPSS = Fraction(1, 1000)  # for numbers that were rounded; half of what a witness may be off
-_MIRRORED = {"<=": ">=", "<": ">", ">=": "<=", ">": "<", "==": "=="}
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +90,7 @@ def _law_of(lowering: Lowering, body: ex.Formula) -> tuple[int, Law] | None:
         case ex.Compare(left=ex.State(order=(1 | 2) as order, at=None, actor=actor), right=right):
             operator: str = body.operator
         case ex.Compare(left=right, right=ex.State(order=(1 | 2) as order, at=None, actor=actor)):
-            operator = _MIRRORED[body.operator]
+            operator = ex.FLIPPED[body.operator]
         case _:
             return None
     if (bound := _constant(lowering, right)) is None:
