@@ -23,19 +23,11 @@ class TooHigh(Exception):  # noqa: N818 - a signal of the algebra, turned into a
     """A product is of a higher degree than solvers take."""
 
 
+@dataclass(slots=True)
 class Polynomial:
-    """A sum of monomials with exact coefficients. Supports ``+ - *`` and division by constants."""
+    """A sum of monomials with exact coefficients. Supports ``+ - *``; never changed once it is made."""
 
-    __slots__ = ("terms",)
-
-    def __init__(self, terms: Mapping[Monomial, Fraction]) -> None:
-        self.terms = terms
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Polynomial) and self.terms == other.terms
-
-    def __hash__(self) -> int:
-        return hash(frozenset(self.terms.items()))
+    terms: Mapping[Monomial, Fraction]
 
     def __add__(self, other: Scalar) -> Polynomial:
         mine, added = dict(self.terms), polynomial(other).terms

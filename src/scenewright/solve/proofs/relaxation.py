@@ -25,7 +25,6 @@ from scenewright.solve.proofs.polynomials import (
     ZERO,
     Formula,
     Named,
-    Polynomial,
     atom,
     compare,
     every,
@@ -148,13 +147,8 @@ def reach_formula(events: Events, actor: int, early: int, late: int, law: Law) -
     return every(
         [
             *caps,
-            *(atom(_scalar(row), "<=") for row in found.rows),
-            *(atom(_scalar(row), "==") for row in found.equal),
-            *(some([atom(_scalar(one), "<="), atom(_scalar(other), "<=")]) for one, other in found.choices),
+            *(atom(row, "<=") for row in found.rows),
+            *(atom(row, "==") for row in found.equal),
+            *(some([atom(one, "<="), atom(other, "<=")]) for one, other in found.choices),
         ]
     )
-
-
-def _scalar(value: object) -> Polynomial:
-    assert isinstance(value, Polynomial)
-    return value
