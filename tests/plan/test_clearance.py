@@ -36,6 +36,7 @@ def clearance_of(scene: Scene) -> Clearance | None:
         ("gap(A0, A1, t1) == 20", True),
         ("20 == gap(A0, A1, t1)", True),
         ("gap(A1, A0, t1) == 20", False),
+        ("gap(A0, A1, t1) == -20", False),
         ("headway(A0, A1, t1) == 2", True),
         ("ttc(A0, A1, t1) == 4", True),
         ("ttc(A1, A0, t1) == 4", False),

@@ -207,14 +207,6 @@ def test_a_change_of_mind_is_answered_as_soon_as_it_is_borne_out() -> None:
     assert planner.is_alarmed
 
 
-def test_how_long_the_ego_has_stood() -> None:
-    planner = planner_of(scene_of(YIELDS_DISTANCE))
-    planner.begin((0.0, 150.0, 4.0, 0.0))
-    driven_on(planner, 0.0, 2.0, mpss=-2.0)
-    driven_on(planner, 2.0, 5.0)
-    assert planner.ego_stood_s(5.0) == pytest.approx(3.0, abs=0.1)
-
-
 def test_one_that_stands_goes_the_sooner_the_sooner_the_ego_comes() -> None:
     """It is to be first, whatever the ego does; how long it stands is a matter of taste."""
     passes_s = []

@@ -95,4 +95,3 @@ def test_the_ego_passes_its_knots_when_the_plan_says() -> None:
     planner.begin((0.0, 180.0, 9.0, 0.0))
     planner.observe((60.0, 300.0, 0.0, 0.0))
     assert planner.ego_knots_s == dict(planner.plan.profiles[EGO].knot_times_s)
-    assert planner.ego_stood_s(60.0) == 60.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 
 import pytest
 from hypothesis import given, settings
@@ -12,13 +13,15 @@ from scenewright.program.expressions import (
     Compare,
     Formula,
     Node,
+    Number,
     PieceRef,
     State,
+    at_each_moment,
     children,
+    exchanged,
     node_ids,
     piece_of,
     walk,
-    with_state,
 )
 from scenewright.program.printer import print_expression
 from strategies import formulas
@@ -80,6 +83,16 @@ def test_the_state_that_is_asked_of_a_whole_piece(formula: str, piece: str | Non
 def test_one_state_is_exchanged_wherever_it_stands_and_no_other() -> None:
     formula = parsed("A1v(dec) * 2 - A0v(t1) <= -A1v(dec)")
     assert isinstance(formula, Compare)
-    changed = with_state(formula, State(1, 1, PieceRef("dec")), State(1, 1, None))
+    changed = at_each_moment(formula, State(1, 1, PieceRef("dec")))
     assert print_expression(changed) == "A1v * 2 - A0v(t1) <= -A1v"
-    assert with_state(formula, State(1, 1, PieceRef("go")), State(1, 1, None)) == formula
+    assert at_each_moment(formula, State(1, 1, PieceRef("go"))) == formula
+
+
+def test_the_very_term_is_exchanged_in_whatever_it_stands() -> None:
+    formula = parsed("not (A1v(t1) == 3) and always[A1(t0), A1(t2)] (-A1x <= 3 - A0x)")
+    numbers = [node for node in walk(formula) if isinstance(node, Number)]
+    changed = [exchanged(formula, lambda node, old=old: node is old, Number(Fraction(5))) for old in numbers]
+    assert [print_expression(each) for each in changed] == [
+        "not A1v(t1) == 5 and always[A1(t0), A1(t2)](-A1x <= 3 - A0x)",
+        "not A1v(t1) == 3 and always[A1(t0), A1(t2)](-A1x <= 5 - A0x)",
+    ]

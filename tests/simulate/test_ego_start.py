@@ -138,12 +138,10 @@ def test_policy_that_never_gets_to_its_place_still_starts_there() -> None:
 def test_slower_states_come_by_choice_after_what_the_policy_holds(initial: str) -> None:
     on = stage(initial, "idm")
     held, *slower = starts(on)
-    assert not held.by_choice
     assert len(slower) > 1
     speeds = [start.speed_mps for start in (held, *slower)]
     assert speeds == sorted(speeds, reverse=True)
     for start in slower:
-        assert start.by_choice
         assert start.accel_mpss > 0.5, "from there it speeds up, and the planner is told"
         if initial.startswith("tta"):
             assert (on.scene.landmarks_m[0]["intersection"] - start.s_m) / start.speed_mps == pytest.approx(

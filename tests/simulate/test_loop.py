@@ -189,6 +189,13 @@ def test_a_run_goes_on_while_anybody_may_still_do_what_is_asked() -> None:
     assert driven.met == 2
 
 
+def test_an_ego_that_stands_for_good_is_not_waited_for() -> None:
+    stage = Stage(STORIES["yields, distance"], Scripted(lambda time_s, speed_mps: -2.0))
+    stage.begin(stage.scene.landmarks_m[0]["intersection"] - 90.0, 8.0)
+    ego = stage.run().trace.actors["ego"]
+    assert ego.time_s[-1] - ego.time_s[ego.speed_mps > 0.1][-1] == pytest.approx(20.0, abs=2 * STEP_S)
+
+
 def test_a_run_goes_on_until_what_is_told_by_the_clock(tmp_path: Path) -> None:
     """The hero stands long before, and so nothing else keeps the run going."""
     hero = "A1x(t1) == conflict_point - 25\nA1x(t2) == conflict_point - 5\nA1v(t2) == 0\nlate: A1v(25) == 0\n"

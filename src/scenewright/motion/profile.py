@@ -104,19 +104,17 @@ class Profile:
         speed = segment.end_speed_mps
         return segment.end_s_m + speed * (elapsed - segment.duration_s), speed, 0.0
 
-    def time_at(self, s_m: float, after_s: float = -math.inf) -> float | None:
-        """Return the first instant not before `after_s` at which position `s_m` is reached, or None if never."""
-        begin = max(after_s, self.start_s)
-        if self.state(begin)[0] >= s_m:
-            return begin if self.state(begin)[0] - s_m < 1e-6 else None
+    def time_at(self, s_m: float) -> float | None:
+        """Return the first instant at which position `s_m` is reached, or None if never."""
+        first, last = self.segments[0], self.segments[-1]
+        if first.s_m >= s_m:
+            return self.start_s if first.s_m - s_m < 1e-6 else None
         for segment in self.segments:
-            if segment.end_s <= begin or segment.end_s_m < s_m:
-                continue
-            return segment.start_s + _reach(s_m, segment)
-        last = self.segments[-1]
+            if segment.end_s_m >= s_m:
+                return segment.start_s + _reach(s_m, segment)
         if last.end_speed_mps <= STANDSTILL_MPS:
             return None
-        return max(last.end_s, begin) + (s_m - self.state(max(last.end_s, begin))[0]) / last.end_speed_mps
+        return last.end_s + (s_m - self.state(last.end_s)[0]) / last.end_speed_mps
 
     def cut(self, time_s: float) -> Profile:
         """Return the same motion from `time_s` on, beginning with a segment that starts exactly there."""

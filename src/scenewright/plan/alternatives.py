@@ -19,12 +19,12 @@ from scenewright.solve.proofs.witness import Witness
 def decided(scene: Scene, witness: Witness) -> Scene:
     """Return the scene in which of alternatives that last there is the one that holds best in a motion."""
     world, program = PlanWorld(scene, witness.profiles, witness.parameters), scene.program
-    formulas = [_decided(asserted(each.formula, program), world) for each in program.constraints]
-    constraints = tuple(
-        replace(each, formula=formula) if formula != asserted(each.formula, program) else each
-        for each, formula in zip(program.constraints, formulas, strict=True)
-    )
-    return replace(scene, program=replace(program, constraints=constraints))
+    constraints = []
+    for each in program.constraints:
+        formula = asserted(each.formula, program)
+        chosen = _decided(formula, world)
+        constraints.append(each if chosen == formula else replace(each, formula=chosen))
+    return replace(scene, program=replace(program, constraints=tuple(constraints)))
 
 
 def _decided(formula: ex.Formula, world: PlanWorld) -> ex.Formula:

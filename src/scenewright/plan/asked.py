@@ -61,9 +61,7 @@ class Asked:
             if actors_of(c.formula) != {EGO} or set(knots_of(c.formula)) & at_triggers
         )
         lowered = self.lowering.lower(constraints)
-        self._formulas = Compiled(
-            [each.formula for each in lowered] + [rule for rule, _ in self.events.rules], self.size
-        )
+        self._formulas = Compiled([each.formula for each in (*lowered, *self.events.rules)], self.size)
         # How much later each instant is at least than another.
         self.least_s = least_differences(self.events, (each.formula for each in lowered))
         self.narrowings = tuple(self.lowering.narrowings)

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from scenewright.program.expressions import Derived, walk
 from scenewright.program.structure import Structure
 from scenewright.program.types import EGO, Actor
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
@@ -51,12 +50,6 @@ class Clearance:
             for condition in told:
                 if set(condition.weights) != {EGO, hero.id}:
                     continue
-                formula = scene.program.constraint(condition.constraint_id).formula
-                distance = next(
-                    (n for n in walk(formula) if isinstance(n, Derived) and isinstance(n.target, int)), None
-                )
-                if distance is not None:
-                    return cls(distance.actor == EGO, offset_m, instant == trigger)  # its first actor is the one behind
                 gap_m = _gap_m(condition, hero.id, offset_m)
                 if gap_m is not None:
                     return cls(gap_m > 0.0, offset_m, instant == trigger)

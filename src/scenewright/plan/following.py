@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 from typing import Protocol
 
 from scenewright.drive.speeds import following_accel
@@ -130,12 +131,7 @@ def _modelled(
 
 def _lately(history: Sequence[EgoSample], for_s: float) -> list[EgoSample]:
     since_s = history[-1][0] - for_s
-    found: list[EgoSample] = []
-    for sample in reversed(history):
-        if sample[0] < since_s:
-            break
-        found.append(sample)
-    return found
+    return list(takewhile(lambda sample: sample[0] >= since_s, reversed(history)))
 
 
 def _heeds(history: Sequence[EgoSample], leader: Leader, cruise_mps: float) -> bool:

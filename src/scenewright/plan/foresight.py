@@ -46,13 +46,12 @@ class Foresight:
     predictor: Predictor
     cruise_mps: float
     samples: list[EgoSample] = field(default_factory=list)
-    _on_lane: dict[int, Clearance] = field(init=False, default_factory=dict)
+    _on_lane: dict[int, Clearance] = field(init=False)
 
     def __post_init__(self) -> None:
-        for hero in self.scene.program.heroes:
-            clearance = Clearance.of(self.scene, self.structure, self.conditions, hero)
-            if clearance is not None:
-                self._on_lane[hero.id] = clearance
+        heroes = self.scene.program.heroes
+        lanes = {hero.id: Clearance.of(self.scene, self.structure, self.conditions, hero) for hero in heroes}
+        self._on_lane = {hero: lane for hero, lane in lanes.items() if lane is not None}
 
     @property
     def _distances(self) -> dict[int, Clearance]:

@@ -20,7 +20,7 @@ from scenewright.roads.grounding import Scene
 from scenewright.roads.turns import TurnSpan
 from scenewright.solve.limits import MOVING_MPS, ROOM, Limits
 from scenewright.solve.proofs.events import EgoBounds, Events, State, Unknown
-from scenewright.solve.proofs.lowering import Lowered, Lowering
+from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.polynomials import (
     FALSE,
     TRUE,
@@ -28,6 +28,7 @@ from scenewright.solve.proofs.polynomials import (
     All,
     Atom,
     Formula,
+    Named,
     Polynomial,
     atom,
     atoms,
@@ -36,7 +37,6 @@ from scenewright.solve.proofs.polynomials import (
     polynomial,
     some,
 )
-from scenewright.solve.proofs.relaxation import Named
 from scenewright.solve.tolerances import compared_dimension
 from scenewright.units import pin
 
@@ -101,7 +101,7 @@ class OneRate:
     limits: Mapping[int, Limits]
     ego: EgoBounds
     events: Events = field(init=False)
-    refused: tuple[Lowered, ...] = field(init=False)
+    refused: tuple[Named, ...] = field(init=False)
     now: int = field(init=False)
     _lowering: Lowering = field(init=False)
     _legs: dict[int, list[_Leg]] = field(init=False)
@@ -117,7 +117,7 @@ class OneRate:
             self.events.state(actor.id, self.now)
         lowered = self._lowering.lower(self.scene.program.constraints)
         self.refused = tuple(each for each in lowered if each.refused)
-        self._asked[ZERO] = _named(lowered)
+        self._asked[ZERO] = lowered
 
     def _laid_out(self, actor: Actor) -> Iterator[_Leg]:
         manner, kinds = self.scene.program.manner.stricter(ROOM), actor.sketch.pieces
@@ -142,12 +142,12 @@ class OneRate:
         With a tolerance that is not zero equalities but those of a speed give way by what rounding makes of the past.
         """
         if tolerance not in self._asked:
-            found = []
+            found = list[Named]()
             for constraint in self.scene.program.constraints:
                 rounded = ZERO if compared_dimension(constraint.formula) == "speed" else ROUNDED
                 self._lowering.slack = max(tolerance, ROUNDED) if self._is_reactive(constraint) else rounded
                 found += self._lowering.lower((constraint,))
-            self._asked[tolerance] = _named(found)
+            self._asked[tolerance] = found
         return self._asked[tolerance]
 
     def _is_reactive(self, constraint: Constraint) -> bool:
@@ -214,7 +214,7 @@ class OneRate:
     def _question(
         self, tolerance: Fraction, known: Mapping[int, Fraction], passed: frozenset[int], more: Sequence[Formula]
     ) -> Question:
-        named = [*self.asked(tolerance), *(Named(rule, origin) for rule, origin in self.events.rules)]
+        named = [*self.asked(tolerance), *self.events.rules]
         named += [Named(formula, "how everybody begins") for formula in more]
         for actor in self.scene.program.actors:
             named += [Named(held, f"how {actor.name} may move") for held in self._motion(actor, known, passed)]
@@ -352,13 +352,9 @@ class OneRate:
         return Profile(tuple(past), knots)
 
 
-def _named(lowered: Sequence[Lowered]) -> list[Named]:
-    return [Named(each.formula, each.constraint.id) for each in lowered]
-
-
 # -- what is known --------------------------------------------------------------------------------------------------
 def _equal(value: Polynomial, number: float) -> dict[int, Fraction]:
-    return {} if value.constant is not None else {next(iter(value.terms))[0]: pin(number)}
+    return {} if value.constant is not None else {value.number: pin(number)}
 
 
 def _told(state: State, values: Sequence[float]) -> dict[int, Fraction]:

@@ -324,10 +324,6 @@ class Planner:
                 profiles[hero.id] = goes_on(hero.id, profiles, self._meetings, time_s, self._asked.wanted)
         self.plan = replace(self.plan, profiles=profiles)
 
-    def ego_stood_s(self, time_s: float) -> float:
-        """Return for how long the ego has not moved (s)."""
-        return time_s - next((sample[0] for sample in reversed(self._ego.samples) if sample[2] > 0.1), 0.0)
-
     def _situation(self, time_s: float, prediction: Profile) -> tuple[Situation, float]:
         """Return what to plan from now, and by how much triggers have moved of which the ego decides (s)."""
         knots: dict[int, float] = {}

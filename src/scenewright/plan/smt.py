@@ -36,7 +36,6 @@ TOLERANCES = tuple(map(Fraction, (0, 1, 2, 4)))
 # longest question of rows 1, 4, 20 and 60 against `idm` took 0.76 million.
 LIMIT_S, MOST_WORK = 10.0, 5_000_000
 _EVEN_FIRST = (True, False)
-_STANDS_MPS = 0.1
 
 
 @dataclass(slots=True)
@@ -72,7 +71,7 @@ class SmtPlanner:
     @property
     def refused(self) -> str:
         """Name the constraints that no solver takes, with what is wrong with them; nothing where there are none."""
-        return "; ".join(f"{self._words([each.constraint.id])} ({each.refused})" for each in self._motions.refused)
+        return "; ".join(f"{self._words([each.origin])} ({each.refused})" for each in self._motions.refused)
 
     def begin(self, ego: EgoSample) -> Attempt | None:
         """Plan from the ego's first state, and keep the plan; None where there is none, and `why` says why."""
@@ -108,10 +107,6 @@ class SmtPlanner:
         for name, at_s in self.plan.profiles[EGO].knot_times_s.items():
             if at_s <= sample[0]:
                 self.ego_knots_s.setdefault(name, at_s)
-
-    def ego_stood_s(self, time_s: float) -> float:
-        """Return for how long the ego has not moved (s)."""
-        return time_s - next((sample[0] for sample in reversed(self._samples) if sample[2] > _STANDS_MPS), 0.0)
 
     # -- asking -------------------------------------------------------------------------------------------------------
     def _past(self, time_s: float) -> Past:

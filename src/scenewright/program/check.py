@@ -26,7 +26,6 @@ _OF_ORDER = (_LENGTH, _SPEED, _ACCELERATION)
 _OF_DIMENSION = {"length": _LENGTH, "time": _TIME, "speed": _SPEED, "acceleration": _ACCELERATION}
 _OF_DERIVED = {"gap": _LENGTH, "tta": _TIME, "ttc": _TIME, "headway": _TIME}
 _EXAMPLE_S = ex.Number(Fraction("3.4"))
-_FLIPPED = {"==": "==", "<=": ">=", ">=": "<=", "<": ">", ">": "<"}
 # What a piece is, and how a bound on its rate reads that leaves but weaker ones.
 _WEAK = {PieceKind.DEC: ("braking", ">"), PieceKind.ACC: ("speeding up", "<")}
 _NAMES = {
@@ -179,7 +178,7 @@ class _Checker:
         operator: str = formula.operator
         other = formula.right
         if formula.right == state:
-            operator, other = _FLIPPED[formula.operator], formula.left
+            operator, other = ex.FLIPPED[formula.operator], formula.left
         elif formula.left != state:
             return
         rate = magnitude(other, values).constant

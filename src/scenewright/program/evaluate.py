@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Protocol
 
 from scenewright.program import expressions as ex
@@ -139,7 +138,7 @@ def _throughout(formula: ex.Compare, state: ex.State, world: World, denied: bool
     first, last = world.piece_span_s(state.actor, state.at.name)
     if not (math.isfinite(first) and math.isfinite(last)):
         return math.inf
-    bare = ex.with_state(formula, state, replace(state, at=None))
+    bare = ex.at_each_moment(formula, state)
     values = [_compared(bare, world, time_s, denied) for time_s in _instants(first, last, world, bare)]
     return min(values) if denied else max(values)
 

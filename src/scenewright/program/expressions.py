@@ -6,10 +6,10 @@ Nodes hold no behaviour; parsing, printing, checking, lowering and evaluating li
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import Literal
+from typing import Any, Literal
 
 from scenewright.errors import Span
 from scenewright.units import Dimension
@@ -17,6 +17,9 @@ from scenewright.units import Dimension
 Order = Literal[0, 1, 2]
 ORDER_LETTERS = ("x", "v", "a")
 ComparisonOperator = Literal["==", "<=", ">=", "<", ">"]
+# What says the same with its sides exchanged; what says the contrary (of an equality that is two, either way).
+FLIPPED: dict[ComparisonOperator, ComparisonOperator] = {"==": "==", "<=": ">=", ">=": "<=", "<": ">", ">": "<"}
+CONTRARY: dict[ComparisonOperator, ComparisonOperator] = {"<=": ">", ">=": "<", "<": ">=", ">": "<="}
 LANDMARKS = (
     "stop_line",
     "conflict_point",
@@ -231,18 +234,23 @@ def piece_of(formula: Formula) -> State | None:
     return next((n for n in walk(formula) if isinstance(n, State) and isinstance(n.at, PieceRef)), None)
 
 
-def with_state(formula: Compare, node: State, other: State) -> Compare:
-    """Return a comparison in which one state is exchanged for another."""
+def at_each_moment(formula: Compare, state: State) -> Compare:
+    """Return what a comparison asks at each moment of a piece, where it asks it of a state in the whole piece."""
+    found: Compare = exchanged(formula, lambda node: node == state, replace(state, at=None))
+    return found
 
-    def change(term: Term) -> Term:
-        match term:
-            case State() if term == node:
-                return other
-            case Arithmetic():
-                return replace(term, left=change(term.left), right=change(term.right))
-            case Negate():
-                return replace(term, operand=change(term.operand))
-            case _:
-                return term
 
-    return replace(formula, left=change(formula.left), right=change(formula.right))
+def exchanged(node: Any, goes: Callable[[Node], bool], other: Term) -> Any:
+    """Return a term or formula with `other` in place of each term that goes; it is not looked for in edges of time."""
+    if goes(node):
+        return other
+    match node:
+        case Arithmetic(left=left, right=right) | Compare(left=left, right=right):
+            return replace(node, left=exchanged(left, goes, other), right=exchanged(right, goes, other))
+        case Negate(operand=operand):
+            return replace(node, operand=exchanged(operand, goes, other))
+        case Logic(operands=operands):
+            return replace(node, operands=tuple(exchanged(each, goes, other) for each in operands))
+        case Temporal(body=body):
+            return replace(node, body=exchanged(body, goes, other))
+    return node

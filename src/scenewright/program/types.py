@@ -65,6 +65,11 @@ class Sketch:
             return names.index(f"{name}1")
         raise KeyError(name)
 
+    def piece_ends(self, name: str) -> tuple[str, str]:
+        """Return the knots at which a piece begins and ends."""
+        index = self.piece_index(name)
+        return self.knots[index], self.knots[index + 1]
+
 
 @dataclass(frozen=True, slots=True)
 class HeadingsRoute:

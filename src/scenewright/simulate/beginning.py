@@ -16,15 +16,15 @@ from scenewright.plan.planner import GOOD, Attempt, Planner
 from scenewright.plan.prediction import Predictor
 from scenewright.program.expressions import Compare, Derived, DerivedKind, Knot, Number
 from scenewright.program.starts import HARD_MPSS, TAILGATES_S, kept_m, says_how_near
-from scenewright.program.structure import Structure, read_structure
+from scenewright.program.structure import read_structure
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import shared_offset_m
 from scenewright.roads.grounding import Scene
+from scenewright.simulate.builtin import BuiltIn
 from scenewright.simulate.ego_start import EgoFirstState, ego_starts
 from scenewright.simulate.heroes import HeroDriver
-from scenewright.simulate.port import on_route
-from scenewright.simulate.vehicles import seen
+from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
 from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.feasibility import check_feasibility
@@ -51,46 +51,46 @@ def first_plan(
     best: _Planned | None = None
     for start in _starts(world, predictor):
         # An ego that does not hold its speed may still let come about what no plan promises.
-        promised = best is not None and (best.attempt.promises_outcome or not world.ego_bounds.holds_speed)
-        if start.last_resort and best is not None and best.attempt.is_good and not best.is_saved and promised:
+        if start.last_resort and best is not None and best.is_good and not world.ego_bounds.holds_speed:
             break
         if start.speed_mps >= slower_than_mps:
             continue
         found = _plan_from(world, start, limits, predictor)
         if best is None or found.rank < best.rank:
             best = found
-        if found.attempt.is_good and not found.is_saved and found.attempt.promises_outcome:
+        if found.is_good and found.attempt.promises_outcome:
             break
     return (best.planner, best.start, best.attempt) if best is not None else None
 
 
 @dataclass(frozen=True, slots=True)
 class _Planned:
-    """A start, what is planned from it, and whether the ego begins too near to somebody and brakes hard at once."""
+    """A start, what is planned from it, and the heroes that only hard braking saves the ego from."""
 
     planner: Planner
     start: EgoFirstState
     attempt: Attempt
-    is_saved: bool = False
+    saved_from: list[int]
+
+    @property
+    def is_good(self) -> bool:
+        """Whether it does what was asked, and nobody is saved."""
+        return self.attempt.is_good and not self.saved_from
 
     @property
     def rank(self) -> tuple[bool, bool, float, float]:
         """How it compares with others: nobody is saved, it does what was asked, is hardly late, misses little."""
         missed = 0.0 if self.attempt.is_good else round(self.attempt.missed.by / GOOD)
         late_s = round(max(0.0, self.attempt.missed.late_s), 1)
-        return self.is_saved, not self.attempt.is_good, late_s, missed
+        return bool(self.saved_from), not self.attempt.is_good, late_s, missed
 
 
 def _plan_from(world: World, start: EgoFirstState, limits: Mapping[int, Limits], predictor: Predictor) -> _Planned:
     """Plan from a start; where the ego would begin too near to somebody and brake hard, from further away."""
     found = _planned(world, world.planned, start, limits, predictor)
-    near = _too_near(world, start, found.attempt)
-    if not near or not _brakes_hard(world, start, found.attempt):
+    if not found.saved_from:
         return found
-    apart = _kept_apart(world.planned, world.structure, near, start.speed_mps)
-    further = _planned(world, apart, start, limits, predictor)
-    still = bool(_too_near(world, start, further.attempt)) and _brakes_hard(world, start, further.attempt)
-    return replace(further, is_saved=still)
+    return _planned(world, _kept_apart(world.planned, found.saved_from, start.speed_mps), start, limits, predictor)
 
 
 def _planned(
@@ -98,49 +98,49 @@ def _planned(
 ) -> _Planned:
     structure = read_structure(scene.program)
     planner = Planner(scene, structure, limits, predictor, linear_conditions(scene, structure))
-    return _Planned(planner, start, planner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss)))
+    attempt = planner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
+    return _Planned(planner, start, attempt, _saved_from(world, start, attempt))
 
 
-def _too_near(world: World, start: EgoFirstState, attempt: Attempt) -> list[int]:
-    """Return the heroes whom the ego would follow by less than a second, or has to brake hard for, if not asked to."""
-    scene, routes, near = world.scene, world.scene.routes, []
-    ego = on_route(routes[EGO], (start.s_m, start.speed_mps, 0.0))
-    for hero in scene.program.heroes:
-        offset_m = shared_offset_m(routes[EGO], routes[hero.id])
-        if offset_m is None or says_how_near(scene.program, world.structure, EGO, hero.id):
+def _saved_from(world: World, start: EgoFirstState, attempt: Attempt) -> list[int]:
+    """Return the heroes that the ego begins too near to, if not asked to, where its policy brakes hard at once."""
+    scene, near = world.scene, []
+    heroes = {hero.id: attempt.plan.profiles[hero.id] for hero in scene.program.heroes}
+    begins = Start.of(scene, world.ego, (start.s_m, start.speed_mps), heroes)
+    ego = begins.first[EGO]
+    for hero in heroes:
+        offset_m, there = shared_offset_m(scene.routes[EGO], scene.routes[hero]), begins.first[hero]
+        if offset_m is None or says_how_near(scene.program, world.structure, EGO, hero):
             continue
-        there = on_route(routes[hero.id], attempt.plan.profiles[hero.id].state(0.0))
         ahead_m, closing_mps = there.s_m + offset_m - ego.s_m, max(0.0, ego.speed_mps - there.speed_mps)
         # Who is still on another road is further away than along the road that the two will share.
         same_road = math.hypot(there.x_m - ego.x_m, there.y_m - ego.y_m) < ahead_m + _BESIDE_M
         if same_road and 0.0 < ahead_m - VEHICLE_LENGTH_M < kept_m(ego.speed_mps, closing_mps):
-            near.append(hero.id)
-    return near
+            near.append(hero)
+    return near if near and _brakes_hard(begins, heroes, world.rates.step_s) else []
 
 
-def _brakes_hard(world: World, start: EgoFirstState, attempt: Attempt) -> bool:
+def _brakes_hard(start: Start, heroes: Mapping[int, Profile], step_s: float) -> bool:
     """Whether the policy, shown the heroes as they are planned, brakes hard in the first second."""
-    ego, scene, step_s, plans = world.ego, world.scene, world.rates.step_s, attempt.plan.profiles
+    drive = BuiltIn()
     try:
-        ego.reset(start.s_m, start.speed_mps)
-        for step in range(round(_AT_ONCE_S / step_s)):
-            now_s = round(step * step_s, 9)
-            there = {i: on_route(scene.routes[i], plans[i].state(now_s)) for i in plans if i != EGO}
-            action = ego.decide(now_s, seen(scene, there), step_s)
-            if ego.state.accel_mps2 < -HARD_MPSS:
+        drive.reset(start, step_s)
+        for _ in range(round(_AT_ONCE_S / step_s)):
+            drive.apply(heroes)
+            if drive.observe().actors[EGO].accel_mps2 < -HARD_MPSS:
                 return True
-            ego.advance(action, step_s)
+            drive.step()
     except PolicyError:
         pass  # the run itself will tell
     return False
 
 
-def _kept_apart(scene: Scene, structure: Structure, heroes: Iterable[int], speed_mps: float) -> Scene:
+def _kept_apart(scene: Scene, heroes: Iterable[int], speed_mps: float) -> Scene:
     """Return a scene whose program says besides that an ego of this speed begins further behind some heroes.
 
     Nobody closes in faster than it drives: that long before a collision, even braking is enough a second later.
     """
-    knot, more = Knot(structure.starts[EGO]), []
+    knot, more = Knot(scene.program.ego.sketch.knots[0]), []
     meets_s = TAILGATES_S + speed_mps / (2.0 * HARD_MPSS)
     least: list[tuple[DerivedKind, float]] = [("headway", TAILGATES_S), ("ttc", meets_s)]
     for hero in heroes:
@@ -196,11 +196,11 @@ def _starts(world: World, predictor: Predictor) -> Iterator[EgoFirstState]:
 
 def _on_time(start: EgoFirstState, motion: Profile, world: World, predictor: Predictor) -> EgoFirstState:
     """Return a start from which an ego that does not hold its speed is where `motion` is when triggers come there."""
-    knots = [name for instant in world.structure.triggers.values() for actor, name in instant if actor == EGO]
-    for name in knots[:1]:
-        then_s = motion.knot_times_s[name]
-        for _ in range(_SHIFTS):
-            foreseen = predictor.predict([(0.0, start.s_m, start.speed_mps, start.accel_mpss)])
-            late_m = motion.state(then_s)[0] - foreseen.state(then_s)[0]
-            start = replace(start, s_m=max(0.0, start.s_m + late_m))
+    if (name := world.structure.trigger_knot(EGO)) is None:
+        return start
+    then_s = motion.knot_times_s[name]
+    for _ in range(_SHIFTS):
+        foreseen = predictor.predict([(0.0, start.s_m, start.speed_mps, start.accel_mpss)])
+        late_m = motion.state(then_s)[0] - foreseen.state(then_s)[0]
+        start = replace(start, s_m=max(0.0, start.s_m + late_m))
     return start

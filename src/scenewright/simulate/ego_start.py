@@ -29,15 +29,13 @@ _SPEED_SHARES = (1.0, 0.85, 0.7, 0.55, 0.42, 0.32, 0.24, 0.18, 0.13, 0.1, 0.08, 
 class EgoFirstState:
     """A first state of the ego, with the acceleration that it has there when it drives by itself.
 
-    A last resort is only for when no other state leads to a plan; one by choice, which the policy would leave at once,
-    for when none that it would hold promises the outcome.
+    A last resort is only for when no other state leads to a plan.
     """
 
     s_m: float
     speed_mps: float
     accel_mpss: float = 0.0
     last_resort: bool = False
-    by_choice: bool = False
 
 
 def ego_starts(
@@ -49,7 +47,7 @@ def ego_starts(
     holds by itself, then slower states by choice, from which it will speed up.
     """
     for start in _possible_starts(scene, ego, limits, conditions):
-        if start.last_resort or not _is_past_something(scene, conditions, start):
+        if not _is_past_something(scene, conditions, start):
             yield start
 
 
@@ -94,7 +92,7 @@ def _possible_starts(
     for share in _SLOWER_SHARES:
         speed = max(share * steady.speed_mps, MOVING_MPS)
         position = _position(scene, place, speed, conditions)
-        yield EgoFirstState(position, speed, _first_acceleration(ego, position, speed), by_choice=True)
+        yield EgoFirstState(position, speed, _first_acceleration(ego, position, speed))
 
 
 def _position(
@@ -125,26 +123,29 @@ def _steady(
 ) -> EgoFirstState:
     """Let the policy drive alone towards its first place and take the state in which it gets there."""
     target = _position(scene, place, speed_mps, conditions)
-    run_up = min(_RUN_UP_M, target - 1.0)
-    if place is not None and place.weights[EGO][1]:
-        run_up = min(3 * _RUN_UP_M, target - 1.0)
+    there = place or LinearCondition("", frozenset(), -target, {EGO: (1.0, 0.0)})
+    per_metre, per_speed = there.weights[EGO]
+    run_up = min(3 * _RUN_UP_M if per_speed else _RUN_UP_M, target - 1.0)
     if run_up < 1.0:
         return EgoFirstState(target, speed_mps)
+
+    def beyond() -> float:
+        """Return a number that turns from negative to positive when the ego comes there."""
+        return math.copysign(1.0, per_metre) * there.value({EGO: (ego.state.s_m, ego.state.speed_mps)})
+
     ego.reset(target - run_up, speed_mps)
-    before = _miss(ego, place, target)
+    before = beyond()
     for step in range(int(120.0 / _STEP_S)):
-        last = (ego.state.s_m, ego.state.speed_mps)
+        last_mps = ego.state.speed_mps
         action = ego.decide(step * _STEP_S, (), _STEP_S)
         ego.advance(action, _STEP_S)
-        after = _miss(ego, place, target)
+        after = beyond()
         if before < 0.0 <= after:
             share = -before / (after - before)
-            speed = last[1] + share * (ego.state.speed_mps - last[1])
+            speed = last_mps + share * (ego.state.speed_mps - last_mps)
             if speed < _SLOWEST_MPS:
                 break
-            return EgoFirstState(
-                _position(scene, place, speed, conditions) if place else target, speed, ego.state.accel_mps2
-            )
+            return EgoFirstState(_position(scene, there, speed, conditions), speed, ego.state.accel_mps2)
         before = after
     return EgoFirstState(target, speed_mps)
 
@@ -154,11 +155,3 @@ def _first_acceleration(ego: EgoVehicle, s_m: float, speed_mps: float) -> float:
     ego.reset(s_m, speed_mps)
     ego.decide(0.0, (), _STEP_S)
     return ego.state.accel_mps2
-
-
-def _miss(ego: EgoVehicle, place: LinearCondition | None, target_m: float) -> float:
-    """Return a number that turns from negative to positive when the ego comes to its first place."""
-    if place is None:
-        return ego.state.s_m - target_m
-    sign = 1.0 if place.weights[EGO][0] > 0 else -1.0
-    return sign * place.value({EGO: (ego.state.s_m, ego.state.speed_mps)})

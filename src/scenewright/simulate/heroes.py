@@ -39,6 +39,3 @@ class HeroDriver(Protocol):
 
     def observe(self, sample: EgoSample) -> None:
         """Take note of the ego's state; called after every step, before the heroes' states at its end are asked for."""
-
-    def ego_stood_s(self, time_s: float) -> float:
-        """Return for how long the ego has not moved (s)."""

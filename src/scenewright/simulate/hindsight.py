@@ -16,7 +16,7 @@ from scenewright.program.structure import Structure
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import TIGHT_TIME_S, LinearCondition, linear_conditions, tight_of
-from scenewright.solve.feasibility import EgoDrive, Feasibility, check_feasibility
+from scenewright.solve.feasibility import Feasibility, check_feasibility
 from scenewright.solve.limits import Limits
 from scenewright.trace.model import ActorTrace, Trace
 
@@ -44,7 +44,7 @@ def ego_left_no_room(
     proof: Feasibility | None = None
     for moment_s in moments:
         knots = _ego_knots(scene, structure, conditions, motion, moment_s, trace.duration_s)
-        drive = EgoDrive(motion, knots)
+        drive = Profile(motion.segments, knots)
         found = check_feasibility(scene, structure, limits, drive=drive, explain=proof is None)
         if found.answer != "infeasible":
             return None

@@ -7,7 +7,7 @@ or by a policy or a simulator that fails, keeps what it had.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import hypot
 from typing import TYPE_CHECKING
@@ -19,9 +19,10 @@ from scenewright.program import expressions as ex
 from scenewright.program.types import EGO, Program
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.port import SIMULATORS, Simulator, Snapshot, Start
-from scenewright.trace.model import ActorState, ActorTrace, Trace
+from scenewright.trace.model import ActorTrace, Trace
 
 if TYPE_CHECKING:
+    from scenewright.motion.profile import Profile
     from scenewright.plan.planner import Replan
     from scenewright.simulate.heroes import HeroDriver
     from scenewright.solve.plan import Plan
@@ -32,7 +33,7 @@ LONGEST_RUN_S = 90.0
 _AFTER_HEROES_S = 2.0
 _SEEN_S = 0.5  # beyond what a stand has to last, for it to be seen to
 _WAIT_FOR_EGO_S = 10.0
-_STALLED_S = 20.0
+_STALLED_S, _STANDS_MPS = 20.0, 0.1
 _MOVES_MPS = 0.5
 ROUTE_END_M = 3.0  # who is so near to the end of its road has come to it
 _NOTED_M = 0.01  # what a finding with two decimals can say
@@ -81,9 +82,9 @@ def simulate(
     progress
         Called with the simulated time (s) at every re-solve.
     """
-    scene, first_plan, log = start.scene, heroes.plan, _Log(start.scene)
+    scene, first_plan, log = start.scene, heroes.plan, list[Snapshot]()
     steps_a_tick = max(1, round(rates.replan_s / rates.step_s)) if rates.replan_s else 0
-    status, fault, step, astray_m = "finished", None, 0, 0.0
+    status, fault, step, astray_m, ego_moved_s = "finished", None, 0, 0.0, 0.0
     clock_s = _told_by_the_clock_s(scene.program)
     with SIMULATORS.blamed(simulator):
         simulator.reset(start, rates.step_s)
@@ -98,60 +99,43 @@ def simulate(
             with SIMULATORS.blamed(simulator):
                 simulator.apply(motions)
                 now = simulator.observe()
-            log.add(now)
-            driven = {hero: now.actors[hero] for hero in motions}
-            for hero, there in driven.items():
-                astray_m = max(astray_m, hypot(there.s_m - motions[hero].state(now.time_s)[0], there.d_m))
-            if _is_over(scene, heroes, now.actors[EGO], driven, now.time_s, clock_s):
+            log.append(now)
+            for hero, motion in motions.items():
+                there = now.actors[hero]
+                astray_m = max(astray_m, hypot(there.s_m - motion.state(now.time_s)[0], there.d_m))
+            if _is_over(scene, motions, now, clock_s, ego_moved_s):
                 break
             with SIMULATORS.blamed(simulator):
                 simulator.step()
                 now = simulator.observe()
             step += 1
             ego = now.actors[EGO]
+            if ego.speed_mps > _STANDS_MPS:
+                ego_moved_s = now.time_s
             heroes.observe((now.time_s, ego.s_m, ego.speed_mps, ego.accel_mps2))
     except KeyboardInterrupt:
-        if not log.steps:
+        if not log:
             raise  # nothing was driven, so nothing is kept
         status = "interrupted"
     except (PolicyError, SimulatorError) as error:
-        if not log.steps:
+        if not log:
             raise
         status, fault = "failed", error
     findings = [_DRIVES_EGO] if simulator.capabilities.drives_ego else list(start.ego.policy.findings)
     if astray_m >= _NOTED_M:
         findings.append(f"In this simulator heroes were up to {astray_m:.2f} m from where they were to be.")
-    return Run(log.trace(), first_plan, heroes.plan, heroes.records, status, fault, dict(heroes.ego_knots_s), findings)
+    trace, knots_s = _trace(scene, log), dict(heroes.ego_knots_s)
+    return Run(trace, first_plan, heroes.plan, heroes.records, status, fault, knots_s, findings)
 
 
-class _Log:
-    """What happened, step by step. A step that was interrupted while it was written down is left out of the trace."""
-
-    def __init__(self, scene: Scene) -> None:
-        self._times: list[float] = []
-        self._scene = scene
-        self._rows: dict[int, list[ActorState]] = {actor.id: [] for actor in scene.program.actors}
-
-    def add(self, now: Snapshot) -> None:
-        """Write down the state of everybody at the beginning of a step."""
-        self._times.append(now.time_s)
-        for actor, rows in self._rows.items():
-            rows.append(now.actors[actor])
-
-    @property
-    def steps(self) -> int:
-        """Number of complete steps."""
-        return min(len(self._times), *(len(rows) for rows in self._rows.values()))
-
-    def trace(self) -> Trace:
-        """Return all complete steps, of which there must be one."""
-        count = self.steps
-        time_s, actors = np.asarray(self._times[:count]), {}
-        for actor in self._scene.program.actors:
-            # Each quantity contiguous: traces are asked for single states very often.
-            columns = np.ascontiguousarray(np.asarray(self._rows[actor.id][:count], dtype=np.float64).T)
-            actors[actor.name] = ActorTrace(time_s, *columns)
-        return Trace(actors)
+def _trace(scene: Scene, log: Sequence[Snapshot]) -> Trace:
+    """Return what happened, from everybody at the beginning of each step, of which there must be one."""
+    time_s, actors = np.array([now.time_s for now in log]), {}
+    for actor in scene.program.actors:
+        # Each quantity contiguous: traces are asked for single states very often.
+        columns = np.ascontiguousarray(np.array([now.actors[actor.id] for now in log], dtype=np.float64).T)
+        actors[actor.name] = ActorTrace(time_s, *columns)
+    return Trace(actors)
 
 
 def _told_by_the_clock_s(program: Program) -> float:
@@ -162,45 +146,39 @@ def _told_by_the_clock_s(program: Program) -> float:
     return max((float(time.value) for time in told if isinstance(time, ex.Number)), default=0.0)
 
 
-def _is_over(
-    scene: Scene, heroes: HeroDriver, ego: ActorState, states: Mapping[int, ActorState], time_s: float, clock_s: float
-) -> bool:
-    """Whether all that the program tells of has happened, the latest at `clock_s`, or will not happen any more."""
+def _is_over(scene: Scene, motions: Mapping[int, Profile], now: Snapshot, clock_s: float, ego_moved_s: float) -> bool:
+    """Whether all that the program tells of has happened, the latest at `clock_s`, or will not happen any more.
+
+    An ego that has not moved for long is not waited for.
+    """
+    time_s, ego, route = now.time_s, now.actors[EGO], scene.routes[EGO]
     if time_s >= LONGEST_RUN_S:
         return True
-    route = scene.routes[EGO]
     end_m = route.landmarks["route_end"]
     if ego.s_m >= end_m - ROUTE_END_M:
         return True
+    stalled = time_s - ego_moved_s > _STALLED_S
     if time_s < clock_s:
-        return _stalled(heroes, time_s)
+        return stalled
     # Whoever is at the end of its route does nothing more that a program asks for; others may.
-    going = [heroes.plan.profiles[hero] for hero in states if not _is_at_end(scene, hero, states)]
+    ends_m = {hero: scene.routes[hero].landmarks["route_end"] - ROUTE_END_M for hero in motions}
+    going = [motion for hero, motion in motions.items() if now.actors[hero].s_m < ends_m[hero]]
     last_knot_s = max((max(profile.knot_times_s.values()) for profile in going), default=-_WAIT_FOR_EGO_S)
     stands_s = float(scene.program.manner.stands_s) + _SEEN_S
     if time_s < last_knot_s + max(_AFTER_HEROES_S, stands_s):
-        return _stalled(heroes, time_s)
-    if time_s < last_knot_s + _WAIT_FOR_EGO_S and _any_turning(scene, states):
+        return stalled
+    if time_s < last_knot_s + _WAIT_FOR_EGO_S and _any_turning(scene, now):
         return False
     passed = ego.s_m > route.landmarks.get("junction_end", end_m) + 5.0
     return passed or time_s >= last_knot_s + _WAIT_FOR_EGO_S
 
 
-def _is_at_end(scene: Scene, hero: int, states: Mapping[int, ActorState]) -> bool:
-    return states[hero].s_m >= scene.routes[hero].landmarks["route_end"] - ROUTE_END_M
-
-
-def _any_turning(scene: Scene, states: Mapping[int, ActorState]) -> bool:
+def _any_turning(scene: Scene, now: Snapshot) -> bool:
     """Whether a hero is on its way through the junction: which way it went is part of the story."""
-    for hero, there in states.items():
-        places = scene.routes[hero].landmarks
+    for hero in scene.program.heroes:
+        places, there = scene.routes[hero.id].landmarks, now.actors[hero.id]
         end_m = places.get("junction_end")
         inside = end_m is not None and places.get("junction_start", end_m) < there.s_m < end_m
         if inside and there.speed_mps > _MOVES_MPS:
             return True
     return False
-
-
-def _stalled(heroes: HeroDriver, time_s: float) -> bool:
-    """Whether the ego has stood so long that waiting for it makes no sense."""
-    return heroes.ego_stood_s(time_s) > _STALLED_S

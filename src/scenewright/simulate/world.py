@@ -18,7 +18,7 @@ from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.feasibility import EgoBounds, Feasibility
 from scenewright.solve.limits import Limits, limits_on
 from scenewright.solve.parameters import settle
-from scenewright.solve.proofs.refuters import refuter_called
+from scenewright.solve.proofs.refuters import SOLVERS
 
 
 class World:
@@ -65,7 +65,7 @@ class World:
         self.ego = EgoVehicle(guarded, scene.routes[EGO], scene.road_map, seed)
         self.structure: Structure = read_structure(scene.program)
         self.limits: dict[int, Limits] = {i: limits_on(route, scene.road_map) for i, route in scene.routes.items()}
-        self.refuter = refuter_called(solver)
+        self.refuter = SOLVERS.called(solver)
         self.simulator = SIMULATORS.called(simulator)
         promise = None if self.simulator.capabilities.drives_ego else guarded.envelope
         self.ego_bounds = (

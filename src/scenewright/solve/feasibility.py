@@ -12,20 +12,21 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal
 
+from scenewright.motion.profile import Profile
 from scenewright.program.printer import print_expression
 from scenewright.program.structure import Structure
 from scenewright.program.types import Program
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.decide import Decision, Question, decide
-from scenewright.solve.proofs.events import EgoBounds, EgoDrive
-from scenewright.solve.proofs.refuters import Refuter, refuter_called
+from scenewright.solve.proofs.events import EgoBounds
+from scenewright.solve.proofs.refuters import SOLVERS, Refuter
 from scenewright.solve.proofs.witness import Broken, Witness
 from scenewright.solve.suggestions import Suggestion, suggest
 from scenewright.translate.lines import named
 from scenewright.units import decimal_fraction
 
-__all__ = ["Clash", "EgoBounds", "EgoDrive", "Feasibility", "Suggestion", "check_feasibility"]
+__all__ = ["Clash", "EgoBounds", "Feasibility", "Suggestion", "check_feasibility"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +89,7 @@ def check_feasibility(
     limits: Mapping[int, Limits],
     ego: EgoBounds | None = None,
     explain: bool = True,
-    drive: EgoDrive | None = None,
+    drive: Profile | None = None,
     refuter: Refuter | None = None,
 ) -> Feasibility:
     """Decide whether any ego within `ego` and any heroes within `limits` can do what the program asks.
@@ -98,7 +99,9 @@ def check_feasibility(
     all conditions against this drive. (Another hero might have made the ego drive differently.) What refutes is
     `refuter`, or z3 where none is given; one that is not exact proves nothing.
     """
-    question = Question(scene, structure, limits, ego or EgoBounds(), drive=drive, refuter=refuter or refuter_called())
+    question = Question(
+        scene, structure, limits, ego or EgoBounds(), drive=drive, refuter=refuter or SOLVERS.called("z3")
+    )
     decision = decide(question, explain=explain)
     if decision.witness is not None:
         return _feasible(scene, decision.witness)

@@ -76,10 +76,8 @@ class PlanWorld:
 
     def piece_span_s(self, actor: int, piece: str) -> tuple[float, float]:
         """Return when a piece begins and ends; infinite where that is not known."""
-        index = self._scene.program.actor(actor).sketch.piece_index(piece)
-        knots = self._scene.program.actor(actor).sketch.knots
-        times = self._profiles[actor].knot_times_s
-        return times.get(knots[index], math.inf), times.get(knots[index + 1], math.inf)
+        begins, ends = self._scene.program.actor(actor).sketch.piece_ends(piece)
+        return self.knot_time_s(actor, begins), self.knot_time_s(actor, ends)
 
     def knot_time_s(self, actor: int, knot: str) -> float:
         """Return when `actor` passes `knot`; infinite where it is not known to."""

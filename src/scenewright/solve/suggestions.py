@@ -10,20 +10,8 @@ import time
 from collections.abc import Callable, Container, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
 
-from scenewright.program.expressions import (
-    Arithmetic,
-    Compare,
-    Formula,
-    Logic,
-    Negate,
-    Number,
-    ParameterRef,
-    Temporal,
-    Term,
-    walk,
-)
+from scenewright.program.expressions import Compare, Formula, Number, ParameterRef, Term, exchanged, walk
 from scenewright.program.printer import print_expression
 from scenewright.program.types import Constraint, Program
 from scenewright.roads.grounding import Scene
@@ -49,8 +37,7 @@ class Suggestion:
     unit: str
 
     def __str__(self) -> str:
-        unit = f" {self.unit}" if self.unit else ""
-        return f"{self.what}: {self.nearest:.4g}{unit} instead of {self.value:.4g}{unit}"
+        return f"{self.what}: {self.nearest:.4g} {self.unit} instead of {self.value:.4g} {self.unit}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,21 +56,22 @@ class Lever:
 
     what: str
     value: Fraction
-    dimension: str
+    dimension: Dimension
     name: str
     constraint: Constraint | None = None
     number: Number | None = None
 
     @property
     def unit(self) -> str:
-        """The symbol of its SI unit; empty where it has none."""
-        return next((symbol for dimension, symbol in SI_SYMBOL.items() if dimension == self.dimension), "")
+        """The symbol of its SI unit."""
+        return SI_SYMBOL[self.dimension]
 
     def put(self, program: Program, term: Term) -> Program:
         """Return the program with `term` in place of the written number; the same one for a parameter."""
         if self.constraint is None or self.number is None:
             return program
-        changed = replace(self.constraint, formula=_replaced(self.constraint.formula, self.number, term))
+        formula = exchanged(self.constraint.formula, lambda node: node is self.number, term)
+        changed = replace(self.constraint, formula=formula)
         constraints = tuple(changed if c.id == changed.id else c for c in program.constraints)
         return replace(program, constraints=constraints)
 
@@ -205,20 +193,3 @@ def _rounded(found: Fraction, origin: Fraction, digits: int) -> tuple[Fraction, 
     floor = scaled.numerator // scaled.denominator
     away = floor if found < origin else floor + 1
     return Fraction(round(scaled), 10**digits), Fraction(away, 10**digits)
-
-
-def _replaced(node: Any, old: Number, new: Term) -> Any:
-    """Return a term or formula with one number in it, by identity, replaced by a term; else what it was."""
-    if node is old:
-        return new
-    match node:
-        case Arithmetic(left=left, right=right) | Compare(left=left, right=right):
-            return replace(node, left=_replaced(left, old, new), right=_replaced(right, old, new))
-        case Negate(operand=operand):
-            return replace(node, operand=_replaced(operand, old, new))
-        case Logic(operands=operands):
-            return replace(node, operands=tuple(_replaced(o, old, new) for o in operands))
-        case Temporal(body=body):
-            return replace(node, body=_replaced(body, old, new))
-        case _:
-            return node

@@ -21,9 +21,8 @@ from scenewright.roads.load import load_map
 from scenewright.solve.limits import limits_on
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.polynomials import ZERO, Formula, compare, every, some
-from scenewright.solve.proofs.refuters import refuter_called
-from scenewright.solve.proofs.relaxation import Named
+from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, compare, every, some
+from scenewright.solve.proofs.refuters import SOLVERS
 
 _TIMEOUT_S = 2.0
 _FAR = Fraction(10**6)  # what two texts mean does not depend on how far a road goes or how fast a car is
@@ -175,12 +174,11 @@ class _Asking:
         lowered = lowering.lower(constraints)
         count = len(scene.program.constraints)
         self._held = dict(zip(formulas, lowered[count:], strict=True))
-        self._always = [each.formula for each in lowered[:count]]
-        self._always += [formula for formula, _ in events.rules] + list(_background(events))
+        self._always = [each.formula for each in (*lowered[:count], *events.rules)] + list(_background(events))
         self._unknowns = [
             replace(each, low=ZERO if each.kind in ("time", "speed") else -_FAR, high=_FAR) for each in events.unknowns
         ]
-        self._refuter = refuter_called()
+        self._refuter = SOLVERS.called("z3")
 
     def follows(self, wanted: _Said, given: Sequence[_Said]) -> bool:
         """Whether `wanted` holds wherever all of `given` do; no answer in time counts as no."""

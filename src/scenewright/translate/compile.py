@@ -205,14 +205,14 @@ class _Compiler:
             return ex.Compare(op, left, origin)
         if not counted_down(quantity, measure.opposite):
             return ex.Compare(op, left, amount if origin is None else combine("+", origin, amount))
-        return ex.Compare(st.FLIPPED[op], left, negate(amount) if origin is None else combine("-", origin, amount))
+        return ex.Compare(ex.FLIPPED[op], left, negate(amount) if origin is None else combine("-", origin, amount))
 
     def _order(self, order: st.Order) -> ex.Formula:
         if order.first == st.START and order.margin is not None:
             return ex.Compare(order.op, self._instant(order.second), _term(order.margin))
         first, second = self._instant(order.first), self._instant(order.second)
         if order.margin is None:
-            return ex.Compare(st.FLIPPED[order.op], first, second)
+            return ex.Compare(ex.FLIPPED[order.op], first, second)
         return ex.Compare(order.op, combine("-", second, first), _term(order.margin))
 
     def _point(self, point: st.Point) -> ex.Term:

@@ -179,7 +179,7 @@ class Decompiled:
         assert isinstance(piece.at, ex.PieceRef)
         sketch = self.program.actor(piece.actor).sketch
         index = sketch.piece_index(piece.at.name)
-        measure = measure_of(ex.with_state(compare, piece, replace(piece, at=None)), self.program)
+        measure = measure_of(ex.at_each_moment(compare, piece), self.program)
         if piece.actor == pt.EGO or measure is None or measure.other is not None:
             raise untold("this condition on a piece", "ask for it from one moment until another", compare)
         measure = replace(measure, quote=self._quote)
@@ -196,7 +196,7 @@ class Decompiled:
         below_zero, amount = right_side(form, "time")
         margin = None if amount.value == 0 else amount
         if below_zero or (margin is None and op in ("<", "<=")):
-            first, second, op = second, first, st.FLIPPED[op]
+            first, second, op = second, first, ex.FLIPPED[op]
         return st.Order(first, second, op, margin, self._quote)
 
     def _hold(self, temporal: ex.Temporal) -> st.Hold:
@@ -289,7 +289,7 @@ def measure_of(compare: ex.Compare, program: pt.Program) -> st.Measure | None:
         return None
     state, *others = states
     factor = form.atoms[state]
-    form, op = form.scaled(1 / factor), compare.operator if factor > 0 else st.FLIPPED[compare.operator]
+    form, op = form.scaled(1 / factor), compare.operator if factor > 0 else ex.FLIPPED[compare.operator]
     origins: list[Atom] = [*others, *form.of(ex.Landmark)]  # what the amount is counted from
     if len(origins) > 1 or any(form.atoms[each] != -1 for each in origins):
         return None
@@ -327,7 +327,7 @@ def _with_amount(measure: st.Measure, form: Linear) -> st.Measure:
     has_origin = quantity is st.Quantity.PLACE or (quantity is st.Quantity.SPEED and other is not None)
     if has_origin and amount.value == 0:
         return measure
-    op = st.FLIPPED[measure.op] if down else measure.op
+    op = ex.FLIPPED[measure.op] if down else measure.op
     if has_origin or quantity is st.Quantity.RATE:
         return replace(measure, op=op, amount=amount, opposite=counted_down(quantity, down))
     if quantity is st.Quantity.GAP and other is not None and down:

@@ -21,7 +21,6 @@ from scenewright.units import UNITS, Dimension
 T = TypeVar("T")
 Operator = Literal["==", "<=", ">=", "<", ">"]
 How = Literal["always", "never", "at some time"]
-FLIPPED: dict[str, Operator] = {"==": "==", "<=": ">=", ">=": "<=", "<": ">", ">": "<"}
 START = 0  # the first moment of every story
 
 

@@ -12,6 +12,7 @@ from scenewright.solve.proofs.polynomials import (
     All,
     Atom,
     Formula,
+    Named,
     Polynomial,
     Some,
     atom,
@@ -21,7 +22,6 @@ from scenewright.solve.proofs.polynomials import (
     unknown,
 )
 from scenewright.solve.proofs.refuters import Answer, Refuter
-from scenewright.solve.proofs.relaxation import Named
 
 X, Y = unknown(0), unknown(1)
 UNKNOWNS = [Unknown("x", Fraction(0), Fraction(10), "other"), Unknown("y", Fraction(-5), Fraction(5), "other")]

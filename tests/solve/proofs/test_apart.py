@@ -90,9 +90,9 @@ def test_the_rule_is_true_of_whoever_is_apart_and_of_nobody_else(ego_m: float, h
     scene = scene_of("gap(A0, A1, t1) == 10")
     structure = read_structure(scene.program)
     events = Events(scene, limits_of(scene), EgoBounds())
-    ((rule, _),) = apart(events, structure, scene.program.constraints)
+    (rule,) = apart(events, structure, scene.program.constraints)
     instant = events.knot(0, "t1")
     point = [0.0] * len(events.unknowns)
     for actor, place_m in ((0, ego_m), (1, hero_m)):
-        point[next(iter(events.state(actor, instant).place.terms))[0]] = place_m
-    assert (violation(rule, point) <= 1e-9) == (abs(ego_m - hero_m) >= 4.4 - 1e-9)
+        point[events.state(actor, instant).place.number] = place_m
+    assert (violation(rule.formula, point) <= 1e-9) == (abs(ego_m - hero_m) >= 4.4 - 1e-9)

@@ -55,13 +55,12 @@ def test_whom_a_body_speaks_of() -> None:
     assert free_actors(body("A1v <= A0v(t1)")) == {1}  # that of actor 0 has a moment of its own
 
 
-def test_the_state_of_a_piece_can_be_exchanged() -> None:
+def test_what_is_asked_of_a_piece_is_asked_at_each_moment() -> None:
     compared = formula("3 - A1a(dec) * 2 >= 1")
     node = ex.piece_of(compared)
     assert isinstance(compared, ex.Compare)
     assert node is not None
-    other = ex.State(1, 1, ex.Knot("t1"))
-    changed = ex.with_state(compared, node, other)
+    changed = ex.at_each_moment(compared, node)
     assert ex.piece_of(changed) is None
-    assert other in list(ex.walk(changed))
+    assert ex.State(1, 2, None) in list(ex.walk(changed))
     assert ex.piece_of(formula("A1a(t1) <= 3")) is None

@@ -97,7 +97,7 @@ def test_a_product_of_three_unknowns_is_named() -> None:
     scene = ground(parse_program(text), T)
     events = Events(scene, limits_of(scene), EgoBounds())
     cubic, plain = Lowering(events).lower(scene.program.constraints)
-    assert cubic.constraint.id == "cubic"
+    assert cubic.origin == "cubic"
     assert "two unknowns" in cubic.refused
     assert not plain.refused
 

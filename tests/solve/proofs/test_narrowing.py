@@ -67,8 +67,9 @@ def test_a_rate_of_a_piece_is_for_plans_alone_and_even() -> None:
     assert abs(rate.law.rate_high + 3) <= Fraction(1, 500)
 
 
-def test_from_a_place_on() -> None:
-    events, (found,) = narrowed("always[A1(t0), A1(t2)] (A1x >= 100 implies A1v <= 8)")
+@pytest.mark.parametrize("place", ["100", "200 / 2", "stop_line - stop_line + 100"])
+def test_from_a_place_on(place: str) -> None:
+    events, (found,) = narrowed(f"always[A1(t0), A1(t2)] (A1x >= {place} implies A1v <= 8)")
     assert found.place == events.at_place(1, Fraction(100))
     assert found.begins() == (found.first, found.place)
     _, (before,) = narrowed("always[A1(t0), A1(t2)] (A1x <= 100 implies A1v <= 8)")

@@ -17,16 +17,15 @@ from scenewright.errors import InputError, MissingExtraError, SolverError
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
 from scenewright.solve.proofs.events import Unknown
-from scenewright.solve.proofs.polynomials import compare, some
+from scenewright.solve.proofs.polynomials import Named, compare, some
 from scenewright.solve.proofs.refuters import (
     GROUP,
     SOLVERS,
     Capabilities,
     Refuter,
     core,
-    refuter_called,
 )
-from scenewright.solve.proofs.relaxation import Named, relaxation
+from scenewright.solve.proofs.relaxation import relaxation
 
 OTHERS = ("cvc5", "scip")
 SLIGHTLY = Fraction(1, 1000)
@@ -45,7 +44,7 @@ def other(name: str) -> Refuter:
     missing = SOLVERS.known()[name]
     if missing is not None:
         pytest.skip(str(missing))
-    return refuter_called(name)
+    return SOLVERS.called(name)
 
 
 @pytest.fixture
@@ -78,21 +77,21 @@ def test_ours_are_registered_like_any_other() -> None:
 def test_a_package_brings_a_solver(package: Path) -> None:
     assert {"shy", "deep", "bad", "z3"} <= set(SOLVERS.known())
     assert "shysolver" not in sys.modules, "what is listed is not imported"
-    assert refuter_called("shy").ask(UNKNOWNS, [], 1.0).kind == "unknown"
+    assert SOLVERS.called("shy").ask(UNKNOWNS, [], 1.0).kind == "unknown"
 
 
 def test_what_is_missing_is_found_without_importing_it(package: Path) -> None:
     with pytest.raises(MissingExtraError, match=r"no-such-library.*\n.*pip install \"shysolver\[deep\]\""):
-        refuter_called("deep")
+        SOLVERS.called("deep")
     assert "shysolver_apart" not in sys.modules
 
 
 def test_solvers_that_fail_are_named(package: Path) -> None:
     with pytest.raises(SolverError, match="'bad' cannot be imported") as broken:
-        refuter_called("bad")
+        SOLVERS.called("bad")
     assert "nothing of this" in str(broken.value.found)
     with pytest.raises(InputError, match="no such solver") as unknown:
-        refuter_called("z4")
+        SOLVERS.called("z4")
     assert "z3" in str(unknown.value.expected)
 
 
@@ -106,8 +105,8 @@ def test_cores_hold_what_clashes_and_no_more() -> None:
         high=some([compare(">=", X, 4), compare(">=", X * Y, 16)]),
         else_where=compare("==", Y, 1),
     )
-    assert set(core(refuter_called(), UNKNOWNS, formulas, 5.0)) == {"low", "high"}, "x y is at most 15"
-    assert core(refuter_called(), UNKNOWNS, named(beyond=compare(">=", X, 11)), 5.0) == ("beyond",)
+    assert set(core(SOLVERS.called("z3"), UNKNOWNS, formulas, 5.0)) == {"low", "high"}, "x y is at most 15"
+    assert core(SOLVERS.called("z3"), UNKNOWNS, named(beyond=compare(">=", X, 11)), 5.0) == ("beyond",)
 
 
 @pytest.mark.parametrize("name", OTHERS)
@@ -115,13 +114,16 @@ def test_cores_of_others_clash(name: str) -> None:
     formulas = named(low=compare("<=", X, 3), high=compare(">=", X * Y, 16), else_where=compare("==", Y, 1))
     assert set(core(other(name), UNKNOWNS, formulas, 5.0)) <= {"low", "high", "else_where"}
     clashing = core(other(name), UNKNOWNS, formulas, 5.0)
-    assert refuter_called().ask(UNKNOWNS, [each for each in formulas if each.origin in clashing], 5.0).kind == "refuted"
+    assert (
+        SOLVERS.called("z3").ask(UNKNOWNS, [each for each in formulas if each.origin in clashing], 5.0).kind
+        == "refuted"
+    )
     assert len(clashing) == 2
 
 
 @pytest.mark.parametrize(("name", "count"), [("cvc5", 25), ("scip", 60)])
 def test_no_two_solvers_contradict_each_other(name: str, count: int) -> None:
-    z3, second = refuter_called(), other(name)
+    z3, second = SOLVERS.called("z3"), other(name)
     answers: Counter[tuple[str, str]] = Counter()
     for seed in range(count):
         unknowns, formulas = at_random(seed)

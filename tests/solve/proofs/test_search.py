@@ -24,7 +24,7 @@ def searched(text: str, *more: object) -> tuple[Events, Search, np.ndarray | Non
     events = Events(scene, limits_of(scene), EgoBounds(20.0, 2.0, 6.0))
     lowering = Lowering(events)
     formulas = [each.formula for each in lowering.lower(scene.program.constraints)]
-    formulas += [formula for formula, _ in events.rules] + list(more)
+    formulas += [each.formula for each in events.rules] + list(more)
     search = Search(events, formulas, lowering.narrowings)
     point = None
     for attempt in range(6):

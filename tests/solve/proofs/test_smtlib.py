@@ -5,8 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from scenewright.solve.proofs.events import Unknown
-from scenewright.solve.proofs.polynomials import FALSE, compare, every, some, unknown
-from scenewright.solve.proofs.relaxation import Named
+from scenewright.solve.proofs.polynomials import FALSE, Named, compare, every, some, unknown
 from scenewright.solve.proofs.smtlib import smtlib
 
 X, Y = unknown(0), unknown(1)

@@ -16,7 +16,7 @@ from scenewright.program.types import EGO, Constraint
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import shared_stretches
 from scenewright.solve.proofs.events import Events
-from scenewright.solve.proofs.polynomials import Formula, compare, some
+from scenewright.solve.proofs.polynomials import Named, compare, some
 from scenewright.units import format_fraction, pin
 
 APART = "orchestrated actors keep clear of each other"
@@ -24,7 +24,7 @@ APART = "orchestrated actors keep clear of each other"
 _OVERLAP_M = VEHICLE_LENGTH_M - 0.1
 
 
-def apart(events: Events, structure: Structure, constraints: Sequence[Constraint]) -> list[tuple[Formula, str]]:
+def apart(events: Events, structure: Structure, constraints: Sequence[Constraint]) -> list[Named]:
     """Return that those are apart of whom a distance is asked for, at each knot at which it is."""
     program, triggers = events.scene.program, structure.triggers.values()
     return [
@@ -60,7 +60,7 @@ def _asked(structure: Structure, constraints: Sequence[Constraint]) -> Iterator[
             yield from [(a, b, key)] if a != EGO or key in early else []
 
 
-def _apart(events: Events, a: int, b: int, instant: int) -> Iterator[tuple[Formula, str]]:
+def _apart(events: Events, a: int, b: int, instant: int) -> Iterator[Named]:
     """Yield for each stretch that two share that one of them is outside it, or ahead of the other by its length."""
     routes = events.scene.routes
     one, other = events.state(a, instant).place, events.state(b, instant).place
@@ -74,4 +74,4 @@ def _apart(events: Events, a: int, b: int, instant: int) -> Iterator[tuple[Formu
                 outside.append(compare(">", place, pin(end)))
         ahead = (other - pin(stretch.begin[1])) - (one - pin(stretch.begin[0]))
         clear = [compare(">=", ahead, room), compare("<=", ahead, -room)]
-        yield some([*clear, *outside]), _words(a == EGO, events.scene.program.manner)
+        yield Named(some([*clear, *outside]), _words(a == EGO, events.scene.program.manner))

@@ -22,8 +22,8 @@ from scenewright.roads.grounding import Scene
 from scenewright.roads.zones import overlap
 from scenewright.solve.proofs.apart import APART
 from scenewright.solve.proofs.events import Events
-from scenewright.solve.proofs.lowering import Lowered
 from scenewright.solve.proofs.order import least_differences, places_within
+from scenewright.solve.proofs.polynomials import Named
 from scenewright.units import pin
 
 Array = NDArray[np.float64]
@@ -35,7 +35,7 @@ _ROUNDING = 1e-6
 _ROOMY = Body(VEHICLE_LENGTH_M + 0.5, VEHICLE_WIDTH_M + 0.5)  # a judge lets places be a little off
 
 
-def crowded(events: Events, lowered: Sequence[Lowered]) -> tuple[str, ...]:
+def crowded(events: Events, lowered: Sequence[Named]) -> tuple[str, ...]:
     """Return what clashes where too many must pass one place in too short a time; nothing where no such place is found.
 
     Heroes that the program wants in each other are not counted.
@@ -51,7 +51,7 @@ def crowded(events: Events, lowered: Sequence[Lowered]) -> tuple[str, ...]:
                 if len(_Facts.of(events, fewer).crowd(there)) == len(crowd):
                     kept = fewer
             tied = _ties(events.scene.program, crowd)
-            return (*dict.fromkeys([*(each.constraint.id for each in kept), *tied]), APART)
+            return (*dict.fromkeys([*(each.origin for each in kept), *tied]), APART)
     return ()
 
 
@@ -75,7 +75,7 @@ class _Facts:
     least_m: Mapping[tuple[int, int], float]
 
     @classmethod
-    def of(cls, events: Events, lowered: Sequence[Lowered]) -> _Facts:
+    def of(cls, events: Events, lowered: Sequence[Named]) -> _Facts:
         """Gather the facts of some constraints."""
         formulas = [each.formula for each in lowered]
         within = places_within(events, formulas).items()

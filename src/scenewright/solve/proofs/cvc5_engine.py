@@ -15,8 +15,8 @@ from scenewright.errors import SolverError
 from scenewright.solve.proofs import cvc5_process
 from scenewright.solve.proofs.events import Unknown
 from scenewright.solve.proofs.order import tightened
+from scenewright.solve.proofs.polynomials import Named
 from scenewright.solve.proofs.refuters import Answer, Capabilities
-from scenewright.solve.proofs.relaxation import Named
 from scenewright.solve.proofs.smtlib import smtlib
 
 _START_S = 1.0  # what a process may take to start, on a busy machine

@@ -16,19 +16,20 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from scenewright.motion.profile import Profile
 from scenewright.program.structure import Structure, actors_of
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.apart import apart
 from scenewright.solve.proofs.crowding import crowded
-from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, EgoDrive, Events, Unknown
+from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, Events, Unknown
 from scenewright.solve.proofs.guesses import carried_over, first_guess
-from scenewright.solve.proofs.lowering import Lowered, Lowering
-from scenewright.solve.proofs.polynomials import ZERO, Formula
+from scenewright.solve.proofs.lowering import Lowering
+from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, resting_on
 from scenewright.solve.proofs.refinement import Refinement
-from scenewright.solve.proofs.refuters import Refuter, core, refuter_called
-from scenewright.solve.proofs.relaxation import Named, relaxation, resting_on
+from scenewright.solve.proofs.refuters import SOLVERS, Refuter, core
+from scenewright.solve.proofs.relaxation import relaxation
 from scenewright.solve.proofs.search import Search
 from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
 
@@ -89,8 +90,8 @@ class Question:
     limits: Mapping[int, Limits]
     ego: EgoBounds = field(default_factory=EgoBounds)
     freed: Mapping[str, tuple[Fraction, Fraction]] = field(default_factory=dict)
-    drive: EgoDrive | None = None
-    refuter: Refuter = field(default_factory=refuter_called)
+    drive: Profile | None = None
+    refuter: Refuter = field(default_factory=lambda: SOLVERS.called("z3"))
     bending: frozenset[int] = frozenset()
 
     def constraints(self) -> tuple[Constraint, ...]:
@@ -103,14 +104,13 @@ class _Case:
     """One scene's events with what was added to them, grown as motions show the need."""
 
     def __init__(self, question: Question, owed: Owed = "nothing", plan: bool = True) -> None:
-        self.scene, self.structure, self.limits = question.scene, question.structure, question.limits
         self.events = Events(question.scene, question.limits, question.ego, question.drive, question.freed)
         self.lowering = Lowering(self.events, Fraction(1) if question.drive else ZERO)
         self.constraints = question.constraints()
         self._sizes = (0, 0)
-        self.lowered: list[Lowered] = []
+        self.lowered: list[Named] = []
         self.lower()
-        self.events.rules += apart(self.events, self.structure, self.constraints)
+        self.events.rules += apart(self.events, question.structure, self.constraints)
         self.more = Refinement(self.events, self.lowering, question.limits)
         if plan:
             self.more.lasting_rates()
@@ -127,11 +127,7 @@ class _Case:
 
     def formulas(self) -> list[Formula]:
         """Return all that a plan owes."""
-        return [
-            *(each.formula for each in self.lowered),
-            *(formula for formula, _ in self.events.rules),
-            *self.more.owed,
-        ]
+        return [*(each.formula for each in (*self.lowered, *self.events.rules)), *self.more.owed]
 
     def search(self) -> Search:
         """Return a search over what there is now."""
@@ -152,7 +148,7 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     """
     until = time.monotonic() + limit_s
     plain = _Case(question, plan=False)
-    left_out = {each.constraint.id: each.refused for each in plain.lowered if each.refused}
+    left_out = {each.origin: each.refused for each in plain.lowered if each.refused}
     if question.drive is None and (clashing := crowded(plain.events, plain.lowered)):
         return Decision("infeasible", core=clashing, left_out=left_out)
     cases: dict[frozenset[int], tuple[Sequence[Unknown], list[Named]]] = {}
@@ -210,7 +206,8 @@ class _Hunt:
             if point is None:
                 return None
             witness = realised(case.events, search, point)
-            self.amiss = tuple(broken(case.scene, case.structure, case.limits, case.events.ego, witness))
+            asked = self.question
+            self.amiss = tuple(broken(asked.scene, asked.structure, asked.limits, asked.ego, witness))
             if not self.amiss:
                 return witness
             if time.monotonic() > self.until or not case.more.mend(self.amiss, witness):

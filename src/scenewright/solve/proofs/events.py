@@ -8,7 +8,7 @@ stretch of an actor's way, and what is certain of the order of instants. It hold
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from scenewright.motion.laws import Law
@@ -19,7 +19,7 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.polynomials import (
     ZERO,
-    Formula,
+    Named,
     Polynomial,
     compare,
     every,
@@ -57,14 +57,6 @@ class EgoBounds:
 
 
 @dataclass(frozen=True, slots=True)
-class EgoDrive:
-    """How the ego really drove, and when it passed its knots: to ask whether any hero could have done better."""
-
-    motion: Profile
-    knot_times_s: Mapping[str, float]
-
-
-@dataclass(frozen=True, slots=True)
 class Unknown:
     """A real number to be found; its kind is ``time``, ``place``, ``speed``, ``rate`` or ``other``."""
 
@@ -99,13 +91,13 @@ class Events:
     scene: Scene
     limits: Mapping[int, Limits]
     ego: EgoBounds
-    drive: EgoDrive | None = None
+    drive: Profile | None = None  # how the ego really drove: to ask whether any hero could have done better
     freed: Mapping[str, tuple[Fraction, Fraction]] = field(default_factory=dict)
     unknowns: list[Unknown] = field(default_factory=list)
     times: list[Polynomial] = field(default_factory=list)
     states: dict[tuple[int, int], State] = field(default_factory=dict)
     stretches: dict[int, list[Stretch]] = field(default_factory=dict)
-    rules: list[tuple[Formula, str]] = field(default_factory=list)
+    rules: list[Named] = field(default_factory=list)
     parameters: dict[str, Polynomial] = field(default_factory=dict)
     start: int = 0
     defined: dict[int, Polynomial] = field(default_factory=dict)
@@ -158,8 +150,9 @@ class Events:
         made = self.instant(name)
         self.defined[made] = time
         mine = self.times[made]
-        self.rules.append((compare(">=", mine, time), "an interval begins and ends when it is said to"))
-        self.rules.append((some([compare("<=", mine, time), compare("<=", mine, ZERO)]), self.rules[-1][1]))
+        words = "an interval begins and ends when it is said to"
+        self.rules.append(Named(compare(">=", mine, time), words))
+        self.rules.append(Named(some([compare("<=", mine, time), compare("<=", mine, ZERO)]), words))
         return made
 
     def at_place(self, actor: int, place_m: Fraction) -> int:
@@ -173,7 +166,7 @@ class Events:
         there = compare("==", state.place, place_m)
         past = every([compare("<=", now, ZERO), compare(">=", state.place, place_m)])
         never = every([compare("<=", state.place, place_m), *(compare("<=", self.times[k], now) for k in others)])
-        self.rules.append((some([there, past, never]), "whoever drives passes one place after another"))
+        self.rules.append(Named(some([there, past, never]), "whoever drives passes one place after another"))
         return made
 
     def knot(self, actor: int, name: str) -> int:
@@ -185,7 +178,7 @@ class Events:
         key = (actor, instant)
         if key not in self.states:
             if actor == EGO and self.drive is not None and (known := self.times[instant].constant) is not None:
-                place, speed, _ = self.drive.motion.state(float(known))
+                place, speed, _ = self.drive.state(float(known))
                 self.states[key] = State(polynomial(pin(place)), polynomial(pin(speed)))
                 return self.states[key]
             law = self.law_of(actor)
@@ -239,18 +232,14 @@ class Events:
         """Put a law on each stretch of an actor's way; neighbours under one law are one stretch."""
         knots = [self.knot(actor.id, name) for name in actor.sketch.knots]
         found: list[Stretch] = []
-        for piece, kind in enumerate(actor.sketch.pieces):
+        for first, last, kind in zip(knots, (*knots[1:], None), (*actor.sketch.pieces, PieceKind.GO), strict=True):
             law = self.law_of_piece(actor.id, kind)
-            self.order(knots[piece], knots[piece + 1])
+            if last is not None:
+                self.order(first, last)
             if found and found[-1].law == law:
-                found[-1] = Stretch(law, found[-1].first, knots[piece + 1], found[-1].kind)
+                found[-1] = replace(found[-1], last=last)
             else:
-                found.append(Stretch(law, knots[piece], knots[piece + 1], kind))
-        free = self.law_of(actor.id)
-        if found[-1].law == free:
-            found[-1] = Stretch(free, found[-1].first, None, found[-1].kind)
-        else:
-            found.append(Stretch(free, knots[-1], None, PieceKind.GO))
+                found.append(Stretch(law, first, last, kind))
         self.stretches[actor.id] = found
         for instant in dict.fromkeys(knots):
             self.state(actor.id, instant)

@@ -10,8 +10,6 @@ from dataclasses import replace
 from scenewright.program import expressions as ex
 from scenewright.program.types import Program
 
-_CONTRARY: dict[str, ex.ComparisonOperator] = {"<=": ">", "<": ">=", ">=": "<", ">": "<="}
-
 
 def asserted(formula: ex.Formula, program: Program, denied: bool = False) -> ex.Formula:
     """Return a formula, or its contrary, as `and`, `or`, `always` and `eventually` of comparisons and nothing else.
@@ -31,15 +29,14 @@ def asserted(formula: ex.Formula, program: Program, denied: bool = False) -> ex.
             return replace(formula, operator="always" if lasting else "eventually", body=body)
         case ex.Compare() if (node := ex.piece_of(formula)) is not None and node.order != 2:
             assert isinstance(node.at, ex.PieceRef)
-            sketch = program.actor(node.actor).sketch
-            number = sketch.piece_index(node.at.name)
-            first, last = (ex.Elapsed(node.actor, knot) for knot in sketch.knots[number : number + 2])
-            body = ex.with_state(formula, node, replace(node, at=None))
+            ends = program.actor(node.actor).sketch.piece_ends(node.at.name)
+            first, last = (ex.Elapsed(node.actor, knot) for knot in ends)
+            body = ex.at_each_moment(formula, node)
             return asserted(ex.Temporal("always", first, last, body), program, denied)
         case ex.Compare(operator="==") if denied:
             return ex.Logic("or", (replace(formula, operator="<"), replace(formula, operator=">")))
         case ex.Compare() if denied:
-            return replace(formula, operator=_CONTRARY[formula.operator])
+            return replace(formula, operator=ex.CONTRARY[formula.operator])
     return formula
 
 

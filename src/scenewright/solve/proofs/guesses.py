@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from scenewright.solve.proofs.events import Events, Unknown
 from scenewright.solve.proofs.order import tightened, told_values
-from scenewright.solve.proofs.polynomials import Formula, Polynomial
+from scenewright.solve.proofs.polynomials import Formula
 from scenewright.solve.proofs.witness import Witness
 
 Array = NDArray[np.float64]
@@ -31,11 +31,12 @@ def first_guess(events: Events, formulas: Iterable[Formula], generator: np.rando
     times = _times(events, ranges, told, point, speed, generator)
     for actor in events.scene.program.actors:
         instants = sorted(events.instants_of(actor.id), key=times.__getitem__)
-        anchors = [(times[k], told[number]) for k in instants if (number := _place(events, actor.id, k)) in told] or [
-            (times[instants[0]], max(5.0, events.scene.landmarks_m[actor.id].get("stop_line", 80.0) - 60.0))
-        ]
+        anchors = [
+            (times[k], told[number]) for k in instants if (number := events.state(actor.id, k).place.number) in told
+        ] or [(times[instants[0]], max(5.0, events.scene.landmarks_m[actor.id].get("stop_line", 80.0) - 60.0))]
         for instant in instants:
-            place, own = _place(events, actor.id, instant), _speed(events, actor.id, instant)
+            state = events.state(actor.id, instant)
+            place, own = state.place.number, state.speed.number
             if place not in told:
                 time_s, place_m = min(anchors, key=lambda anchor: abs(anchor[0] - times[instant]))
                 point[place] = place_m + speed * (times[instant] - time_s)
@@ -56,7 +57,7 @@ def _times(
     times = {number: float(value) for number, time in enumerate(events.times) if (value := time.constant) is not None}
 
     def put(instant: int, time_s: float) -> None:
-        number = _number(events.times[instant])
+        number = events.times[instant].number
         times[instant] = point[number] = min(max(time_s, float(ranges[number].low)), float(ranges[number].high))
 
     for actor in events.scene.program.actors:
@@ -66,7 +67,7 @@ def _times(
             if knot in times:
                 now = max(now, times[knot])
                 continue
-            here, there = (told.get(_place(events, actor.id, k)) for k in (before, knot))
+            here, there = (told.get(events.state(actor.id, k).place.number) for k in (before, knot))
             later = _GAP_S if generator is None else float(generator.uniform(1.0, 6.0))
             now += later if here is None or there is None else max(0.5, (there - here) / speed)
             put(knot, now)
@@ -97,24 +98,11 @@ def carried_over(events: Events, point: Array, witness: Witness) -> Array:
     grown = np.append(point, np.zeros(len(events.unknowns) - len(point)))
     passed = {instant: witness.profiles[actor].time_at(float(p)) for (actor, p), instant in events.places.items()}
     for instant, time in enumerate(events.times):
-        if time.constant is None and (number := _number(time)) >= len(point):
+        if time.constant is None and (number := time.number) >= len(point):
             defined, time_s = events.defined.get(instant), passed.get(instant)
             grown[number] = max(0.0, defined.value(grown)) if defined else min(time_s or witness.end_s, witness.end_s)
     for (actor, instant), state in events.states.items():
-        if (number := _number(state.place)) >= len(point):
+        if (number := state.place.number) >= len(point):
             place, speed, _ = witness.profiles[actor].state(events.times[instant].value(grown))
-            grown[number], grown[_number(state.speed)] = place, speed
+            grown[number], grown[state.speed.number] = place, speed
     return grown
-
-
-def _place(events: Events, actor: int, instant: int) -> int:
-    return _number(events.state(actor, instant).place)
-
-
-def _speed(events: Events, actor: int, instant: int) -> int:
-    return _number(events.state(actor, instant).speed)
-
-
-def _number(polynomial: Polynomial) -> int:
-    """Return which unknown a polynomial is."""
-    return next(iter(polynomial.terms))[0]

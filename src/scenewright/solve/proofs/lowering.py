@@ -24,6 +24,7 @@ from scenewright.solve.proofs.polynomials import (
     TRUE,
     ZERO,
     Formula,
+    Named,
     Polynomial,
     TooHigh,
     compare,
@@ -48,15 +49,6 @@ class Case:
     endless: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Lowered:
-    """One constraint: what proofs may rest on, what a plan owes besides, and why it could not be lowered, if so."""
-
-    constraint: Constraint
-    formula: Formula
-    refused: str = ""
-
-
 @dataclass(slots=True)
 class Lowering:
     """Lowers the constraints of one scene over its events.
@@ -71,7 +63,7 @@ class Lowering:
     means: dict[tuple[int, int, int], Polynomial] = field(default_factory=dict)  # of pieces, by actor and ends
     _happens: dict[tuple[int, int, ex.Formula], int] = field(default_factory=dict)
 
-    def lower(self, constraints: tuple[Constraint, ...]) -> list[Lowered]:
+    def lower(self, constraints: tuple[Constraint, ...]) -> list[Named]:
         """Return every constraint as a formula. All moments are made first: an `always` is about all that there are.
 
         May be asked again when there are more moments.
@@ -84,11 +76,11 @@ class Lowering:
                 self.narrowings += (replace(each, origin=constraint.id) for each in narrowings_of(self, formula))
         return [self._lowered(*each) for each in zip(constraints, formulas, strict=True)]
 
-    def _lowered(self, constraint: Constraint, formula: ex.Formula) -> Lowered:
+    def _lowered(self, constraint: Constraint, formula: ex.Formula) -> Named:
         try:
-            return Lowered(constraint, self.formula(formula, None))
+            return Named(self.formula(formula, None), constraint.id)
         except TooHigh as why:
-            return Lowered(constraint, TRUE, str(why))
+            return Named(TRUE, constraint.id, refused=str(why))
 
     # -- moments ------------------------------------------------------------------------------------------------------
     def _make_moments(self, formula: ex.Formula) -> None:
@@ -272,7 +264,7 @@ class Lowering:
             rate = self.events.new(f"r{actor}_{piece}", law.rate_low, law.rate_high, "rate")
             lasts = self.events.times[last] - self.events.times[first]
             change = self.events.state(actor, last).speed - self.events.state(actor, first).speed
-            self.events.rules.append((compare("==", rate * lasts, change), MEAN_RATE))
+            self.events.rules.append(Named(compare("==", rate * lasts, change), MEAN_RATE))
             self.means[key] = rate
         return self.means[key]
 
@@ -287,12 +279,8 @@ class Lowering:
 
     def piece_ends(self, actor: int, piece: str) -> tuple[int, int]:
         """Return the instants at which a piece begins and ends."""
-        sketch = self.events.scene.program.actor(actor).sketch
-        number = sketch.piece_index(piece)
-        return (
-            self.events.knot(actor, sketch.knots[number]),
-            self.events.knot(actor, sketch.knots[number + 1]),
-        )
+        begins, ends = self.events.scene.program.actor(actor).sketch.piece_ends(piece)
+        return self.events.knot(actor, begins), self.events.knot(actor, ends)
 
     # -- stretches of time --------------------------------------------------------------------------------------------
     def _always(self, first: int, last: int, body: ex.Formula) -> Formula:

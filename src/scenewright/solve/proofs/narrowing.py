@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from scenewright.solve.proofs.lowering import Lowering
 
 _RATE_ROOM_MPSS = Fraction(1, 1000)  # for numbers that were rounded; half of what a witness may be off
-_MIRRORED = {"<=": ">=", "<": ">", ">=": "<=", ">": "<", "==": "=="}
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +80,7 @@ def narrowings_of(lowering: Lowering, formula: ex.Formula) -> Iterator[Narrowing
             ends = lowering.piece_ends(node.actor, node.at.name)
             if formula.operator == "==":  # a rate that is one number is one all through
                 yield Narrowing(node.actor, *ends, ANY, even=True)
-            if law := _law_of(lowering, ex.with_state(formula, node, replace(node, at=None))):
+            if law := _law_of(lowering, ex.at_each_moment(formula, node)):
                 yield Narrowing(law[0], *ends, law[1])
 
 
@@ -91,7 +90,7 @@ def _law_of(lowering: Lowering, body: ex.Formula) -> tuple[int, Law] | None:
         case ex.Compare(left=ex.State(order=(1 | 2) as order, at=None, actor=actor), right=right):
             operator: str = body.operator
         case ex.Compare(left=right, right=ex.State(order=(1 | 2) as order, at=None, actor=actor)):
-            operator = _MIRRORED[body.operator]
+            operator = ex.FLIPPED[body.operator]
         case _:
             return None
     if (bound := _constant(lowering, right)) is None:
@@ -108,19 +107,15 @@ def _law_of(lowering: Lowering, body: ex.Formula) -> tuple[int, Law] | None:
 
 def _place_of(lowering: Lowering, formula: ex.Formula) -> tuple[int, Fraction, bool] | None:
     """Return actor and place (m) of "is past a place" (True) or "is before it"; None for anything else."""
-    if not isinstance(formula, ex.Compare) or formula.operator == "==":
-        return None
-    state, other = formula.left, formula.right
-    if not (isinstance(state, ex.State) and state.order == 0 and state.at is None):
-        return None
-    if any(isinstance(node, ex.State | ex.Derived | ex.Elapsed) for node in ex.walk(other)):
-        return None
-    found = lowering.term(other, None)[0].top.constant
-    return None if found is None else (state.actor, found, formula.operator in (">", ">="))
+    match formula:
+        case ex.Compare("<=" | "<" | ">=" | ">", ex.State(order=0, at=None, actor=actor), place):
+            found = _constant(lowering, place)
+            return None if found is None else (actor, found, formula.operator in (">", ">="))
+    return None
 
 
 def _constant(lowering: Lowering, term: ex.Term) -> Fraction | None:
-    if any(isinstance(node, ex.State | ex.Derived | ex.Elapsed | ex.Landmark) for node in ex.walk(term)):
+    if any(isinstance(node, ex.State | ex.Derived | ex.Elapsed) for node in ex.walk(term)):
         return None
     top, below = lowering.plain(term)
     if top.constant is None or not below.constant:

@@ -146,7 +146,7 @@ def places_within(events: Events, formulas: Iterable[Formula]) -> dict[tuple[int
         if each.law.speed_high == 0 and each.last is not None
     ]
     found = tightened(events.unknowns, [*formulas, *on, *still], _PASSES)
-    ranges = {key: found[next(iter(place.terms))[0]] for key, place in own.items()}
+    ranges = {key: found[place.number] for key, place in own.items()}
     return {key: (each.low, each.high) for key, each in ranges.items()}
 
 

@@ -6,7 +6,7 @@ conjunctions and disjunctions with comparisons to zero as leaves. Negation is pu
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
@@ -23,19 +23,11 @@ class TooHigh(Exception):  # noqa: N818 - a signal of the algebra, turned into a
     """A product is of a higher degree than solvers take."""
 
 
+@dataclass(slots=True)
 class Polynomial:
-    """A sum of monomials with exact coefficients. Supports ``+ - *`` and division by constants."""
+    """A sum of monomials with exact coefficients. Supports ``+ - *``; never changed once it is made."""
 
-    __slots__ = ("terms",)
-
-    def __init__(self, terms: Mapping[Monomial, Fraction]) -> None:
-        self.terms = terms
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Polynomial) and self.terms == other.terms
-
-    def __hash__(self) -> int:
-        return hash(frozenset(self.terms.items()))
+    terms: Mapping[Monomial, Fraction]
 
     def __add__(self, other: Scalar) -> Polynomial:
         mine, added = dict(self.terms), polynomial(other).terms
@@ -83,6 +75,11 @@ class Polynomial:
     def degree(self) -> int:
         """The most unknowns that are multiplied."""
         return max((len(key) for key in self.terms), default=0)
+
+    @property
+    def number(self) -> int:
+        """Which unknown it is, where it is one."""
+        return next(iter(self.terms))[0]
 
     def value(self, point: Point) -> float:
         """Return the value at a point."""
@@ -140,6 +137,30 @@ Formula = Atom | All | Some
 TRUE, FALSE = All(()), Some(())
 
 
+@dataclass(frozen=True, slots=True)
+class Named:
+    """A formula, and what it rests on: a constraint's id, or a law in words.
+
+    `besides` are ids of constraints that it rests on, too: those that make a law narrower. `refused` says why a
+    constraint could not be lowered, where it could not; there is nothing in its formula then.
+    """
+
+    formula: Formula
+    origin: str
+    besides: tuple[str, ...] = ()
+    refused: str = ""
+
+    @property
+    def origins(self) -> tuple[str, ...]:
+        """All that it rests on."""
+        return (self.origin, *self.besides)
+
+
+def resting_on(formulas: Sequence[Named], origins: Collection[str]) -> list[Named]:
+    """Return the formulas that rest on `origins` alone."""
+    return [each for each in formulas if all(origin in origins for origin in each.origins)]
+
+
 def atom(left: Scalar, relation: Relation) -> Formula:
     """Return a comparison with zero; a truth value where no unknown is in it."""
     left = polynomial(left)
@@ -152,42 +173,35 @@ def atom(left: Scalar, relation: Relation) -> Formula:
 
 def compare(operator: str, left: Scalar, right: Scalar) -> Formula:
     """Return ``left operator right``, with any of ``== <= < >= >``."""
-    left, right = polynomial(left), polynomial(right)
     match operator:
-        case "==":
-            return atom(left - right, "==")
-        case "<=" | "<":
-            return atom(left - right, "<=" if operator == "<=" else "<")
+        case "==" | "<=" | "<":
+            return atom(polynomial(left) - right, operator)
         case ">=":
-            return atom(right - left, "<=")
+            return atom(polynomial(right) - left, "<=")
         case _:
-            return atom(right - left, "<")
+            return atom(polynomial(right) - left, "<")
 
 
 def every(parts: Iterable[Formula]) -> Formula:
     """Return the conjunction of `parts`, flat."""
-    found: list[Formula] = []
-    for part in parts:
-        if isinstance(part, All):
-            found += part.parts
-        elif part == FALSE:
-            return FALSE
-        else:
-            found.append(part)
-    return found[0] if len(found) == 1 else All(tuple(found))
+    return _joined(All, parts, FALSE)
 
 
 def some(parts: Iterable[Formula]) -> Formula:
     """Return the disjunction of `parts`, flat."""
+    return _joined(Some, parts, TRUE)
+
+
+def _joined(kind: type[All | Some], parts: Iterable[Formula], deciding: Formula) -> Formula:
     found: list[Formula] = []
     for part in parts:
-        if isinstance(part, Some):
+        if isinstance(part, kind):
             found += part.parts
-        elif part == TRUE:
-            return TRUE
+        elif part == deciding:
+            return deciding
         else:
             found.append(part)
-    return found[0] if len(found) == 1 else Some(tuple(found))
+    return found[0] if len(found) == 1 else kind(tuple(found))
 
 
 def atoms(formula: Formula) -> Iterator[Atom]:

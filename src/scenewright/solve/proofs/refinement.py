@@ -27,7 +27,7 @@ from scenewright.solve.proofs.forms import asserted, free_actors
 from scenewright.solve.proofs.lowering import RATE_LASTS_S, Lowering
 from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.order import places_within
-from scenewright.solve.proofs.polynomials import ZERO, Formula, compare, every, some
+from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, compare, every, some
 from scenewright.solve.proofs.witness import Broken, Witness, bends
 from scenewright.units import pin
 
@@ -223,7 +223,7 @@ class Refinement:
                 self.narrowings.append(Narrowing(actor, *ends, held, held, origin=words))
             for state in (events.state(actor, instant) for instant in events.instants_of(actor)):
                 elsewhere = [compare("<", state.place, first_m), compare(">", state.place, last_m)]
-                events.rules.append((some([*elsewhere, compare("<=", state.speed, held.speed_high)]), words))
+                events.rules.append(Named(some([*elsewhere, compare("<=", state.speed, held.speed_high)]), words))
 
     # -- apart --------------------------------------------------------------------------------------------------------
     def _keep_apart(self, broken: Broken, witness: Witness) -> bool:

@@ -16,7 +16,7 @@ from typing import Literal, Protocol
 from scenewright.errors import SolverError
 from scenewright.plugins import Kind
 from scenewright.solve.proofs.events import Unknown
-from scenewright.solve.proofs.relaxation import Named, resting_on
+from scenewright.solve.proofs.polynomials import Named, resting_on
 
 GROUP = "scenewright.solvers"
 _OURS = tuple(
@@ -82,21 +82,6 @@ class Refuter(Protocol):
     ) -> Answer:
         """Ask whether all `formulas` can hold at once; timeouts are answers, never exceptions."""
         ...
-
-
-def refuter_called(name: str = "z3") -> Refuter:
-    """Return the solver of that name.
-
-    Raises
-    ------
-    InputError
-        Where there is none.
-    MissingExtraError
-        Where it needs something that is not installed.
-    SolverError
-        Where it cannot be imported.
-    """
-    return SOLVERS.called(name)
 
 
 def core(refuter: Refuter, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float) -> tuple[str, ...]:

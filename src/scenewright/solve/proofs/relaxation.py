@@ -7,8 +7,7 @@ known to lie within the scenario.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
 
@@ -18,7 +17,6 @@ from numpy.typing import NDArray
 from scenewright.motion.laws import Law, reach
 from scenewright.program.types import EGO
 from scenewright.solve.proofs.events import Events, Stretch
-from scenewright.solve.proofs.lowering import Lowered
 from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.order import least_differences, places_within
 from scenewright.solve.proofs.polynomials import (
@@ -26,7 +24,7 @@ from scenewright.solve.proofs.polynomials import (
     TRUE,
     ZERO,
     Formula,
-    Polynomial,
+    Named,
     atom,
     compare,
     every,
@@ -37,32 +35,9 @@ from scenewright.translate.phrases import does
 _CERTAIN = 1e-9
 
 
-@dataclass(frozen=True, slots=True)
-class Named:
-    """A formula, and what it rests on: a constraint's id, or a law in words.
-
-    `besides` are ids of constraints that it rests on, too: those that make a law narrower.
-    """
-
-    formula: Formula
-    origin: str
-    besides: tuple[str, ...] = ()
-
-    @property
-    def origins(self) -> tuple[str, ...]:
-        """All that it rests on."""
-        return (self.origin, *self.besides)
-
-
-def resting_on(formulas: Sequence[Named], origins: Collection[str]) -> list[Named]:
-    """Return the formulas that rest on `origins` alone."""
-    return [each for each in formulas if all(origin in origins for origin in each.origins)]
-
-
-def relaxation(events: Events, narrowings: Sequence[Narrowing], constraints: Sequence[Lowered]) -> list[Named]:
+def relaxation(events: Events, narrowings: Sequence[Narrowing], constraints: Sequence[Named]) -> list[Named]:
     """Return all that must hold of any motion; of `narrowings` what is proven of them."""
-    found = [Named(each.formula, each.constraint.id) for each in constraints]
-    found += [Named(formula, origin) for formula, origin in events.rules]
+    found = [*constraints, *events.rules]
     formulas = [each.formula for each in constraints]
     least, within = least_differences(events, formulas), places_within(events, formulas)
     narrowings = [each for each in narrowings if not each.up_to_place or _begins_before(each, within)]
@@ -140,27 +115,19 @@ def _narrowed(
     return law, tuple(dict.fromkeys(origins))
 
 
-def _if_inside(
-    events: Events, stretch: Stretch, instants: list[int], held: Formula, least: NDArray[np.float64]
-) -> Formula:
-    """Return that `held`, unless one of the moments lies outside the stretch."""
-    outside = []
-    for instant in instants:
-        if least[stretch.first, instant] < 0:
-            outside.append(compare("<", events.times[instant], events.times[stretch.first]))
-        if stretch.last is not None and least[instant, stretch.last] < 0:
-            outside.append(compare(">", events.times[instant], events.times[stretch.last]))
-    return some([*outside, held])
-
-
 def _between(
     events: Events, actor: int, stretch: Stretch, early: int, late: int, law: Law, least: NDArray[np.float64]
 ) -> Formula:
     """Return the reach of a law between two moments, unless they come the other way round or lie outside."""
-    held = reach_formula(events, actor, early, late, law)
+    times, unless = events.times, []
+    for instant in (early, late):
+        if least[stretch.first, instant] < 0:
+            unless.append(compare("<", times[instant], times[stretch.first]))
+        if stretch.last is not None and least[instant, stretch.last] < 0:
+            unless.append(compare(">", times[instant], times[stretch.last]))
     if least[early, late] < 0:
-        held = some([compare("<", events.times[late], events.times[early]), held])
-    return _if_inside(events, stretch, [early, late], held, least)
+        unless.append(compare("<", times[late], times[early]))
+    return some([*unless, reach_formula(events, actor, early, late, law)])
 
 
 def reach_formula(events: Events, actor: int, early: int, late: int, law: Law) -> Formula:
@@ -180,13 +147,8 @@ def reach_formula(events: Events, actor: int, early: int, late: int, law: Law) -
     return every(
         [
             *caps,
-            *(atom(_scalar(row), "<=") for row in found.rows),
-            *(atom(_scalar(row), "==") for row in found.equal),
-            *(some([atom(_scalar(one), "<="), atom(_scalar(other), "<=")]) for one, other in found.choices),
+            *(atom(row, "<=") for row in found.rows),
+            *(atom(row, "==") for row in found.equal),
+            *(some([atom(one, "<="), atom(other, "<=")]) for one, other in found.choices),
         ]
     )
-
-
-def _scalar(value: object) -> Polynomial:
-    assert isinstance(value, Polynomial)
-    return value

@@ -16,9 +16,8 @@ import pyscipopt
 
 from scenewright.solve.proofs.events import Unknown
 from scenewright.solve.proofs.order import tightened
-from scenewright.solve.proofs.polynomials import All, Atom, Formula, Polynomial, Some
+from scenewright.solve.proofs.polynomials import All, Atom, Formula, Named, Polynomial, Some
 from scenewright.solve.proofs.refuters import Answer, Capabilities
-from scenewright.solve.proofs.relaxation import Named
 
 
 class Scip:

@@ -43,22 +43,21 @@ class Search:
     def __init__(self, events: Events, formulas: Sequence[Formula], narrowings: Sequence[Narrowing]) -> None:
         self.events = events
         self.formulas = formulas
-        self.narrowings = narrowings
         self.steps = 0
         self._least = least_differences(events, formulas)
         self._told = told_values(tightened(events.unknowns, formulas))
-        size = len(self.events.unknowns)
-        self._size = size
-        self._compiled = Compiled(self.formulas, size, self._ruled_out)
-        self._low = np.array([float(each.low) for each in self.events.unknowns])
-        self._high = np.array([float(each.high) for each in self.events.unknowns])
-        self._scale = np.array([_SCALE[each.kind] for each in self.events.unknowns])
-        free = np.array([each.kind == "other" for each in self.events.unknowns])
+        self._size = len(events.unknowns)
+        self._compiled = Compiled(formulas, self._size, self._ruled_out)
+        self._low = np.array([float(each.low) for each in events.unknowns])
+        self._high = np.array([float(each.high) for each in events.unknowns])
+        self._scale = np.array([_SCALE[each.kind] for each in events.unknowns])
+        free = np.array([each.kind == "other" for each in events.unknowns])
         self._scale = np.where(free, np.maximum(1.0, 0.25 * (self._high - self._low)), self._scale)
         self._liking: Array = np.ones(0)
-        self._actors = [
-            _Line.of(self.events, actor.id, size, self._least) for actor in self.events.scene.program.actors
-        ]
+        self._lines = {
+            actor.id: _Line.of(events, actor.id, self._least, [each for each in narrowings if each.actor == actor.id])
+            for actor in events.scene.program.actors
+        }
 
     def _ruled_out(self, part: Formula) -> bool:
         """Whether an alternative contradicts the order of moments or values that are told: it is never the nearest."""
@@ -139,7 +138,7 @@ class Search:
         errors = np.where(self._compiled.equal, np.abs(levels), levels)
         taken = np.array(self._compiled.chosen(errors * self._liking), dtype=np.intp)
         parts = [(scaled[taken] / norms[taken, None], levels[taken], self._compiled.equal[taken])]
-        parts += [line.rows(point, self._scale, self.narrowings) for line in self._actors]
+        parts += [line.rows(point, self._scale) for line in self._lines.values()]
         return (
             np.concatenate([part[0] for part in parts]),
             np.concatenate([part[1] for part in parts]),
@@ -148,17 +147,15 @@ class Search:
 
     def way_of(self, point: Array, actor: int) -> tuple[list[int], list[Law]]:
         """Return an actor's instants in the order of their times, and the laws between them."""
-        line = next(line for line in self._actors if line.actor == actor)
-        point = np.append(point, 1.0)
+        line, point = self._lines[actor], np.append(point, 1.0)
         order = line.sorted(point)
-        return [line.instants[k] for k in order], line.laws_between(order, point, self.narrowings)[0]
+        return [line.instants[k] for k in order], line.laws_between(order, point)[0]
 
 
 @dataclass(slots=True)
 class _Line:
     """One actor's moments along time: numbers of their unknowns; a known time is a multiple of the one at the end."""
 
-    actor: int
     instants: list[int]
     time: NDArray[np.intp]
     time_factor: Array
@@ -166,28 +163,29 @@ class _Line:
     speed: NDArray[np.intp]
     before: NDArray[np.bool_]  # which certainly come before which; everything before itself
     laws: list[tuple[int, Law]]  # position of the first moment of each stretch, and its law
+    narrowings: Sequence[Narrowing]
 
     @classmethod
-    def of(cls, events: Events, actor: int, size: int, least: Array) -> _Line:
+    def of(cls, events: Events, actor: int, least: Array, narrowings: Sequence[Narrowing]) -> _Line:
         """Collect the moments of an actor."""
         instants = events.instants_of(actor)
         where = {instant: k for k, instant in enumerate(instants)}
         time, factor = [], []
         for instant in instants:
             constant = events.times[instant].constant
-            time.append(size if constant is not None else next(iter(events.times[instant].terms))[0])
+            time.append(len(events.unknowns) if constant is not None else events.times[instant].number)
             factor.append(1.0 if constant is None else float(constant))
         states = [events.state(actor, instant) for instant in instants]
         laws = [(where[stretch.first], stretch.law) for stretch in events.stretches[actor]]
         return cls(
-            actor,
             instants,
             np.array(time, dtype=np.intp),
             np.array(factor),
-            np.array([next(iter(state.place.terms))[0] for state in states], dtype=np.intp),
-            np.array([next(iter(state.speed.terms))[0] for state in states], dtype=np.intp),
+            np.array([state.place.number for state in states], dtype=np.intp),
+            np.array([state.speed.number for state in states], dtype=np.intp),
             least[np.ix_(instants, instants)] >= 0.0,
             laws,
+            narrowings,
         )
 
     def sorted(self, point: Array) -> list[int]:
@@ -197,13 +195,11 @@ class _Line:
         rank = self.before.sum(axis=0)
         return sorted(range(len(times)), key=lambda k: (latest[k], rank[k], k))
 
-    def rows(
-        self, point: Array, scale: Array, narrowings: Sequence[Narrowing]
-    ) -> tuple[Array, Array, NDArray[np.bool_]]:
+    def rows(self, point: Array, scale: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
         """Return the laws between neighbours, linearised."""
         order = self.sorted(point)
         early, late = np.array(order[:-1], dtype=np.intp), np.array(order[1:], dtype=np.intp)
-        laws, even = self.laws_between(order, point, narrowings)
+        laws, even = self.laws_between(order, point)
         bounds = np.array([[float(getattr(law, name)) for law in laws] for name in _BOUNDS])
         times, place = self.time_factor * point[self.time], point[self.place]
         ends = (
@@ -213,8 +209,7 @@ class _Line:
             place[late] - place[early],
         )
         levels, slopes, equal, keep = _conditions(bounds, even, np.array(ends))
-        count, kinds = len(early), levels.shape[0]
-        width = len(point)
+        count, kinds, width = len(early), levels.shape[0], len(point)
         rows = np.zeros((kinds, count, width))
         pair = np.arange(count)
         g1, g2, gd, gx = np.moveaxis(slopes, 1, 0)
@@ -233,9 +228,7 @@ class _Line:
         norms = np.maximum(norms, 1e-9)
         return flat[keep] / norms[keep, None], (levels.reshape(-1) / norms)[keep], np.repeat(equal, count)[keep]
 
-    def laws_between(
-        self, order: Sequence[int], point: Array, narrowings: Sequence[Narrowing]
-    ) -> tuple[list[Law], NDArray[np.bool_]]:
+    def laws_between(self, order: Sequence[int], point: Array) -> tuple[list[Law], NDArray[np.bool_]]:
         """Return the law between each two neighbours, and whether there is to be one rate.
 
         What ends at a place that is passed when it begins, or begins at one that is passed never, narrows nothing.
@@ -245,16 +238,15 @@ class _Line:
         laws, even = [starts[0][2]] * (len(order) - 1), np.zeros(len(order) - 1, dtype=bool)
         for start, _, law in starts:
             laws[start:] = [law] * len(laws[start:])
-        for narrowing in narrowings:
-            if narrowing.actor == self.actor:
-                begin = max(where[instant] for instant in narrowing.begins())
-                end = min(where[instant] for instant in narrowing.ends())
-                edge = where[narrowing.first if narrowing.up_to_place else narrowing.last]
-                past = place[order[edge]] > float(narrowing.place_m) - _CLEAR
-                if narrowing.place is not None and past == narrowing.up_to_place:
-                    continue
-                even[begin:end] |= narrowing.even
-                laws[begin:end] = [law.meet(narrowing.law) for law in laws[begin:end]]
+        for narrowing in self.narrowings:
+            begin = max(where[instant] for instant in narrowing.begins())
+            end = min(where[instant] for instant in narrowing.ends())
+            edge = where[narrowing.first if narrowing.up_to_place else narrowing.last]
+            past = place[order[edge]] > float(narrowing.place_m) - _CLEAR
+            if narrowing.place is not None and past == narrowing.up_to_place:
+                continue
+            even[begin:end] |= narrowing.even
+            laws[begin:end] = [law.meet(narrowing.law) for law in laws[begin:end]]
         return laws, even
 
 

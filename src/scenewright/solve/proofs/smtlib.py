@@ -9,8 +9,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from scenewright.solve.proofs.events import Unknown
-from scenewright.solve.proofs.polynomials import All, Atom, Formula, Polynomial, Some
-from scenewright.solve.proofs.relaxation import Named
+from scenewright.solve.proofs.polynomials import All, Atom, Formula, Named, Polynomial, Some
 
 
 def smtlib(unknowns: Sequence[Unknown], formulas: Sequence[Named], named: bool = False) -> str:

@@ -11,7 +11,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -146,8 +146,7 @@ def _touching(
     scene: Scene, structure: Structure, witness: Witness, times: Array, states: Mapping[int, Array]
 ) -> list[Broken]:
     """Return pairs whose boxes touch before the last trigger."""
-    found = []
-    triggers = []
+    found, triggers = [], []
     for hero in scene.program.heroes:  # who has no trigger may touch nobody at all
         knot = structure.trigger_knot(hero.id)
         triggers.append(witness.end_s if knot is None else witness.profiles[hero.id].knot_times_s.get(knot, 0.0))
@@ -158,14 +157,12 @@ def _touching(
     for actor in scene.program.actors:
         places = np.interp(often, times, states[actor.id][:, 0])
         boxes[actor.id] = scene.routes[actor.id].path.poses(places)
-    actors = sorted(boxes)
-    for number, a in enumerate(actors):
-        for b in actors[number + 1 :]:
-            touch = overlap(boxes[a], boxes[b], body, body)
-            if touch.any() and not _asked_for(scene, structure, witness, (a, b), often[touch]):
-                apart = np.hypot(*(boxes[a] - boxes[b]).T[:2])
-                deepest = int(np.argmin(np.where(touch, apart, np.inf)))
-                found.append(Broken("apart", b, float(often[deepest]), 1.0, a))
+    for a, b in combinations(sorted(boxes), 2):
+        touch = overlap(boxes[a], boxes[b], body, body)
+        if touch.any() and not _asked_for(scene, structure, witness, (a, b), often[touch]):
+            apart = np.hypot(*(boxes[a] - boxes[b]).T[:2])
+            deepest = int(np.argmin(np.where(touch, apart, np.inf)))
+            found.append(Broken("apart", b, float(often[deepest]), 1.0, a))
     return found
 
 

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 from scenewright.solve.proofs.events import Unknown
 from scenewright.solve.proofs.order import tightened
+from scenewright.solve.proofs.polynomials import Named
 from scenewright.solve.proofs.refuters import Answer, Capabilities
-from scenewright.solve.proofs.relaxation import Named
 from scenewright.solve.proofs.smtlib import smtlib
 
 if TYPE_CHECKING:

@@ -102,10 +102,6 @@ class FollowingHeroes:
         """Return the last record: this method keeps its own time."""
         return self.records[-1]
 
-    def ego_stood_s(self, time_s: float) -> float:
-        """Return for how long the ego has not moved (s)."""
-        return self._planner.ego_stood_s(time_s)
-
     def observe(self, sample: EgoSample) -> None:
         """Take note of the ego; once a second, solve again and issue waypoints; let the models drive the next step."""
         time_s = sample[0]

@@ -17,7 +17,6 @@ from scenewright.solve.plan import Plan
 from scenewright.study.rivals.script import Script
 
 _NEVER_S = float("inf")
-_MOVES_MPS = 0.1
 
 
 class ScriptedHeroes:
@@ -43,7 +42,6 @@ class ScriptedHeroes:
         self.fired_s: dict[int, float] = {}
         self._structure = structure
         self._motions = {hero: _waiting(script) for hero, script in scripts.items()}
-        self._moved_s = 0.0
 
     @property
     def is_alarmed(self) -> bool:
@@ -59,8 +57,6 @@ class ScriptedHeroes:
     def observe(self, sample: EgoSample) -> None:
         """Look at the conditions, and start the manoeuvre of every hero whose group holds for the first time."""
         time_s, ego_m, ego_mps, _ = sample
-        if ego_mps > _MOVES_MPS:
-            self._moved_s = time_s
         states = {hero: motion.state(time_s)[:2] for hero, motion in self._motions.items()}
         states[EGO] = (ego_m, ego_mps)
         for hero, script in self.scripts.items():
@@ -77,10 +73,6 @@ class ScriptedHeroes:
     def approach(self, script: Script, motion: Profile, ego: EgoSample) -> Profile:
         """Return the motion of a hero whose conditions do not hold yet; here it goes on as the script says."""
         return motion
-
-    def ego_stood_s(self, time_s: float) -> float:
-        """Return for how long the ego has not moved (s)."""
-        return time_s - self._moved_s
 
     def _note_trigger(self, hero: int, time_s: float) -> None:
         for owner, name in self._structure.triggers.get(hero, ()):
