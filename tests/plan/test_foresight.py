@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import pytest
-from situations import scene_of
+from many_heroes import PROGRAMS
+from situations import planner_of, scene_of
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.foresight import Foresight
 from scenewright.plan.prediction import ConstantAcceleration, ConstantSpeed, Predictor
 from scenewright.program.structure import read_structure
+from scenewright.program.types import EGO
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.solve.arrival import linear_conditions
 from stories import BRAKES_GAP, YIELDS_DISTANCE
 
@@ -56,3 +59,17 @@ def test_how_a_hero_is_answered_is_what_is_foreseen_of_it_where_it_is_otherwise(
     assert answer.per_metre == pytest.approx((10.0 * (then[0] - before[0]), 10.0 * (then[1] - before[1])), abs=1e-6)
     assert answer.per_metre[0] > 0.0, "an ego whose leader is further on comes further"
     assert (answer.per_mps is None) is not first
+
+
+@pytest.mark.parametrize("mps", [5.5, 6.3, 9.0])
+def test_who_begins_to_brake_after_others_begins_ahead_of_the_ego_if_it_is_to_be_there(mps: float) -> None:
+    """Nothing tells on which side of the ego the last of a chain begins: planned alone it drove through the ego."""
+    scene = scene_of(PROGRAMS["chain"](8))
+    planner = planner_of(scene)
+    planner.begin((0.0, 100.0 - 8.0 * mps, mps, 0.0))
+    motions = planner.plan.profiles
+    for hero in scene.program.heroes:
+        offset_m, until_s = scene.offset_m(EGO, hero.id), motions[hero.id].knot_times_s["t1"]
+        for time_s in [0.1 * k for k in range(int(10.0 * until_s))]:
+            apart_m = motions[hero.id].state(time_s)[0] + offset_m - motions[EGO].state(time_s)[0]
+            assert apart_m > VEHICLE_LENGTH_M + 1.0, f"{hero.name} at {time_s:.1f} s"

@@ -15,6 +15,7 @@ from scenewright.plan.following import Leader, foresee_follower
 from scenewright.plan.prediction import CHANGED, ConstantSpeed, EgoSample, Predictor, jumped, lately
 from scenewright.plan.situation import Answer, Lanes, Otherwise, SeenAndForeseen
 from scenewright.program.structure import Structure
+from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
 
@@ -52,6 +53,21 @@ class Foresight:
         heroes = self.scene.program.heroes
         lanes = {hero.id: Clearance.of(self.scene, self.structure, self.conditions, hero) for hero in heroes}
         self._on_lane = {hero: lane for hero, lane in lanes.items() if lane is not None}
+
+    def take_sides(self, motions: Motions, until: Mapping[int, str]) -> bool:
+        """Let whoever is on its lane, and nothing tells the side of, keep to that on which it is at a knot of its own.
+
+        Return whether that is anybody.
+        """
+        found: dict[int, Clearance] = {}
+        for hero, knot in until.items():
+            conflict = self.scene.conflict(EGO, hero)
+            if hero not in self._on_lane and conflict is not None and conflict.kind == "following":
+                at_s, offset_m = motions[hero].knot_times_s[knot], self.scene.offset_m(EGO, hero)
+                ahead = motions[hero].state(at_s)[0] + offset_m > motions[EGO].state(at_s)[0]
+                found[hero] = Clearance(ahead, offset_m, of_distance=False)
+        self._on_lane |= found
+        return bool(found)
 
     @property
     def _distances(self) -> dict[int, Clearance]:

@@ -159,6 +159,9 @@ class Planner:
                 break
         best = min(tries, key=lambda found: found.solution.cost)
         self._keep(best)
+        if self._ego.take_sides(self.plan.profiles, self._asked.adapts_until):
+            best = self._planned_first(best.plan.profiles[EGO], 0.0, best.plan.profiles)
+            self._keep(best)
         if self._ego.leaders:
             best = self._led(best)
         if meetings and not placed:
