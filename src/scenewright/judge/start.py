@@ -18,12 +18,11 @@ from scenewright.judge.knots import Measured, conjuncts
 from scenewright.judge.terms import Moments, sides
 from scenewright.judge.verdict import Condition, bounded
 from scenewright.program.expressions import Compare, Derived, walk
-from scenewright.program.starts import HARD_MPSS, kept_m, says_how_near
+from scenewright.program.starts import AT_ONCE_S, HARD_MPSS, kept_m, says_how_near
 from scenewright.program.structure import Role, knots_of
 from scenewright.program.types import EGO, PieceKind
 from scenewright.translate.lines import told_formulas
 
-_AT_ONCE_S = 1.0
 _INSTANT_S = 0.05  # times to collision are told in tenths
 
 
@@ -69,7 +68,7 @@ def _falls(case: Case, measured: Measured, part: Compare, name: str, words: str)
 
 def _hardest_braking_mpss(case: Case, actor: int) -> float:
     states = case.timelines[actor].states
-    at_once = states.time_s <= case.start_s + _AT_ONCE_S
+    at_once = states.time_s <= case.start_s + AT_ONCE_S
     return max(0.0, -float(states.accel_mps2[at_once].min()))
 
 

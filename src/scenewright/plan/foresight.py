@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from scenewright.motion.profile import Profile
 from scenewright.plan.clearance import Clearance
 from scenewright.plan.following import Leader, foresee_follower
-from scenewright.plan.prediction import CHANGED, ConstantSpeed, EgoSample, Predictor, jumped, lately
+from scenewright.plan.prediction import JUMP_STEPS, ConstantSpeed, EgoSample, Predictor, jumped, lately
 from scenewright.plan.situation import Answer, Lanes, Otherwise, SeenAndForeseen
 from scenewright.program.structure import Structure
 from scenewright.program.types import EGO
@@ -81,7 +81,7 @@ class Foresight:
     @property
     def has_jumped(self) -> bool:
         """Whether it has just changed its mind."""
-        return jumped(lately(self.samples, _EVEN_S), CHANGED)
+        return jumped(lately(self.samples, _EVEN_S), JUMP_STEPS)
 
     @property
     def leaders(self) -> dict[int, Clearance]:

@@ -27,7 +27,8 @@ _LATERAL_MPSS = 2.5
 _BEND_STEP_M, _STRAIGHT = 2.0, 1e-3
 # An acceleration that changes by more than this from one step to the next is another intention, not a twitch.
 _JUMP_MPSS = 1.0
-CHANGED = 2  # steps that are to bear it out
+# For how many steps a jump has to last: of 58 first takes that missed 2 more are met with two of them than with one.
+JUMP_STEPS = 2
 # Who has gained this much a second over the last second is speeding up on purpose.
 _LATELY_S, _SPEEDS_UP_MPSS = 1.0, 0.6
 _STEP_S, _MOST_STEPS = 0.5, 20
@@ -45,12 +46,12 @@ _CRAWLS = 0.25
 def since_jump(accels_mpss: Sequence[float]) -> Sequence[float]:
     """Return those of the last accelerations (m/s^2), the newest first, that tell how the ego drives now.
 
-    It has changed its mind where it was even before and is even since, for `CHANGED` steps at least; one that jitters
-    has not, and what lasts for a step only may be a twitch.
+    It has changed its mind where it was even before and is even since, for `JUMP_STEPS` at least; one that jitters has
+    not, and what lasts for a step only may be a twitch.
     """
     if jumped(accels_mpss, 1):
         return accels_mpss[1:]
-    count = next((k for k in range(CHANGED, len(accels_mpss)) if jumped(accels_mpss, k)), len(accels_mpss))
+    count = next((k for k in range(JUMP_STEPS, len(accels_mpss)) if jumped(accels_mpss, k)), len(accels_mpss))
     return accels_mpss[:count]
 
 

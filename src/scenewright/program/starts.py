@@ -12,6 +12,7 @@ from scenewright.program.types import Program
 
 # What most drivers find comfortable (AASHTO, A Policy on Geometric Design of Highways and Streets, 3.2.2: 11.2 ft/s^2).
 HARD_MPSS = 3.4
+AT_ONCE_S = 1.0  # how soon after the start hard braking is because of it: who sees a reason later has had time to react
 TAILGATES_S = 1.0  # half of what drivers are told to keep, and about what is fined in Germany (BKatV, 12: 0.9 s)
 
 

@@ -15,7 +15,7 @@ from scenewright.motion.profile import Profile
 from scenewright.plan.planner import GOOD, Attempt, Planner
 from scenewright.plan.prediction import Predictor
 from scenewright.program.expressions import Compare, Derived, DerivedKind, Knot, Number
-from scenewright.program.starts import HARD_MPSS, TAILGATES_S, kept_m, says_how_near
+from scenewright.program.starts import AT_ONCE_S, HARD_MPSS, TAILGATES_S, kept_m, says_how_near
 from scenewright.program.structure import read_structure
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
@@ -30,8 +30,8 @@ from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.feasibility import check_feasibility
 from scenewright.solve.limits import Limits
 
-_AT_ONCE_S = 1.0
-_BESIDE_M = 1.0
+# Who is further off than along a shared road by so much is not on it yet; chosen, lanes are 3 m apart.
+_SAME_ROAD_M = 1.0
 _SHIFTS = 4  # of a start, until an ego that slows down for a bend is where it is to be
 
 
@@ -114,7 +114,7 @@ def _saved_from(world: World, start: EgoFirstState, attempt: Attempt) -> list[in
             continue
         ahead_m, closing_mps = there.s_m + offset_m - ego.s_m, max(0.0, ego.speed_mps - there.speed_mps)
         # Who is still on another road is further away than along the road that the two will share.
-        same_road = math.hypot(there.x_m - ego.x_m, there.y_m - ego.y_m) < ahead_m + _BESIDE_M
+        same_road = math.hypot(there.x_m - ego.x_m, there.y_m - ego.y_m) < ahead_m + _SAME_ROAD_M
         if same_road and 0.0 < ahead_m - VEHICLE_LENGTH_M < kept_m(ego.speed_mps, closing_mps):
             near.append(hero)
     return near if near and _brakes_hard(begins, heroes, world.rates.step_s) else []
@@ -125,7 +125,7 @@ def _brakes_hard(start: Start, heroes: Mapping[int, Profile], step_s: float) -> 
     drive = BuiltIn()
     try:
         drive.reset(start, step_s)
-        for _ in range(round(_AT_ONCE_S / step_s)):
+        for _ in range(round(AT_ONCE_S / step_s)):
             drive.apply(heroes)
             if drive.observe().actors[EGO].accel_mps2 < -HARD_MPSS:
                 return True
