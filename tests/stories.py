@@ -124,9 +124,13 @@ STORIES = {
 }
 
 
-@cache
 def driven(story: str, ego: str, seed: int = 0, mode: str = "closed", takes: int = 3) -> Result:
-    """Return a whole run, made once for all tests that look at it."""
+    """Return a whole run, made once for all tests that look at it, however they ask for it."""
+    return _driven(story, ego, seed, mode, takes)
+
+
+@cache
+def _driven(story: str, ego: str, seed: int, mode: str, takes: int) -> Result:
     return orchestrate(Request(STORIES[story], ego=ego, seed=seed, mode=mode, takes=takes))  # type: ignore[arg-type]
 
 
@@ -162,13 +166,13 @@ class Stage:
         self.first = (s_m, speed_mps)
         return self.planner.begin((0.0, s_m, speed_mps, 0.0))
 
-    def run(self) -> Run:
+    def run(self, tick_s: float = TICK_S) -> Run:
         """Drive; `plans` holds the plan in force after every tick, the first one at the front."""
         self.plans = [self.planner.plan]
         return simulate(
             BuiltIn(),
             Start.of(self.scene, self.ego, self.first, self.planner.plan.profiles),
             self.planner,
-            Rates(STEP_S, TICK_S),
+            Rates(STEP_S, tick_s),
             lambda _: self.plans.append(self.planner.plan),
         )

@@ -14,7 +14,7 @@ TOO_FAST = STORIES["yields, distance"].replace(
 )
 
 
-@pytest.mark.parametrize("ego", ["constant", "idm", "speeder"])
+@pytest.mark.parametrize("ego", ["constant", "idm"])
 def test_impossible_scenario_is_proven_and_not_driven(ego: str, tmp_path: Path) -> None:
     result = orchestrate(Request(TOO_FAST, ego=ego, out=tmp_path / "run"))
     assert (result.status, EXIT_STATUS[result.status]) == ("infeasible", 3)
