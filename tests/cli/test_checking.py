@@ -13,6 +13,9 @@ from sentences import IMPOSSIBLE, SENTENCE
 from scenewright.solve.proofs.refuters import SOLVERS
 
 Command = Callable[..., Any]
+pytestmark = pytest.mark.usefixtures(
+    "nothing_proposed"
+)  # `run` tells them in test_run.py, `check` in the documentation
 
 
 def test_one_line_for_each(command: Command, folder: Path) -> None:

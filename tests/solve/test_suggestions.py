@@ -104,7 +104,6 @@ def test_every_suggestion_makes_it_possible() -> None:
 @pytest.mark.parametrize(
     ("line", "unit", "nearest"),
     [
-        ("A1a(dec) <= -20", "m/s^2", -8.0),
         ("A1a(dec) == -20", "m/s^2", -8.0),
         ("always[A1(t1), A1(t2)] (A1a <= -50)", "m/s^2", -8.0),
         ("always[1, 2] (A1v >= 100)", "m/s", 18.0),
