@@ -6,6 +6,7 @@ import io
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -53,6 +54,7 @@ def material(records: Sequence[CaseRecord], extras: Extras = EXTRAS) -> Material
     return Material(records, SETTINGS, Path("results"), extras)
 
 
+@cache
 def stores() -> dict[str, Material]:
     small = made_up(rows=range(1, 6), draws=2)
     strange = [replace(r, method="follower:mine:Driver", ego="mine:Ego:speed=3", cause="odd") for r in small[:3]]
