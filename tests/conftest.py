@@ -43,6 +43,12 @@ def no_model_of_the_users(monkeypatch: pytest.MonkeyPatch, no_settings: Path) ->
     monkeypatch.delenv("SCENEWRIGHT_TRANSLATOR", raising=False)
 
 
+@pytest.fixture
+def nothing_proposed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let nobody look for numbers that would do, for tests of proofs alone: it takes most of the time of a check."""
+    monkeypatch.setattr("scenewright.solve.feasibility.suggest", lambda *_: ())
+
+
 @pytest.fixture(scope="session")
 def shared_dir() -> Path:
     """Return the folder `shared` beside the clone, which holds maps and texts that are not ours to keep in it."""

@@ -8,7 +8,7 @@ from functools import cache
 
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.protocol import EgoPolicy, EgoStart, Observation
-from scenewright.orchestrate import Request, Result, orchestrate
+from scenewright.orchestrate import Mode, Request, Result, orchestrate
 from scenewright.plan.planner import Attempt, Planner
 from scenewright.plan.prediction import Predictor, RoadAware
 from scenewright.program.structure import Structure, read_structure
@@ -124,10 +124,16 @@ STORIES = {
 }
 
 
+def driven(
+    story: str, ego: str, seed: int = 0, mode: Mode = "closed", takes: int = 3, replan_hz: float = 10.0
+) -> Result:
+    """Return a whole run, made once for all tests that look at it, however they ask for it."""
+    return _driven(story, ego, seed, mode, takes, replan_hz)
+
+
 @cache
-def driven(story: str, ego: str, seed: int = 0, mode: str = "closed", takes: int = 3) -> Result:
-    """Return a whole run, made once for all tests that look at it."""
-    return orchestrate(Request(STORIES[story], ego=ego, seed=seed, mode=mode, takes=takes))  # type: ignore[arg-type]
+def _driven(story: str, ego: str, seed: int, mode: Mode, takes: int, replan_hz: float) -> Result:
+    return orchestrate(Request(STORIES[story], ego=ego, seed=seed, mode=mode, takes=takes, replan_hz=replan_hz))
 
 
 @dataclass
@@ -162,13 +168,13 @@ class Stage:
         self.first = (s_m, speed_mps)
         return self.planner.begin((0.0, s_m, speed_mps, 0.0))
 
-    def run(self) -> Run:
+    def run(self, tick_s: float = TICK_S) -> Run:
         """Drive; `plans` holds the plan in force after every tick, the first one at the front."""
         self.plans = [self.planner.plan]
         return simulate(
             BuiltIn(),
             Start.of(self.scene, self.ego, self.first, self.planner.plan.profiles),
             self.planner,
-            Rates(STEP_S, TICK_S),
+            Rates(STEP_S, tick_s),
             lambda _: self.plans.append(self.planner.plan),
         )

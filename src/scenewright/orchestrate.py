@@ -73,7 +73,7 @@ _SLOW_PACE = 0.43
 class Request:
     """What a user asks for: the command line of ``scenewright run``, as data.
 
-    `solver` is what refutes; `explain` says what is found out about a run that misses.
+    `solver` is what refutes; `explain` says what is found out about a run that misses, or about what cannot happen.
     A `simulator` may drive the ego itself; the policy `ego` is then only asked how it would start. The `planner`
     ``smt`` is the paper's own loop: it foresees the ego by itself, and rehearses nothing.
     """
@@ -210,7 +210,7 @@ def begin(request: Request, stages: Stages) -> tuple[World, Result, str]:
     """Set everything up and ask whether it can happen; return world, answer, and the result for one that cannot."""
     world, understanding = set_up(request, stages)
     with stages("check"):
-        feasibility = world.choose_and_check()
+        feasibility = world.choose_and_check(explain=request.explain != "nothing")
     result = Result("infeasible", world.scene, understanding, feasibility, timings_s=stages.seconds)
     return world, result, feasibility.answer
 

@@ -13,6 +13,8 @@ from sentences import IMPOSSIBLE, SENTENCE
 from scenewright.solve.proofs.refuters import SOLVERS
 
 Command = Callable[..., Any]
+# What would do is told by `run` in test_run.py, and by `check` in the documentation.
+pytestmark = pytest.mark.usefixtures("nothing_proposed")
 
 
 def test_one_line_for_each(command: Command, folder: Path) -> None:

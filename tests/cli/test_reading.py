@@ -88,6 +88,7 @@ def test_program_written_by_translate_means_the_same(command: Command) -> None:
     assert command("check", "first.scene").exit_code == 0
 
 
+@pytest.mark.usefixtures("nothing_proposed")
 def test_check_says_yes_or_explains(command: Command) -> None:
     assert "This can happen" in command("check", SENTENCE).stdout
     result = command("check", IMPOSSIBLE)
@@ -98,6 +99,7 @@ def test_check_says_yes_or_explains(command: Command) -> None:
     assert "run_directory" not in data
 
 
+@pytest.mark.usefixtures("nothing_proposed")
 def test_check_leans_on_what_the_ego_promises(command: Command) -> None:
     assert command("translate", SENTENCE, "--out", "first.scene").exit_code == 0
     with Path("first.scene").open("a", encoding="utf-8") as program:
@@ -108,6 +110,7 @@ def test_check_leans_on_what_the_ego_promises(command: Command) -> None:
     assert "ego holds its speed" in result.stdout
 
 
+@pytest.mark.usefixtures("nothing_proposed")
 def test_solve_prints_knots_and_writes_the_plan(command: Command) -> None:
     result = command("solve", OPEN_SENTENCE, "-p", "ego_gap_m=30", "--out", "plan.json")
     assert result.exit_code == 0

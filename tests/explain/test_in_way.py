@@ -10,7 +10,7 @@ from stories import STORIES, driven
 
 
 def looked_at(story: str, ego: str) -> tuple[InWay | None, Result]:
-    result = driven(story, ego, takes=1)
+    result = driven(story, ego, takes=1, replan_hz=4.0)
     assert result.run is not None
     world, _ = set_up(Request(STORIES[story], ego=ego, takes=1), Stages(None))
     return hero_in_way(world, result.run), result
@@ -64,7 +64,7 @@ def test_who_heeds_nobody_slowed_down_for_nobody(story: str, ego: str) -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_whims_are_nobodys_doing(seed: int) -> None:
-    result = driven("yields, distance", "staller", seed, takes=1)
+    result = driven("yields, distance", "staller", seed, takes=1, replan_hz=4.0)
     assert result.run is not None
     world, _ = set_up(Request(STORIES["yields, distance"], ego="staller", seed=seed, takes=1), Stages(None))
     found = hero_in_way(world, result.run)

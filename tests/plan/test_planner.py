@@ -25,7 +25,7 @@ from scenewright.study.benchmark import benchmark_rows, draw_row
 from stories import BRAKES_GAP, STOPS_AND_GOES, STORIES, YIELDS_DISTANCE
 
 STEP_S = 0.005
-ROWS = [row for row in benchmark_rows() if row.id % 4 == 0]
+ROWS = [row for row in benchmark_rows() if row.id % 6 == 0]
 
 
 @cache
@@ -114,7 +114,7 @@ def test_there_is_no_good_plan_for_what_cannot_happen(case: Example) -> None:
     assert attempt.plan.tolerance == attempt.missed.by > 1.0
 
 
-@pytest.mark.parametrize("mps", [3, 4, 5, 8, 12])
+@pytest.mark.parametrize("mps", [3, 5, 12])
 def test_an_ego_that_follows_is_led_to_the_distance_asked_for_however_it_starts(mps: int) -> None:
     """What a plan counts on of the ego that follows is what is foreseen of it then."""
     text = BRAKES_GAP.replace("A0(t1) == A1(t1)", f"A0v(t0) == {mps}\nA0(t1) == A1(t1)")

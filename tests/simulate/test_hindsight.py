@@ -71,7 +71,7 @@ def test_ego_that_rushes_off_left_no_room() -> None:
 def test_ego_that_never_comes_to_its_place_is_the_judges_finding() -> None:
     stage = Stage(STORIES["stops and goes"], Scripted(lambda time_s, speed_mps: -2.0 if time_s > 3.0 else 0.0))
     assert stage.begin(stage.scene.landmarks_m[0]["stop_line"] - 50.0, 6.0).is_good
-    run = stage.run()
+    run = stage.run(tick_s=0.5)
     assert run.trace.actors["ego"].s_m[-1] < stage.scene.landmarks_m[0]["stop_line"] - 14.0
     assert ego_left_no_room(stage.scene, stage.structure, stage.limits, run.trace) is None
 

@@ -192,7 +192,7 @@ def test_a_run_goes_on_while_anybody_may_still_do_what_is_asked() -> None:
 def test_an_ego_that_stands_for_good_is_not_waited_for() -> None:
     stage = Stage(STORIES["yields, distance"], Scripted(lambda time_s, speed_mps: -2.0))
     stage.begin(stage.scene.landmarks_m[0]["intersection"] - 90.0, 8.0)
-    ego = stage.run().trace.actors["ego"]
+    ego = stage.run(tick_s=0.5).trace.actors["ego"]
     assert ego.time_s[-1] - ego.time_s[ego.speed_mps > 0.1][-1] == pytest.approx(20.0, abs=2 * STEP_S)
 
 

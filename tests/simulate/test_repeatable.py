@@ -16,7 +16,7 @@ from scenewright.orchestrate import Request, orchestrate
 out, text = Path(sys.argv[1]), sys.stdin.read()
 for ego in sys.argv[2:]:
     name, seed = ego.split("/")
-    orchestrate(Request(text, ego=name, seed=int(seed), out=out / f"{name}-{seed}"))
+    orchestrate(Request(text, ego=name, seed=int(seed), out=out / f"{name}-{seed}", explain="nothing"))
 """
 
 

@@ -14,7 +14,8 @@ TOO_FAST = STORIES["yields, distance"].replace(
 )
 
 
-@pytest.mark.parametrize("ego", ["constant", "idm", "speeder"])
+@pytest.mark.usefixtures("nothing_proposed")
+@pytest.mark.parametrize("ego", ["constant", "idm"])
 def test_impossible_scenario_is_proven_and_not_driven(ego: str, tmp_path: Path) -> None:
     result = orchestrate(Request(TOO_FAST, ego=ego, out=tmp_path / "run"))
     assert (result.status, EXIT_STATUS[result.status]) == ("infeasible", 3)
@@ -24,4 +25,4 @@ def test_impossible_scenario_is_proven_and_not_driven(ego: str, tmp_path: Path) 
     named = {clash.id for clash in result.feasibility.clashes}
     assert {"fast"} <= named, "14 m/s is more than the hero's turn admits"
     assert not named & {"c1"}, "where the ego starts has nothing to do with it"
-    assert "A1v(t1) == 14" in result.feasibility.explain()
+    assert "A1v(t1) == 14" in {clash.formula for clash in result.feasibility.clashes}

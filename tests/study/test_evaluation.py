@@ -95,6 +95,7 @@ def test_command_says_all_that_makes_the_case(takes: int) -> None:
     assert dict(options).get("--takes", "3") == str(takes)
 
 
+@pytest.mark.usefixtures("nothing_proposed")
 @pytest.mark.parametrize(
     ("description", "ego", "hero_gap_m", "exit_code"),
     [(YIELDS, "noisy", 18.0, 0), (GOES, "speeder", 18.0, 1), (YIELDS, "idm", 5.0, 3)],
@@ -124,6 +125,7 @@ def test_success_carries_its_times() -> None:
     assert result.parameters == FINE
 
 
+@pytest.mark.usefixtures("nothing_proposed")
 def test_case_that_cannot_be_is_proven_infeasible() -> None:
     result = counted(YIELDS, "idm", 5.0)
     assert result.cause == "proven infeasible"

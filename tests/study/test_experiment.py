@@ -169,6 +169,7 @@ def test_case_that_goes_wrong_is_recorded_with_what_it_said(tmp_path: Path) -> N
     assert "no such ego policy" in record.message
 
 
+@pytest.mark.usefixtures("nothing_proposed")
 def test_infeasible_case_carries_its_proof(tmp_path: Path) -> None:
     case = one_case(tmp_path, "idm")
     wanted = {name: 60.0 if name.startswith("end") else value for name, value in case.parameters}

@@ -84,6 +84,7 @@ def test_a_method_that_is_ours_otherwise_says_how() -> None:
     assert request_of("open-loop", Request(YIELDS)).mode == "open"
 
 
+@pytest.mark.usefixtures("nothing_proposed")
 @pytest.mark.parametrize("method", METHODS)
 def test_what_is_proven_infeasible_is_driven_by_nobody(method: str) -> None:
     result = driven(method, text=IMPOSSIBLE)

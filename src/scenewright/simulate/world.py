@@ -78,8 +78,8 @@ class World:
         steady = rates.replan_s is None or self.ego_bounds.holds_speed
         self.predictor: Predictor = ConstantSpeed() if steady else chosen
 
-    def choose_and_check(self) -> Feasibility:
-        """Give open parameters values, and ask whether the scenario can happen with them."""
-        self.scene, answer = settle(self.scene, self.structure, self.limits, self.ego_bounds, self.refuter)
+    def choose_and_check(self, explain: bool = True) -> Feasibility:
+        """Give open parameters values, and ask whether the scenario can happen with them; with `explain`, why not."""
+        self.scene, answer = settle(self.scene, self.structure, self.limits, self.ego_bounds, self.refuter, explain)
         self.planned = decided(self.scene, answer.witness) if answer.witness is not None else self.scene
         return answer

@@ -33,24 +33,25 @@ def settle(
     limits: Mapping[int, Limits],
     ego: EgoBounds | None = None,
     refuter: Refuter | None = None,
+    explain: bool = True,
 ) -> tuple[Scene, Feasibility]:
-    """Return `scene` with a value for every parameter, and whether it can happen.
+    """Return `scene` with a value for every parameter, and whether it can happen; with `explain`, why not.
 
     Everyday values are taken where the scenario is possible with them; else those of a motion found with all of them
     free, rounded as far as it stays possible. Where there is none the answer is that for all values.
     """
     open_parameters = scene.open_parameters()
 
-    def with_values(values: Mapping[str, Fraction], explain: bool = False) -> tuple[Scene, Feasibility]:
+    def with_values(values: Mapping[str, Fraction]) -> tuple[Scene, Feasibility]:
         settled = replace(scene, parameters={**scene.parameters, **values})
-        return settled, check_feasibility(settled, structure, limits, ego, explain, refuter=refuter)
+        return settled, check_feasibility(settled, structure, limits, ego, explain=False, refuter=refuter)
 
     if not open_parameters:
-        return scene, check_feasibility(scene, structure, limits, ego, refuter=refuter)
+        return scene, check_feasibility(scene, structure, limits, ego, explain, refuter=refuter)
     everyday, answer = with_values({parameter.name: everyday_value(parameter) for parameter in open_parameters})
     if answer.answer == "feasible":
         return everyday, answer
-    found = check_feasibility(scene, structure, limits, ego, refuter=refuter)
+    found = check_feasibility(scene, structure, limits, ego, explain, refuter=refuter)
     if found.answer != "feasible":
         return everyday, found
     for digits in _DIGITS:

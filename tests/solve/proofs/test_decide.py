@@ -40,7 +40,7 @@ def question(text: str, ego: EgoBounds = EGO) -> Question:
     return Question(scene, read_structure(scene.program), limits_of(scene), ego)
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", range(35))  # five of each sketch
 def test_what_has_happened_is_never_called_impossible(seed: int) -> None:
     planted = plant(seed)
     decision = decide(planted.question(), explain=False)
@@ -95,8 +95,8 @@ def test_a_stretch_of_time_that_ends_at_a_quotient_is_refused_by_name(end: str) 
 
 
 def test_nearly_everything_that_has_happened_is_shown_to_be_possible() -> None:
-    answers = [decide(plant(seed).question(), explain=False).answer for seed in range(1000, 1040)]
-    assert answers.count("feasible") >= 36, "two that touch or turn too fast in the planted motion may stay undecided"
+    answers = [decide(plant(seed).question(), explain=False).answer for seed in range(1000, 1021)]
+    assert answers.count("feasible") >= 19, "two that touch or turn too fast in the planted motion may stay undecided"
 
 
 @pytest.mark.parametrize(

@@ -83,14 +83,14 @@ def check_planted(planted: Planted) -> int:
     return sum("sideways" in origin for each in formulas for origin in each.origins)
 
 
-@pytest.mark.parametrize("seed", range(70))  # ten of each sketch
+@pytest.mark.parametrize("seed", range(42))  # six of each sketch
 def test_planted_motions_satisfy_every_formula(seed: int) -> None:
     check_planted(plant(seed))
 
 
 def test_motions_through_bends_satisfy_every_formula() -> None:
     """They begin just before the junction, and are pressed sideways as much as they just may."""
-    assert sum(check_planted(plant(seed, (276, 306))) > 0 for seed in range(70)) > 30
+    assert sum(check_planted(plant(seed, (276, 306))) > 0 for seed in range(42)) > 14
 
 
 def test_what_is_false_of_the_motions_is_among_the_formulas_too() -> None:

@@ -121,7 +121,7 @@ def test_a_text_without_an_ego_is_refused() -> None:
 
 def test_every_change_of_meaning_is_noticed() -> None:
     """Of what the teller wrote: one word exchanged changes the story, is asked about, or is refused."""
-    for _, lines in told_stories(12):
+    for _, lines in told_stories(6):
         text = "\n".join(lines)
         base = st.arranged(read(text))
         for what, changed in changes(text):
