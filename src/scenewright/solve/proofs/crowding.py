@@ -7,6 +7,7 @@ heroes must all pass it within a time that is shorter than they cover it one aft
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
@@ -21,6 +22,7 @@ from scenewright.roads.conflicts import conflicts, shared_stretches
 from scenewright.roads.grounding import Scene
 from scenewright.roads.zones import overlap
 from scenewright.solve.proofs.apart import APART
+from scenewright.solve.proofs.cores import needed
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.order import least_differences, places_within
 from scenewright.solve.proofs.polynomials import Named
@@ -45,11 +47,11 @@ def crowded(events: Events, lowered: Sequence[Named]) -> tuple[str, ...]:
         crowd = facts.crowd(point)
         if len(crowd) > 1:
             there = {hero: point[hero] for hero in crowd}
-            kept = list(lowered)
-            for each in lowered:
-                fewer = [other for other in kept if other is not each]
-                if len(_Facts.of(events, fewer).crowd(there)) == len(crowd):
-                    kept = fewer
+
+            def clash(fewer: list[Named], there: Point = there, count: int = len(crowd)) -> bool:
+                return len(_Facts.of(events, fewer).crowd(there)) == count
+
+            kept = needed(lowered, clash, math.inf)
             tied = _ties(events.scene.program, crowd)
             return (*dict.fromkeys([*(each.origin for each in kept), *tied]), APART)
     return ()

@@ -22,23 +22,26 @@ from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.apart import apart
+from scenewright.solve.proofs.cores import needed
 from scenewright.solve.proofs.crowding import crowded
 from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, Events, Unknown
 from scenewright.solve.proofs.guesses import carried_over, first_guess
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, resting_on
 from scenewright.solve.proofs.refinement import Refinement
-from scenewright.solve.proofs.refuters import SOLVERS, Refuter, core
 from scenewright.solve.proofs.relaxation import relaxation
 from scenewright.solve.proofs.search import Search
 from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
+from scenewright.solve.proofs.z3_engine import Z3
 
 Array = NDArray[np.float64]
 Owed = Literal["throughout", "at first", "nothing"]
+SOLVER = Z3()
 _ROUNDS = 14  # how often one motion is mended before another is looked for
 _GUESSES = (4, 12, 1000)  # how many first guesses are tried before each time that a proof is looked for
 _PROOF_S = (0.15, 0.4, 0.1)
 _CORE_S = 2.0  # for looking for what clashes among all constraints: as long as for the answer itself
+_SHRINK_S = 0.5  # for each question whether a core does without one of its members
 _RANGES = {
     "time": f"everything happens within {float(LONGEST_S):g} s of the start",
     "speed": "how fast anybody may be",
@@ -62,8 +65,6 @@ class Decision:
         Constraints that the answer does not rest on, by id, and why.
     amiss
         What was still amiss with the best motion found, where undecided.
-    doubted_by
-        The solver that found it infeasible, where undecided because what that solver refutes is no proof.
     """
 
     answer: Literal["feasible", "infeasible", "undecided"]
@@ -71,7 +72,6 @@ class Decision:
     core: tuple[str, ...] = ()
     left_out: Mapping[str, str] = field(default_factory=dict)
     amiss: tuple[Broken, ...] = ()
-    doubted_by: str = ""
 
     def __post_init__(self) -> None:
         if (self.answer == "feasible") != (self.witness is not None):
@@ -91,7 +91,6 @@ class Question:
     ego: EgoBounds = field(default_factory=EgoBounds)
     freed: Mapping[str, tuple[Fraction, Fraction]] = field(default_factory=dict)
     drive: Profile | None = None
-    refuter: Refuter = field(default_factory=lambda: SOLVERS.called("z3"))
     bending: frozenset[int] = frozenset()
 
     def constraints(self) -> tuple[Constraint, ...]:
@@ -164,9 +163,7 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
             if bending not in cases:  # most witnesses need none
                 case = plain if bending == question.bending else _Case(bent, plan=False)
                 cases[bending] = case.events.unknowns, case.relaxation()
-            answer = question.refuter.ask(*cases[bending], min(proof_s, until - time.monotonic()))
-            if answer.kind == "refuted" and not question.refuter.capabilities.exact:
-                return Decision("undecided", left_out=left_out, amiss=hunt.amiss, doubted_by=question.refuter.name)
+            answer = SOLVER.ask(*cases[bending], min(proof_s, until - time.monotonic()))
             if answer.kind == "refuted":
                 clashing = _core(bent, *cases[bending]) if explain else ()
                 return Decision("infeasible", core=clashing, left_out=left_out)
@@ -223,32 +220,37 @@ def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Na
     Formulas are made with what all constraints say of the order of moments, and of who is who's moment: whether some
     of them clash is asked about these alone.
     """
-    refuter, until = question.refuter, time.monotonic() + _CORE_S
-    first = refuter.ask(unknowns, formulas, 1.0, want_core=True).core
+    until = time.monotonic() + _CORE_S
+    first = SOLVER.ask(unknowns, formulas, 1.0, want_core=True).core
     told = [constraint.id for constraint in question.constraints()]
-    kept = [name for name in told if name in first]
-    if (posed := _posed(question, kept)) is None:
-        kept, posed = told, (unknowns, formulas)
-    for name in list(kept):
-        fewer = [other for other in kept if other != name]
-        if time.monotonic() < until and (easier := _posed(question, fewer)) is not None:
-            kept, posed = fewer, easier
-    laws = [each for each in core(refuter, *posed, 1.0) if each not in kept]
-    clashing = resting_on(posed[1], (*kept, *laws))
-    ranges = []
+    named = [name for name in told if name in first]
+
+    def clash(names: list[str]) -> bool:
+        return _refuted(*_posed(question, names))
+
+    if clash(named):
+        kept = needed(named, clash, until)
+        unknowns, formulas = _posed(question, kept)
+    else:
+        kept = told
+    origins = dict.fromkeys(origin for each in formulas for origin in each.origins if origin not in kept)
+    laws = needed(list(origins), lambda fewer: _refuted(unknowns, resting_on(formulas, (*kept, *fewer))), until)
+    clashing, ranges = resting_on(formulas, (*kept, *laws)), []
     for kind, words in _RANGES.items():
-        wider = [replace(each, high=_WIDER * each.high) if each.kind == kind else each for each in posed[0]]
-        if refuter.ask(wider, clashing, 0.2).kind == "met":
+        wider = [replace(each, high=_WIDER * each.high) if each.kind == kind else each for each in unknowns]
+        if SOLVER.ask(wider, clashing, 0.2).kind == "met":
             ranges.append(words)
     return (*kept, *laws, *ranges)
 
 
-def _posed(question: Question, kept: Collection[str]) -> tuple[Sequence[Unknown], Sequence[Named]] | None:
-    """Return unknowns and formulas of some of the constraints alone, if these are refuted."""
+def _posed(question: Question, kept: Collection[str]) -> tuple[Sequence[Unknown], Sequence[Named]]:
+    """Return unknowns and formulas of some of the constraints alone."""
     program = question.scene.program
     fewer = replace(program, constraints=tuple(c for c in program.constraints if c.id in kept))
     case = _Case(replace(question, scene=replace(question.scene, program=fewer)), plan=False)
     formulas = case.relaxation()
-    if question.refuter.ask(case.events.unknowns, formulas, 0.5).kind == "refuted":
-        return case.events.unknowns, formulas
-    return None
+    return case.events.unknowns, formulas
+
+
+def _refuted(unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> bool:
+    return SOLVER.ask(unknowns, formulas, _SHRINK_S).kind == "refuted"
