@@ -10,7 +10,6 @@ from test_events import events_of
 
 from scenewright.solve.proofs.order import (
     closed,
-    impossible,
     least_differences,
     places_within,
     tightened,
@@ -74,20 +73,3 @@ def test_ranges_are_tightened_by_what_holds_in_every_case() -> None:
     assert told_values(tightened(UNKNOWNS, formulas)) == {1: 2.0}
     x, y = tightened(UNKNOWNS, [compare("<=", X + Y, 1)])
     assert (x.high, y.high) == (6, 1)
-
-
-def test_what_contradicts_the_order_is_impossible() -> None:
-    events = events_of()
-    first, second = (events.times[events.knot(1, name)] for name in ("t1", "t2"))
-    least = least_differences(events, [compare(">=", second - first, 3)])
-    for formula, contradicts in (
-        (compare("<", second, first), True),
-        (compare("<=", second - first, Fraction(29, 10)), True),
-        (compare("<=", second - first, 3), False),
-        (compare("<", second - first, 3), True),
-        (compare(">", second, first), False),
-        (compare("<", first, 0), True),
-        (compare("<=", first, 0), False),
-        (compare("<=", events.state(1, events.start).place, -1), False),  # of places it knows nothing
-    ):
-        assert impossible(events, formula, least) == contradicts, formula

@@ -5,7 +5,7 @@ What enters: formulas over numbered unknowns. What leaves: arrays over their com
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,15 +29,10 @@ class Compiled:
     ----------
     size
         The number of unknowns.
-    ruled_out
-        Tells of an alternative whether it is never to be taken, while there is another.
     """
 
-    def __init__(
-        self, formulas: Sequence[Formula], size: int, ruled_out: Callable[[Formula], bool] = lambda _: False
-    ) -> None:
-        self._ruled_out = ruled_out
-        self._formulas = [self._possible(formula) for formula in formulas]
+    def __init__(self, formulas: Sequence[Formula], size: int) -> None:
+        self._formulas = formulas
         self.atoms = [part for formula in self._formulas for part in atoms(formula)]
         self._numbers = {id(part): number for number, part in enumerate(self.atoms)}
         owner, factor, left, right = [], [], [], []
@@ -69,16 +64,6 @@ class Compiled:
         """Return the comparisons that are to hold; of alternatives those of the one that is nearest to holding."""
         found = (number for formula in self._formulas for number in self._choice(formula, errors))
         return list(dict.fromkeys(found))
-
-    def _possible(self, formula: Formula) -> Formula:
-        """Return a formula without alternatives that are ruled out."""
-        match formula:
-            case All(parts=parts):
-                return All(tuple(self._possible(part) for part in parts))
-            case Some(parts=parts):
-                possible = [part for part in parts if not self._ruled_out(part)]
-                return Some(tuple(self._possible(part) for part in possible or parts))
-        return formula
 
     def _choice(self, formula: Formula, errors: Array) -> Iterator[int]:
         match formula:

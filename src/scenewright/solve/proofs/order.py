@@ -140,10 +140,9 @@ def places_within(events: Events, formulas: Iterable[Formula]) -> dict[tuple[int
         if first_ == first and (actor, second) in own
     ]
     still = [
-        compare("==", own[actor, each.first], own[actor, each.last])
-        for actor, found in events.stretches.items()
-        for each in found
-        if each.law.speed_high == 0 and each.last is not None
+        compare("==", own[each.actor, each.first], own[each.actor, each.last])
+        for each in events.pieces
+        if each.law.speed_high == 0
     ]
     found = tightened(events.unknowns, [*formulas, *on, *still], _PASSES)
     ranges = {key: found[place.number] for key, place in own.items()}
@@ -162,12 +161,3 @@ def difference(events: Events, left: Polynomial) -> tuple[int, int, Fraction] | 
         return None
     late, early = (a, b) if sign > 0 else (b, a)
     return early, late, -left.terms.get((), ZERO) / abs(sign)
-
-
-def impossible(events: Events, part: Atom, least: Array) -> bool:
-    """Whether something contradicts what is certain of the order of instants."""
-    found = difference(events, part.left) if part.relation != "==" and part.left.degree == 1 else None
-    if found is None:
-        return False
-    early, late, most_s = found
-    return bool(least[early, late] > float(most_s) - (1e-9 if part.relation == "<" else -1e-9))

@@ -18,8 +18,8 @@ from scenewright.motion.laws import Law, bounded, capped, fixed
 from scenewright.solve.proofs.compiled import Compiled
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.narrowing import Narrowing
-from scenewright.solve.proofs.order import impossible, least_differences, tightened, told_values
-from scenewright.solve.proofs.polynomials import All, Atom, Formula, Some
+from scenewright.solve.proofs.order import least_differences
+from scenewright.solve.proofs.polynomials import Formula
 
 Array = NDArray[np.float64]
 
@@ -44,10 +44,9 @@ class Search:
         self.events = events
         self.formulas = formulas
         self.steps = 0
-        self._least = least_differences(events, formulas)
-        self._told = told_values(tightened(events.unknowns, formulas))
+        least, narrower = least_differences(events, formulas), [*events.pieces, *narrowings]
         self._size = len(events.unknowns)
-        self._compiled = Compiled(formulas, self._size, self._ruled_out)
+        self._compiled = Compiled(formulas, self._size)
         self._low = np.array([float(each.low) for each in events.unknowns])
         self._high = np.array([float(each.high) for each in events.unknowns])
         self._scale = np.array([_SCALE[each.kind] for each in events.unknowns])
@@ -55,22 +54,9 @@ class Search:
         self._scale = np.where(free, np.maximum(1.0, 0.25 * (self._high - self._low)), self._scale)
         self._liking: Array = np.ones(0)
         self._lines = {
-            actor.id: _Line.of(events, actor.id, self._least, [each for each in narrowings if each.actor == actor.id])
+            actor.id: _Line.of(events, actor.id, least, [n for n in narrower if n.actor == actor.id])
             for actor in events.scene.program.actors
         }
-
-    def _ruled_out(self, part: Formula) -> bool:
-        """Whether an alternative contradicts the order of moments or values that are told: it is never the nearest."""
-        match part:
-            case All(parts=parts):
-                return any(self._ruled_out(each) for each in parts)
-            case Some(parts=parts):
-                return all(self._ruled_out(each) for each in parts)
-            case Atom(left=left, relation=relation):
-                if all(unknown in self._told for key in left.terms for unknown in key):
-                    value = left.value(self._told)
-                    return abs(value) > _CLEAR if relation == "==" else value > _CLEAR
-                return impossible(self.events, part, self._least)
 
     # -- the steps ----------------------------------------------------------------------------------------------------
     def run(self, guess: Array, generator: np.random.Generator | None = None) -> Array | None:
@@ -162,21 +148,19 @@ class _Line:
     place: NDArray[np.intp]
     speed: NDArray[np.intp]
     before: NDArray[np.bool_]  # which certainly come before which; everything before itself
-    laws: list[tuple[int, Law]]  # position of the first moment of each stretch, and its law
+    law: Law  # where nothing is narrower
     narrowings: Sequence[Narrowing]
 
     @classmethod
     def of(cls, events: Events, actor: int, least: Array, narrowings: Sequence[Narrowing]) -> _Line:
         """Collect the moments of an actor."""
         instants = events.instants_of(actor)
-        where = {instant: k for k, instant in enumerate(instants)}
         time, factor = [], []
         for instant in instants:
             constant = events.times[instant].constant
             time.append(len(events.unknowns) if constant is not None else events.times[instant].number)
             factor.append(1.0 if constant is None else float(constant))
         states = [events.state(actor, instant) for instant in instants]
-        laws = [(where[stretch.first], stretch.law) for stretch in events.stretches[actor]]
         return cls(
             instants,
             np.array(time, dtype=np.intp),
@@ -184,7 +168,7 @@ class _Line:
             np.array([state.place.number for state in states], dtype=np.intp),
             np.array([state.speed.number for state in states], dtype=np.intp),
             least[np.ix_(instants, instants)] >= 0.0,
-            laws,
+            events.law_of(actor),
             narrowings,
         )
 
@@ -234,10 +218,7 @@ class _Line:
         What ends at a place that is passed when it begins, or begins at one that is passed never, narrows nothing.
         """
         where, place = {self.instants[k]: number for number, k in enumerate(order)}, point[self.place]
-        starts = sorted((where[self.instants[k]], number, law) for number, (k, law) in enumerate(self.laws))
-        laws, even = [starts[0][2]] * (len(order) - 1), np.zeros(len(order) - 1, dtype=bool)
-        for start, _, law in starts:
-            laws[start:] = [law] * len(laws[start:])
+        laws, even = [self.law] * (len(order) - 1), np.zeros(len(order) - 1, dtype=bool)
         for narrowing in self.narrowings:
             begin = max(where[instant] for instant in narrowing.begins())
             end = min(where[instant] for instant in narrowing.ends())
