@@ -35,7 +35,6 @@ from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
 from scenewright.solve.proofs.z3_engine import Z3
 
 Array = NDArray[np.float64]
-Owed = Literal["throughout", "at first", "nothing"]
 SOLVER = Z3()
 _ROUNDS = 14  # how often one motion is mended before another is looked for
 _GUESSES = (4, 12, 1000)  # how many first guesses are tried before each time that a proof is looked for
@@ -48,9 +47,7 @@ _RANGES = {
     "place": "where the routes end",
 }
 _WIDER = 1000  # a range so much wider is none
-# What guesses owe of the manner, in turn; later ones owe nothing: a motion that looks like nothing is possible, too.
-_OWED: tuple[Owed, ...] = ("throughout", "throughout", "at first")
-_KEEN = 12  # so many guesses are made for one that does, where there is one that does not
+_PLAIN = 4  # so many guesses owe the manner; a motion that looks like nothing is possible, too
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +99,7 @@ class Question:
 class _Case:
     """One scene's events with what was added to them, grown as motions show the need."""
 
-    def __init__(self, question: Question, owed: Owed = "nothing", plan: bool = True) -> None:
+    def __init__(self, question: Question, *, plan: bool = False, plain: bool = False) -> None:
         self.events = Events(question.scene, question.limits, question.ego, question.drive, question.freed)
         self.lowering = Lowering(self.events, Fraction(1) if question.drive else ZERO)
         self.constraints = question.constraints()
@@ -115,8 +112,8 @@ class _Case:
             self.more.lasting_rates()
         for actor in question.bending:
             self.more.bound_in_bend(actor, [each.formula for each in self.lowered])
-        if owed != "nothing":
-            self.more.manner(throughout=owed == "throughout")
+        if plain:
+            self.more.manner()
 
     def lower(self) -> None:
         """Lower the constraints over the moments that there are now, if there are more of them."""
@@ -146,7 +143,7 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     ego only a proof is looked for: what might have been is nobody's plan.
     """
     until = time.monotonic() + limit_s
-    plain = _Case(question, plan=False)
+    plain = _Case(question)
     left_out = {each.origin: each.refused for each in plain.lowered if each.refused}
     if question.drive is None and (clashing := crowded(plain.events, plain.lowered)):
         return Decision("infeasible", core=clashing, left_out=left_out)
@@ -161,7 +158,7 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
             if cases and time.monotonic() > until:
                 break
             if bending not in cases:  # most witnesses need none
-                case = plain if bending == question.bending else _Case(bent, plan=False)
+                case = plain if bending == question.bending else _Case(bent)
                 cases[bending] = case.events.unknowns, case.relaxation()
             answer = SOLVER.ask(*cases[bending], min(proof_s, until - time.monotonic()))
             if answer.kind == "refuted":
@@ -181,16 +178,14 @@ class _Hunt:
     generator: np.random.Generator = field(default_factory=lambda: np.random.default_rng(0))
 
     def witness(self, guesses: int) -> Witness | None:
-        """Return a witness, if that can be had one that keeps to the manner; None where so many guesses find none."""
-        kept, last = None, self.tried + guesses
-        while self.tried < (last if kept is None else _KEEN) and time.monotonic() < self.until:
-            keen = self.tried < len(_OWED) or kept is not None
-            found = self._mended(_Case(self.question, _OWED[self.tried % len(_OWED)] if keen else "nothing"))
+        """Return a witness, at first only one in the program's manner; None where so many guesses find none."""
+        last = self.tried + guesses
+        while self.tried < last and time.monotonic() < self.until:
+            found = self._mended(_Case(self.question, plan=True, plain=self.tried < _PLAIN))
             self.tried += 1
-            if found is not None and keen:
+            if found is not None:
                 return found
-            kept = kept or found
-        return kept
+        return None
 
     def _mended(self, case: _Case) -> Witness | None:
         """Search from a guess, and mend what is amiss with what is found until nothing is, or nothing helps."""
@@ -247,7 +242,7 @@ def _posed(question: Question, kept: Collection[str]) -> tuple[Sequence[Unknown]
     """Return unknowns and formulas of some of the constraints alone."""
     program = question.scene.program
     fewer = replace(program, constraints=tuple(c for c in program.constraints if c.id in kept))
-    case = _Case(replace(question, scene=replace(question.scene, program=fewer)), plan=False)
+    case = _Case(replace(question, scene=replace(question.scene, program=fewer)))
     formulas = case.relaxation()
     return case.events.unknowns, formulas
 

@@ -27,7 +27,7 @@ from scenewright.solve.proofs.forms import asserted, free_actors
 from scenewright.solve.proofs.lowering import RATE_LASTS_S, Lowering
 from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.order import places_within
-from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, compare, every, some
+from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, compare, some
 from scenewright.solve.proofs.witness import Broken, Witness, bends
 from scenewright.units import pin
 
@@ -35,7 +35,7 @@ SHARES = (0.985, 0.8, 0.6, 0.4, 0.2)
 _SAFETY = 0.999  # rounding of places and speeds within a turn
 _ROOM_M = Fraction(1, 20)
 _STILL_M = Fraction(1, 1000)  # who moves no farther stands, and a search has somewhere to go
-_ROLLS_MPS = Fraction(1, 2)
+_ROLLS_ON = 10  # who still rolls may roll on: this many metres and m/s for each m/s of its speed bind nobody
 
 
 @dataclass(slots=True)
@@ -48,7 +48,6 @@ class Refinement:
     owed: list[Formula] = field(default_factory=list)
     narrowings: list[Narrowing] = field(default_factory=list)
     turns: set[tuple[int, float]] = field(default_factory=set)
-    looked_at: list[ex.Temporal] = field(default_factory=list)
 
     def lasting_rates(self) -> None:
         """Let every rate at a moment last for a moment."""
@@ -62,20 +61,17 @@ class Refinement:
             self.owed.append(compare("==", b.speed - a.speed, rate * RATE_LASTS_S))
             self.owed.append(compare("==", (b.place - a.place) * 2, (a.speed + b.speed) * RATE_LASTS_S))
 
-    def manner(self, *, throughout: bool) -> None:
-        """Let pieces begin where they should and not before, and turns lie ahead.
-
-        With `throughout` braking and speeding up are also plain all through their pieces, and over with them.
-        """
+    def manner(self) -> None:
+        """Let pieces begin where they should, be plain throughout and over at their ends, and turns lie ahead."""
         for actor in self.events.scene.program.heroes:
-            self._seen_pieces(actor, throughout)
+            self._seen_pieces(actor)
         for each in self.events.scene.program.actors:
             marks = self.events.scene.landmarks_m[each.id]
             if "turn_end" in marks:  # whoever is past most of a turn shows no longer where it came from
                 halfway = pin(0.5 * (marks["turn_start"] + marks["turn_end"]))
                 self.owed.append(compare("<=", self.events.state(each.id, self.events.start).place, halfway))
 
-    def _seen_pieces(self, actor: Actor, throughout: bool) -> None:
+    def _seen_pieces(self, actor: Actor) -> None:
         kept = self.events.scene.program.manner.stricter(ROOM)
         events, kinds = self.events, actor.sketch.pieces
         knots = [events.knot(actor.id, name) for name in actor.sketch.knots]
@@ -86,8 +82,7 @@ class Refinement:
             if kind not in (PieceKind.DEC, PieceKind.ACC):
                 continue
             plain = _pulling(kind, kept.begins_mpss)
-            if throughout:
-                self.narrowings.append(Narrowing(actor.id, begins, ends, plain))
+            self.narrowings.append(Narrowing(actor.id, begins, ends, plain))
             if number and kinds[number - 1] is not PieceKind.STOP:
                 shown = events.moment(events.times[begins] + kept.begins_s, "begins")
                 settled = events.moment(events.times[begins] - kept.settled_s, "settled")
@@ -98,22 +93,19 @@ class Refinement:
                 self.narrowings.append(Narrowing(actor.id, settled, begins, calm))
                 self.owed.append(compare("<=", events.times[shown], events.times[ends]))
             if kinds[number + 1 : number + 2] in ((), (PieceKind.GO,)):
-                self._over(actor.id, kind, ends, knots[number + 2 : number + 3], kept, throughout)
+                self._over(actor.id, kind, ends, knots[number + 2 : number + 3], kept)
 
-    def _over(
-        self, actor: int, kind: PieceKind, ends: int, following: list[int], kept: Manner, throughout: bool
-    ) -> None:
+    def _over(self, actor: int, kind: PieceKind, ends: int, following: list[int], kept: Manner) -> None:
         """Let what was done in a piece be over for a while; who has come to a standstill stays there."""
         events = self.events
         lasts_s = kept.stands_s if kind is PieceKind.DEC else kept.begins_s
         over = events.moment(events.times[ends] + lasts_s, "over")
         now, then = events.state(actor, ends), events.state(actor, over)
-        if throughout:
-            self.narrowings.append(Narrowing(actor, ends, over, _not_pulling(kind, ZERO)))
+        self.narrowings.append(Narrowing(actor, ends, over, _not_pulling(kind, ZERO)))
         self.owed += [compare("<=", events.times[over], events.times[knot]) for knot in following]
         if kind is PieceKind.DEC:
-            stays = every([compare("<=", then.place - now.place, _STILL_M), compare("<=", then.speed, ZERO)])
-            self.owed.append(some([compare(">=", now.speed, _ROLLS_MPS), stays]))
+            self.owed.append(compare("<=", then.place - now.place, _STILL_M + now.speed * _ROLLS_ON))
+            self.owed.append(compare("<=", then.speed, now.speed * _ROLLS_ON))
 
     def mend(self, broken: Sequence[Broken], witness: Witness) -> bool:
         """Add what each thing amiss asks for; False where nothing can be added."""
@@ -140,30 +132,27 @@ class Refinement:
         added = False
         for node in ex.walk(formula):
             if isinstance(node, ex.State) and node.order == 2 and isinstance(node.at, ex.PieceRef):
-                ends = self.lowering.piece_ends(node.actor, node.at.name)
-                even = Narrowing(node.actor, *ends, ANY, even=True)
-                if even not in self.narrowings:
-                    self.narrowings.append(even)
-                    added = True
+                added |= self._even(node.actor, *self.lowering.piece_ends(node.actor, node.at.name))
         return added
 
-    def _look_at(self, node: ex.Temporal, time_s: float, witness: Witness) -> None:
-        """Add moments between those that there are, at which all that a body speaks of have a state.
+    def _even(self, actor: int, first: int, last: int) -> bool:
+        """Let an actor keep to one rate between each two moments of a stretch of time; False where it does."""
+        even = Narrowing(actor, first, last, ANY, even=True)
+        if even in self.narrowings:
+            return False
+        self.narrowings.append(even)
+        return True
 
-        Between them everybody keeps to one rate: what holds at two moments then hardly fails between them.
+    def _look_at(self, node: ex.Temporal, time_s: float, witness: Witness) -> None:
+        """Add a moment between those that there are, at which all that a body speaks of have a state.
+
+        Two that are compared keep to one rate between moments: what holds at two of them then hardly fails between.
         """
-        actors = free_actors(node.body)
-        made = [self._between(time_s, witness)]
-        if node not in self.looked_at:
-            self.looked_at.append(node)
-            first, last = self.lowering.stretch_of(node)
-            begin, lasts = self.events.times[first], self.events.times[last] - self.events.times[first]
-            made += [self.events.moment(begin + lasts * Fraction(k, 4), "quarter") for k in (1, 2, 3)]
+        actors, made = free_actors(node.body), self._between(time_s, witness)
+        for actor in actors:
+            self.events.state(actor, made)
             if len(actors) > 1:
-                self.narrowings += [Narrowing(actor, first, last, ANY, even=True) for actor in actors]
-        for instant in made:
-            for actor in actors:
-                self.events.state(actor, instant)
+                self._even(actor, *self.lowering.stretch_of(node))
 
     def _between(self, time_s: float, witness: Witness) -> int:
         """Return a new moment at the same share of the time between its neighbours in the motion found."""
