@@ -7,14 +7,14 @@ piece of an actor's way, and what is certain of the order of instants. It holds 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
 
 from scenewright.motion.laws import Law
 from scenewright.motion.profile import Profile
-from scenewright.program.structure import synchronised
+from scenewright.program.structure import KnotKey, read_structure
 from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
@@ -196,26 +196,18 @@ class Events:
     def _name_knots(self) -> None:
         """Give every knot its instant: the first ones are the start, synchronised ones are one."""
         program = self.scene.program
-        groups = {(actor.id, knot): {(actor.id, knot)} for actor in program.actors for knot in actor.sketch.knots}
-        pairs = [((actor.id, actor.sketch.knots[0]), (EGO, program.ego.sketch.knots[0])) for actor in program.actors]
-        for constraint in program.constraints:
-            pairs += list(synchronised(constraint.formula))
-        for left, right in pairs:
-            joined = groups[left] | groups[right]
-            for key in joined:
-                groups[key] = joined
-        starts = groups[EGO, program.ego.sketch.knots[0]]
+        starts = {(actor.id, actor.sketch.knots[0]) for actor in program.actors}
+        instants = [group | starts if group & starts else group for group in read_structure(program).instants]
         for actor in program.actors:
             for knot in actor.sketch.knots:
                 key = (actor.id, knot)
-                if key in self._knots:
-                    continue
-                made = self.start if key in starts else self._driven(groups[key])
-                made = self.instant(f"{actor.name}_{knot}") if made is None else made
-                for each in groups[key]:
-                    self._knots[each] = made
+                if key not in self._knots:
+                    group = next((group for group in [*instants, starts] if key in group), {key})
+                    made = self.start if group >= starts else self._driven(group)
+                    made = self.instant(f"{actor.name}_{knot}") if made is None else made
+                    self._knots |= dict.fromkeys(group, made)
 
-    def _driven(self, keys: set[tuple[int, str]]) -> int | None:
+    def _driven(self, keys: Collection[KnotKey]) -> int | None:
         """Return the instant of knots of which the ego's drive tells the time; None where it does not."""
         known = self.drive.knot_times_s if self.drive is not None else {}
         found = [known[name] for actor, name in keys if actor == EGO and name in known]

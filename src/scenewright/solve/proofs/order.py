@@ -42,11 +42,6 @@ def tightened(unknowns: Sequence[Unknown], formulas: Iterable[Formula], passes: 
     return found
 
 
-def told_values(ranges: Sequence[Unknown]) -> dict[int, float]:
-    """Return the unknowns of which only one value is left."""
-    return {number: float(each.low) for number, each in enumerate(ranges) if each.low == each.high}
-
-
 def _narrow(left: Polynomial, found: list[Unknown]) -> None:
     """Narrow the ranges of unknowns by ``left <= 0``."""
     least = least_value(left, found)
@@ -102,12 +97,18 @@ def closed(least: Array) -> Array:
 
 
 def _told(events: Events, linear: Iterable[Atom]) -> Iterator[tuple[int, int, Fraction]]:
+    """Yield what is said of two times, or of one that is counted from the start."""
     for part in linear:
-        if (found := difference(events, part.left)) is not None:
-            early, late, most_s = found
-            yield late, early, -most_s
-            if part.relation == "==":
-                yield early, late, most_s
+        factors = {events.instant_of.get(key): factor for key, factor in part.left.terms.items() if key}
+        if len(factors) == 1:
+            factors[events.start] = -next(iter(factors.values()))
+        (early, _), (late, size) = sorted(factors.items(), key=lambda item: item[1])[:: len(factors) - 1]
+        if early is None or late is None or len(factors) > 2 or sum(factors.values()) != 0:
+            continue
+        most_s = -part.left.terms.get((), ZERO) / size
+        yield late, early, -most_s
+        if part.relation == "==":
+            yield early, late, most_s
 
 
 def _by_places(events: Events, linear: Sequence[Atom]) -> Iterator[tuple[int, int, Fraction]]:
@@ -147,17 +148,3 @@ def places_within(events: Events, formulas: Iterable[Formula]) -> dict[tuple[int
     found = tightened(events.unknowns, [*formulas, *on, *still], _PASSES)
     ranges = {key: found[place.number] for key, place in own.items()}
     return {key: (each.low, each.high) for key, each in ranges.items()}
-
-
-def difference(events: Events, left: Polynomial) -> tuple[int, int, Fraction] | None:
-    """Return `early`, `late` and `most_s` where ``left <= 0`` says that ``late - early <= most_s``."""
-    parts = [(events.instant_of[key], factor) for key, factor in left.terms.items() if key in events.instant_of]
-    if not 1 <= len(parts) <= 2 or len(parts) + (() in left.terms) != len(left.terms):
-        return None
-    if len(parts) == 1:
-        parts.append((events.start, -parts[0][1]))
-    (a, sign), (b, other) = parts
-    if sign + other != 0:
-        return None
-    late, early = (a, b) if sign > 0 else (b, a)
-    return early, late, -left.terms.get((), ZERO) / abs(sign)

@@ -9,7 +9,6 @@ soft rows meets all of it as well as it can. It proves nothing.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,7 +53,7 @@ class Search:
         self._scale = np.where(free, np.maximum(1.0, 0.25 * (self._high - self._low)), self._scale)
         self._liking: Array = np.ones(0)
         self._lines = {
-            actor.id: _Line.of(events, actor.id, least, [n for n in narrower if n.actor == actor.id])
+            actor.id: _Line(events, actor.id, least, [n for n in narrower if n.actor == actor.id])
             for actor in events.scene.program.actors
         }
 
@@ -138,39 +137,21 @@ class Search:
         return [line.instants[k] for k in order], line.laws_between(order, point)[0]
 
 
-@dataclass(slots=True)
 class _Line:
     """One actor's moments along time: numbers of their unknowns; a known time is a multiple of the one at the end."""
 
-    instants: list[int]
-    time: NDArray[np.intp]
-    time_factor: Array
-    place: NDArray[np.intp]
-    speed: NDArray[np.intp]
-    before: NDArray[np.bool_]  # which certainly come before which; everything before itself
-    law: Law  # where nothing is narrower
-    narrowings: Sequence[Narrowing]
-
-    @classmethod
-    def of(cls, events: Events, actor: int, least: Array, narrowings: Sequence[Narrowing]) -> _Line:
-        """Collect the moments of an actor."""
-        instants = events.instants_of(actor)
-        time, factor = [], []
-        for instant in instants:
-            constant = events.times[instant].constant
-            time.append(len(events.unknowns) if constant is not None else events.times[instant].number)
-            factor.append(1.0 if constant is None else float(constant))
-        states = [events.state(actor, instant) for instant in instants]
-        return cls(
-            instants,
-            np.array(time, dtype=np.intp),
-            np.array(factor),
-            np.array([state.place.number for state in states], dtype=np.intp),
-            np.array([state.speed.number for state in states], dtype=np.intp),
-            least[np.ix_(instants, instants)] >= 0.0,
-            events.law_of(actor),
-            narrowings,
-        )
+    def __init__(self, events: Events, actor: int, least: Array, narrowings: Sequence[Narrowing]) -> None:
+        self.instants = events.instants_of(actor)
+        self.law = events.law_of(actor)  # where nothing is narrower
+        self.narrowings = narrowings
+        self.before = least[np.ix_(self.instants, self.instants)] >= 0.0  # which certainly come before which
+        times = [events.times[instant] for instant in self.instants]
+        one = len(events.unknowns)  # behind all of them
+        self.time = np.array([time.number if time.constant is None else one for time in times])
+        self.time_factor = np.array([1.0 if time.constant is None else float(time.constant) for time in times])
+        states = [events.state(actor, instant) for instant in self.instants]
+        self.place = np.array([state.place.number for state in states])
+        self.speed = np.array([state.speed.number for state in states])
 
     def sorted(self, point: Array) -> list[int]:
         """Return positions in the order of time; what is certain of their order stays."""
