@@ -11,7 +11,6 @@ from test_events import events_of
 from scenewright.solve.proofs.order import (
     closed,
     least_differences,
-    places_within,
     tightened,
 )
 from scenewright.solve.proofs.polynomials import compare, every, some
@@ -47,15 +46,6 @@ def test_when_a_place_is_passed_follows_from_where_somebody_is() -> None:
     told = [compare("==", events.state(1, first).place, 100), compare("==", events.state(1, second).place, 140)]
     least, top = least_differences(events, told), float(events.law_of(1).speed_high)
     assert least[first, passed] == least[passed, second] == pytest.approx(20 / top)
-
-
-def test_nobody_drives_backwards_and_who_stands_stays() -> None:
-    events = events_of()
-    first, stands, moves = (events.knot(1, name) for name in ("t1", "t2", "t3"))
-    within = places_within(events, [compare(">=", events.state(1, first).place, 100)])
-    assert within[1, stands][0] == 100
-    within = places_within(events, [compare("<=", events.state(1, stands).place, 140)])
-    assert within[1, moves][1] == within[1, first][1] == 140
 
 
 def test_differences_add_up() -> None:

@@ -123,7 +123,8 @@ class _Case:
 
     def formulas(self) -> list[Formula]:
         """Return all that a plan owes."""
-        return [*(each.formula for each in (*self.lowered, *self.events.rules)), *self.more.owed]
+        bends = [each for bend in sorted(self.more.turning) for each in self.more.in_bend(*bend, planned=True)]
+        return [*(each.formula for each in (*self.lowered, *self.events.rules, *bends)), *self.more.owed]
 
     def search(self) -> Search:
         """Return a search over what there is now."""

@@ -79,11 +79,10 @@ def _times(
 def carried_over(events: Events, point: Array, witness: Witness) -> Array:
     """Return `point` for events that have grown since: states at the new moments are those of the motions found."""
     grown = np.append(point, np.zeros(len(events.unknowns) - len(point)))
-    passed = {instant: witness.profiles[actor].time_at(float(p)) for (actor, p), instant in events.places.items()}
     for instant, time in enumerate(events.times):
         if time.constant is None and (number := time.number) >= len(point):
-            defined, time_s = events.defined.get(instant), passed.get(instant)
-            grown[number] = max(0.0, defined.value(grown)) if defined else min(time_s or witness.end_s, witness.end_s)
+            defined = events.defined.get(instant)
+            grown[number] = max(0.0, defined.value(grown)) if defined else witness.end_s
     for (actor, instant), state in events.states.items():
         if (number := state.place.number) >= len(point):
             place, speed, _ = witness.profiles[actor].state(events.times[instant].value(grown))

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.solve.proofs.events import LONGEST_S, Events, Unknown
-from scenewright.solve.proofs.polynomials import ZERO, All, Atom, Formula, Polynomial, compare
+from scenewright.solve.proofs.polynomials import ZERO, All, Atom, Formula, Polynomial
 
 Array = NDArray[np.float64]
 _PASSES = 2  # over all comparisons, to see between which places somebody is: enough for one that rests on another
@@ -132,19 +132,7 @@ def _by_places(events: Events, linear: Sequence[Atom]) -> Iterator[tuple[int, in
 
 
 def places_within(events: Events, formulas: Iterable[Formula]) -> dict[tuple[int, int], tuple[Fraction, Fraction]]:
-    """Return between which places (m) everybody is at each instant, by linear comparisons and who comes when."""
-    own = {key: state.place for key, state in events.states.items() if state.place.constant is None}
-    on = [
-        compare("<=", own[actor, first], own[actor, second])
-        for actor, first in own
-        for first_, second in events.ahead
-        if first_ == first and (actor, second) in own
-    ]
-    still = [
-        compare("==", own[each.actor, each.first], own[each.actor, each.last])
-        for each in events.pieces
-        if each.law.speed_high == 0
-    ]
-    found = tightened(events.unknowns, [*formulas, *on, *still], _PASSES)
-    ranges = {key: found[place.number] for key, place in own.items()}
+    """Return between which places (m) everybody is at each instant, as far as linear comparisons say it."""
+    found = tightened(events.unknowns, formulas, _PASSES)
+    ranges = {key: found[state.place.number] for key, state in events.states.items() if state.place.constant is None}
     return {key: (each.low, each.high) for key, each in ranges.items()}

@@ -7,9 +7,10 @@ Everything added is true of every witness; what is also true of every legal moti
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 
@@ -18,8 +19,6 @@ from scenewright.program import expressions as ex
 from scenewright.program.evaluate import moments_of_worst
 from scenewright.program.manner import Manner
 from scenewright.program.types import Actor, PieceKind
-from scenewright.roads.bodies import VEHICLE_LENGTH_M
-from scenewright.roads.conflicts import find_conflict, shared_offset_m
 from scenewright.solve.limits import ROOM, Limits, calm_mpss
 from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.events import Events
@@ -28,7 +27,7 @@ from scenewright.solve.proofs.lowering import RATE_LASTS_S, Lowering
 from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.order import places_within
 from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, compare, some
-from scenewright.solve.proofs.witness import Broken, Witness, bends
+from scenewright.solve.proofs.witness import Array, Broken, Witness, bends
 from scenewright.units import pin
 
 SHARES = (0.985, 0.8, 0.6, 0.4, 0.2)
@@ -47,7 +46,7 @@ class Refinement:
     limits: Mapping[int, Limits]
     owed: list[Formula] = field(default_factory=list)
     narrowings: list[Narrowing] = field(default_factory=list)
-    turns: set[tuple[int, float]] = field(default_factory=set)
+    turning: set[tuple[int, int]] = field(default_factory=set)
 
     def lasting_rates(self) -> None:
         """Let every rate at a moment last for a moment."""
@@ -112,27 +111,17 @@ class Refinement:
         world = PlanWorld(self.events.scene, witness.profiles, witness.parameters)
         added = False
         for each in broken:
-            if each.what == "law":
-                continue  # rounding: nothing to add, another motion may be better
+            if each.what in ("law", "apart"):
+                continue  # nothing to add, another motion may be better
             if each.what == "turn":
-                added |= self._slow_in_turn(each, witness)
-            elif each.what == "apart":
-                added |= self._keep_apart(each, witness)
+                self._slow_in_turn(each, witness)
+                added = True
             else:
                 program = self.events.scene.program
                 formula = asserted(program.constraint(each.what).formula, program)
-                added |= self._even_pieces(formula)
                 for node, time_s in moments_of_worst(formula, world):
                     self._look_at(node, time_s, witness)
                     added = True
-        return added
-
-    def _even_pieces(self, formula: ex.Formula) -> bool:
-        """Let pieces whose rate a formula speaks of have one rate throughout."""
-        added = False
-        for node in ex.walk(formula):
-            if isinstance(node, ex.State) and node.order == 2 and isinstance(node.at, ex.PieceRef):
-                added |= self._even(node.actor, *self.lowering.piece_ends(node.actor, node.at.name))
         return added
 
     def _even(self, actor: int, first: int, last: int) -> bool:
@@ -166,73 +155,59 @@ class Refinement:
         early, late = times[before[0]], times[after[0]]
         return self.events.moment(early + (late - early) * share, "between")
 
-    # -- turns --------------------------------------------------------------------------------------------------------
-    def _slow_in_turn(self, broken: Broken, witness: Witness) -> bool:
-        """Bound the speed where the bend is so sharp, and less so where it is less."""
-        places, sharpness = bends(self.events.scene.routes[broken.actor])
-        tightest = float(sharpness.max())
-        place = witness.profiles[broken.actor].state(broken.time_s)[0]
-        here = float(np.interp(place, places, sharpness)) / tightest
-        least = next((each for each in SHARES if each <= here + 1e-9), SHARES[-1])
-        share = next(
-            (each for each in reversed(SHARES) if each >= least and (broken.actor, each) not in self.turns), None
-        )
-        if share is None:
-            return False
-        self.turns.add((broken.actor, share))
-        sharp = places[sharpness >= share * tightest]
-        first, last = (self.events.at_place(broken.actor, pin(float(s))) for s in (sharp[0], sharp[-1]))
-        self.events.order(first, last)
-        tighter = next((each for each in reversed(SHARES) if each > share), 1.0)
-        kept = pin(_SAFETY * math.sqrt(self.limits[broken.actor].lateral_max_mpss / (tighter * tightest)))
-        self.narrowings.append(Narrowing(broken.actor, first, last, replace(ANY, speed_high=kept)))
-        return True
+    def in_bend(self, actor: int, peak: int, *, planned: bool) -> Iterator[Named]:
+        """Yield how fast each part of the bend around one place of a route may be driven, at each moment of an actor.
 
-    def bound_in_bend(self, actor: int, asked: Sequence[Formula]) -> None:
-        """Say for proofs how fast the sharpest bend of a route can be driven: at each moment, and all through it.
-
-        Of each part of it the least bend counts, so that every legal motion keeps to it. All through it is for one who
-        surely drives through it, by what is `asked`.
+        For proofs the least bend of a part counts, so that every legal motion keeps to it; where it is `planned` a
+        sharper one, so that what keeps to it is legal.
         """
         events, (places, sharpness) = self.events, bends(self.events.scene.routes[actor])
-        most_mpss, peak = self.limits[actor].lateral_max_mpss, int(np.argmax(sharpness))
+        most_mpss = self.limits[actor].lateral_max_mpss
         words = f"{events.scene.program.actor(actor).name} takes bends at {most_mpss:.3g} m/s^2 sideways at most"
-        driven = [within for (owner, _), within in places_within(events, asked).items() if owner == actor]
-        for share in SHARES:
-            least = share * float(sharpness[peak])
-            if most_mpss >= least * float(events.law_of(actor).speed_high) ** 2:
+        for sharper, share in pairwise((1.0, *SHARES)):
+            counts = (sharper if planned else share) * float(sharpness[peak])
+            if most_mpss >= counts * float(events.law_of(actor).speed_high) ** 2:
                 break
-            softer = np.flatnonzero(sharpness < least)
-            begin, end = softer[softer < peak].max(initial=-1) + 1, softer[softer > peak].min(initial=len(places)) - 1
-            first_m, last_m = (pin(float(places[k])) for k in (begin, end))
-            held = replace(ANY, speed_high=pin(math.sqrt(most_mpss / least) / _SAFETY))
-            through = any(high < first_m for _, high in driven) and any(low > last_m for low, _ in driven)
-            if share == SHARES[0] and through:
-                ends = events.at_place(actor, first_m), events.at_place(actor, last_m)
-                self.narrowings.append(Narrowing(actor, *ends, held, held, origin=words))
+            first_m, last_m = _ends(places, sharpness, peak, share)
+            most = pin(math.sqrt(most_mpss / counts) * (_SAFETY if planned else 1 / _SAFETY))
             for state in (events.state(actor, instant) for instant in events.instants_of(actor)):
                 elsewhere = [compare("<", state.place, first_m), compare(">", state.place, last_m)]
-                events.rules.append(Named(some([*elsewhere, compare("<=", state.speed, held.speed_high)]), words))
+                yield Named(some([*elsewhere, compare("<=", state.speed, most)]), words)
 
-    # -- apart --------------------------------------------------------------------------------------------------------
-    def _keep_apart(self, broken: Broken, witness: Witness) -> bool:
-        """Let two that touch be apart at that moment: one before the stretch that both need, or past it."""
-        events, scene, other = self.events, self.events.scene, broken.other
-        clear_m = scene.program.manner.clear_m
-        conflict = find_conflict(scene.routes[other], scene.routes[broken.actor])
-        made = self._between(broken.time_s, witness)
-        mine, theirs = events.state(broken.actor, made), events.state(other, made)
-        choices = []
-        if conflict is not None and conflict.kind == "crossing":
-            for place, (low, high) in ((theirs.place, conflict.zone_a_m), (mine.place, conflict.zone_b_m)):
-                choices += [compare("<=", place, pin(low) - clear_m), compare(">=", place, pin(high) + clear_m)]
-        elif (offset := shared_offset_m(scene.routes[broken.actor], scene.routes[other])) is not None:
-            gap = theirs.place + pin(offset) - mine.place
-            length = pin(VEHICLE_LENGTH_M) + clear_m + _ROOM_M
-            choices = [compare(">=", gap, length), compare("<=", gap, -length)]
-        if choices:
-            self.owed.append(some(choices))
-        return bool(choices)
+    def bound_in_bend(self, actor: int, asked: Sequence[Formula]) -> None:
+        """Say for proofs how fast the sharpest bend of a route can be driven.
+
+        One who surely drives through it, by what is `asked`, has a moment there.
+        """
+        places, sharpness = bends(self.events.scene.routes[actor])
+        peak = int(np.argmax(sharpness))
+        driven = [within for (owner, _), within in places_within(self.events, asked).items() if owner == actor]
+        if any(high < places[peak] for _, high in driven) and any(low > places[peak] for low, _ in driven):
+            self.events.at_place(actor, pin(float(places[peak])))
+        self.events.rules += self.in_bend(actor, peak, planned=False)
+
+    def _slow_in_turn(self, broken: Broken, witness: Witness) -> None:
+        """Keep to a speed in a bend at all moments: one is where it is too fast, and one at either end."""
+        places, sharpness = bends(self.events.scene.routes[broken.actor])
+        here = int(np.searchsorted(places, witness.profiles[broken.actor].state(broken.time_s)[0]))
+        peak = max(_around(sharpness, min(here, len(places) - 1), SHARES[-1]), key=sharpness.__getitem__)
+        if (broken.actor, peak) not in self.turning:
+            self.turning.add((broken.actor, peak))
+            ends = (self.events.at_place(broken.actor, m) for m in _ends(places, sharpness, peak, SHARES[0]))
+            self.events.order(*ends)
+        self.events.state(broken.actor, self._between(broken.time_s, witness))
+
+
+def _around(sharpness: Array, place: int, share: float) -> range:
+    """Return the places around one at which a route bends by at least a share of what it does there."""
+    softer = np.flatnonzero(sharpness < share * sharpness[place])
+    begin, end = softer[softer < place].max(initial=-1) + 1, softer[softer > place].min(initial=len(sharpness))
+    return range(int(begin), int(end))
+
+
+def _ends(places: Array, sharpness: Array, peak: int, share: float) -> tuple[Fraction, Fraction]:
+    around = _around(sharpness, peak, share)
+    return pin(float(places[around[0]])), pin(float(places[around[-1]]))
 
 
 def _pulling(kind: PieceKind, rate_mpss: Fraction) -> Law:

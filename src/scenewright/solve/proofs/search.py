@@ -29,7 +29,6 @@ _ENDS = np.array([_SCALE[kind] for kind in ("speed", "speed", "time", "place")])
 _EITHER_WAY = np.concatenate([np.zeros((4, 1)), np.eye(4), -np.eye(4)], axis=1)[:, :, None]
 _SOFT = 1e-5
 _SOFT_ROW = 8  # how daqp is told that a row may be broken at a price
-_LOOKED_AT = 12.0  # in longest steps: what holds by more than this cannot matter within one
 _STRICT = 1e-3  # by how much a strict comparison is to hold, in units of its scaled row
 _MOST_STEPS = 40
 _CLEAR = 1e-4  # more than rounding
@@ -96,8 +95,6 @@ class Search:
         scale, size = self._scale, self._size
         upper = np.minimum((self._high - point[:-1]) / scale, trust)
         lower = np.maximum((self._low - point[:-1]) / scale, -trust)
-        near = equal | (levels > -_LOOKED_AT * trust)
-        rows, levels, equal = rows[near], levels[near], equal[near]
         above, below = -levels, np.where(equal, -levels, -1e30)
         sense = np.concatenate([np.zeros(size, dtype=np.int32), np.full(len(levels), _SOFT_ROW, dtype=np.int32)])
         x, _, flag, _ = daqp.solve(
