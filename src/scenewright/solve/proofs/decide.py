@@ -148,23 +148,18 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     left_out = {each.origin: each.refused for each in plain.lowered if each.refused}
     if question.drive is None and (clashing := crowded(plain.events, plain.lowered)):
         return Decision("infeasible", core=clashing, left_out=left_out)
-    cases: dict[frozenset[int], tuple[Sequence[Unknown], list[Named]]] = {}
-    hunt = _Hunt(question, until)
+    hunt, asked, case = _Hunt(question, until), question, plain
+    posed: tuple[Sequence[Unknown], Sequence[Named]] | None = None  # most witnesses need none
     for guesses, proof_s in zip(_GUESSES, _PROOF_S, strict=True):
         if not left_out and question.drive is None and (found := hunt.witness(guesses)) is not None:
             return Decision("feasible", found)
-        turning = frozenset(each.actor for each in hunt.amiss if each.what == "turn")
-        for bending in dict.fromkeys((question.bending, question.bending | turning)):  # what needs no bends is easier
-            bent = replace(question, bending=bending)
-            if cases and time.monotonic() > until:
-                break
-            if bending not in cases:  # most witnesses need none
-                case = plain if bending == question.bending else _Case(bent)
-                cases[bending] = case.events.unknowns, case.relaxation()
-            answer = SOLVER.ask(*cases[bending], min(proof_s, until - time.monotonic()))
-            if answer.kind == "refuted":
-                clashing = _core(bent, *cases[bending]) if explain else ()
-                return Decision("infeasible", core=clashing, left_out=left_out)
+        turning = question.bending.union(each.actor for each in hunt.amiss if each.what == "turn")
+        if posed is not None and turning != asked.bending:  # what needs no bends is easier
+            asked = replace(question, bending=turning)
+            case, posed = _Case(asked), None
+        posed = posed or (case.events.unknowns, case.relaxation())
+        if SOLVER.ask(*posed, min(proof_s, until - time.monotonic())).kind == "refuted":
+            return Decision("infeasible", core=_core(asked, *posed) if explain else (), left_out=left_out)
     return Decision("undecided", left_out=left_out, amiss=hunt.amiss)
 
 
