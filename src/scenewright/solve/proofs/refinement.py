@@ -19,8 +19,11 @@ from scenewright.program import expressions as ex
 from scenewright.program.evaluate import moments_of_worst
 from scenewright.program.manner import Manner
 from scenewright.program.types import Actor, PieceKind
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
+from scenewright.roads.conflicts import find_conflict
 from scenewright.solve.limits import ROOM, Limits, calm_mpss
 from scenewright.solve.plan import PlanWorld
+from scenewright.solve.proofs.apart import clear
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.forms import asserted, free_actors
 from scenewright.solve.proofs.lowering import RATE_LASTS_S, Lowering
@@ -109,19 +112,22 @@ class Refinement:
     def mend(self, broken: Sequence[Broken], witness: Witness) -> bool:
         """Add what each thing amiss asks for; False where nothing can be added."""
         world = PlanWorld(self.events.scene, witness.profiles, witness.parameters)
-        added = False
+        program, added = self.events.scene.program, False
         for each in broken:
-            if each.what in ("law", "apart"):
-                continue  # nothing to add, another motion may be better
-            if each.what == "turn":
-                self._slow_in_turn(each, witness)
-                added = True
-            else:
-                program = self.events.scene.program
-                formula = asserted(program.constraint(each.what).formula, program)
-                for node, time_s in moments_of_worst(formula, world):
-                    self._look_at(node, time_s, witness)
-                    added = True
+            match each.what:
+                case "law":
+                    continue  # rounding: nothing to add, another motion may be better
+                case "turn":
+                    self._slow_in_turn(each, witness)
+                case "apart":
+                    self._keep_apart(each, witness)
+                case name:
+                    moments = list(moments_of_worst(asserted(program.constraint(name).formula, program), world))
+                    for node, time_s in moments:
+                        self._look_at(node, time_s, witness)
+                    if not moments:
+                        continue
+            added = True
         return added
 
     def _even(self, actor: int, first: int, last: int) -> bool:
@@ -196,6 +202,22 @@ class Refinement:
             ends = (self.events.at_place(broken.actor, m) for m in _ends(places, sharpness, peak, SHARES[0]))
             self.events.order(*ends)
         self.events.state(broken.actor, self._between(broken.time_s, witness))
+
+    # -- apart --------------------------------------------------------------------------------------------------------
+    def _keep_apart(self, broken: Broken, witness: Witness) -> None:
+        """Let two that touch be apart at that moment: one before the stretch that both need, or past it, or ahead."""
+        events, scene, made = self.events, self.events.scene, self._between(broken.time_s, witness)
+        clear_m = scene.program.manner.clear_m
+        conflict = find_conflict(scene.routes[broken.other], scene.routes[broken.actor])
+        if conflict is not None and conflict.kind == "crossing":
+            theirs, mine = (events.state(actor, made).place for actor in (broken.other, broken.actor))
+            zones = ((theirs, conflict.zone_a_m), (mine, conflict.zone_b_m))
+            before = [compare("<=", place, pin(low) - clear_m) for place, (low, _) in zones]
+            past = [compare(">=", place, pin(high) + clear_m) for place, (_, high) in zones]
+            self.owed.append(some([*before, *past]))
+        else:
+            room_m = pin(VEHICLE_LENGTH_M) + clear_m + _ROOM_M
+            self.owed += clear(events, broken.other, broken.actor, made, room_m)
 
 
 def _around(sharpness: Array, place: int, share: float) -> range:
