@@ -39,7 +39,7 @@ SOLVER = Z3()
 _ROUNDS = 14  # how often one motion is mended before another is looked for
 _GUESSES = (4, 12, 1000)  # how many first guesses are tried before each time that a proof is looked for
 _PROOF_S = (0.15, 0.4, 0.1)
-_CORE_S = 2.0  # for looking for what clashes among all constraints: as long as for the answer itself
+_CORE_S = 2.0  # for looking for what clashes among constraints, and then among laws: as long as for the answer
 _SHRINK_S = 0.5  # for each question whether a core does without one of its members
 _RANGES = {
     "time": f"everything happens within {float(LONGEST_S):g} s of the start",
@@ -225,6 +225,7 @@ def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Na
     else:
         kept = told
     origins = dict.fromkeys(origin for each in formulas for origin in each.origins if origin not in kept)
+    until = time.monotonic() + _CORE_S
     laws = needed(list(origins), lambda fewer: _refuted(unknowns, resting_on(formulas, (*kept, *fewer))), until)
     clashing, ranges = resting_on(formulas, (*kept, *laws)), []
     for kind, words in _RANGES.items():
