@@ -1,6 +1,6 @@
 """Adds moments and places to a search where a motion that it found is no witness: never before one shows the need.
 
-What enters: what is amiss with a motion. What leaves: more events, formulas that a plan owes, narrower laws in turns.
+What enters: what is amiss with a motion. What leaves: more events, formulas that a plan owes, bounds in bends.
 Everything added is true of every witness; what is also true of every legal motion is marked for proofs.
 """
 

@@ -64,26 +64,21 @@ def _order_of_knots(events: Events) -> Iterator[Named]:
 
 def _motion(events: Events, narrowings: Sequence[Narrowing], actor: int, least: NDArray[np.float64]) -> Iterator[Named]:
     """Yield the law between each two moments of an actor that may be neighbours, also in each piece they may lie in."""
-    name = events.scene.program.actor(actor).name
-    free = events.law_of(actor)
-    origin = events.ego.words(name) if actor == EGO else f"{name} {free.words()}"
+    name, free = events.scene.program.actor(actor).name, events.law_of(actor)
+    moves = events.ego.words(name) if actor == EGO else f"{name} {free.words()}"
     pieces = [each for each in events.pieces if each.actor == actor]
     bounded = [each for each in narrowings if each.actor == actor and each.proven is not None]
     instants = events.instants_of(actor)
     for early, late in permutations(instants, 2):
         if least[late, early] > _CERTAIN or _parted(instants, early, late, least):
             continue
-        within = [each for each in bounded if _within(each, early, late, least)]
-        besides = tuple(dict.fromkeys(each.origin for each in within))
-        law = reduce(Law.meet, (each.proven for each in within if each.proven), free)
+        certain = [each for each in (*pieces, *bounded) if _within(each, early, late, least)]
+        law = reduce(Law.meet, (each.proven for each in certain if each.proven), free)
+        origin = next((piece.origin for piece in pieces if piece in certain), moves)
+        besides = tuple(dict.fromkeys(each.origin for each in certain if each.origin != origin))
         reversed_ = [] if least[early, late] >= 0 else [compare("<", events.times[late], events.times[early])]
-        own = next((each for each in pieces if _within(each, early, late, least)), None)
-        if own is not None:
-            held = reach_formula(events, actor, early, late, law.meet(own.law))
-            yield Named(some([*reversed_, held]), own.origin, besides)
-            continue
         yield Named(some([*reversed_, reach_formula(events, actor, early, late, law)]), origin, besides)
-        for piece in pieces:
+        for piece in pieces if origin == moves else ():
             if not any(_outside(piece, instant, least) for instant in (early, late)):
                 held = reach_formula(events, actor, early, late, law.meet(piece.law))
                 yield Named(some([*_elsewhere(events, piece, (early, late)), *reversed_, held]), piece.origin, besides)
