@@ -113,19 +113,17 @@ class Search:
     # -- rows ---------------------------------------------------------------------------------------------------------
     def _rows(self, point: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
         """Return linearised rows over scaled steps, their levels (to be at most zero, or zero) and which are equal."""
-        values, gradients = self._compiled.values(point), self._compiled.gradients(point)
-        scaled = gradients[:, :-1] * self._scale
-        norms = np.maximum(np.sqrt((scaled * scaled).sum(axis=1)), 1e-9)
-        levels = values / norms + np.where(self._compiled.strict, _STRICT, 0.0)
-        errors = np.where(self._compiled.equal, np.abs(levels), levels)
-        taken = np.array(self._compiled.chosen(errors * self._liking), dtype=np.intp)
-        parts = [(scaled[taken] / norms[taken, None], levels[taken], self._compiled.equal[taken])]
-        parts += [line.rows(point, self._scale) for line in self._lines.values()]
-        return (
-            np.concatenate([part[0] for part in parts]),
-            np.concatenate([part[1] for part in parts]),
-            np.concatenate([part[2] for part in parts]),
-        )
+        compiled, count = self._compiled, len(self._compiled.atoms)
+        parts = [(compiled.values(point), compiled.gradients(point), compiled.equal)]
+        parts += [line.rows(point) for line in self._lines.values()]
+        levels, rows, equal = (np.concatenate([part[k] for part in parts]) for k in range(3))
+        rows = rows[:, :-1] * self._scale
+        norms = np.maximum(np.sqrt((rows * rows).sum(axis=1)), 1e-9)
+        levels = levels / norms
+        levels[:count] += np.where(compiled.strict, _STRICT, 0.0)
+        errors = np.where(equal, np.abs(levels), levels)[:count]
+        taken = [*compiled.chosen(errors * self._liking), *range(count, len(levels))]
+        return rows[taken] / norms[taken, None], levels[taken], equal[taken]
 
     def way_of(self, point: Array, actor: int) -> tuple[list[int], list[Law]]:
         """Return an actor's instants in the order of their times, and the laws between them."""
@@ -157,8 +155,8 @@ class _Line:
         rank = self.before.sum(axis=0)
         return sorted(range(len(times)), key=lambda k: (latest[k], rank[k], k))
 
-    def rows(self, point: Array, scale: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
-        """Return the laws between neighbours, linearised."""
+    def rows(self, point: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
+        """Return the laws between neighbours: levels, slopes by all unknowns, and which are equal."""
         order = self.sorted(point)
         early, late = np.array(order[:-1], dtype=np.intp), np.array(order[1:], dtype=np.intp)
         laws, even = self.laws_between(order, point)
@@ -184,11 +182,8 @@ class _Line:
             (self.place[early], -gx),
         ):
             rows[:, pair, column] += slope
-        flat = rows.reshape(kinds * count, width)[:, :-1] * scale
-        norms = np.sqrt((flat * flat).sum(axis=1))
-        keep = keep.reshape(-1) & (norms > 1e-9)
-        norms = np.maximum(norms, 1e-9)
-        return flat[keep] / norms[keep, None], (levels.reshape(-1) / norms)[keep], np.repeat(equal, count)[keep]
+        keep = keep.reshape(-1)
+        return levels.reshape(-1)[keep], rows.reshape(-1, width)[keep], np.repeat(equal, count)[keep]
 
     def laws_between(self, order: Sequence[int], point: Array) -> tuple[list[Law], NDArray[np.bool_]]:
         """Return the law between each two neighbours, and whether there is to be one rate.
