@@ -73,9 +73,9 @@ _SLOW_PACE = 0.43
 class Request:
     """What a user asks for: the command line of ``scenewright run``, as data.
 
-    `explain` says what is found out about a run that misses. A `simulator` may drive the ego itself; the policy `ego`
-    is then only asked how it would start. The `planner` ``smt`` is the paper's own loop: it foresees the ego by itself,
-    and rehearses nothing.
+    `solver` is what refutes; `explain` says what is found out about a run that misses.
+    A `simulator` may drive the ego itself; the policy `ego` is then only asked how it would start. The `planner`
+    ``smt`` is the paper's own loop: it foresees the ego by itself, and rehearses nothing.
     """
 
     source: str
@@ -91,6 +91,7 @@ class Request:
     predictor: str = "road"
     takes: int = 3
     explain: Literal["nothing", "cause", "ways out"] = "cause"
+    solver: str = "z3"
     simulator: str = "builtin"
     planner: PlannerName = "convex"
     translation: TranslatorSettings = field(default_factory=TranslatorSettings)
@@ -359,7 +360,7 @@ def set_up(request: Request, stages: Stages) -> tuple[World, Understanding | Non
         check_values(program, scene.parameters, name=program.name)
     rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
     ego, seed, predictor = request.ego, request.seed, request.predictor
-    world = World(scene, ego, seed, rates, predictor, request.simulator)
+    world = World(scene, ego, seed, rates, predictor, request.solver, request.simulator)
     return world, understanding
 
 

@@ -7,7 +7,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pytest
 from sentences import IMPOSSIBLE, SENTENCE
+
+from scenewright.solve.proofs.refuters import SOLVERS
 
 Command = Callable[..., Any]
 
@@ -56,3 +59,32 @@ def test_each_witness_has_a_folder(command: Command, folder: Path) -> None:
     Path("bad.txt").write_text(IMPOSSIBLE, encoding="utf-8")
     assert command("check", "good.txt", "bad.txt", "good.txt", "--out", "witnesses").exit_code == 3
     assert sorted(path.name for path in Path("witnesses").iterdir()) == ["001-good", "002-good"]
+
+
+def test_another_solver_refutes_what_the_first_does(command: Command, folder: Path) -> None:
+    missing = SOLVERS.known()["cvc5"]
+    if missing is not None:
+        pytest.skip(str(missing))
+    result = command("check", IMPOSSIBLE, "--solver", "cvc5")
+    assert result.exit_code == 3
+    assert "These clash" in result.stdout
+
+
+def test_a_numeric_solver_proves_nothing_and_is_named(command: Command, folder: Path) -> None:
+    missing = SOLVERS.known()["scip"]
+    if missing is not None:
+        pytest.skip(str(missing))
+    result = command("check", IMPOSSIBLE, "--solver", "scip")
+    assert result.exit_code == 4
+    assert "scip finds it impossible" in result.stdout
+    assert "no proof" in result.stdout
+    assert command("check", SENTENCE, "--solver", "scip").exit_code == 0
+
+
+def test_solvers_are_listed_and_others_refused(command: Command, folder: Path) -> None:
+    text = command("solvers").stdout
+    assert all(name in text for name in SOLVERS.known())
+    assert json.loads(command("solvers", "--json").stdout)["z3"].startswith("exact")
+    refused = command("check", SENTENCE, "--solver", "z4")
+    assert refused.exit_code == 2
+    assert "there is no such solver" in refused.stderr

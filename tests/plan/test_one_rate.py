@@ -15,7 +15,8 @@ from scenewright.plan.one_rate import OneRate, Past, Question
 from scenewright.program.types import EGO
 from scenewright.solve.holding import not_held
 from scenewright.solve.proofs.events import EgoBounds
-from scenewright.solve.proofs.z3_engine import Z3, Answer
+from scenewright.solve.proofs.refuters import Answer
+from scenewright.solve.proofs.z3_engine import Z3
 
 EASY = (BRAKES, YIELDS, NOT_YIELDING, YIELDS_THEN_GOES)
 SLOW_MPS = 2.0  # so that a hero that stops first is through before it

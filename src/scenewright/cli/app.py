@@ -87,6 +87,7 @@ app.command(
         _TRANSLATE,
         "scenewright check first.scene --ego constant:speed_mps=12",
         "scenewright check first.scene --out witness",
+        "scenewright check first.scene --solver cvc5",
     )
 )(checking.check)
 app.command(epilog=_examples(_TRANSLATE, "scenewright solve first.scene --out plan.json"))(reading.solve)
@@ -95,5 +96,6 @@ app.command(epilog=_examples("scenewright maps", "scenewright maps t_intersectio
 app.command(epilog=_examples("scenewright egos", "scenewright egos --json"))(listing.egos)
 app.command(epilog=_examples("scenewright models", "scenewright models --json"))(models.models)
 app.command(epilog=_examples("scenewright simulators", "scenewright simulators --json"))(listing.simulators)
+app.command(epilog=_examples("scenewright solvers", "scenewright solvers --json"))(listing.solvers)
 app.command(epilog=_examples(_TRANSLATE, _RUN, "scenewright view runs/first --no-browser"))(looking.view)
 app.add_typer(bench.app, name="bench")

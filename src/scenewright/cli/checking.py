@@ -16,7 +16,7 @@ import typer
 from scenewright.cli.console import print_json, stdout
 from scenewright.cli.directories import Claim, claim, next_free, slug
 from scenewright.cli.faults import error_data, tell, told
-from scenewright.cli.options import AsJson
+from scenewright.cli.options import AsJson, Solver
 from scenewright.cli.running import carry_out, data_without_a_run, tell_map_notes, tell_no_plan
 from scenewright.cli.translators import Asked, with_asked
 from scenewright.errors import ScenewrightError
@@ -42,23 +42,25 @@ _WORST_FIRST = (2, 3, 4, 0)
 
 
 @with_asked
-def check(asked: Asked, more: More = None, out: WitnessFolder = None, as_json: AsJson = False) -> None:
+def check(
+    asked: Asked, more: More = None, out: WitnessFolder = None, solver: Solver = "z3", as_json: AsJson = False
+) -> None:
     """Say whether a scenario can happen at all: by a motion in which it does, or by a proof with what would help."""
     with told(as_json):
         if more:
             each = [replace(asked, source=source) for source in (asked.source, *more)]
-            status = _check_each(each, out, as_json)
+            status = _check_each(each, out, solver, as_json)
         else:
-            status = _check_one(asked, out, as_json)
+            status = _check_one(asked, out, solver, as_json)
         raise typer.Exit(status)
 
 
-def _check_one(asked: Asked, out: Path | None, as_json: bool) -> int:
+def _check_one(asked: Asked, out: Path | None, solver: str, as_json: bool) -> int:
     """Check one source, tell all about it, and return the exit status."""
     from scenewright.cli import tables
 
     folder = claim(out, asked.source) if out is not None else None
-    request, result, status = _carry_out(asked, folder, as_json)
+    request, result, status = _carry_out(asked, folder, solver, as_json)
     if as_json:
         print_json(_data(request, result, status))
         return status
@@ -76,14 +78,14 @@ def _check_one(asked: Asked, out: Path | None, as_json: bool) -> int:
     return status
 
 
-def _check_each(all_asked: Sequence[Asked], out: Path | None, as_json: bool) -> int:
+def _check_each(all_asked: Sequence[Asked], out: Path | None, solver: str, as_json: bool) -> int:
     """Check one source after another, a line each; what is wrong with one does not keep the others from their turn."""
     found: list[dict[str, object]] = []
     statuses: set[int] = set()
     for asked in all_asked:
         folder = next_free(out, slug(asked.source)) if out is not None else None
         try:
-            request, result, status = _carry_out(asked, folder, as_json)
+            request, result, status = _carry_out(asked, folder, solver, as_json)
         except ScenewrightError as error:
             status = error.exit_status
             found.append({"source": asked.source, **error_data(error, status)})
@@ -101,11 +103,11 @@ def _check_each(all_asked: Sequence[Asked], out: Path | None, as_json: bool) -> 
     return worst
 
 
-def _carry_out(asked: Asked, folder: Claim | None, quiet: bool) -> tuple[Request, Result, int]:
+def _carry_out(asked: Asked, folder: Claim | None, solver: str, quiet: bool) -> tuple[Request, Result, int]:
     from scenewright.orchestrate import EXIT_STATUS
 
     try:
-        request = asked.request(out=folder.path if folder is not None else None)
+        request = asked.request(out=folder.path if folder is not None else None, solver=solver)
         result = carry_out(request, until="check", quiet=quiet)
     finally:
         if folder is not None:

@@ -1,4 +1,4 @@
-"""`maps`, `egos` and `simulators`: what there is to drive on, to drive with and in.
+"""`maps`, `egos`, `simulators` and `solvers`: what there is to drive on, to drive with and in, and to refute with.
 
 What enters: a map's name or file, or nothing. What leaves: lists and tables, for people or as JSON.
 """
@@ -15,6 +15,7 @@ from scenewright.cli.options import AsJson, argument, complete_map
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from scenewright.plugins import Kind
     from scenewright.roads.model import RoadMap
 
 _SHOWN = 30
@@ -63,23 +64,35 @@ def egos(as_json: AsJson = False) -> None:
         stdout().print("\nYour own: --ego module:Class, a class with reset(start) and step(observation, dt_s).")
 
 
+def solvers(as_json: AsJson = False) -> None:
+    """List the solvers that check --solver can name: what each can do, or what it misses."""
+    with told(as_json):
+        from scenewright.solve.proofs.refuters import SOLVERS
+
+        _list_parts(SOLVERS, as_json)
+
+
 def simulators(as_json: AsJson = False) -> None:
     """List the simulators that run --simulator can name: what each can do, or what it misses."""
     with told(as_json):
-        from scenewright.cli import tables
         from scenewright.simulate.port import SIMULATORS
 
-        described = {
-            name: SIMULATORS.called(name).capabilities.words()
-            if missing is None
-            else f"{missing.message}: {missing.fix}"
-            for name, missing in SIMULATORS.known().items()
-        }
-        if as_json:
-            print_json(described)
-            return
-        stdout().print(tables.facts(described.items()))
-        stdout().print(f"\nYour own: a package with an entry point in the group {SIMULATORS.group}.")
+        _list_parts(SIMULATORS, as_json)
+
+
+def _list_parts(kind: Kind[Any], as_json: bool) -> None:
+    """Print what each part can do in the words of its capabilities, or what it misses."""
+    from scenewright.cli import tables
+
+    described = {
+        name: kind.called(name).capabilities.words() if missing is None else f"{missing.message}: {missing.fix}"
+        for name, missing in kind.known().items()
+    }
+    if as_json:
+        print_json(described)
+        return
+    stdout().print(tables.facts(described.items()))
+    stdout().print(f"\nYour own: a package with an entry point in the group {kind.group}.")
 
 
 def describe(road_map: RoadMap) -> dict[str, Any]:

@@ -9,12 +9,15 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
 from scenewright.errors import ParameterError
 from scenewright.units import decimal_fraction
+
+if TYPE_CHECKING:
+    from scenewright.plugins import Kind
 
 _NUMBER = re.compile(r"[-+]?[\d_]*\.?[\d_]+(e[-+]?\d+)?", re.IGNORECASE)
 Mode = Literal["closed", "open"]
@@ -93,12 +96,22 @@ def complete_translator(incomplete: str) -> list[str]:
     return [name for name in names if name.startswith(incomplete)]
 
 
+def complete_solver(incomplete: str) -> list[str]:
+    """Offer the solvers that refute and miss nothing."""
+    from scenewright.solve.proofs.refuters import SOLVERS
+
+    return _complete(SOLVERS, incomplete)
+
+
 def complete_simulator(incomplete: str) -> list[str]:
     """Offer the simulators that miss nothing."""
     from scenewright.simulate.port import SIMULATORS
 
-    known = SIMULATORS.known().items()
-    return [name for name, missing in known if missing is None and name.startswith(incomplete)]
+    return _complete(SIMULATORS, incomplete)
+
+
+def _complete(kind: Kind[Any], incomplete: str) -> list[str]:
+    return [name for name, missing in kind.known().items() if missing is None and name.startswith(incomplete)]
 
 
 def complete_run_directory(incomplete: str) -> list[str]:
@@ -160,6 +173,8 @@ _TRANSLATOR_HELP = (
 Translator = Annotated[
     str, typer.Option("--translator", metavar="NAME", help=_TRANSLATOR_HELP, autocompletion=complete_translator)
 ]
+_SOLVER_HELP = "What refutes; `scenewright solvers` lists what there is."
+Solver = Annotated[str, typer.Option("--solver", metavar="NAME", help=_SOLVER_HELP, autocompletion=complete_solver)]
 _SIMULATOR_HELP = "What everybody drives in; `scenewright simulators` lists what there is."
 Simulator = Annotated[
     str, typer.Option("--simulator", metavar="NAME", help=_SIMULATOR_HELP, autocompletion=complete_simulator)

@@ -24,7 +24,8 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan
 from scenewright.solve.proofs.events import EgoBounds
-from scenewright.solve.proofs.z3_engine import Z3, Answer
+from scenewright.solve.proofs.refuters import Answer
+from scenewright.solve.proofs.z3_engine import Z3
 from scenewright.translate.lines import told_constraints
 
 # By how many tight tolerances reactive constraints give way in turn: the paper has "various" and names none; 4 is the

@@ -1,4 +1,4 @@
-"""What stays the same all through one request: the scene, the ego and its promises, limits, rates.
+"""What stays the same all through one request: the scene, the ego and its promises, limits, rates, the solver.
 
 What enters: a scene and how it is to be run. What leaves: a `World`. Nothing is planned or driven here.
 """
@@ -18,6 +18,7 @@ from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.feasibility import EgoBounds, Feasibility
 from scenewright.solve.limits import Limits, limits_on
 from scenewright.solve.parameters import settle
+from scenewright.solve.proofs.refuters import SOLVERS
 
 
 class World:
@@ -31,6 +32,8 @@ class World:
         Time step, and time between re-solves.
     predictor
         Name of how the ego is foreseen.
+    solver
+        The name of what refutes.
     simulator
         The name of what everybody drives in. One that drives the ego itself keeps no promise of the policy's.
 
@@ -42,7 +45,7 @@ class World:
     Raises
     ------
     ScenewrightError
-        Where there is no such policy, predictor or simulator.
+        Where there is no such policy, predictor, solver or simulator.
     """
 
     def __init__(
@@ -52,6 +55,7 @@ class World:
         seed: int,
         rates: Rates,
         predictor: str = "road",
+        solver: str = "z3",
         simulator: str = "builtin",
     ) -> None:
         self.scene = self.planned = scene
@@ -61,6 +65,7 @@ class World:
         self.ego = EgoVehicle(guarded, scene.routes[EGO], scene.road_map, seed)
         self.structure: Structure = read_structure(scene.program)
         self.limits: dict[int, Limits] = {i: limits_on(route, scene.road_map) for i, route in scene.routes.items()}
+        self.refuter = SOLVERS.called(solver)
         self.simulator = SIMULATORS.called(simulator)
         promise = None if self.simulator.capabilities.drives_ego else guarded.envelope
         self.ego_bounds = (
@@ -75,6 +80,6 @@ class World:
 
     def choose_and_check(self) -> Feasibility:
         """Give open parameters values, and ask whether the scenario can happen with them."""
-        self.scene, answer = settle(self.scene, self.structure, self.limits, self.ego_bounds)
+        self.scene, answer = settle(self.scene, self.structure, self.limits, self.ego_bounds, self.refuter)
         self.planned = decided(self.scene, answer.witness) if answer.witness is not None else self.scene
         return answer

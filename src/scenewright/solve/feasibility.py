@@ -20,6 +20,7 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.decide import Decision, Question, decide
 from scenewright.solve.proofs.events import EgoBounds
+from scenewright.solve.proofs.refuters import SOLVERS, Refuter
 from scenewright.solve.proofs.witness import Broken, Witness
 from scenewright.solve.suggestions import Suggestion, suggest
 from scenewright.translate.lines import named
@@ -89,14 +90,18 @@ def check_feasibility(
     ego: EgoBounds | None = None,
     explain: bool = True,
     drive: Profile | None = None,
+    refuter: Refuter | None = None,
 ) -> Feasibility:
     """Decide whether any ego within `ego` and any heroes within `limits` can do what the program asks.
 
     Open parameters are free within their ranges. With `explain` an infeasible answer comes with clashes and
     suggestions. With `drive` the ego is not any, but drives just so: infeasible then means that no hero could have met
-    all conditions against this drive. (Another hero might have made the ego drive differently.)
+    all conditions against this drive. (Another hero might have made the ego drive differently.) What refutes is
+    `refuter`, or z3 where none is given; one that is not exact proves nothing.
     """
-    question = Question(scene, structure, limits, ego or EgoBounds(), drive=drive)
+    question = Question(
+        scene, structure, limits, ego or EgoBounds(), drive=drive, refuter=refuter or SOLVERS.called("z3")
+    )
     decision = decide(question, explain=explain)
     if decision.witness is not None:
         found = {each.name: decision.witness.parameters[each.name] for each in scene.open_parameters()}
@@ -112,6 +117,8 @@ def check_feasibility(
 
 
 def _reason(program: Program, decision: Decision) -> str:
+    if decision.doubted_by:
+        return f"{decision.doubted_by} finds it impossible, to within its numerical tolerance; that is no proof"
     if decision.left_out:
         told = "; ".join(f"{name}: {why}" for name, why in decision.left_out.items())
         return f"no plan can be made for {told}"

@@ -15,6 +15,7 @@ from scenewright.program.types import Parameter
 from scenewright.roads.grounding import Scene
 from scenewright.solve.feasibility import EgoBounds, Feasibility, check_feasibility
 from scenewright.solve.limits import Limits
+from scenewright.solve.proofs.refuters import Refuter
 
 # SI values by dimension, for words that occur in the name; the empty word is the default.
 _EVERYDAY: dict[str, tuple[tuple[str, Fraction], ...]] = {
@@ -31,6 +32,7 @@ def settle(
     structure: Structure,
     limits: Mapping[int, Limits],
     ego: EgoBounds | None = None,
+    refuter: Refuter | None = None,
 ) -> tuple[Scene, Feasibility]:
     """Return `scene` with a value for every parameter, and whether it can happen.
 
@@ -41,14 +43,14 @@ def settle(
 
     def with_values(values: Mapping[str, Fraction], explain: bool = False) -> tuple[Scene, Feasibility]:
         settled = replace(scene, parameters={**scene.parameters, **values})
-        return settled, check_feasibility(settled, structure, limits, ego, explain)
+        return settled, check_feasibility(settled, structure, limits, ego, explain, refuter=refuter)
 
     if not open_parameters:
-        return scene, check_feasibility(scene, structure, limits, ego)
+        return scene, check_feasibility(scene, structure, limits, ego, refuter=refuter)
     everyday, answer = with_values({parameter.name: everyday_value(parameter) for parameter in open_parameters})
     if answer.answer == "feasible":
         return everyday, answer
-    found = check_feasibility(scene, structure, limits, ego)
+    found = check_feasibility(scene, structure, limits, ego, refuter=refuter)
     if found.answer != "feasible":
         return everyday, found
     for digits in _DIGITS:

@@ -22,7 +22,7 @@ from scenewright.solve.limits import limits_on
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, compare, every, some
-from scenewright.solve.proofs.z3_engine import Z3
+from scenewright.solve.proofs.refuters import SOLVERS
 
 _TIMEOUT_S = 2.0
 _FAR = Fraction(10**6)  # what two texts mean does not depend on how far a road goes or how fast a car is
@@ -178,7 +178,7 @@ class _Asking:
         self._unknowns = [
             replace(each, low=ZERO if each.kind in ("time", "speed") else -_FAR, high=_FAR) for each in events.unknowns
         ]
-        self._solver = Z3()
+        self._refuter = SOLVERS.called("z3")
 
     def follows(self, wanted: _Said, given: Sequence[_Said]) -> bool:
         """Whether `wanted` holds wherever all of `given` do; no answer in time counts as no."""
@@ -186,7 +186,7 @@ class _Asking:
         if denied.refused:
             return False
         parts = [*self._always, *(self._held[said.formula].formula for said in given), denied.formula]
-        answer = self._solver.ask(self._unknowns, [Named(part, "") for part in parts], _TIMEOUT_S)
+        answer = self._refuter.ask(self._unknowns, [Named(part, "") for part in parts], _TIMEOUT_S)
         return answer.kind == "refuted"
 
 

@@ -1,4 +1,4 @@
-"""Small problems for solvers: two by hand, any number at random."""
+"""Small problems for solvers: two by hand, any number at random, and how one is made a little easier or harder."""
 
 from __future__ import annotations
 
@@ -8,17 +8,20 @@ from fractions import Fraction
 
 from scenewright.solve.proofs.events import Unknown
 from scenewright.solve.proofs.polynomials import (
+    ZERO,
     All,
     Atom,
     Formula,
     Named,
     Polynomial,
     Some,
+    atom,
     compare,
     every,
     some,
     unknown,
 )
+from scenewright.solve.proofs.refuters import Answer, Refuter
 
 X, Y = unknown(0), unknown(1)
 UNKNOWNS = [Unknown("x", Fraction(0), Fraction(10), "other"), Unknown("y", Fraction(-5), Fraction(5), "other")]
@@ -26,6 +29,11 @@ UNKNOWNS = [Unknown("x", Fraction(0), Fraction(10), "other"), Unknown("y", Fract
 
 def named(**formulas: Formula) -> list[Named]:
     return [Named(formula, name) for name, formula in formulas.items()]
+
+
+def asked(refuter: Refuter, timeout_s: float) -> Answer:
+    """Ask something easy."""
+    return refuter.ask(UNKNOWNS, named(a=compare("==", X * X, 2)), timeout_s)
 
 
 def at_random(seed: int) -> tuple[list[Unknown], list[Named]]:
@@ -48,6 +56,23 @@ def _tree(draw: random.Random, count: int, depth: int) -> Formula:
         key = sorted(draw.randrange(count) for _ in range(draw.randint(1, 2)))
         left += Polynomial({tuple(key): Fraction(draw.choice([-3, -2, -1, 1, 2, 3]))})
     return compare(draw.choice(["==", "<=", "<", ">=", "<=", ">="]), left, Fraction(draw.randint(-40, 40), 4))
+
+
+def eased(formulas: list[Named], by: Fraction) -> list[Named]:
+    """Return the formulas with every comparison let off by as much; harder ones for a negative number."""
+    return [Named(_eased(each.formula, by), each.origin) for each in formulas]
+
+
+def _eased(formula: Formula, by: Fraction) -> Formula:
+    match formula:
+        case Atom(left=left, relation="=="):
+            return every([atom(left - max(by, ZERO), "<="), atom(-left - max(by, ZERO), "<=")])
+        case Atom(left=left, relation=relation):
+            return atom(left - by, relation)
+        case All(parts=parts):
+            return every(_eased(part, by) for part in parts)
+        case _:
+            return some(_eased(part, by) for part in formula.parts)
 
 
 def violation(formula: Formula, point: Sequence[float]) -> float:

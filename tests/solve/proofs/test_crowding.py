@@ -17,7 +17,7 @@ from scenewright.solve.proofs.crowding import APART, crowded
 from scenewright.solve.proofs.decide import Question, decide
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.z3_engine import Z3
+from scenewright.solve.proofs.refuters import Answer, Capabilities
 
 BEFORE_M, BEHIND_M, SINCE_S = 280.0, 290.0, 5.0
 FASTEST_MPS = 18.0  # a little less than anybody may be
@@ -83,10 +83,18 @@ def test_who_is_to_be_in_contact_is_not_counted() -> None:
     assert not clash_of(program_of("t0, go, t1", heroes, rows))
 
 
-def test_it_is_refuted_without_a_solver_and_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Z3, "ask", lambda *_, **__: pytest.fail("counting was enough"))
+class Unasked:
+    """A solver that nobody is to ask."""
+
+    name, capabilities = "unasked", Capabilities(exact=True, cores=True)
+
+    def ask(self, *_: object, **__: object) -> Answer:
+        raise AssertionError("counting was enough")
+
+
+def test_it_is_refuted_without_a_solver_and_named() -> None:
     scene = scene_of(through([(SINCE_S, SINCE_S + 1.2)] * 8))
-    decision = decide(Question(scene, read_structure(scene.program), limits_of(scene)))
+    decision = decide(Question(scene, read_structure(scene.program), limits_of(scene), refuter=Unasked()))
     assert decision.answer == "infeasible"
     assert APART in decision.core
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import pytest
@@ -12,7 +13,9 @@ from scenewright.program.structure import read_structure
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
 from scenewright.solve.proofs.decide import Decision, Question, decide
-from scenewright.solve.proofs.events import EgoBounds
+from scenewright.solve.proofs.events import EgoBounds, Unknown
+from scenewright.solve.proofs.polynomials import Named
+from scenewright.solve.proofs.refuters import Answer, Capabilities
 from scenewright.solve.proofs.witness import broken
 
 HEAD = """Actor 0 (ego):
@@ -179,6 +182,28 @@ def test_the_same_question_has_the_same_answer_to_the_digit() -> None:
     assert [s for p in first.profiles.values() for s in p.segments] == [
         s for p in second.profiles.values() for s in p.segments
     ]
+
+
+@dataclass
+class Denies:
+    """Refutes whatever it is asked."""
+
+    capabilities: Capabilities
+    name: str = "denier"
+
+    def ask(
+        self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float, want_core: bool = False
+    ) -> Answer:
+        return Answer("refuted", core=tuple(each.origin for each in formulas))
+
+
+@pytest.mark.parametrize("exact", [True, False])
+def test_only_what_an_exact_solver_refutes_is_proven(exact: bool) -> None:
+    asked = question(f"{HEAD}probe: A1v(t1) == 50\n")
+    denies = Denies(Capabilities(exact=exact, cores=True))
+    decision = decide(replace(asked, refuter=denies))
+    assert decision.answer == ("infeasible" if exact else "undecided")
+    assert decision.doubted_by == ("" if exact else "denier")
 
 
 @pytest.mark.parametrize("last", ["A1v(130) >= 0", "always[0, 130] (A1v <= 15)"])

@@ -13,8 +13,8 @@ from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.polynomials import resting_on
 from scenewright.solve.proofs.refinement import Refinement
+from scenewright.solve.proofs.refuters import SOLVERS
 from scenewright.solve.proofs.relaxation import relaxation
-from scenewright.solve.proofs.z3_engine import Z3
 
 HEAD = """Actor 0 (ego):
 - W
@@ -116,7 +116,7 @@ def test_contradictory_orders_of_moments_are_refuted_and_not_believed() -> None:
     scene = Planted(text, planted.motions, planted.knots).scene()
     events, lowering = lowered(scene)
     formulas = relaxation(events, lowering.narrowings, lowering.lower(scene.program.constraints))
-    assert Z3().ask(events.unknowns, formulas, 5.0).kind == "refuted"
+    assert SOLVERS.called("z3").ask(events.unknowns, formulas, 5.0).kind == "refuted"
 
 
 def test_a_law_that_a_constraint_makes_narrower_rests_on_both() -> None:
@@ -141,7 +141,7 @@ def test_cores_name_what_makes_a_law_narrower(constraint: str) -> None:
     scene = Planted(f"{HEAD}probe: {constraint}\n", {}, {}).scene()
     events, lowering = lowered(scene)
     formulas = relaxation(events, lowering.narrowings, lowering.lower(scene.program.constraints))
-    found = Z3().ask(events.unknowns, formulas, 5.0, want_core=True).core
+    found = SOLVERS.called("z3").ask(events.unknowns, formulas, 5.0, want_core=True).core
     assert "probe" in found
     clashing = resting_on(formulas, found)
-    assert Z3().ask(events.unknowns, clashing, 5.0).kind == "refuted", "what is named clashes by itself"
+    assert SOLVERS.called("z3").ask(events.unknowns, clashing, 5.0).kind == "refuted", "what is named clashes by itself"

@@ -29,13 +29,12 @@ from scenewright.solve.proofs.guesses import carried_over, first_guess
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, resting_on
 from scenewright.solve.proofs.refinement import Refinement
+from scenewright.solve.proofs.refuters import SOLVERS, Refuter
 from scenewright.solve.proofs.relaxation import relaxation
 from scenewright.solve.proofs.search import Search
 from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
-from scenewright.solve.proofs.z3_engine import Z3
 
 Array = NDArray[np.float64]
-SOLVER = Z3()
 _ROUNDS = 14  # how often one motion is mended before another is looked for
 _GUESSES = (4, 12, 1000)  # how many first guesses are tried before each time that a proof is looked for
 _PROOF_S = (0.15, 0.4, 0.1)
@@ -62,6 +61,8 @@ class Decision:
         Constraints that the answer does not rest on, by id, and why.
     amiss
         What was still amiss with the best motion found, where undecided.
+    doubted_by
+        The solver that found it infeasible, where undecided because what that solver refutes is no proof.
     """
 
     answer: Literal["feasible", "infeasible", "undecided"]
@@ -69,6 +70,7 @@ class Decision:
     core: tuple[str, ...] = ()
     left_out: Mapping[str, str] = field(default_factory=dict)
     amiss: tuple[Broken, ...] = ()
+    doubted_by: str = ""
 
     def __post_init__(self) -> None:
         if (self.answer == "feasible") != (self.witness is not None):
@@ -88,6 +90,7 @@ class Question:
     ego: EgoBounds = field(default_factory=EgoBounds)
     freed: Mapping[str, tuple[Fraction, Fraction]] = field(default_factory=dict)
     drive: Profile | None = None
+    refuter: Refuter = field(default_factory=lambda: SOLVERS.called("z3"))
     bending: frozenset[int] = frozenset()
 
     def constraints(self) -> tuple[Constraint, ...]:
@@ -158,7 +161,10 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
             asked = replace(question, bending=turning)
             case, posed = _Case(asked), None
         posed = posed or (case.events.unknowns, case.relaxation())
-        if SOLVER.ask(*posed, min(proof_s, until - time.monotonic())).kind == "refuted":
+        refuter = question.refuter
+        if refuter.ask(*posed, min(proof_s, until - time.monotonic())).kind == "refuted":
+            if not refuter.capabilities.exact:
+                return Decision("undecided", left_out=left_out, amiss=hunt.amiss, doubted_by=refuter.name)
             return Decision("infeasible", core=_core(asked, *posed) if explain else (), left_out=left_out)
     return Decision("undecided", left_out=left_out, amiss=hunt.amiss)
 
@@ -211,13 +217,14 @@ def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Na
     Formulas are made with what all constraints say of the order of moments, and of who is who's moment: whether some
     of them clash is asked about these alone.
     """
-    until = time.monotonic() + _CORE_S
-    first = SOLVER.ask(unknowns, formulas, 1.0, want_core=True).core
-    told = [constraint.id for constraint in question.constraints()]
+    refuter, until = question.refuter, time.monotonic() + _CORE_S
+    told, first = [constraint.id for constraint in question.constraints()], set[str]()
+    if refuter.capabilities.cores:
+        first = set(refuter.ask(unknowns, formulas, 1.0, want_core=True).core)
     named = [name for name in told if name in first]
 
     def clash(names: list[str]) -> bool:
-        return _refuted(*_posed(question, names))
+        return _refuted(refuter, *_posed(question, names))
 
     if clash(named):
         kept = needed(named, clash, until)
@@ -226,11 +233,15 @@ def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Na
         kept = told
     origins = dict.fromkeys(origin for each in formulas for origin in each.origins if origin not in kept)
     until = time.monotonic() + _CORE_S
-    laws = needed(list(origins), lambda fewer: _refuted(unknowns, resting_on(formulas, (*kept, *fewer))), until)
+
+    def by_law(laws: list[str]) -> bool:
+        return _refuted(refuter, unknowns, resting_on(formulas, (*kept, *laws)))
+
+    laws = needed(list(origins), by_law, until)
     clashing, ranges = resting_on(formulas, (*kept, *laws)), []
     for kind, words in _RANGES.items():
         wider = [replace(each, high=_WIDER * each.high) if each.kind == kind else each for each in unknowns]
-        if SOLVER.ask(wider, clashing, 0.2).kind == "met":
+        if refuter.ask(wider, clashing, 0.2).kind == "met":
             ranges.append(words)
     return (*kept, *laws, *ranges)
 
@@ -244,5 +255,5 @@ def _posed(question: Question, kept: Collection[str]) -> tuple[Sequence[Unknown]
     return case.events.unknowns, formulas
 
 
-def _refuted(unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> bool:
-    return SOLVER.ask(unknowns, formulas, _SHRINK_S).kind == "refuted"
+def _refuted(refuter: Refuter, unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> bool:
+    return refuter.ask(unknowns, formulas, _SHRINK_S).kind == "refuted"

@@ -1,4 +1,4 @@
-"""z3: what refutes, and what finds values where only a solver can; exact, with cores.
+"""z3: exact, with cores. The one solver that is always there.
 
 What enters: named formulas over unknowns. What leaves: that nothing meets them all, with what already clashes where it
 is asked for; or values; or that neither was found.
@@ -7,12 +7,12 @@ is asked for; or values; or that neither was found.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from scenewright.solve.proofs.events import Unknown
 from scenewright.solve.proofs.order import tightened
 from scenewright.solve.proofs.polynomials import Named
+from scenewright.solve.proofs.refuters import Answer, Capabilities
 from scenewright.solve.proofs.smtlib import smtlib
 
 if TYPE_CHECKING:
@@ -21,30 +21,14 @@ if TYPE_CHECKING:
 _STEPS = ("simplify", "solve-eqs", "simplify", "propagate-ineqs", "qfnra-nlsat")
 
 
-@dataclass(frozen=True, slots=True)
-class Answer:
-    """What a solver says; a timeout is an answer, never an exception.
-
-    Attributes
-    ----------
-    kind
-        ``refuted`` (nothing meets all formulas), ``met``, ``timeout``, or ``unknown`` where it gave up by itself.
-    core
-        Where refuted and asked for: origins of formulas that already clash.
-    values
-        Where met: a value for every unknown, as near as a float comes.
-    """
-
-    kind: Literal["refuted", "met", "timeout", "unknown"]
-    core: tuple[str, ...] = ()
-    values: tuple[float, ...] = ()
-
-
 class Z3:
     """z3, afresh for each question: what it keeps between two makes the second slow.
 
     With `most_work` a question is given up after so much, in z3's own count, however fast the machine is.
     """
+
+    name = "z3"
+    capabilities = Capabilities(exact=True, cores=True)
 
     def __init__(self, most_work: int = 0) -> None:
         self._most_work = most_work

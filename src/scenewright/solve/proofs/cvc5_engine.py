@@ -1,0 +1,64 @@
+"""cvc5 as a second opinion: exact, with cores, slower here than z3.
+
+What enters: named formulas over unknowns. What leaves: that nothing meets them all, with what already clashes where it
+is asked for; that all can be met, without values; or that neither was found. It never runs in our own process.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from collections.abc import Sequence
+
+from scenewright.errors import SolverError
+from scenewright.solve.proofs import cvc5_process
+from scenewright.solve.proofs.events import Unknown
+from scenewright.solve.proofs.order import tightened
+from scenewright.solve.proofs.polynomials import Named
+from scenewright.solve.proofs.refuters import Answer, Capabilities
+from scenewright.solve.proofs.smtlib import smtlib
+
+_START_S = 1.0  # what a process may take to start, on a busy machine
+_NAME = re.compile(r"\bn(\d+)\b")
+
+
+class Cvc5:
+    """cvc5 in a process for each question, stopped where it takes too long."""
+
+    name = "cvc5"
+    capabilities = Capabilities(exact=True, cores=True)
+
+    def ask(
+        self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float, want_core: bool = False
+    ) -> Answer:
+        """Ask whether all `formulas` can hold at once."""
+        ranges = list(unknowns) if want_core else tightened(unknowns, (each.formula for each in formulas))
+        if any(each.low > each.high for each in ranges):
+            return Answer("refuted")
+        lines = [
+            f"(set-option :tlimit-per {max(1, int(timeout_s * 1000))})",
+            "(set-logic QF_NRA)",
+            smtlib(ranges, formulas, named=want_core),
+            "(check-sat)",
+        ]
+        said = _said("\n".join(lines + ["(get-unsat-core)"] * want_core), timeout_s + _START_S)
+        if said is None:
+            return Answer("timeout")
+        answer, _, rest = said.partition("\n")
+        if answer == "unsat":
+            numbers = map(int, _NAME.findall(rest))
+            return Answer("refuted", core=tuple({origin for n in numbers for origin in formulas[n].origins}))
+        return Answer("met" if answer == "sat" else "unknown")
+
+
+def _said(text: str, limit_s: float) -> str | None:
+    """Return what cvc5 prints; None where it had to be stopped."""
+    command = [sys.executable, "-P", cvc5_process.__file__]
+    try:
+        done = subprocess.run(command, input=text, capture_output=True, text=True, timeout=limit_s, check=False)
+    except subprocess.TimeoutExpired:
+        return None
+    if done.returncode:
+        raise SolverError("cvc5 failed", found=(done.stderr.strip().splitlines() or ["no word"])[-1])
+    return done.stdout

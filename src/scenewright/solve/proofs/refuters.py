@@ -1,0 +1,82 @@
+"""Solvers that refute, or find values: what each can do, and how it is found by name.
+
+What enters: a name. What leaves: a solver that answers whether formulas can hold at once, imported then and not before.
+A package offers one by an entry point of the group ``scenewright.solvers``, a class without arguments. What its library
+needs besides is an extra of that package.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib.metadata import EntryPoint
+from typing import Literal, Protocol
+
+from scenewright.errors import SolverError
+from scenewright.plugins import Kind
+from scenewright.solve.proofs.events import Unknown
+from scenewright.solve.proofs.polynomials import Named
+
+GROUP = "scenewright.solvers"
+_OURS = tuple(
+    EntryPoint(name, f"scenewright.solve.proofs.{value}", GROUP)
+    for name, value in {
+        "z3": "z3_engine:Z3",
+        "cvc5": "cvc5_engine:Cvc5 [cvc5]",
+        "scip": "scip_engine:Scip [scip]",
+    }.items()
+)
+SOLVERS: Kind[Refuter] = Kind(GROUP, _OURS, "solver", "refutes", SolverError, {"cvc5": "cvc5", "scip": "pyscipopt"})
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What a solver says.
+
+    Attributes
+    ----------
+    kind
+        ``refuted`` (nothing meets all formulas), ``met``, ``timeout``, or ``unknown`` where it gave up by itself.
+    core
+        Where refuted: origins of formulas that already clash, if the solver tells.
+    values
+        Where met: a value for every unknown, as near as a float comes, if the solver tells.
+    """
+
+    kind: Literal["refuted", "met", "timeout", "unknown"]
+    core: tuple[str, ...] = ()
+    values: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Capabilities:
+    """What can be expected of a solver.
+
+    Attributes
+    ----------
+    exact
+        Whether it reckons with rationals: only then is its ``refuted`` a proof.
+    cores
+        Whether it tells which formulas clash.
+    """
+
+    exact: bool
+    cores: bool
+
+    def words(self) -> str:
+        """Say it in a line."""
+        exact = "exact: what it refutes is proven" if self.exact else "numeric: a cross-check, no proof"
+        return f"{exact}, {'cores' if self.cores else 'no cores'}"
+
+
+class Refuter(Protocol):
+    """A solver of named formulas, of second degree at most, over unknowns with ranges."""
+
+    name: str
+    capabilities: Capabilities
+
+    def ask(
+        self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float, want_core: bool = False
+    ) -> Answer:
+        """Ask whether all `formulas` can hold at once; timeouts are answers, never exceptions."""
+        ...
