@@ -54,7 +54,7 @@ def test_limits_are_those_of_each_route() -> None:
     assert made.limits[1].turn_speed_max_mps < made.limits[EGO].turn_speed_max_mps, "the hero turns"
 
 
-@pytest.mark.parametrize("what", ["ego", "predictor", "solver", "simulator"])
+@pytest.mark.parametrize("what", ["ego", "predictor", "simulator"])
 def test_what_is_not_there_is_refused(what: str) -> None:
     scene = world("constant").scene
     asked = {"ego": "constant"} | {what: "nobody"}

@@ -104,7 +104,9 @@ def check_feasibility(
     )
     decision = decide(question, explain=explain)
     if decision.witness is not None:
-        return _feasible(scene, decision.witness)
+        found = {each.name: decision.witness.parameters[each.name] for each in scene.open_parameters()}
+        parameters = {name: decimal_fraction(f"{value:.9f}") for name, value in found.items()}
+        return Feasibility("feasible", parameters=parameters, witness=decision.witness)
     if decision.answer == "undecided":
         return Feasibility("undecided", reason=_reason(scene.program, decision))
     if not explain:
@@ -112,12 +114,6 @@ def check_feasibility(
     clashes = tuple(_clash(scene.program, origin) for origin in decision.core)
     suggestions = () if drive else tuple(suggest(question, set(decision.core)))
     return Feasibility("infeasible", clashes, suggestions)
-
-
-def _feasible(scene: Scene, witness: Witness) -> Feasibility:
-    names = (parameter.name for parameter in scene.open_parameters())
-    parameters = {name: decimal_fraction(f"{witness.parameters[name]:.9f}") for name in names}
-    return Feasibility("feasible", parameters=parameters, witness=witness)
 
 
 def _reason(program: Program, decision: Decision) -> str:

@@ -127,7 +127,7 @@ def _nearest(question: Question, lever: Lever, until: float) -> Fraction | None:
 
     After `until`, in time of the processor, what is near enough is looked for no longer.
     """
-    freed = replace(question, scene=_freed(question.scene, lever))
+    freed = replace(question, scene=_changed(question.scene, lever, None))
 
     def possible(low: Fraction, high: Fraction) -> Fraction | None:
         decision = decide(replace(freed, freed={lever.name: (low, high)}), _QUERY_S, explain=False)
@@ -137,7 +137,7 @@ def _nearest(question: Question, lever: Lever, until: float) -> Fraction | None:
             return None
         # As a number it bounds a law of motion, where that is what it does; as an unknown it cannot.
         furthest = max(low, high, key=lambda each: abs(each - lever.value))
-        told = replace(question, scene=_told(question.scene, lever, furthest))
+        told = replace(question, scene=_changed(question.scene, lever, furthest))
         return furthest if decide(told, _QUERY_S, explain=False).answer == "feasible" else None
 
     value, sign = lever.value, -1 if lever.value < 0 else 1
@@ -153,18 +153,13 @@ def _nearest(question: Question, lever: Lever, until: float) -> Fraction | None:
     return None
 
 
-def _freed(scene: Scene, lever: Lever) -> Scene:
-    """Return the scene in which the lever's number is an unknown."""
-    parameters = {name: value for name, value in scene.parameters.items() if name != lever.name}
-    program = lever.put(scene.program, ParameterRef(lever.name))
-    declared = tuple(p for p in program.parameters if p.name != lever.name)
-    return replace(scene, program=replace(program, parameters=declared), parameters=parameters)
-
-
-def _told(scene: Scene, lever: Lever, value: Fraction) -> Scene:
-    """Return the scene in which the lever's number is another."""
-    parameters = {**scene.parameters, lever.name: value} if lever.number is None else scene.parameters
-    return replace(scene, program=lever.put(scene.program, Number(value)), parameters=parameters)
+def _changed(scene: Scene, lever: Lever, value: Fraction | None) -> Scene:
+    """Return the scene in which the lever's number is another, or one that is to be found."""
+    if lever.number is not None:
+        term = ParameterRef(lever.name) if value is None else Number(value)
+        return replace(scene, program=lever.put(scene.program, term))
+    others = {name: known for name, known in scene.parameters.items() if name != lever.name}
+    return replace(scene, parameters=others if value is None else {**others, lever.name: value})
 
 
 def _nearest_towards(

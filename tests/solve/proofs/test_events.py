@@ -48,13 +48,12 @@ def test_a_moment_that_is_asked_for_twice_is_one() -> None:
 
 def test_laws_of_pieces() -> None:
     events = events_of()
-    hero = events.stretches[1]
-    assert [str(stretch.kind) for stretch in hero] == ["go", "dec", "stop", "go"]
-    assert hero[1].law.rate_high == 0 > hero[1].law.rate_low
-    assert hero[2].law.speed_high == 0
-    assert hero[3].last is None, "after the last knot nobody is bound by the sketch"
-    assert len(events.stretches[0]) == 1, "neighbours under one law are one stretch"
-    held = events_of(ego=EgoBounds(holds_speed=True)).stretches[0][0].law
+    brakes, stands = events.pieces
+    assert {each.actor for each in events.pieces} == {1}, "the ego moves freely"
+    assert brakes.law.rate_high == 0 > brakes.law.rate_low
+    assert stands.law.speed_high == 0
+    assert brakes.last == stands.first
+    held = events_of(ego=EgoBounds(holds_speed=True)).law_of(0)
     assert held.rate_low == held.rate_high == 0
 
 

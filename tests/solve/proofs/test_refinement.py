@@ -79,16 +79,6 @@ def test_two_in_one_lane_do_not_touch_before_the_trigger() -> None:
     assert min(hero.state(t)[0] - ego.state(t)[0] for t in times) >= 4.5 - 1e-3
 
 
-def test_braking_that_cannot_be_plain_all_along_begins_plainly() -> None:
-    _, witness = answered(
-        "W", "dec", "A0(t1) == A1(t1)", "A1x(t1) == 100", "A1v(t1) == 4", "A1v(t2) == 0", "A1x(t2) == 118"
-    )  # plain all along it would lead no further than 16 m
-    hero = witness.profiles[1]
-    trigger = hero.knot_times_s["t1"]
-    after = [hero.state(t)[2] for t in np.arange(trigger + 0.01, trigger + float(USUAL.begins_s) - 0.01, 0.01)]
-    assert max(after) <= -float(USUAL.begins_mpss) + 1e-3
-
-
 def test_whoever_has_a_turn_ahead_starts_before_it() -> None:
     question, witness = answered("E, N", "acc", "A0(t1) == A1(t1)", "A1x(t1) == turn_end + 20")
     marks = question.scene.landmarks_m[1]

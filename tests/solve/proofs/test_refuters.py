@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import tomllib
 from collections import Counter
@@ -16,6 +17,7 @@ from forms import FORMS, program
 from scenewright.errors import InputError, MissingExtraError, SolverError
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
+from scenewright.solve.proofs.cores import needed
 from scenewright.solve.proofs.events import Unknown
 from scenewright.solve.proofs.polynomials import Named, compare, some
 from scenewright.solve.proofs.refuters import (
@@ -23,7 +25,6 @@ from scenewright.solve.proofs.refuters import (
     SOLVERS,
     Capabilities,
     Refuter,
-    core,
 )
 from scenewright.solve.proofs.relaxation import relaxation
 
@@ -99,26 +100,16 @@ def test_capabilities_are_told_in_words() -> None:
     assert Capabilities(exact=False, cores=False).words() == ("numeric: a cross-check, no proof, no cores")
 
 
-def test_cores_hold_what_clashes_and_no_more() -> None:
+@pytest.mark.parametrize("name", OTHERS)
+def test_what_clashes_by_any_solver_clashes_and_is_no_more_than_is_needed(name: str) -> None:
     formulas = named(
         low=compare("<=", X, 3),
         high=some([compare(">=", X, 4), compare(">=", X * Y, 16)]),
         else_where=compare("==", Y, 1),
     )
-    assert set(core(SOLVERS.called("z3"), UNKNOWNS, formulas, 5.0)) == {"low", "high"}, "x y is at most 15"
-    assert core(SOLVERS.called("z3"), UNKNOWNS, named(beyond=compare(">=", X, 11)), 5.0) == ("beyond",)
-
-
-@pytest.mark.parametrize("name", OTHERS)
-def test_cores_of_others_clash(name: str) -> None:
-    formulas = named(low=compare("<=", X, 3), high=compare(">=", X * Y, 16), else_where=compare("==", Y, 1))
-    assert set(core(other(name), UNKNOWNS, formulas, 5.0)) <= {"low", "high", "else_where"}
-    clashing = core(other(name), UNKNOWNS, formulas, 5.0)
-    assert (
-        SOLVERS.called("z3").ask(UNKNOWNS, [each for each in formulas if each.origin in clashing], 5.0).kind
-        == "refuted"
-    )
-    assert len(clashing) == 2
+    solver = other(name)
+    found = needed(formulas, lambda fewer: solver.ask(UNKNOWNS, fewer, 5.0).kind == "refuted", math.inf)
+    assert {each.origin for each in found} == {"low", "high"}, "x y is at most 15"
 
 
 @pytest.mark.parametrize(("name", "count"), [("cvc5", 25), ("scip", 60)])

@@ -13,7 +13,7 @@ from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.polynomials import resting_on
 from scenewright.solve.proofs.refinement import Refinement
-from scenewright.solve.proofs.refuters import SOLVERS, core
+from scenewright.solve.proofs.refuters import SOLVERS
 from scenewright.solve.proofs.relaxation import relaxation
 
 HEAD = """Actor 0 (ego):
@@ -141,7 +141,7 @@ def test_cores_name_what_makes_a_law_narrower(constraint: str) -> None:
     scene = Planted(f"{HEAD}probe: {constraint}\n", {}, {}).scene()
     events, lowering = lowered(scene)
     formulas = relaxation(events, lowering.narrowings, lowering.lower(scene.program.constraints))
-    found = core(SOLVERS.called("z3"), events.unknowns, formulas, 5.0)
+    found = SOLVERS.called("z3").ask(events.unknowns, formulas, 5.0, want_core=True).core
     assert "probe" in found
     clashing = resting_on(formulas, found)
     assert SOLVERS.called("z3").ask(events.unknowns, clashing, 5.0).kind == "refuted", "what is named clashes by itself"

@@ -8,6 +8,7 @@ saying where both are, is not its matter.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 
 from scenewright.program import expressions as ex
 from scenewright.program.manner import Manner
@@ -16,7 +17,7 @@ from scenewright.program.types import EGO, Constraint
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import shared_stretches
 from scenewright.solve.proofs.events import Events
-from scenewright.solve.proofs.polynomials import Named, compare, some
+from scenewright.solve.proofs.polynomials import Formula, Named, compare, some
 from scenewright.units import format_fraction, pin
 
 APART = "orchestrated actors keep clear of each other"
@@ -27,11 +28,12 @@ _OVERLAP_M = VEHICLE_LENGTH_M - 0.1
 def apart(events: Events, structure: Structure, constraints: Sequence[Constraint]) -> list[Named]:
     """Return that those are apart of whom a distance is asked for, at each knot at which it is."""
     program, triggers = events.scene.program, structure.triggers.values()
+    room_m = pin(_OVERLAP_M) + program.manner.clear_m
     return [
-        rule
+        Named(rule, _words(a == EGO, program.manner))
         for a, b, key in dict.fromkeys(_asked(structure, constraints))
         if not any({a, b} <= placed_at(program, trigger) for trigger in triggers)
-        for rule in _apart(events, a, b, events.knot(*key))
+        for rule in clear(events, a, b, events.knot(*key), room_m)
     ]
 
 
@@ -60,11 +62,10 @@ def _asked(structure: Structure, constraints: Sequence[Constraint]) -> Iterator[
             yield from [(a, b, key)] if a != EGO or key in early else []
 
 
-def _apart(events: Events, a: int, b: int, instant: int) -> Iterator[Named]:
-    """Yield for each stretch that two share that one of them is outside it, or ahead of the other by its length."""
+def clear(events: Events, a: int, b: int, instant: int, room_m: Fraction) -> Iterator[Formula]:
+    """Yield for each stretch that two share that one of them is outside it, or ahead of the other by some room."""
     routes = events.scene.routes
     one, other = events.state(a, instant).place, events.state(b, instant).place
-    room = pin(_OVERLAP_M) + events.scene.program.manner.clear_m
     for stretch in shared_stretches(routes[a], routes[b]):
         outside = []
         for actor, place, begin, end in zip((a, b), (one, other), stretch.begin, stretch.end, strict=True):
@@ -73,5 +74,4 @@ def _apart(events: Events, a: int, b: int, instant: int) -> Iterator[Named]:
             if end < routes[actor].landmarks["route_end"]:
                 outside.append(compare(">", place, pin(end)))
         ahead = (other - pin(stretch.begin[1])) - (one - pin(stretch.begin[0]))
-        clear = [compare(">=", ahead, room), compare("<=", ahead, -room)]
-        yield Named(some([*clear, *outside]), _words(a == EGO, events.scene.program.manner))
+        yield some([compare(">=", ahead, room_m), compare("<=", ahead, -room_m), *outside])

@@ -5,7 +5,7 @@ What enters: formulas over numbered unknowns. What leaves: arrays over their com
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,15 +29,10 @@ class Compiled:
     ----------
     size
         The number of unknowns.
-    ruled_out
-        Tells of an alternative whether it is never to be taken, while there is another.
     """
 
-    def __init__(
-        self, formulas: Sequence[Formula], size: int, ruled_out: Callable[[Formula], bool] = lambda _: False
-    ) -> None:
-        self._ruled_out = ruled_out
-        self._formulas = [self._possible(formula) for formula in formulas]
+    def __init__(self, formulas: Sequence[Formula], size: int) -> None:
+        self._formulas = formulas
         self.atoms = [part for formula in self._formulas for part in atoms(formula)]
         self._numbers = {id(part): number for number, part in enumerate(self.atoms)}
         owner, factor, left, right = [], [], [], []
@@ -67,34 +62,19 @@ class Compiled:
 
     def chosen(self, errors: Array) -> list[int]:
         """Return the comparisons that are to hold; of alternatives those of the one that is nearest to holding."""
-        found = (number for formula in self._formulas for number in self._choice(formula, errors))
+        found = (number for formula in self._formulas for number in self._nearest(formula, errors)[1])
         return list(dict.fromkeys(found))
 
-    def _possible(self, formula: Formula) -> Formula:
-        """Return a formula without alternatives that are ruled out."""
-        match formula:
-            case All(parts=parts):
-                return All(tuple(self._possible(part) for part in parts))
-            case Some(parts=parts):
-                possible = [part for part in parts if not self._ruled_out(part)]
-                return Some(tuple(self._possible(part) for part in possible or parts))
-        return formula
-
-    def _choice(self, formula: Formula, errors: Array) -> Iterator[int]:
+    def _nearest(self, formula: Formula, errors: Array) -> tuple[float, list[int]]:
+        """Return by how much a formula fails, and the comparisons on which that rests."""
         match formula:
             case Atom():
-                yield self._numbers[id(formula)]
+                number = self._numbers[id(formula)]
+                return max(0.0, float(errors[number])), [number]
             case All(parts=parts):
-                for part in parts:
-                    yield from self._choice(part, errors)
-            case Some(parts=parts) if parts:
-                yield from self._choice(min(parts, key=lambda part: self._error(part, errors)), errors)
-
-    def _error(self, formula: Formula, errors: Array) -> float:
-        match formula:
-            case Atom():
-                return max(0.0, float(errors[self._numbers[id(formula)]]))
-            case All(parts=parts):
-                return max((self._error(part, errors) for part in parts), default=0.0)
+                found = [self._nearest(part, errors) for part in parts]
+                return max((error for error, _ in found), default=0.0), [n for _, numbers in found for n in numbers]
             case Some(parts=parts):
-                return min((self._error(part, errors) for part in parts), default=np.inf)
+                return min(
+                    (self._nearest(part, errors) for part in parts), key=lambda each: each[0], default=(np.inf, [])
+                )

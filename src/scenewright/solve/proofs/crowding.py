@@ -7,6 +7,7 @@ heroes must all pass it within a time that is shorter than they cover it one aft
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
@@ -21,6 +22,7 @@ from scenewright.roads.conflicts import conflicts, shared_stretches
 from scenewright.roads.grounding import Scene
 from scenewright.roads.zones import overlap
 from scenewright.solve.proofs.apart import APART
+from scenewright.solve.proofs.cores import needed
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.order import least_differences, places_within
 from scenewright.solve.proofs.polynomials import Named
@@ -45,24 +47,22 @@ def crowded(events: Events, lowered: Sequence[Named]) -> tuple[str, ...]:
         crowd = facts.crowd(point)
         if len(crowd) > 1:
             there = {hero: point[hero] for hero in crowd}
-            kept = list(lowered)
-            for each in lowered:
-                fewer = [other for other in kept if other is not each]
-                if len(_Facts.of(events, fewer).crowd(there)) == len(crowd):
-                    kept = fewer
-            tied = _ties(events.scene.program, crowd)
-            return (*dict.fromkeys([*(each.origin for each in kept), *tied]), APART)
+
+            def clash(fewer: list[Named], there: Point = there, count: int = len(crowd)) -> bool:
+                return len(_Facts.of(events, fewer).crowd(there)) == count
+
+            kept = needed(lowered, clash, math.inf)
+            told = [each.origin for each in kept]
+            return (*dict.fromkeys([*told, *_ties(events.scene.program, told, crowd)]), APART)
     return ()
 
 
-def _ties(program: Program, crowd: Sequence[int]) -> list[str]:
-    """Return the constraints that say that a moment of one of the crowd is one of somebody else, and of who else."""
-    ties = [each for each in program.constraints if any(synchronised(each.formula))]
-    known, found = set(crowd), dict[str, None]()
-    while more := [each for each in ties if each.id not in found and actors_of(each.formula) & known]:
-        found |= {each.id: None for each in more}
-        known |= {actor for each in more for actor in actors_of(each.formula)}
-    return [each.id for each in ties if each.id in found]
+def _ties(program: Program, told: Collection[str], crowd: Sequence[int]) -> list[str]:
+    """Return the constraints that make one moment of two, where the crowd or what is told of it rests on that."""
+    known = set(crowd).union(*(actors_of(program.constraint(name).formula) for name in told))
+    groups = [group for group in read_structure(program).instants if known & {actor for actor, _ in group}]
+    ties = [(each.id, key) for each in program.constraints for key, _ in synchronised(each.formula)]
+    return [name for name, key in ties if any(key in group for group in groups)]
 
 
 @dataclass(slots=True)
@@ -145,27 +145,29 @@ def _points(scene: Scene, facts: _Facts) -> Iterator[Point]:
     """Yield where several heroes pass: where ways cross, and just beyond and before where somebody is told to be."""
     heroes, seen = [hero.id for hero in scene.program.heroes], set[tuple[tuple[int, float], ...]]()
     for hero in heroes:
-        told = [at_m for (owner, _), at_m in facts.most_m.items() if owner == hero]
-        told = [at_m + _HALF_M for at_m in told]
-        told += [at_m - _HALF_M for (owner, _), at_m in facts.least_m.items() if owner == hero]
-        others = {
-            other: (
-                shared_stretches(scene.routes[hero], scene.routes[other]),
-                [c for c in conflicts(scene.routes[hero], scene.routes[other]) if c.kind != "following"],
-            )
-            for other in heroes
-            if other != hero
-        }
-        for place_m in dict.fromkeys([*told, *(c.s_a_m for _, found in others.values() for c in found)]):
-            point = {hero: place_m}
-            for other, (stretches, found) in others.items():
-                for stretch in stretches:
-                    if stretch.begin[0] <= place_m <= stretch.end[0]:
-                        point[other] = stretch.beside((place_m, 0.0))[1]
-                for conflict in found:
-                    if abs(conflict.s_a_m - place_m) < _ROUNDING:
-                        point[other] = conflict.s_b_m
+        places = [at_m + _HALF_M for (owner, _), at_m in facts.most_m.items() if owner == hero]
+        places += [at_m - _HALF_M for (owner, _), at_m in facts.least_m.items() if owner == hero]
+        places += [at_m for other in heroes if other != hero for at_m, _ in _crossings(scene, hero, other)]
+        for place_m in dict.fromkeys(places):
+            passed = {other: _passed_m(scene, hero, place_m, other) for other in heroes}
+            point = {other: at_m for other, at_m in passed.items() if at_m is not None}
             key = tuple(sorted((other, round(at_m, 3)) for other, at_m in point.items()))
             if len(point) > 1 and key not in seen:
                 seen.add(key)
                 yield point
+
+
+def _passed_m(scene: Scene, hero: int, place_m: float, other: int) -> float | None:
+    """Return where on the way of another a place on a hero's is; None where it does not come there."""
+    if other == hero:
+        return place_m
+    for stretch in shared_stretches(scene.routes[hero], scene.routes[other]):
+        if stretch.begin[0] <= place_m <= stretch.end[0]:
+            return stretch.beside((place_m, 0.0))[1]
+    crossings = _crossings(scene, hero, other)
+    return next((at_m for own_m, at_m in crossings if abs(own_m - place_m) < _ROUNDING), None)
+
+
+def _crossings(scene: Scene, hero: int, other: int) -> list[tuple[float, float]]:
+    found = conflicts(scene.routes[hero], scene.routes[other])
+    return [(each.s_a_m, each.s_b_m) for each in found if each.kind != "following"]

@@ -22,32 +22,31 @@ from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.apart import apart
+from scenewright.solve.proofs.cores import needed
 from scenewright.solve.proofs.crowding import crowded
 from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, Events, Unknown
 from scenewright.solve.proofs.guesses import carried_over, first_guess
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, resting_on
 from scenewright.solve.proofs.refinement import Refinement
-from scenewright.solve.proofs.refuters import SOLVERS, Refuter, core
+from scenewright.solve.proofs.refuters import SOLVERS, Refuter
 from scenewright.solve.proofs.relaxation import relaxation
 from scenewright.solve.proofs.search import Search
 from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
 
 Array = NDArray[np.float64]
-Owed = Literal["throughout", "at first", "nothing"]
 _ROUNDS = 14  # how often one motion is mended before another is looked for
 _GUESSES = (4, 12, 1000)  # how many first guesses are tried before each time that a proof is looked for
 _PROOF_S = (0.15, 0.4, 0.1)
-_CORE_S = 2.0  # for looking for what clashes among all constraints: as long as for the answer itself
+_CORE_S = 2.0  # for looking for what clashes among constraints, and then among laws: as long as for the answer
+_SHRINK_S = 0.5  # for each question whether a core does without one of its members
 _RANGES = {
     "time": f"everything happens within {float(LONGEST_S):g} s of the start",
     "speed": "how fast anybody may be",
     "place": "where the routes end",
 }
 _WIDER = 1000  # a range so much wider is none
-# What guesses owe of the manner, in turn; later ones owe nothing: a motion that looks like nothing is possible, too.
-_OWED: tuple[Owed, ...] = ("throughout", "throughout", "at first")
-_KEEN = 12  # so many guesses are made for one that does, where there is one that does not
+_PLAIN = 4  # so many guesses owe the manner; a motion that looks like nothing is possible, too
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +102,7 @@ class Question:
 class _Case:
     """One scene's events with what was added to them, grown as motions show the need."""
 
-    def __init__(self, question: Question, owed: Owed = "nothing", plan: bool = True) -> None:
+    def __init__(self, question: Question, *, plan: bool = False, plain: bool = False) -> None:
         self.events = Events(question.scene, question.limits, question.ego, question.drive, question.freed)
         self.lowering = Lowering(self.events, Fraction(1) if question.drive else ZERO)
         self.constraints = question.constraints()
@@ -116,8 +115,8 @@ class _Case:
             self.more.lasting_rates()
         for actor in question.bending:
             self.more.bound_in_bend(actor, [each.formula for each in self.lowered])
-        if owed != "nothing":
-            self.more.manner(throughout=owed == "throughout")
+        if plain:
+            self.more.manner()
 
     def lower(self) -> None:
         """Lower the constraints over the moments that there are now, if there are more of them."""
@@ -127,7 +126,8 @@ class _Case:
 
     def formulas(self) -> list[Formula]:
         """Return all that a plan owes."""
-        return [*(each.formula for each in (*self.lowered, *self.events.rules)), *self.more.owed]
+        bends = [each for bend in sorted(self.more.turning) for each in self.more.in_bend(*bend, planned=True)]
+        return [*(each.formula for each in (*self.lowered, *self.events.rules, *bends)), *self.more.owed]
 
     def search(self) -> Search:
         """Return a search over what there is now."""
@@ -147,29 +147,25 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     ego only a proof is looked for: what might have been is nobody's plan.
     """
     until = time.monotonic() + limit_s
-    plain = _Case(question, plan=False)
+    plain = _Case(question)
     left_out = {each.origin: each.refused for each in plain.lowered if each.refused}
     if question.drive is None and (clashing := crowded(plain.events, plain.lowered)):
         return Decision("infeasible", core=clashing, left_out=left_out)
-    cases: dict[frozenset[int], tuple[Sequence[Unknown], list[Named]]] = {}
-    hunt = _Hunt(question, until)
+    hunt, asked, case = _Hunt(question, until), question, plain
+    posed: tuple[Sequence[Unknown], Sequence[Named]] | None = None  # most witnesses need none
     for guesses, proof_s in zip(_GUESSES, _PROOF_S, strict=True):
         if not left_out and question.drive is None and (found := hunt.witness(guesses)) is not None:
             return Decision("feasible", found)
-        turning = frozenset(each.actor for each in hunt.amiss if each.what == "turn")
-        for bending in dict.fromkeys((question.bending, question.bending | turning)):  # what needs no bends is easier
-            bent = replace(question, bending=bending)
-            if cases and time.monotonic() > until:
-                break
-            if bending not in cases:  # most witnesses need none
-                case = plain if bending == question.bending else _Case(bent, plan=False)
-                cases[bending] = case.events.unknowns, case.relaxation()
-            answer = question.refuter.ask(*cases[bending], min(proof_s, until - time.monotonic()))
-            if answer.kind == "refuted" and not question.refuter.capabilities.exact:
-                return Decision("undecided", left_out=left_out, amiss=hunt.amiss, doubted_by=question.refuter.name)
-            if answer.kind == "refuted":
-                clashing = _core(bent, *cases[bending]) if explain else ()
-                return Decision("infeasible", core=clashing, left_out=left_out)
+        turning = question.bending.union(each.actor for each in hunt.amiss if each.what == "turn")
+        if posed is not None and turning != asked.bending:  # what needs no bends is easier
+            asked = replace(question, bending=turning)
+            case, posed = _Case(asked), None
+        posed = posed or (case.events.unknowns, case.relaxation())
+        refuter = question.refuter
+        if refuter.ask(*posed, min(proof_s, until - time.monotonic())).kind == "refuted":
+            if not refuter.capabilities.exact:
+                return Decision("undecided", left_out=left_out, amiss=hunt.amiss, doubted_by=refuter.name)
+            return Decision("infeasible", core=_core(asked, *posed) if explain else (), left_out=left_out)
     return Decision("undecided", left_out=left_out, amiss=hunt.amiss)
 
 
@@ -184,16 +180,14 @@ class _Hunt:
     generator: np.random.Generator = field(default_factory=lambda: np.random.default_rng(0))
 
     def witness(self, guesses: int) -> Witness | None:
-        """Return a witness, if that can be had one that keeps to the manner; None where so many guesses find none."""
-        kept, last = None, self.tried + guesses
-        while self.tried < (last if kept is None else _KEEN) and time.monotonic() < self.until:
-            keen = self.tried < len(_OWED) or kept is not None
-            found = self._mended(_Case(self.question, _OWED[self.tried % len(_OWED)] if keen else "nothing"))
+        """Return a witness, at first only one in the program's manner; None where so many guesses find none."""
+        last = self.tried + guesses
+        while self.tried < last and time.monotonic() < self.until:
+            found = self._mended(_Case(self.question, plan=True, plain=self.tried < _PLAIN))
             self.tried += 1
-            if found is not None and keen:
+            if found is not None:
                 return found
-            kept = kept or found
-        return kept
+        return None
 
     def _mended(self, case: _Case) -> Witness | None:
         """Search from a guess, and mend what is amiss with what is found until nothing is, or nothing helps."""
@@ -224,31 +218,42 @@ def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Na
     of them clash is asked about these alone.
     """
     refuter, until = question.refuter, time.monotonic() + _CORE_S
-    first = refuter.ask(unknowns, formulas, 1.0, want_core=True).core
-    told = [constraint.id for constraint in question.constraints()]
-    kept = [name for name in told if name in first]
-    if (posed := _posed(question, kept)) is None:
-        kept, posed = told, (unknowns, formulas)
-    for name in list(kept):
-        fewer = [other for other in kept if other != name]
-        if time.monotonic() < until and (easier := _posed(question, fewer)) is not None:
-            kept, posed = fewer, easier
-    laws = [each for each in core(refuter, *posed, 1.0) if each not in kept]
-    clashing = resting_on(posed[1], (*kept, *laws))
-    ranges = []
+    told, first = [constraint.id for constraint in question.constraints()], set[str]()
+    if refuter.capabilities.cores:
+        first = set(refuter.ask(unknowns, formulas, 1.0, want_core=True).core)
+    named = [name for name in told if name in first]
+
+    def clash(names: list[str]) -> bool:
+        return _refuted(refuter, *_posed(question, names))
+
+    if clash(named):
+        kept = needed(named, clash, until)
+        unknowns, formulas = _posed(question, kept)
+    else:
+        kept = told
+    origins = dict.fromkeys(origin for each in formulas for origin in each.origins if origin not in kept)
+    until = time.monotonic() + _CORE_S
+
+    def by_law(laws: list[str]) -> bool:
+        return _refuted(refuter, unknowns, resting_on(formulas, (*kept, *laws)))
+
+    laws = needed(list(origins), by_law, until)
+    clashing, ranges = resting_on(formulas, (*kept, *laws)), []
     for kind, words in _RANGES.items():
-        wider = [replace(each, high=_WIDER * each.high) if each.kind == kind else each for each in posed[0]]
+        wider = [replace(each, high=_WIDER * each.high) if each.kind == kind else each for each in unknowns]
         if refuter.ask(wider, clashing, 0.2).kind == "met":
             ranges.append(words)
     return (*kept, *laws, *ranges)
 
 
-def _posed(question: Question, kept: Collection[str]) -> tuple[Sequence[Unknown], Sequence[Named]] | None:
-    """Return unknowns and formulas of some of the constraints alone, if these are refuted."""
+def _posed(question: Question, kept: Collection[str]) -> tuple[Sequence[Unknown], Sequence[Named]]:
+    """Return unknowns and formulas of some of the constraints alone."""
     program = question.scene.program
     fewer = replace(program, constraints=tuple(c for c in program.constraints if c.id in kept))
-    case = _Case(replace(question, scene=replace(question.scene, program=fewer)), plan=False)
+    case = _Case(replace(question, scene=replace(question.scene, program=fewer)))
     formulas = case.relaxation()
-    if question.refuter.ask(case.events.unknowns, formulas, 0.5).kind == "refuted":
-        return case.events.unknowns, formulas
-    return None
+    return case.events.unknowns, formulas
+
+
+def _refuted(refuter: Refuter, unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> bool:
+    return refuter.ask(unknowns, formulas, _SHRINK_S).kind == "refuted"

@@ -2,21 +2,23 @@
 
 What enters: a scene, who is bounded how, and what is asked for as constraints are lowered: a knot, a concrete time, a
 moment of somebody else. What leaves: instants with their times, states of actors at instants, the law on every
-stretch of an actor's way, and what is certain of the order of instants. It holds no constraint of the program.
+piece of an actor's way, and what is certain of the order of instants. It holds no constraint of the program.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
 from fractions import Fraction
+from itertools import pairwise
 
 from scenewright.motion.laws import Law
 from scenewright.motion.profile import Profile
-from scenewright.program.structure import synchronised
+from scenewright.program.structure import KnotKey, read_structure
 from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
+from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.polynomials import (
     ZERO,
     Named,
@@ -27,6 +29,7 @@ from scenewright.solve.proofs.polynomials import (
     some,
     unknown,
 )
+from scenewright.translate.phrases import does
 from scenewright.units import pin
 
 LONGEST_S = Fraction(120)
@@ -67,16 +70,6 @@ class Unknown:
 
 
 @dataclass(frozen=True, slots=True)
-class Stretch:
-    """A part of an actor's way under one law, between two instants; `last` None: for ever."""
-
-    law: Law
-    first: int
-    last: int | None
-    kind: PieceKind
-
-
-@dataclass(frozen=True, slots=True)
 class State:
     """Where an actor is and how fast at an instant."""
 
@@ -96,7 +89,7 @@ class Events:
     unknowns: list[Unknown] = field(default_factory=list)
     times: list[Polynomial] = field(default_factory=list)
     states: dict[tuple[int, int], State] = field(default_factory=dict)
-    stretches: dict[int, list[Stretch]] = field(default_factory=dict)
+    pieces: list[Narrowing] = field(default_factory=list)  # those in which somebody does not move freely
     rules: list[Named] = field(default_factory=list)
     parameters: dict[str, Polynomial] = field(default_factory=dict)
     start: int = 0
@@ -203,44 +196,32 @@ class Events:
     def _name_knots(self) -> None:
         """Give every knot its instant: the first ones are the start, synchronised ones are one."""
         program = self.scene.program
-        groups = {(actor.id, knot): {(actor.id, knot)} for actor in program.actors for knot in actor.sketch.knots}
-        pairs = [((actor.id, actor.sketch.knots[0]), (EGO, program.ego.sketch.knots[0])) for actor in program.actors]
-        for constraint in program.constraints:
-            pairs += list(synchronised(constraint.formula))
-        for left, right in pairs:
-            joined = groups[left] | groups[right]
-            for key in joined:
-                groups[key] = joined
-        starts = groups[EGO, program.ego.sketch.knots[0]]
+        starts = {(actor.id, actor.sketch.knots[0]) for actor in program.actors}
+        instants = [group | starts if group & starts else group for group in read_structure(program).instants]
         for actor in program.actors:
             for knot in actor.sketch.knots:
                 key = (actor.id, knot)
-                if key in self._knots:
-                    continue
-                made = self.start if key in starts else self._driven(groups[key])
-                made = self.instant(f"{actor.name}_{knot}") if made is None else made
-                for each in groups[key]:
-                    self._knots[each] = made
+                if key not in self._knots:
+                    group = next((group for group in [*instants, starts] if key in group), {key})
+                    made = self.start if group >= starts else self._driven(group)
+                    made = self.instant(f"{actor.name}_{knot}") if made is None else made
+                    self._knots |= dict.fromkeys(group, made)
 
-    def _driven(self, keys: set[tuple[int, str]]) -> int | None:
+    def _driven(self, keys: Collection[KnotKey]) -> int | None:
         """Return the instant of knots of which the ego's drive tells the time; None where it does not."""
         known = self.drive.knot_times_s if self.drive is not None else {}
         found = [known[name] for actor, name in keys if actor == EGO and name in known]
         return self.clock(pin(found[0])) if found else None
 
     def _lay_out(self, actor: Actor) -> None:
-        """Put a law on each stretch of an actor's way; neighbours under one law are one stretch."""
+        """Put a law on each piece of an actor's way in which it does not move freely."""
         knots = [self.knot(actor.id, name) for name in actor.sketch.knots]
-        found: list[Stretch] = []
-        for first, last, kind in zip(knots, (*knots[1:], None), (*actor.sketch.pieces, PieceKind.GO), strict=True):
+        for (first, last), kind in zip(pairwise(knots), actor.sketch.pieces, strict=True):
+            self.order(first, last)
             law = self.law_of_piece(actor.id, kind)
-            if last is not None:
-                self.order(first, last)
-            if found and found[-1].law == law:
-                found[-1] = replace(found[-1], last=last)
-            else:
-                found.append(Stretch(law, first, last, kind))
-        self.stretches[actor.id] = found
+            if law != self.law_of(actor.id):
+                origin = f"while {actor.name} {does(kind)}, it {law.words()}"
+                self.pieces.append(Narrowing(actor.id, first, last, law, law, origin=origin))
         for instant in dict.fromkeys(knots):
             self.state(actor.id, instant)
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from scenewright.program import expressions as ex
-from scenewright.program.types import Constraint
+from scenewright.program.types import EGO, Constraint
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.forms import actors_at, asserted, free_actors
@@ -96,17 +96,12 @@ class Lowering:
 
     def stretch_of(self, formula: ex.Temporal) -> tuple[int, int]:
         """Return the instants at which a stretch of time begins and ends."""
-        return self._edge(formula.start), self._edge(formula.end)
+        return self._instant(formula.start), self._instant(formula.end)
 
     def ends_early(self, formula: ex.Temporal) -> Polynomial | None:
         """Return when a stretch of time ends that may end before the start: there is nothing of it then."""
         ends = self._time(formula.end)
         return None if least_value(ends, self.events.unknowns) >= 0 else ends
-
-    def _edge(self, term: ex.Term) -> int:
-        if isinstance(term, ex.Elapsed):
-            return self.events.knot(term.actor, term.knot)
-        return self.events.moment(self._time(term), "edge")
 
     def _time(self, term: ex.Term) -> Polynomial:
         top, below = self.plain(term)
@@ -119,16 +114,16 @@ class Lowering:
         cases = self.term(term, None)
         return cases[0].top, cases[0].below
 
-    def _instant(self, at: ex.At, owner: int) -> int:
+    def _instant(self, at: ex.At | ex.Term, owner: int = EGO) -> int:
+        """Return the instant that a knot of its owner, or a term for a time, stands for."""
         match at:
             case ex.Knot(name=name):
                 return self.events.knot(owner, name)
             case ex.Elapsed(actor=actor, knot=knot):
                 return self.events.knot(actor, knot)
-            case ex.Number(value=value):
-                return self.events.clock(value)
-            case _:
+            case None | ex.PieceRef():
                 raise TypeError(f"not a moment: {at!r}")
+        return self.events.moment(self._time(at), "told")
 
     # -- formulas -----------------------------------------------------------------------------------------------------
     def formula(self, formula: ex.Formula, now: int | None) -> Formula:

@@ -23,7 +23,7 @@ _RATE_ROOM_MPSS = Fraction(1, 1000)  # for numbers that were rounded; half of wh
 
 @dataclass(frozen=True, slots=True)
 class Narrowing:
-    """A narrower law for an actor between two instants, held by a constraint that stands for itself.
+    """A narrower law for an actor between two instants: that of a piece, or what a constraint makes of it.
 
     Attributes
     ----------
@@ -43,7 +43,7 @@ class Narrowing:
     place_m: Fraction = ZERO
     up_to_place: bool = False
     even: bool = False  # whether a plan keeps to one rate between each two moments
-    origin: str = ""  # the constraint that it comes from, by id
+    origin: str = ""  # the constraint that it comes from, by id; of a piece what it is, in words
     said: ex.Formula | None = None  # what it makes superfluous between its ends
 
     def begins(self) -> tuple[int, ...]:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.solve.proofs.events import LONGEST_S, Events, Unknown
-from scenewright.solve.proofs.polynomials import ZERO, All, Atom, Formula, Polynomial, compare
+from scenewright.solve.proofs.polynomials import ZERO, All, Atom, Formula, Polynomial
 
 Array = NDArray[np.float64]
 _PASSES = 2  # over all comparisons, to see between which places somebody is: enough for one that rests on another
@@ -40,11 +40,6 @@ def tightened(unknowns: Sequence[Unknown], formulas: Iterable[Formula], passes: 
             if part.relation == "==":
                 _narrow(-part.left, found)
     return found
-
-
-def told_values(ranges: Sequence[Unknown]) -> dict[int, float]:
-    """Return the unknowns of which only one value is left."""
-    return {number: float(each.low) for number, each in enumerate(ranges) if each.low == each.high}
 
 
 def _narrow(left: Polynomial, found: list[Unknown]) -> None:
@@ -102,12 +97,18 @@ def closed(least: Array) -> Array:
 
 
 def _told(events: Events, linear: Iterable[Atom]) -> Iterator[tuple[int, int, Fraction]]:
+    """Yield what is said of two times, or of one that is counted from the start."""
     for part in linear:
-        if (found := difference(events, part.left)) is not None:
-            early, late, most_s = found
-            yield late, early, -most_s
-            if part.relation == "==":
-                yield early, late, most_s
+        factors = {events.instant_of.get(key): factor for key, factor in part.left.terms.items() if key}
+        if len(factors) == 1:
+            factors[events.start] = -next(iter(factors.values()))
+        (early, _), (late, size) = sorted(factors.items(), key=lambda item: item[1])[:: len(factors) - 1]
+        if early is None or late is None or len(factors) > 2 or sum(factors.values()) != 0:
+            continue
+        most_s = -part.left.terms.get((), ZERO) / size
+        yield late, early, -most_s
+        if part.relation == "==":
+            yield early, late, most_s
 
 
 def _by_places(events: Events, linear: Sequence[Atom]) -> Iterator[tuple[int, int, Fraction]]:
@@ -131,43 +132,7 @@ def _by_places(events: Events, linear: Sequence[Atom]) -> Iterator[tuple[int, in
 
 
 def places_within(events: Events, formulas: Iterable[Formula]) -> dict[tuple[int, int], tuple[Fraction, Fraction]]:
-    """Return between which places (m) everybody is at each instant, by linear comparisons and who comes when."""
-    own = {key: state.place for key, state in events.states.items() if state.place.constant is None}
-    on = [
-        compare("<=", own[actor, first], own[actor, second])
-        for actor, first in own
-        for first_, second in events.ahead
-        if first_ == first and (actor, second) in own
-    ]
-    still = [
-        compare("==", own[actor, each.first], own[actor, each.last])
-        for actor, found in events.stretches.items()
-        for each in found
-        if each.law.speed_high == 0 and each.last is not None
-    ]
-    found = tightened(events.unknowns, [*formulas, *on, *still], _PASSES)
-    ranges = {key: found[place.number] for key, place in own.items()}
+    """Return between which places (m) everybody is at each instant, as far as linear comparisons say it."""
+    found = tightened(events.unknowns, formulas, _PASSES)
+    ranges = {key: found[state.place.number] for key, state in events.states.items() if state.place.constant is None}
     return {key: (each.low, each.high) for key, each in ranges.items()}
-
-
-def difference(events: Events, left: Polynomial) -> tuple[int, int, Fraction] | None:
-    """Return `early`, `late` and `most_s` where ``left <= 0`` says that ``late - early <= most_s``."""
-    parts = [(events.instant_of[key], factor) for key, factor in left.terms.items() if key in events.instant_of]
-    if not 1 <= len(parts) <= 2 or len(parts) + (() in left.terms) != len(left.terms):
-        return None
-    if len(parts) == 1:
-        parts.append((events.start, -parts[0][1]))
-    (a, sign), (b, other) = parts
-    if sign + other != 0:
-        return None
-    late, early = (a, b) if sign > 0 else (b, a)
-    return early, late, -left.terms.get((), ZERO) / abs(sign)
-
-
-def impossible(events: Events, part: Atom, least: Array) -> bool:
-    """Whether something contradicts what is certain of the order of instants."""
-    found = difference(events, part.left) if part.relation != "==" and part.left.degree == 1 else None
-    if found is None:
-        return False
-    early, late, most_s = found
-    return bool(least[early, late] > float(most_s) - (1e-9 if part.relation == "<" else -1e-9))

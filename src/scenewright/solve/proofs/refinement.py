@@ -1,15 +1,16 @@
 """Adds moments and places to a search where a motion that it found is no witness: never before one shows the need.
 
-What enters: what is amiss with a motion. What leaves: more events, formulas that a plan owes, narrower laws in turns.
+What enters: what is amiss with a motion. What leaves: more events, formulas that a plan owes, bounds in bends.
 Everything added is true of every witness; what is also true of every legal motion is marked for proofs.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 
@@ -19,23 +20,24 @@ from scenewright.program.evaluate import moments_of_worst
 from scenewright.program.manner import Manner
 from scenewright.program.types import Actor, PieceKind
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
-from scenewright.roads.conflicts import find_conflict, shared_offset_m
+from scenewright.roads.conflicts import find_conflict
 from scenewright.solve.limits import ROOM, Limits, calm_mpss
 from scenewright.solve.plan import PlanWorld
+from scenewright.solve.proofs.apart import clear
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.forms import asserted, free_actors
 from scenewright.solve.proofs.lowering import RATE_LASTS_S, Lowering
 from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.order import places_within
-from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, compare, every, some
-from scenewright.solve.proofs.witness import Broken, Witness, bends
+from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, compare, some
+from scenewright.solve.proofs.witness import Array, Broken, Witness, bends
 from scenewright.units import pin
 
 SHARES = (0.985, 0.8, 0.6, 0.4, 0.2)
 _SAFETY = 0.999  # rounding of places and speeds within a turn
 _ROOM_M = Fraction(1, 20)
 _STILL_M = Fraction(1, 1000)  # who moves no farther stands, and a search has somewhere to go
-_ROLLS_MPS = Fraction(1, 2)
+_ROLLS_ON = 10  # who still rolls may roll on: this many metres and m/s for each m/s of its speed bind nobody
 
 
 @dataclass(slots=True)
@@ -47,8 +49,7 @@ class Refinement:
     limits: Mapping[int, Limits]
     owed: list[Formula] = field(default_factory=list)
     narrowings: list[Narrowing] = field(default_factory=list)
-    turns: set[tuple[int, float]] = field(default_factory=set)
-    looked_at: list[ex.Temporal] = field(default_factory=list)
+    turning: set[tuple[int, int]] = field(default_factory=set)
 
     def lasting_rates(self) -> None:
         """Let every rate at a moment last for a moment."""
@@ -62,20 +63,17 @@ class Refinement:
             self.owed.append(compare("==", b.speed - a.speed, rate * RATE_LASTS_S))
             self.owed.append(compare("==", (b.place - a.place) * 2, (a.speed + b.speed) * RATE_LASTS_S))
 
-    def manner(self, *, throughout: bool) -> None:
-        """Let pieces begin where they should and not before, and turns lie ahead.
-
-        With `throughout` braking and speeding up are also plain all through their pieces, and over with them.
-        """
+    def manner(self) -> None:
+        """Let pieces begin where they should, be plain throughout and over at their ends, and turns lie ahead."""
         for actor in self.events.scene.program.heroes:
-            self._seen_pieces(actor, throughout)
+            self._seen_pieces(actor)
         for each in self.events.scene.program.actors:
             marks = self.events.scene.landmarks_m[each.id]
             if "turn_end" in marks:  # whoever is past most of a turn shows no longer where it came from
                 halfway = pin(0.5 * (marks["turn_start"] + marks["turn_end"]))
                 self.owed.append(compare("<=", self.events.state(each.id, self.events.start).place, halfway))
 
-    def _seen_pieces(self, actor: Actor, throughout: bool) -> None:
+    def _seen_pieces(self, actor: Actor) -> None:
         kept = self.events.scene.program.manner.stricter(ROOM)
         events, kinds = self.events, actor.sketch.pieces
         knots = [events.knot(actor.id, name) for name in actor.sketch.knots]
@@ -86,8 +84,7 @@ class Refinement:
             if kind not in (PieceKind.DEC, PieceKind.ACC):
                 continue
             plain = _pulling(kind, kept.begins_mpss)
-            if throughout:
-                self.narrowings.append(Narrowing(actor.id, begins, ends, plain))
+            self.narrowings.append(Narrowing(actor.id, begins, ends, plain))
             if number and kinds[number - 1] is not PieceKind.STOP:
                 shown = events.moment(events.times[begins] + kept.begins_s, "begins")
                 settled = events.moment(events.times[begins] - kept.settled_s, "settled")
@@ -98,72 +95,59 @@ class Refinement:
                 self.narrowings.append(Narrowing(actor.id, settled, begins, calm))
                 self.owed.append(compare("<=", events.times[shown], events.times[ends]))
             if kinds[number + 1 : number + 2] in ((), (PieceKind.GO,)):
-                self._over(actor.id, kind, ends, knots[number + 2 : number + 3], kept, throughout)
+                self._over(actor.id, kind, ends, knots[number + 2 : number + 3], kept)
 
-    def _over(
-        self, actor: int, kind: PieceKind, ends: int, following: list[int], kept: Manner, throughout: bool
-    ) -> None:
+    def _over(self, actor: int, kind: PieceKind, ends: int, following: list[int], kept: Manner) -> None:
         """Let what was done in a piece be over for a while; who has come to a standstill stays there."""
         events = self.events
         lasts_s = kept.stands_s if kind is PieceKind.DEC else kept.begins_s
         over = events.moment(events.times[ends] + lasts_s, "over")
         now, then = events.state(actor, ends), events.state(actor, over)
-        if throughout:
-            self.narrowings.append(Narrowing(actor, ends, over, _not_pulling(kind, ZERO)))
+        self.narrowings.append(Narrowing(actor, ends, over, _not_pulling(kind, ZERO)))
         self.owed += [compare("<=", events.times[over], events.times[knot]) for knot in following]
         if kind is PieceKind.DEC:
-            stays = every([compare("<=", then.place - now.place, _STILL_M), compare("<=", then.speed, ZERO)])
-            self.owed.append(some([compare(">=", now.speed, _ROLLS_MPS), stays]))
+            self.owed.append(compare("<=", then.place - now.place, _STILL_M + now.speed * _ROLLS_ON))
+            self.owed.append(compare("<=", then.speed, now.speed * _ROLLS_ON))
 
     def mend(self, broken: Sequence[Broken], witness: Witness) -> bool:
         """Add what each thing amiss asks for; False where nothing can be added."""
         world = PlanWorld(self.events.scene, witness.profiles, witness.parameters)
-        added = False
+        program, added = self.events.scene.program, False
         for each in broken:
-            if each.what == "law":
-                continue  # rounding: nothing to add, another motion may be better
-            if each.what == "turn":
-                added |= self._slow_in_turn(each, witness)
-            elif each.what == "apart":
-                added |= self._keep_apart(each, witness)
-            else:
-                program = self.events.scene.program
-                formula = asserted(program.constraint(each.what).formula, program)
-                added |= self._even_pieces(formula)
-                for node, time_s in moments_of_worst(formula, world):
-                    self._look_at(node, time_s, witness)
-                    added = True
+            match each.what:
+                case "law":
+                    continue  # rounding: nothing to add, another motion may be better
+                case "turn":
+                    self._slow_in_turn(each, witness)
+                case "apart":
+                    self._keep_apart(each, witness)
+                case name:
+                    moments = list(moments_of_worst(asserted(program.constraint(name).formula, program), world))
+                    for node, time_s in moments:
+                        self._look_at(node, time_s, witness)
+                    if not moments:
+                        continue
+            added = True
         return added
 
-    def _even_pieces(self, formula: ex.Formula) -> bool:
-        """Let pieces whose rate a formula speaks of have one rate throughout."""
-        added = False
-        for node in ex.walk(formula):
-            if isinstance(node, ex.State) and node.order == 2 and isinstance(node.at, ex.PieceRef):
-                ends = self.lowering.piece_ends(node.actor, node.at.name)
-                even = Narrowing(node.actor, *ends, ANY, even=True)
-                if even not in self.narrowings:
-                    self.narrowings.append(even)
-                    added = True
-        return added
+    def _even(self, actor: int, first: int, last: int) -> bool:
+        """Let an actor keep to one rate between each two moments of a stretch of time; False where it does."""
+        even = Narrowing(actor, first, last, ANY, even=True)
+        if even in self.narrowings:
+            return False
+        self.narrowings.append(even)
+        return True
 
     def _look_at(self, node: ex.Temporal, time_s: float, witness: Witness) -> None:
-        """Add moments between those that there are, at which all that a body speaks of have a state.
+        """Add a moment between those that there are, at which all that a body speaks of have a state.
 
-        Between them everybody keeps to one rate: what holds at two moments then hardly fails between them.
+        Two that are compared keep to one rate between moments: what holds at two of them then hardly fails between.
         """
-        actors = free_actors(node.body)
-        made = [self._between(time_s, witness)]
-        if node not in self.looked_at:
-            self.looked_at.append(node)
-            first, last = self.lowering.stretch_of(node)
-            begin, lasts = self.events.times[first], self.events.times[last] - self.events.times[first]
-            made += [self.events.moment(begin + lasts * Fraction(k, 4), "quarter") for k in (1, 2, 3)]
+        actors, made = free_actors(node.body), self._between(time_s, witness)
+        for actor in actors:
+            self.events.state(actor, made)
             if len(actors) > 1:
-                self.narrowings += [Narrowing(actor, first, last, ANY, even=True) for actor in actors]
-        for instant in made:
-            for actor in actors:
-                self.events.state(actor, instant)
+                self._even(actor, *self.lowering.stretch_of(node))
 
     def _between(self, time_s: float, witness: Witness) -> int:
         """Return a new moment at the same share of the time between its neighbours in the motion found."""
@@ -177,73 +161,75 @@ class Refinement:
         early, late = times[before[0]], times[after[0]]
         return self.events.moment(early + (late - early) * share, "between")
 
-    # -- turns --------------------------------------------------------------------------------------------------------
-    def _slow_in_turn(self, broken: Broken, witness: Witness) -> bool:
-        """Bound the speed where the bend is so sharp, and less so where it is less."""
-        places, sharpness = bends(self.events.scene.routes[broken.actor])
-        tightest = float(sharpness.max())
-        place = witness.profiles[broken.actor].state(broken.time_s)[0]
-        here = float(np.interp(place, places, sharpness)) / tightest
-        least = next((each for each in SHARES if each <= here + 1e-9), SHARES[-1])
-        share = next(
-            (each for each in reversed(SHARES) if each >= least and (broken.actor, each) not in self.turns), None
-        )
-        if share is None:
-            return False
-        self.turns.add((broken.actor, share))
-        sharp = places[sharpness >= share * tightest]
-        first, last = (self.events.at_place(broken.actor, pin(float(s))) for s in (sharp[0], sharp[-1]))
-        self.events.order(first, last)
-        tighter = next((each for each in reversed(SHARES) if each > share), 1.0)
-        kept = pin(_SAFETY * math.sqrt(self.limits[broken.actor].lateral_max_mpss / (tighter * tightest)))
-        self.narrowings.append(Narrowing(broken.actor, first, last, replace(ANY, speed_high=kept)))
-        return True
+    def in_bend(self, actor: int, peak: int, *, planned: bool) -> Iterator[Named]:
+        """Yield how fast each part of the bend around one place of a route may be driven, at each moment of an actor.
 
-    def bound_in_bend(self, actor: int, asked: Sequence[Formula]) -> None:
-        """Say for proofs how fast the sharpest bend of a route can be driven: at each moment, and all through it.
-
-        Of each part of it the least bend counts, so that every legal motion keeps to it. All through it is for one who
-        surely drives through it, by what is `asked`.
+        For proofs the least bend of a part counts, so that every legal motion keeps to it; where it is `planned` a
+        sharper one, so that what keeps to it is legal.
         """
         events, (places, sharpness) = self.events, bends(self.events.scene.routes[actor])
-        most_mpss, peak = self.limits[actor].lateral_max_mpss, int(np.argmax(sharpness))
+        most_mpss = self.limits[actor].lateral_max_mpss
         words = f"{events.scene.program.actor(actor).name} takes bends at {most_mpss:.3g} m/s^2 sideways at most"
-        driven = [within for (owner, _), within in places_within(events, asked).items() if owner == actor]
-        for share in SHARES:
-            least = share * float(sharpness[peak])
-            if most_mpss >= least * float(events.law_of(actor).speed_high) ** 2:
+        for sharper, share in pairwise((1.0, *SHARES)):
+            counts = (sharper if planned else share) * float(sharpness[peak])
+            if most_mpss >= counts * float(events.law_of(actor).speed_high) ** 2:
                 break
-            softer = np.flatnonzero(sharpness < least)
-            begin, end = softer[softer < peak].max(initial=-1) + 1, softer[softer > peak].min(initial=len(places)) - 1
-            first_m, last_m = (pin(float(places[k])) for k in (begin, end))
-            held = replace(ANY, speed_high=pin(math.sqrt(most_mpss / least) / _SAFETY))
-            through = any(high < first_m for _, high in driven) and any(low > last_m for low, _ in driven)
-            if share == SHARES[0] and through:
-                ends = events.at_place(actor, first_m), events.at_place(actor, last_m)
-                self.narrowings.append(Narrowing(actor, *ends, held, held, origin=words))
+            first_m, last_m = _ends(places, sharpness, peak, share)
+            most = pin(math.sqrt(most_mpss / counts) * (_SAFETY if planned else 1 / _SAFETY))
             for state in (events.state(actor, instant) for instant in events.instants_of(actor)):
                 elsewhere = [compare("<", state.place, first_m), compare(">", state.place, last_m)]
-                events.rules.append(Named(some([*elsewhere, compare("<=", state.speed, held.speed_high)]), words))
+                yield Named(some([*elsewhere, compare("<=", state.speed, most)]), words)
+
+    def bound_in_bend(self, actor: int, asked: Sequence[Formula]) -> None:
+        """Say for proofs how fast the sharpest bend of a route can be driven.
+
+        One who surely drives through it, by what is `asked`, has a moment there.
+        """
+        places, sharpness = bends(self.events.scene.routes[actor])
+        peak = int(np.argmax(sharpness))
+        driven = [within for (owner, _), within in places_within(self.events, asked).items() if owner == actor]
+        if any(high < places[peak] for _, high in driven) and any(low > places[peak] for low, _ in driven):
+            self.events.at_place(actor, pin(float(places[peak])))
+        self.events.rules += self.in_bend(actor, peak, planned=False)
+
+    def _slow_in_turn(self, broken: Broken, witness: Witness) -> None:
+        """Keep to a speed in a bend at all moments: one is where it is too fast, and one at either end."""
+        places, sharpness = bends(self.events.scene.routes[broken.actor])
+        here = int(np.searchsorted(places, witness.profiles[broken.actor].state(broken.time_s)[0]))
+        peak = max(_around(sharpness, min(here, len(places) - 1), SHARES[-1]), key=sharpness.__getitem__)
+        if (broken.actor, peak) not in self.turning:
+            self.turning.add((broken.actor, peak))
+            ends = (self.events.at_place(broken.actor, m) for m in _ends(places, sharpness, peak, SHARES[0]))
+            self.events.order(*ends)
+        self.events.state(broken.actor, self._between(broken.time_s, witness))
 
     # -- apart --------------------------------------------------------------------------------------------------------
-    def _keep_apart(self, broken: Broken, witness: Witness) -> bool:
-        """Let two that touch be apart at that moment: one before the stretch that both need, or past it."""
-        events, scene, other = self.events, self.events.scene, broken.other
+    def _keep_apart(self, broken: Broken, witness: Witness) -> None:
+        """Let two that touch be apart at that moment: one before the stretch that both need, or past it, or ahead."""
+        events, scene, made = self.events, self.events.scene, self._between(broken.time_s, witness)
         clear_m = scene.program.manner.clear_m
-        conflict = find_conflict(scene.routes[other], scene.routes[broken.actor])
-        made = self._between(broken.time_s, witness)
-        mine, theirs = events.state(broken.actor, made), events.state(other, made)
-        choices = []
+        conflict = find_conflict(scene.routes[broken.other], scene.routes[broken.actor])
         if conflict is not None and conflict.kind == "crossing":
-            for place, (low, high) in ((theirs.place, conflict.zone_a_m), (mine.place, conflict.zone_b_m)):
-                choices += [compare("<=", place, pin(low) - clear_m), compare(">=", place, pin(high) + clear_m)]
-        elif (offset := shared_offset_m(scene.routes[broken.actor], scene.routes[other])) is not None:
-            gap = theirs.place + pin(offset) - mine.place
-            length = pin(VEHICLE_LENGTH_M) + clear_m + _ROOM_M
-            choices = [compare(">=", gap, length), compare("<=", gap, -length)]
-        if choices:
-            self.owed.append(some(choices))
-        return bool(choices)
+            theirs, mine = (events.state(actor, made).place for actor in (broken.other, broken.actor))
+            zones = ((theirs, conflict.zone_a_m), (mine, conflict.zone_b_m))
+            before = [compare("<=", place, pin(low) - clear_m) for place, (low, _) in zones]
+            past = [compare(">=", place, pin(high) + clear_m) for place, (_, high) in zones]
+            self.owed.append(some([*before, *past]))
+        else:
+            room_m = pin(VEHICLE_LENGTH_M) + clear_m + _ROOM_M
+            self.owed += clear(events, broken.other, broken.actor, made, room_m)
+
+
+def _around(sharpness: Array, place: int, share: float) -> range:
+    """Return the places around one at which a route bends by at least a share of what it does there."""
+    softer = np.flatnonzero(sharpness < share * sharpness[place])
+    begin, end = softer[softer < place].max(initial=-1) + 1, softer[softer > place].min(initial=len(sharpness))
+    return range(int(begin), int(end))
+
+
+def _ends(places: Array, sharpness: Array, peak: int, share: float) -> tuple[Fraction, Fraction]:
+    around = _around(sharpness, peak, share)
+    return pin(float(places[around[0]])), pin(float(places[around[-1]]))
 
 
 def _pulling(kind: PieceKind, rate_mpss: Fraction) -> Law:

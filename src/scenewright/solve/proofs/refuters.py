@@ -7,7 +7,6 @@ needs besides is an extra of that package.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.metadata import EntryPoint
@@ -16,7 +15,7 @@ from typing import Literal, Protocol
 from scenewright.errors import SolverError
 from scenewright.plugins import Kind
 from scenewright.solve.proofs.events import Unknown
-from scenewright.solve.proofs.polynomials import Named, resting_on
+from scenewright.solve.proofs.polynomials import Named
 
 GROUP = "scenewright.solvers"
 _OURS = tuple(
@@ -28,7 +27,6 @@ _OURS = tuple(
     }.items()
 )
 SOLVERS: Kind[Refuter] = Kind(GROUP, _OURS, "solver", "refutes", SolverError, {"cvc5": "cvc5", "scip": "pyscipopt"})
-_SHRINK_S = 0.5  # for each question whether a core does without one of its members
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,17 +80,3 @@ class Refuter(Protocol):
     ) -> Answer:
         """Ask whether all `formulas` can hold at once; timeouts are answers, never exceptions."""
         ...
-
-
-def core(refuter: Refuter, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float) -> tuple[str, ...]:
-    """Return origins that already clash, each of them needed as far as that could be told in time."""
-    origins = list(dict.fromkeys(origin for each in formulas for origin in each.origins))
-    if refuter.capabilities.cores:
-        told = refuter.ask(unknowns, formulas, timeout_s, want_core=True)
-        origins = [origin for origin in origins if origin in told.core or told.kind != "refuted"]
-    until = time.monotonic() + timeout_s
-    for origin in list(origins):
-        rest = resting_on(formulas, {other for other in origins if other != origin})
-        if time.monotonic() < until and refuter.ask(unknowns, rest, _SHRINK_S).kind == "refuted":
-            origins.remove(origin)
-    return tuple(origins)

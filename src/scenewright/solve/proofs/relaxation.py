@@ -7,16 +7,17 @@ known to lie within the scenario.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from itertools import pairwise
+from functools import reduce
+from itertools import pairwise, permutations
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.motion.laws import Law, reach
 from scenewright.program.types import EGO
-from scenewright.solve.proofs.events import Events, Stretch
+from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.order import least_differences, places_within
 from scenewright.solve.proofs.polynomials import (
@@ -30,7 +31,6 @@ from scenewright.solve.proofs.polynomials import (
     every,
     some,
 )
-from scenewright.translate.phrases import does
 
 _CERTAIN = 1e-9
 
@@ -63,34 +63,48 @@ def _order_of_knots(events: Events) -> Iterator[Named]:
 
 
 def _motion(events: Events, narrowings: Sequence[Narrowing], actor: int, least: NDArray[np.float64]) -> Iterator[Named]:
-    """Yield the law of the stretch between each two moments of an actor that may lie in one."""
-    name = events.scene.program.actor(actor).name
+    """Yield the law between each two moments of an actor that may be neighbours, also in each piece they may lie in."""
+    name, free = events.scene.program.actor(actor).name, events.law_of(actor)
+    moves = events.ego.words(name) if actor == EGO else f"{name} {free.words()}"
+    pieces = [each for each in events.pieces if each.actor == actor]
+    bounded = [each for each in narrowings if each.actor == actor and each.proven is not None]
     instants = events.instants_of(actor)
-    for stretch in events.stretches[actor]:
-        origin = f"while {name} {does(stretch.kind)}, it {stretch.law.words()}"
-        if actor == EGO:
-            origin = events.ego.words(name)
-        inside = [instant for instant in instants if _possibly_inside(stretch, instant, least)]
-        for early in inside:
-            for late in inside:
-                if early == late or least[late, early] > _CERTAIN:
-                    continue
-                if _parted(inside, early, late, least):
-                    continue
-                law, besides = _narrowed(narrowings, actor, stretch.law, early, late, least)
-                yield Named(_between(events, actor, stretch, early, late, law, least), origin, besides)
+    for early, late in permutations(instants, 2):
+        if least[late, early] > _CERTAIN or _parted(instants, early, late, least):
+            continue
+        certain = [each for each in (*pieces, *bounded) if _within(each, early, late, least)]
+        law = reduce(Law.meet, (each.proven for each in certain if each.proven), free)
+        origin = next((piece.origin for piece in pieces if piece in certain), moves)
+        besides = tuple(dict.fromkeys(each.origin for each in certain if each.origin != origin))
+        reversed_ = [] if least[early, late] >= 0 else [compare("<", events.times[late], events.times[early])]
+        yield Named(some([*reversed_, reach_formula(events, actor, early, late, law)]), origin, besides)
+        for piece in pieces if origin == moves else ():
+            if not any(_outside(piece, instant, least) for instant in (early, late)):
+                held = reach_formula(events, actor, early, late, law.meet(piece.law))
+                yield Named(some([*_elsewhere(events, piece, (early, late)), *reversed_, held]), piece.origin, besides)
 
 
-def _possibly_inside(stretch: Stretch, instant: int, least: NDArray[np.float64]) -> bool:
-    """Whether an instant is not certain to be before or after a stretch."""
-    before = least[instant, stretch.first] > _CERTAIN
-    after = stretch.last is not None and least[stretch.last, instant] > _CERTAIN
-    return not before and not after
+def _within(narrowing: Narrowing, early: int, late: int, least: NDArray[np.float64]) -> bool:
+    """Whether two moments certainly lie in what is narrower."""
+    begun = all(least[instant, early] >= 0 for instant in narrowing.begins())
+    return begun and all(least[late, instant] >= 0 for instant in narrowing.ends())
 
 
-def _parted(inside: list[int], early: int, late: int, least: NDArray[np.float64]) -> bool:
-    """Whether a third moment lies between for certain: where both are in the stretch the laws on either side say it."""
-    for middle in inside:
+def _outside(piece: Narrowing, instant: int, least: NDArray[np.float64]) -> bool:
+    """Whether an instant is certain to be before or after a piece."""
+    return bool(least[instant, piece.first] > _CERTAIN or least[piece.last, instant] > _CERTAIN)
+
+
+def _elsewhere(events: Events, piece: Narrowing, instants: Iterable[int]) -> Iterator[Formula]:
+    """Yield that one of some moments is before or after a piece."""
+    for instant in instants:
+        yield compare("<", events.times[instant], events.times[piece.first])
+        yield compare(">", events.times[instant], events.times[piece.last])
+
+
+def _parted(instants: list[int], early: int, late: int, least: NDArray[np.float64]) -> bool:
+    """Whether a third moment lies between for certain: the laws on either side say it."""
+    for middle in instants:
         if middle in (early, late):
             continue
         if least[early, middle] >= 0 and least[middle, late] >= 0:
@@ -98,36 +112,6 @@ def _parted(inside: list[int], early: int, late: int, least: NDArray[np.float64]
             if not tied or middle < max(early, late):
                 return True
     return False
-
-
-def _narrowed(
-    narrowings: Sequence[Narrowing], actor: int, law: Law, early: int, late: int, least: NDArray[np.float64]
-) -> tuple[Law, tuple[str, ...]]:
-    """Return the law between two moments, made narrower by what holds between them for certain, and who says so."""
-    origins = []
-    for narrowing in narrowings:
-        if narrowing.actor != actor or narrowing.proven is None:
-            continue
-        begun = all(least[instant, early] >= 0 for instant in narrowing.begins())
-        if begun and all(least[late, instant] >= 0 for instant in narrowing.ends()):
-            law = law.meet(narrowing.proven)
-            origins.append(narrowing.origin)
-    return law, tuple(dict.fromkeys(origins))
-
-
-def _between(
-    events: Events, actor: int, stretch: Stretch, early: int, late: int, law: Law, least: NDArray[np.float64]
-) -> Formula:
-    """Return the reach of a law between two moments, unless they come the other way round or lie outside."""
-    times, unless = events.times, []
-    for instant in (early, late):
-        if least[stretch.first, instant] < 0:
-            unless.append(compare("<", times[instant], times[stretch.first]))
-        if stretch.last is not None and least[instant, stretch.last] < 0:
-            unless.append(compare(">", times[instant], times[stretch.last]))
-    if least[early, late] < 0:
-        unless.append(compare("<", times[late], times[early]))
-    return some([*unless, reach_formula(events, actor, early, late, law)])
 
 
 def reach_formula(events: Events, actor: int, early: int, late: int, law: Law) -> Formula:

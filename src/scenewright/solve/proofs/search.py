@@ -9,7 +9,6 @@ soft rows meets all of it as well as it can. It proves nothing.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +17,8 @@ from scenewright.motion.laws import Law, bounded, capped, fixed
 from scenewright.solve.proofs.compiled import Compiled
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.narrowing import Narrowing
-from scenewright.solve.proofs.order import impossible, least_differences, tightened, told_values
-from scenewright.solve.proofs.polynomials import All, Atom, Formula, Some
+from scenewright.solve.proofs.order import least_differences
+from scenewright.solve.proofs.polynomials import Formula
 
 Array = NDArray[np.float64]
 
@@ -30,7 +29,6 @@ _ENDS = np.array([_SCALE[kind] for kind in ("speed", "speed", "time", "place")])
 _EITHER_WAY = np.concatenate([np.zeros((4, 1)), np.eye(4), -np.eye(4)], axis=1)[:, :, None]
 _SOFT = 1e-5
 _SOFT_ROW = 8  # how daqp is told that a row may be broken at a price
-_LOOKED_AT = 12.0  # in longest steps: what holds by more than this cannot matter within one
 _STRICT = 1e-3  # by how much a strict comparison is to hold, in units of its scaled row
 _MOST_STEPS = 40
 _CLEAR = 1e-4  # more than rounding
@@ -44,10 +42,9 @@ class Search:
         self.events = events
         self.formulas = formulas
         self.steps = 0
-        self._least = least_differences(events, formulas)
-        self._told = told_values(tightened(events.unknowns, formulas))
+        least, narrower = least_differences(events, formulas), [*events.pieces, *narrowings]
         self._size = len(events.unknowns)
-        self._compiled = Compiled(formulas, self._size, self._ruled_out)
+        self._compiled = Compiled(formulas, self._size)
         self._low = np.array([float(each.low) for each in events.unknowns])
         self._high = np.array([float(each.high) for each in events.unknowns])
         self._scale = np.array([_SCALE[each.kind] for each in events.unknowns])
@@ -55,22 +52,9 @@ class Search:
         self._scale = np.where(free, np.maximum(1.0, 0.25 * (self._high - self._low)), self._scale)
         self._liking: Array = np.ones(0)
         self._lines = {
-            actor.id: _Line.of(events, actor.id, self._least, [each for each in narrowings if each.actor == actor.id])
+            actor.id: _Line(events, actor.id, least, [n for n in narrower if n.actor == actor.id])
             for actor in events.scene.program.actors
         }
-
-    def _ruled_out(self, part: Formula) -> bool:
-        """Whether an alternative contradicts the order of moments or values that are told: it is never the nearest."""
-        match part:
-            case All(parts=parts):
-                return any(self._ruled_out(each) for each in parts)
-            case Some(parts=parts):
-                return all(self._ruled_out(each) for each in parts)
-            case Atom(left=left, relation=relation):
-                if all(unknown in self._told for key in left.terms for unknown in key):
-                    value = left.value(self._told)
-                    return abs(value) > _CLEAR if relation == "==" else value > _CLEAR
-                return impossible(self.events, part, self._least)
 
     # -- the steps ----------------------------------------------------------------------------------------------------
     def run(self, guess: Array, generator: np.random.Generator | None = None) -> Array | None:
@@ -111,8 +95,6 @@ class Search:
         scale, size = self._scale, self._size
         upper = np.minimum((self._high - point[:-1]) / scale, trust)
         lower = np.maximum((self._low - point[:-1]) / scale, -trust)
-        near = equal | (levels > -_LOOKED_AT * trust)
-        rows, levels, equal = rows[near], levels[near], equal[near]
         above, below = -levels, np.where(equal, -levels, -1e30)
         sense = np.concatenate([np.zeros(size, dtype=np.int32), np.full(len(levels), _SOFT_ROW, dtype=np.int32)])
         x, _, flag, _ = daqp.solve(
@@ -131,19 +113,17 @@ class Search:
     # -- rows ---------------------------------------------------------------------------------------------------------
     def _rows(self, point: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
         """Return linearised rows over scaled steps, their levels (to be at most zero, or zero) and which are equal."""
-        values, gradients = self._compiled.values(point), self._compiled.gradients(point)
-        scaled = gradients[:, :-1] * self._scale
-        norms = np.maximum(np.sqrt((scaled * scaled).sum(axis=1)), 1e-9)
-        levels = values / norms + np.where(self._compiled.strict, _STRICT, 0.0)
-        errors = np.where(self._compiled.equal, np.abs(levels), levels)
-        taken = np.array(self._compiled.chosen(errors * self._liking), dtype=np.intp)
-        parts = [(scaled[taken] / norms[taken, None], levels[taken], self._compiled.equal[taken])]
-        parts += [line.rows(point, self._scale) for line in self._lines.values()]
-        return (
-            np.concatenate([part[0] for part in parts]),
-            np.concatenate([part[1] for part in parts]),
-            np.concatenate([part[2] for part in parts]),
-        )
+        compiled, count = self._compiled, len(self._compiled.atoms)
+        parts = [(compiled.values(point), compiled.gradients(point), compiled.equal)]
+        parts += [line.rows(point) for line in self._lines.values()]
+        levels, rows, equal = (np.concatenate([part[k] for part in parts]) for k in range(3))
+        rows = rows[:, :-1] * self._scale
+        norms = np.maximum(np.sqrt((rows * rows).sum(axis=1)), 1e-9)
+        levels = levels / norms
+        levels[:count] += np.where(compiled.strict, _STRICT, 0.0)
+        errors = np.where(equal, np.abs(levels), levels)[:count]
+        taken = [*compiled.chosen(errors * self._liking), *range(count, len(levels))]
+        return rows[taken] / norms[taken, None], levels[taken], equal[taken]
 
     def way_of(self, point: Array, actor: int) -> tuple[list[int], list[Law]]:
         """Return an actor's instants in the order of their times, and the laws between them."""
@@ -152,41 +132,21 @@ class Search:
         return [line.instants[k] for k in order], line.laws_between(order, point)[0]
 
 
-@dataclass(slots=True)
 class _Line:
     """One actor's moments along time: numbers of their unknowns; a known time is a multiple of the one at the end."""
 
-    instants: list[int]
-    time: NDArray[np.intp]
-    time_factor: Array
-    place: NDArray[np.intp]
-    speed: NDArray[np.intp]
-    before: NDArray[np.bool_]  # which certainly come before which; everything before itself
-    laws: list[tuple[int, Law]]  # position of the first moment of each stretch, and its law
-    narrowings: Sequence[Narrowing]
-
-    @classmethod
-    def of(cls, events: Events, actor: int, least: Array, narrowings: Sequence[Narrowing]) -> _Line:
-        """Collect the moments of an actor."""
-        instants = events.instants_of(actor)
-        where = {instant: k for k, instant in enumerate(instants)}
-        time, factor = [], []
-        for instant in instants:
-            constant = events.times[instant].constant
-            time.append(len(events.unknowns) if constant is not None else events.times[instant].number)
-            factor.append(1.0 if constant is None else float(constant))
-        states = [events.state(actor, instant) for instant in instants]
-        laws = [(where[stretch.first], stretch.law) for stretch in events.stretches[actor]]
-        return cls(
-            instants,
-            np.array(time, dtype=np.intp),
-            np.array(factor),
-            np.array([state.place.number for state in states], dtype=np.intp),
-            np.array([state.speed.number for state in states], dtype=np.intp),
-            least[np.ix_(instants, instants)] >= 0.0,
-            laws,
-            narrowings,
-        )
+    def __init__(self, events: Events, actor: int, least: Array, narrowings: Sequence[Narrowing]) -> None:
+        self.instants = events.instants_of(actor)
+        self.law = events.law_of(actor)  # where nothing is narrower
+        self.narrowings = narrowings
+        self.before = least[np.ix_(self.instants, self.instants)] >= 0.0  # which certainly come before which
+        times = [events.times[instant] for instant in self.instants]
+        one = len(events.unknowns)  # behind all of them
+        self.time = np.array([time.number if time.constant is None else one for time in times])
+        self.time_factor = np.array([1.0 if time.constant is None else float(time.constant) for time in times])
+        states = [events.state(actor, instant) for instant in self.instants]
+        self.place = np.array([state.place.number for state in states])
+        self.speed = np.array([state.speed.number for state in states])
 
     def sorted(self, point: Array) -> list[int]:
         """Return positions in the order of time; what is certain of their order stays."""
@@ -195,8 +155,8 @@ class _Line:
         rank = self.before.sum(axis=0)
         return sorted(range(len(times)), key=lambda k: (latest[k], rank[k], k))
 
-    def rows(self, point: Array, scale: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
-        """Return the laws between neighbours, linearised."""
+    def rows(self, point: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
+        """Return the laws between neighbours: levels, slopes by all unknowns, and which are equal."""
         order = self.sorted(point)
         early, late = np.array(order[:-1], dtype=np.intp), np.array(order[1:], dtype=np.intp)
         laws, even = self.laws_between(order, point)
@@ -222,11 +182,8 @@ class _Line:
             (self.place[early], -gx),
         ):
             rows[:, pair, column] += slope
-        flat = rows.reshape(kinds * count, width)[:, :-1] * scale
-        norms = np.sqrt((flat * flat).sum(axis=1))
-        keep = keep.reshape(-1) & (norms > 1e-9)
-        norms = np.maximum(norms, 1e-9)
-        return flat[keep] / norms[keep, None], (levels.reshape(-1) / norms)[keep], np.repeat(equal, count)[keep]
+        keep = keep.reshape(-1)
+        return levels.reshape(-1)[keep], rows.reshape(-1, width)[keep], np.repeat(equal, count)[keep]
 
     def laws_between(self, order: Sequence[int], point: Array) -> tuple[list[Law], NDArray[np.bool_]]:
         """Return the law between each two neighbours, and whether there is to be one rate.
@@ -234,10 +191,7 @@ class _Line:
         What ends at a place that is passed when it begins, or begins at one that is passed never, narrows nothing.
         """
         where, place = {self.instants[k]: number for number, k in enumerate(order)}, point[self.place]
-        starts = sorted((where[self.instants[k]], number, law) for number, (k, law) in enumerate(self.laws))
-        laws, even = [starts[0][2]] * (len(order) - 1), np.zeros(len(order) - 1, dtype=bool)
-        for start, _, law in starts:
-            laws[start:] = [law] * len(laws[start:])
+        laws, even = [self.law] * (len(order) - 1), np.zeros(len(order) - 1, dtype=bool)
         for narrowing in self.narrowings:
             begin = max(where[instant] for instant in narrowing.begins())
             end = min(where[instant] for instant in narrowing.ends())
