@@ -24,6 +24,23 @@ from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.study.benchmark import benchmark_rows, draw_row
 from stories import BRAKES_GAP, STOPS_AND_GOES, STORIES, YIELDS_DISTANCE
 
+STARTS_NEAR = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (lead):
+- W
+- [t0, go, t1, dec, t2]
+
+Constraints:
+gap(A0, A1, t0) == 8 m
+A0v(t0) == 13
+A1v(t0) == 8
+A0(t1) == A1(t1)
+gap(A0, A1, t1) == 20 m
+A1v(t2) == 0
+"""
 STEP_S = 0.005
 ROWS = [row for row in benchmark_rows() if row.id % 4 == 0]
 
@@ -273,3 +290,11 @@ def test_at_a_slower_pace_a_hero_comes_more_slowly_to_its_trigger(s_m: float, mp
         hero = planner.begin((0.0, s_m, mps, 0.0)).plan.profiles[HERO]
         speeds.append(hero.state(hero.knot_times_s["t1"])[1])
     assert speeds[1] < speeds[0] - 1.0
+
+
+def test_how_somebody_begins_is_not_given_up_for_what_is_to_come() -> None:
+    """From there the ego comes nearer than one likes; but the start is the most certain thing of all."""
+    _, attempt, _ = planned(STARTS_NEAR, (), "constant")
+    ego, lead = (attempt.plan.profiles[actor].state(0.0) for actor in (EGO, HERO))
+    assert lead[0] - ego[0] == pytest.approx(8.0, abs=0.05)
+    assert lead[1] == pytest.approx(8.0, abs=0.05)

@@ -25,7 +25,7 @@ Columns = NDArray[np.intp]
 SOONEST_S = 0.02  # how soon after now a knot may come
 _ANY = float("inf")
 _STILL_MPS = 0.1  # what is as bad as a tight tolerance for one that is to stand
-_FIRM = 20.0  # of a price: what no motion exceeds
+FIRM = 20.0  # of a price: what no motion exceeds, and how everybody begins
 _TIGHT_SPEED, _TIGHT_RATE, _TIGHT_LENGTH, _TIGHT_TIME = 0.25, 0.25, 0.5, 0.1
 _UNBOUNDED = 900  # bounds of laws beyond this are none
 _ROUNDING_S = 1e-6
@@ -150,8 +150,8 @@ class HeroRows:
         natural = np.where(onto, limits.natural_speed_mps, limits.natural_approach_speed_mps)
         (most, slope), (comfortable, other) = caps.at(self.shot.s)
         v, d_s, d_v = self.shot.v[1:], self.shot.d_s[1:], self.shot.d_v[1:]
-        self.bounds.add_all(-v, -d_v, _FIRM * wanted.price)
-        self.bounds.add_all(v - most[1:], d_v - slope[1:, None] * d_s, _FIRM * wanted.price)
+        self.bounds.add_all(-v, -d_v, FIRM * wanted.price)
+        self.bounds.add_all(v - most[1:], d_v - slope[1:, None] * d_s, FIRM * wanted.price)
         self.costs.beyond(v - comfortable[1:], d_v - other[1:, None] * d_s, wanted.lateral_weight)
         self.costs.beyond(v - natural, d_v, wanted.over_limit_weight)
 
@@ -181,7 +181,7 @@ class HeroRows:
         slope = self._unit((last.unknown, 1.0), (first.unknown, -1.0))
         if not np.any(slope):
             return
-        firm = _FIRM * wanted.price
+        firm = FIRM * wanted.price
         stands = leg.kind is PieceKind.STOP
         self.bounds.add((wanted.least_stand_s if stands else wanted.least_s) - lasts, -slope, firm)
         self.bounds.add((wanted.shortest_stand_s if stands else wanted.shortest_s) - lasts, -slope, wanted.price)
