@@ -177,7 +177,7 @@ def test_moments_between_two_are_midway(at_s: float) -> None:
 
 
 def test_what_is_owed_in_a_lane_ends_evenly_where_the_first_leaves_it() -> None:
-    """A row that was there in full and then was not refused every step of a plan in which the first ended just there."""
+    """A row that was there in full and then was not refused every step of plans that ended just there."""
     shared_m = ((0.0, 50.0), (0.0, 50.0))
 
     def short_m(first_m: float) -> float:

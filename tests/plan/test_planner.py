@@ -41,6 +41,40 @@ A0(t1) == A1(t1)
 gap(A0, A1, t1) == 20 m
 A1v(t2) == 0
 """
+STANDS_AHEAD = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (lead):
+- W
+- [t0, stop, t1, acc, t2]
+
+Constraints:
+A0(t1) == A1(t1)
+gap(A0, A1, t1) == 25 m
+A1v(t2) == 8
+"""
+# Its trigger tells no distance, so the ego is foreseen as if alone: it would drive into who stops ahead.
+STOPS_AHEAD = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (lead):
+- W
+- [t0, dec, t1, stop, t2, acc, t3]
+
+Constraints:
+gap(A0, A1, t0) == 15 m
+A0v(t0) == 14
+A1v(t0) == 14
+A1a(dec) == -6
+A1v(t1) == 0
+A1(t2) - A1(t1) == 3
+A1v(t3) == 5
+A0(t1) == A1(t2)
+"""
 STEP_S = 0.005
 ROWS = [row for row in benchmark_rows() if row.id % 4 == 0]
 
@@ -298,3 +332,20 @@ def test_how_somebody_begins_is_not_given_up_for_what_is_to_come() -> None:
     ego, lead = (attempt.plan.profiles[actor].state(0.0) for actor in (EGO, HERO))
     assert lead[0] - ego[0] == pytest.approx(8.0, abs=0.05)
     assert lead[1] == pytest.approx(8.0, abs=0.05)
+
+
+def test_who_is_to_stand_until_its_trigger_stands_and_the_ego_has_to_come() -> None:
+    """One that stands is not to drive at its trigger, and stands for as long as the other takes to come."""
+    _, attempt, _ = planned(STANDS_AHEAD, (), "idm")
+    lead = attempt.plan.profiles[HERO]
+    assert lead.state(0.0)[1] == pytest.approx(0.0, abs=0.01)
+    assert lead.knot_times_s["t1"] > 2.0
+
+
+@pytest.mark.parametrize("ego", ["idm", "constant"])
+def test_what_the_program_asks_for_is_not_given_up_for_room(ego: str) -> None:
+    """Whoever is told where and how it brakes does so, even if the ego is not foreseen to answer it."""
+    world, _, _ = begin(Request(STOPS_AHEAD, {}, ego=ego), Stages(None))
+    found = first_plan(world, world.predictor)
+    assert found is not None
+    assert not broken(world.scene, found[2].plan)

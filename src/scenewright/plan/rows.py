@@ -187,10 +187,9 @@ class HeroRows:
         self.bounds.add((wanted.shortest_stand_s if stands else wanted.shortest_s) - lasts, -slope, wanted.price)
         if leg.first.unknown is None and leg.last.unknown is not None:
             self.bounds.add(self.now.time_s + SOONEST_S - last.value(z), -slope, firm)
-        if stands:
-            self.costs.add(lasts - wanted.stands_s, slope, wanted.stands_weight)
-        elif not stands_next and instants[1] != asked.trigger(self.hero.id):
-            self.costs.add(lasts - wanted.lasts_s, slope, wanted.lasts_weight)
+        if instants[1] != asked.trigger(self.hero.id) and (stands or not stands_next):
+            usual_s = wanted.stands_s if stands else wanted.lasts_s
+            self.costs.add(lasts - usual_s, slope, wanted.stands_weight if stands else wanted.lasts_weight)
 
     def _at_trigger(self) -> None:
         """Add that a hero drives at its trigger, is settled before it, and visibly begins what it is to do there."""
@@ -201,7 +200,7 @@ class HeroRows:
         begins = shot.legs[number]
         node, rate = shot.first_node[number], wanted.price / _TIGHT_RATE
         _, v, _, d_v = shot.at_node(node)
-        if node and begins.kind is not PieceKind.STOP:
+        if node and PieceKind.STOP not in (begins.kind, shot.legs[number - 1].kind):
             self.costs.add(v - self._natural_mps(), d_v, wanted.trigger_speed_weight)
             self.bounds.add(wanted.slowest_mps - v, -d_v, wanted.slowest_price)
             self.bounds.add(wanted.moves_mps - v, -d_v, wanted.price / _TIGHT_SPEED)
@@ -273,7 +272,7 @@ class HeroRows:
         ego_m, ego_mps, _ = self.now.ego(float(self.shot.time[node]))
         room_m = side * (s_m + offset_m - ego_m) - VEHICLE_LENGTH_M - self.asked.wanted.clear_of_ego_m
         slope = -side * (d_s - ego_mps * self.shot.d_time[node])
-        self.bounds.add(-room_m, slope, self.asked.wanted.price / _TIGHT_LENGTH)
+        self.bounds.add(-room_m, slope, self.asked.wanted.price / _TIGHT_LENGTH, self.asked.wanted.out_of_way_most)
 
     def _plainly(self, node: int) -> None:
         """Add that the distance changes plainly at the trigger: else it is as good as met for a long while."""
