@@ -153,6 +153,7 @@ Constraints:
 A0x(t0) == A0.conflict_point - 100
 A1x(t0) == stop_line - 2
 A1(t1) == 30 s
+A0v(A1(t1)) >= 5
 A1v(t2) == 6
 """
     found = cause(orchestrate(Request(program, ego="constant", takes=1)))

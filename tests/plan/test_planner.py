@@ -75,6 +75,22 @@ A1(t2) - A1(t1) == 3
 A1v(t3) == 5
 A0(t1) == A1(t2)
 """
+NEAR_ITS_END = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (lead):
+- W
+- [t0, go, t1, dec, t2]
+
+Constraints:
+A0(t1) == A1(t1)
+A0x(t1) == A0.route_end - 60
+gap(A0, A1, t1) == 30
+A1a(dec) == -1
+A1v(t2) == 0
+"""
 STEP_S = 0.005
 ROWS = [row for row in benchmark_rows() if row.id % 4 == 0]
 
@@ -349,3 +365,11 @@ def test_what_the_program_asks_for_is_not_given_up_for_room(ego: str) -> None:
     found = first_plan(world, world.predictor)
     assert found is not None
     assert not broken(world.scene, found[2].plan)
+
+
+def test_all_that_is_asked_is_planned_on_the_road_that_there_is() -> None:
+    """Braking so gently takes more than is left of the road at a usual speed."""
+    scene, attempt, _ = planned(NEAR_ITS_END, (), "constant")
+    lead = attempt.plan.profiles[HERO]
+    assert lead.state(lead.knot_times_s["t2"])[0] < scene.routes[HERO].landmarks["route_end"]
+    assert not broken(scene, attempt.plan)

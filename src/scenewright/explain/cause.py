@@ -25,7 +25,7 @@ from scenewright.judge.verdict import Cause, CauseKind, Condition, Verdict
 from scenewright.plan.planner import GOOD
 from scenewright.program.structure import Role, actors_of
 from scenewright.program.types import EGO, Actor, Constraint, Program
-from scenewright.simulate.loop import ROUTE_END_M, Run
+from scenewright.simulate.loop import LONGEST_RUN_S, ROUTE_END_M, Run
 from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
 from scenewright.translate.lines import in_words
@@ -156,7 +156,7 @@ def _planned_so(
             if run.trace.actors[actor.name].s_m[-1] >= world.scene.routes[actor.id].landmarks["route_end"] - ROUTE_END_M
         ]
         who = called(hero.name)
-        why = f"{at_end[0]} came to the end of its road" if at_end else "the run ended"
+        why = f"{at_end[0]} came to the end of its road" if at_end and end_s < LONGEST_RUN_S else "the run ended"
         then = "it" if at_end[:1] == [who] else who
         return Finding(
             f"{why} at {end_s:.1f} s, before {then} was to have done all of it at {acts_s:.1f} s",

@@ -112,7 +112,7 @@ class Problem:
         if instant in self.now.knots_s:
             return Moment(self.now.knots_s[instant])
         guess = self.now.expected_s.get(instant, self.now.time_s + 5.0)
-        soonest = self.now.time_s + SOONEST_S if self.now.heroes else 0.0
+        soonest = self.now.time_s + SOONEST_S if self.now.heroes else float(self.asked.least_s[:, instant].max())
         return Moment(0.0, self._new(guess, max(soonest, self.now.settled_s.get(instant, 0.0)), _LATEST_S, _STEP_S))
 
     def _is_settled(self, hero: Actor) -> bool:

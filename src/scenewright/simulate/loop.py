@@ -16,9 +16,11 @@ import numpy as np
 
 from scenewright.errors import PolicyError, ScenewrightError, SimulatorError
 from scenewright.program import expressions as ex
+from scenewright.program.structure import actors_of, knots_of, read_structure
 from scenewright.program.types import EGO, Program
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.port import SIMULATORS, Simulator, Snapshot, Start
+from scenewright.solve.proofs.events import LONGEST_S
 from scenewright.trace.model import ActorTrace, Trace
 
 if TYPE_CHECKING:
@@ -29,7 +31,7 @@ if TYPE_CHECKING:
 
 DEFAULT_STEP_S = 0.02
 DEFAULT_REPLAN_S = 0.1
-LONGEST_RUN_S = 90.0
+LONGEST_RUN_S = float(LONGEST_S)  # what comes later is refuted before anything is driven
 _AFTER_HEROES_S = 2.0
 _SEEN_S = 0.5  # beyond what a stand has to last, for it to be seen to
 _WAIT_FOR_EGO_S = 10.0
@@ -85,7 +87,7 @@ def simulate(
     scene, first_plan, log = start.scene, heroes.plan, list[Snapshot]()
     steps_a_tick = max(1, round(rates.replan_s / rates.step_s)) if rates.replan_s else 0
     status, fault, step, astray_m, ego_moved_s = "finished", None, 0, 0.0, 0.0
-    clock_s = _told_by_the_clock_s(scene.program)
+    clock_s, meets = _told_by_the_clock_s(scene.program), _meets_ego(scene.program)
     with SIMULATORS.blamed(simulator):
         simulator.reset(start, rates.step_s)
         now = simulator.observe()
@@ -103,7 +105,7 @@ def simulate(
             for hero, motion in motions.items():
                 there = now.actors[hero]
                 astray_m = max(astray_m, hypot(there.s_m - motion.state(now.time_s)[0], there.d_m))
-            if _is_over(scene, motions, now, clock_s, ego_moved_s):
+            if _is_over(scene, motions, now, clock_s, meets, ego_moved_s):
                 break
             with SIMULATORS.blamed(simulator):
                 simulator.step()
@@ -146,16 +148,23 @@ def _told_by_the_clock_s(program: Program) -> float:
     return max((float(time.value) for time in told if isinstance(time, ex.Number)), default=0.0)
 
 
-def _is_over(scene: Scene, motions: Mapping[int, Profile], now: Snapshot, clock_s: float, ego_moved_s: float) -> bool:
+def _is_over(
+    scene: Scene,
+    motions: Mapping[int, Profile],
+    now: Snapshot,
+    clock_s: float,
+    meets: Mapping[int, str],
+    ego_moved_s: float,
+) -> bool:
     """Whether all that the program tells of has happened, the latest at `clock_s`, or will not happen any more.
 
-    An ego that has not moved for long is not waited for.
+    An ego that has not moved for long is not waited for, nor one at the end of its road, whom no hero can `meet` there.
     """
     time_s, ego, route = now.time_s, now.actors[EGO], scene.routes[EGO]
-    if time_s >= LONGEST_RUN_S:
-        return True
     end_m = route.landmarks["route_end"]
-    if ego.s_m >= end_m - ROUTE_END_M:
+    at_end = ego.s_m >= end_m - ROUTE_END_M
+    waits = any(motions[hero].knot_times_s.get(knot, 0.0) > time_s for hero, knot in meets.items())
+    if time_s >= LONGEST_RUN_S or (at_end and waits):
         return True
     stalled = time_s - ego_moved_s > _STALLED_S
     if time_s < clock_s:
@@ -169,8 +178,18 @@ def _is_over(scene: Scene, motions: Mapping[int, Profile], now: Snapshot, clock_
         return stalled
     if time_s < last_knot_s + _WAIT_FOR_EGO_S and _any_turning(scene, now):
         return False
-    passed = ego.s_m > route.landmarks.get("junction_end", end_m) + 5.0
+    passed = at_end or ego.s_m > route.landmarks.get("junction_end", end_m) + 5.0
     return passed or time_s >= last_knot_s + _WAIT_FOR_EGO_S
+
+
+def _meets_ego(program: Program) -> dict[int, str]:
+    """Return the trigger knot of each hero whose trigger speaks of the ego."""
+    structure, found = read_structure(program), {}
+    for hero, instant in structure.triggers.items():
+        asked = [each.formula for each in program.constraints if set(knots_of(each.formula)) <= instant]
+        if any(EGO in actors_of(formula) for formula in asked):
+            found[hero] = structure.trigger_knot(hero) or ""
+    return found
 
 
 def _any_turning(scene: Scene, now: Snapshot) -> bool:

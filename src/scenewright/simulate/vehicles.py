@@ -48,8 +48,14 @@ class EgoVehicle:
         self.policy.reset(self.start_at(s_m, speed_mps))
 
     def decide(self, time_s: float, others: tuple[VehicleState, ...], dt_s: float) -> float | EgoMotion:
-        """Ask the policy what it does in the next step; its acceleration is known from now on."""
+        """Ask the policy what it does in the next step; its acceleration is known from now on.
+
+        Beyond the end of its road it is not asked: the ego drives straight on.
+        """
         now = self.state
+        if now.s_m >= self.route.path.length_m:
+            self.state = now._replace(accel_mps2=0.0)
+            return 0.0
         action = self.policy.step(Observation(time_s, _seen("ego", now, now.s_m, self.route), others), dt_s)
         if isinstance(action, EgoMotion):
             accel_mpss = (action.speed_mps - now.speed_mps) / dt_s
