@@ -65,7 +65,7 @@ class Replan:
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """What a first plan came to."""
+    """What a first plan came to, and how many Newton steps it took in all."""
 
     plan: Plan
     missed: Missed
@@ -130,6 +130,7 @@ class Planner:
     _others: Mapping[int, float] = field(init=False, default_factory=dict)
     _ego: Foresight = field(init=False)
     _meetings: tuple[Meeting, ...] = field(init=False, default=())
+    _steps: int = field(init=False, default=0)
     _joint_s: dict[int, float] = field(init=False, default_factory=dict)  # first planned, where both decide when
 
     def __post_init__(self, predictor: Predictor) -> None:
@@ -177,7 +178,7 @@ class Planner:
         missed, wall_s = best.solution.missed, time.perf_counter() - started
         foreseen = self.plan.profiles[EGO]
         self.records = [Replan(0.0, _status(best.solution), "daqp", wall_s, missed.by, "", foreseen)]
-        return Attempt(self.plan, missed, wall_s, best.solution.steps)
+        return Attempt(self.plan, missed, wall_s, self._steps)
 
     def _keep(self, found: _Found) -> None:
         self.plan, self._moments_s, self._others = found.plan, found.moments_s, found.others
@@ -393,6 +394,7 @@ class Planner:
 
     def _made(self, problem: Problem, solution: Solution, prediction: Profile) -> _Found:
         """Return the plan that values stand for, with what was driven before it."""
+        self._steps += solution.steps
         times = [moment.value(solution.z) for moment in problem.moments]
         profiles = {hero: drive.motion for hero, drive in problem.now.heroes.items()}
         for hero, shot in problem.shots(solution.z).items():
