@@ -32,7 +32,7 @@ from scenewright.solve.limits import Limits
 
 # Who is further off than along a shared road by so much is not on it yet; chosen, lanes are 3 m apart.
 _SAME_ROAD_M = 1.0
-# Newton steps after which nothing but a last resort is tried. Of 160 cases of the benchmark none planned well after more.
+# Newton steps after which nothing but a last resort is tried: of 160 cases of the benchmark none did well after more.
 _MOST_STEPS = 700
 _SHIFTS = 4  # of a start, until an ego that slows down for a bend is where it is to be
 
