@@ -42,7 +42,7 @@ _CORE_S = 2.0  # for looking for what clashes among all constraints: as long as 
 _RANGES = {
     "time": f"everything happens within {float(LONGEST_S):g} s of the start",
     "speed": "how fast anybody may be",
-    "place": "where the routes end",
+    "place": "where the routes begin and end",
 }
 _WIDER = 1000  # a range so much wider is none
 # What guesses owe of the manner, in turn; later ones owe nothing: a motion that looks like nothing is possible, too.
@@ -237,7 +237,10 @@ def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Na
     clashing = resting_on(posed[1], (*kept, *laws))
     ranges = []
     for kind, words in _RANGES.items():
-        wider = [replace(each, high=_WIDER * each.high) if each.kind == kind else each for each in posed[0]]
+        wider = [
+            replace(each, low=-_WIDER * each.high, high=_WIDER * each.high) if each.kind == kind else each
+            for each in posed[0]
+        ]
         if refuter.ask(wider, clashing, 0.2).kind == "met":
             ranges.append(words)
     return (*kept, *laws, *ranges)
