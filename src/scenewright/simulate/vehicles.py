@@ -52,11 +52,9 @@ class EgoVehicle:
 
         Beyond the end of its road it is not asked: the ego drives straight on.
         """
-        now = self.state
-        if now.s_m >= self.route.path.length_m:
-            self.state = now._replace(accel_mps2=0.0)
-            return 0.0
-        action = self.policy.step(Observation(time_s, _seen("ego", now, now.s_m, self.route), others), dt_s)
+        now, length_m = self.state, self.route.path.length_m
+        seen_now = Observation(time_s, _seen("ego", now, now.s_m, self.route), others)
+        action = self.policy.step(seen_now, dt_s) if now.s_m < length_m else 0.0
         if isinstance(action, EgoMotion):
             accel_mpss = (action.speed_mps - now.speed_mps) / dt_s
         else:
