@@ -69,7 +69,6 @@ class Attempt:
 
     plan: Plan
     missed: Missed
-    wall_s: float
     steps: int
 
     @property
@@ -178,7 +177,7 @@ class Planner:
         missed, wall_s = best.solution.missed, time.perf_counter() - started
         foreseen = self.plan.profiles[EGO]
         self.records = [Replan(0.0, _status(best.solution), "daqp", wall_s, missed.by, "", foreseen)]
-        return Attempt(self.plan, missed, wall_s, self._steps)
+        return Attempt(self.plan, missed, self._steps)
 
     def _keep(self, found: _Found) -> None:
         self.plan, self._moments_s, self._others = found.plan, found.moments_s, found.others

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from fractions import Fraction
+from itertools import product
 
 from scenewright.errors import PolicyError
 from scenewright.motion.profile import Profile
@@ -29,6 +29,7 @@ from scenewright.simulate.world import World
 from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.feasibility import check_feasibility
 from scenewright.solve.limits import Limits
+from scenewright.units import pin
 
 # Who is further off than along a shared road by so much is not on it yet; chosen, lanes are 3 m apart.
 _SAME_ROAD_M = 1.0
@@ -143,13 +144,12 @@ def _kept_apart(scene: Scene, heroes: Iterable[int], speed_mps: float) -> Scene:
 
     Nobody closes in faster than it drives: that long before a collision, even braking is enough a second later.
     """
-    knot, more = Knot(scene.program.ego.sketch.knots[0]), []
-    meets_s = TAILGATES_S + speed_mps / (2.0 * HARD_MPSS)
-    least: list[tuple[DerivedKind, float]] = [("headway", TAILGATES_S), ("ttc", meets_s)]
-    for hero in heroes:
-        for kind, least_s in least:
-            said = Compare(">=", Derived(kind, EGO, hero, knot), Number(Fraction(least_s).limit_denominator(1000)))
-            more.append(Constraint(f"begins_{kind}_{hero}", said))
+    knot, meets_s = Knot(scene.program.ego.sketch.knots[0]), TAILGATES_S + speed_mps / (2.0 * HARD_MPSS)
+    kinds: tuple[tuple[DerivedKind, float], ...] = ("headway", TAILGATES_S), ("ttc", meets_s)
+    more = (
+        Constraint(f"begins_{kind}_{hero}", Compare(">=", Derived(kind, EGO, hero, knot), Number(pin(least_s))))
+        for hero, (kind, least_s) in product(heroes, kinds)
+    )
     return replace(scene, program=replace(scene.program, constraints=(*scene.program.constraints, *more)))
 
 

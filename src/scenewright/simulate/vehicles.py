@@ -48,10 +48,7 @@ class EgoVehicle:
         self.policy.reset(self.start_at(s_m, speed_mps))
 
     def decide(self, time_s: float, others: tuple[VehicleState, ...], dt_s: float) -> float | EgoMotion:
-        """Ask the policy what it does in the next step; its acceleration is known from now on.
-
-        Beyond the end of its road it is not asked: the ego drives straight on.
-        """
+        """Ask the policy what it does in the next step, known from now on; beyond its road it drives straight on."""
         now, length_m = self.state, self.route.path.length_m
         seen_now = Observation(time_s, _seen("ego", now, now.s_m, self.route), others)
         action = self.policy.step(seen_now, dt_s) if now.s_m < length_m else 0.0

@@ -237,10 +237,8 @@ def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Na
     clashing = resting_on(posed[1], (*kept, *laws))
     ranges = []
     for kind, words in _RANGES.items():
-        wider = [
-            replace(each, low=-_WIDER * each.high, high=_WIDER * each.high) if each.kind == kind else each
-            for each in posed[0]
-        ]
+        wide = (replace(each, low=-_WIDER * each.high, high=_WIDER * each.high) for each in posed[0])
+        wider = [new if old.kind == kind else old for old, new in zip(posed[0], wide, strict=True)]
         if refuter.ask(wider, clashing, 0.2).kind == "met":
             ranges.append(words)
     return (*kept, *laws, *ranges)
