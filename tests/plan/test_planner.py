@@ -373,3 +373,10 @@ def test_all_that_is_asked_is_planned_on_the_road_that_there_is() -> None:
     lead = attempt.plan.profiles[HERO]
     assert lead.state(lead.knot_times_s["t2"])[0] < scene.routes[HERO].landmarks["route_end"]
     assert not broken(scene, attempt.plan)
+
+
+def test_a_speed_that_can_be_proven_to_be_had_is_planned() -> None:
+    """What is kept of the highest speed is no more than what may come between two nodes."""
+    asked = STANDS_AHEAD.replace("A1v(t2) == 8", "A1v(t2) == 17.9")
+    scene, attempt, _ = planned(asked, (), "constant")
+    assert not broken(scene, attempt.plan)

@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+from scenewright.judge.tolerance import TIGHT
 from scenewright.orchestrate import Request, Stages, begin, orchestrate
 from scenewright.program.starts import HARD_MPSS
 from scenewright.program.types import EGO
@@ -145,7 +146,12 @@ def test_an_ego_that_would_brake_hard_begins_further_behind(ego: str) -> None:
 
 
 def test_who_is_asked_to_begin_near_does() -> None:
-    assert at_once_mpss("headway(A0, A1, t0) == 0.3 s") > HARD_MPSS
+    asked = TAILS.format(asked="headway(A0, A1, t0) == 0.3 s")
+    result = orchestrate(Request(asked, ego="idm", takes=1, explain="nothing"))
+    assert result.verdict is not None
+    near = [condition for condition in result.verdict.conditions if condition.kind == "initial"]
+    assert [condition.required for condition in near] == [pytest.approx(0.3)]
+    assert all(condition.holds_at(TIGHT) for condition in (*near, result.verdict.condition("start")))
 
 
 def test_when_the_steps_are_spent_only_last_resorts_are_tried(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -151,9 +151,10 @@ class HeroRows:
         (most, slope), (comfortable, other) = caps.at(self.shot.s)
         v, d_s, d_v = self.shot.v[1:], self.shot.d_s[1:], self.shot.d_v[1:]
         self.bounds.add_all(-v, -d_v, FIRM * wanted.price)
+        # Its last knot is on its road, unless the program asks for one at its end.
         end_m = self.asked.scene.routes[self.hero.id].landmarks["route_end"] - VEHICLE_LENGTH_M
         s_m, _, d_s_m, _ = self.shot.at_node(self.shot.first_node[-2])
-        self.bounds.add(s_m - end_m, d_s_m, wanted.price / _TIGHT_LENGTH)  # its last knot is on its road
+        self.bounds.add(s_m - end_m, d_s_m, wanted.price / _TIGHT_LENGTH, wanted.out_of_way_most)
         self.bounds.add_all(v - most[1:], d_v - slope[1:, None] * d_s, FIRM * wanted.price)
         self.costs.beyond(v - comfortable[1:], d_v - other[1:, None] * d_s, wanted.lateral_weight)
         self.costs.beyond(v - natural, d_v, wanted.over_limit_weight)

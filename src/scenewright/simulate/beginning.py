@@ -35,6 +35,7 @@ from scenewright.units import pin
 _SAME_ROAD_M = 1.0
 # Newton steps after which nothing but a last resort is tried: of 160 cases of the benchmark none did well after more.
 _MOST_STEPS = 700
+_SHIFTS = 4  # of a start, until an ego that slows down for a bend is where it is to be
 
 
 def first_plan(
@@ -52,7 +53,7 @@ def first_plan(
     limits = {actor: own if actor == EGO else own.at_pace(pace) for actor, own in world.limits.items()}
     best: _Planned | None = None
     steps = 0
-    for start in _starts(world):
+    for start in _starts(world, predictor):
         # An ego that does not hold its speed may still let come about what no plan promises.
         if start.last_resort and best is not None and best.is_good and not world.ego_bounds.holds_speed:
             break
@@ -158,7 +159,7 @@ def first_plan_of_smt(world: World) -> tuple[HeroDriver, EgoFirstState, Attempt]
     from scenewright.plan.smt import SmtPlanner
 
     why = ""
-    for start in _starts(world):
+    for start in _starts(world, world.predictor):
         planner = SmtPlanner(world.scene, world.limits, world.ego_bounds)
         if planner.refused:
             return f"the SMT planner cannot take {planner.refused}"
@@ -181,11 +182,22 @@ def is_timed_by_ego(world: World) -> bool:
     )
 
 
-def _starts(world: World) -> Iterator[EgoFirstState]:
-    """Yield what the policy would hold, and at last the first state in which an ego that holds its speed makes it."""
+def _starts(world: World, predictor: Predictor) -> Iterator[EgoFirstState]:
+    """Yield what the policy would hold, and at last the first state in which an ego that holds its speed makes it.
+
+    That is shifted, unless the program says where it begins, for an ego that does not hold its speed to be on time too.
+    """
     conditions = linear_conditions(world.scene, world.structure)
     yield from ego_starts(world.scene, world.ego, world.limits[EGO], conditions)
     bounds = replace(world.ego_bounds, holds_speed=True)
     found = check_feasibility(world.scene, world.structure, world.limits, bounds, explain=False)
-    if found.witness is not None:
-        yield EgoFirstState(*found.witness.profiles[EGO].state(0.0)[:2], last_resort=True)
+    if found.witness is None:
+        return
+    first, motion = (EGO, world.scene.program.ego.sketch.knots[0]), found.witness.profiles[EGO]
+    start, name = EgoFirstState(*motion.state(0.0)[:2], last_resort=True), world.structure.trigger_knot(EGO)
+    is_placed = any(each.moments == {first} and each.weights[EGO][0] for each in conditions)
+    for _ in range(0 if is_placed or name is None else _SHIFTS):
+        foreseen = predictor.predict([(0.0, start.s_m, start.speed_mps, start.accel_mpss)])
+        then_s = motion.knot_times_s[name or ""]
+        start = replace(start, s_m=max(0.0, start.s_m + motion.state(then_s)[0] - foreseen.state(then_s)[0]))
+    yield start

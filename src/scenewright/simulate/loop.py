@@ -161,7 +161,7 @@ def _is_over(scene: Scene, motions: Mapping[int, Profile], now: Snapshot, told: 
     if time_s >= LONGEST_RUN_S or time_s - ego_moved_s > _STALLED_S or (at_end and waits):
         return True
     # Whoever is at the end of its route does nothing more that a program asks for; others may.
-    ends_m = {hero: scene.routes[hero].landmarks["route_end"] - ROUTE_END_M for hero in motions}
+    ends_m = {hero: scene.routes[hero].landmarks["route_end"] for hero in motions}
     going = [motion for hero, motion in motions.items() if now.actors[hero].s_m < ends_m[hero]]
     last_knot_s = max((max(profile.knot_times_s.values()) for profile in going), default=-_WAIT_FOR_EGO_S)
     stands_s = float(scene.program.manner.stands_s) + _SEEN_S
