@@ -25,7 +25,7 @@ from scenewright.judge.verdict import Cause, CauseKind, Condition, Verdict
 from scenewright.plan.planner import GOOD
 from scenewright.program.structure import Role, actors_of
 from scenewright.program.types import EGO, Actor, Constraint, Program
-from scenewright.simulate.loop import LONGEST_RUN_S, ROUTE_END_M, Run
+from scenewright.simulate.loop import LONGEST_RUN_S, ROUTE_END_M, STANDS_MPS, Run
 from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
 from scenewright.translate.lines import in_words
@@ -156,7 +156,10 @@ def _planned_so(
             if run.trace.actors[actor.name].s_m[-1] >= world.scene.routes[actor.id].landmarks["route_end"] - ROUTE_END_M
         ]
         who = called(hero.name)
-        why = f"{at_end[0]} came to the end of its road" if at_end and end_s < LONGEST_RUN_S else "the run ended"
+        ego = run.trace.actors[world.scene.program.ego.name]
+        moved_s = float(ego.time_s[ego.speed_mps > STANDS_MPS].max(initial=0.0))
+        stood = f"the ego stood from {moved_s:.1f} s on, and the run ended" if moved_s < end_s else "the run ended"
+        why = f"{at_end[0]} came to the end of its road" if at_end and end_s < LONGEST_RUN_S else stood
         then = "it" if at_end[:1] == [who] else who
         return Finding(
             f"{why} at {end_s:.1f} s, before {then} was to have done all of it at {acts_s:.1f} s",

@@ -35,7 +35,7 @@ LONGEST_RUN_S = float(LONGEST_S)  # what comes later is refuted before anything 
 _AFTER_HEROES_S = 2.0
 _SEEN_S = 0.5  # beyond what a stand has to last, for it to be seen to
 _WAIT_FOR_EGO_S = 10.0
-_STALLED_S, _STANDS_MPS = 20.0, 0.1
+_STALLED_S, STANDS_MPS = 20.0, 0.1
 _MOVES_MPS = 0.5
 ROUTE_END_M = 3.0  # who is so near to the end of its road has come to it
 _NOTED_M = 0.01  # what a finding with two decimals can say
@@ -113,7 +113,7 @@ def simulate(
                 now = simulator.observe()
             step += 1
             ego = now.actors[EGO]
-            if ego.speed_mps > _STANDS_MPS:
+            if ego.speed_mps > STANDS_MPS:
                 ego_moved_s = now.time_s
             heroes.observe((now.time_s, ego.s_m, ego.speed_mps, ego.accel_mps2))
     except KeyboardInterrupt:
