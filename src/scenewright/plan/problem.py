@@ -71,7 +71,8 @@ class Problem:
         self.moments = [self._moment(instant) for instant in range(len(asked.times))]
         self._span: dict[int, range] = {}  # by hero: the unknowns that are its alone
         for hero in asked.scene.program.heroes:
-            if not self._is_settled(hero):
+            drive = now.heroes.get(hero.id)
+            if drive is None or drive.piece < len(hero.sketch.pieces):  # else it only carries out what it drives
                 first = len(self._guess)
                 self._lay_out(hero)
                 self._span[hero.id] = range(first, len(self._guess))
@@ -114,11 +115,6 @@ class Problem:
         guess = self.now.expected_s.get(instant, self.now.time_s + 5.0)
         soonest = self.now.time_s + SOONEST_S if self.now.heroes else float(self.asked.least_s[:, instant].max())
         return Moment(0.0, self._new(guess, max(soonest, self.now.settled_s.get(instant, 0.0)), _LATEST_S, _STEP_S))
-
-    def _is_settled(self, hero: Actor) -> bool:
-        """Whether a hero only carries out what it drives."""
-        drive = self.now.heroes.get(hero.id)
-        return drive is not None and drive.piece >= len(hero.sketch.pieces)
 
     def _owned(self, hero: int) -> _Own:
         """Return what a hero's motion and rows depend on: all but what is other heroes' alone."""

@@ -137,9 +137,6 @@ class HeroRows:
                     usual = min(max(usual, float(narrowing.law.rate_low)), float(narrowing.law.rate_high))
         return usual
 
-    def _natural_mps(self) -> float:
-        return self.asked.wanted.natural_share * self.asked.limits[self.hero.id].natural_approach_speed_mps
-
     # -- limits -------------------------------------------------------------------------------------------------------
     def _limits(self) -> None:
         """Add what no motion exceeds: nobody drives backwards, or faster than road and bends allow."""
@@ -205,7 +202,8 @@ class HeroRows:
         node, rate = shot.first_node[number], wanted.price / _TIGHT_RATE
         _, v, _, d_v = shot.at_node(node)
         if node and PieceKind.STOP not in (begins.kind, shot.legs[number - 1].kind):
-            self.costs.add(v - self._natural_mps(), d_v, wanted.trigger_speed_weight)
+            natural_mps = wanted.natural_share * self.asked.limits[self.hero.id].natural_approach_speed_mps
+            self.costs.add(v - natural_mps, d_v, wanted.trigger_speed_weight)
             self.bounds.add(wanted.slowest_mps - v, -d_v, wanted.slowest_price)
             self.bounds.add(wanted.moves_mps - v, -d_v, wanted.price / _TIGHT_SPEED)
         sense = _SENSE.get(begins.kind)

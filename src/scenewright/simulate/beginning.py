@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import product
 
@@ -128,15 +129,13 @@ def _saved_from(world: World, start: EgoFirstState, attempt: Attempt) -> list[in
 def _brakes_hard(start: Start, heroes: Mapping[int, Profile], step_s: float) -> bool:
     """Whether the policy, shown the heroes as they are planned, brakes hard in the first second."""
     drive = BuiltIn()
-    try:
+    with suppress(PolicyError):  # the run itself will tell
         drive.reset(start, step_s)
         for _ in range(round(AT_ONCE_S / step_s)):
             drive.apply(heroes)
             if drive.observe().actors[EGO].accel_mps2 < -HARD_MPSS:
                 return True
             drive.step()
-    except PolicyError:
-        pass  # the run itself will tell
     return False
 
 
@@ -176,10 +175,8 @@ def is_timed_by_ego(world: World) -> bool:
     An ego that starts slower then leaves less time for what follows, not more.
     """
     triggers = {key for instant in world.structure.triggers.values() for key in instant}
-    return any(
-        EGO in condition.weights and condition.weights[EGO][1] != 0.0 and condition.moments & triggers
-        for condition in linear_conditions(world.scene, world.structure)
-    )
+    conditions = linear_conditions(world.scene, world.structure)
+    return any(each.weights.get(EGO, (0.0, 0.0))[1] and each.moments & triggers for each in conditions)
 
 
 def _starts(world: World, predictor: Predictor) -> Iterator[EgoFirstState]:
