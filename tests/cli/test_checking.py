@@ -51,6 +51,19 @@ def test_a_witness_is_a_run_directory(command: Command, folder: Path) -> None:
     assert Path(data["run_directory"], "trace.parquet").is_file()
 
 
+def test_where_a_witness_is_no_success_as_a_run_it_says_why(command: Command, folder: Path) -> None:
+    """A time to collision that is met while it rises, say: a proof does not ask how it came to be."""
+    actors = "Actor 0 (ego):\n- W\n- [t0, go, t1, go, t2]\n\nActor 1 (lead):\n- W\n- [t0, go, t1, dec, t2]\n\n"
+    asked = "Constraints:\nA0(t1) == A1(t1)\nttc(A0, A1, t1) == 3 s\nA1a(dec) == -3\nA1v(t2) == 0\n"
+    Path("rises.scene").write_text(actors + asked, encoding="utf-8")
+    for sources in (["rises.scene"], ["rises.scene", "rises.scene"]):
+        result = command("check", *sources, "--out", "witness")
+        missed = [line for line in result.stdout.replace("\n", " ").split("judged a failure: ")[1:] if line]
+        assert result.exit_code == 0
+        assert len(missed) == len(sources)
+        assert all("it had not been shorter before" in line for line in missed)
+
+
 def test_what_cannot_happen_has_no_witness(command: Command, folder: Path) -> None:
     assert command("check", IMPOSSIBLE, "--out", "witness").exit_code == 3
     assert list(folder.iterdir()) == []

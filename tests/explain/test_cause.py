@@ -154,8 +154,60 @@ Constraints:
 A0x(t0) == A0.conflict_point - 100
 A1x(t0) == stop_line - 2
 A1(t1) == 30 s
+A0v(A1(t1)) >= 5
 A1v(t2) == 6
 """
     found = cause(orchestrate(Request(program, ego="constant", takes=1)))
     assert (found.kind, found.evidence["at_the_end_of_its_road"]) == ("plan", True)
     assert found.text.startswith("The ego came to the end of its road at ")
+
+
+def test_where_all_that_was_asked_was_done_what_else_was_missed_is_told() -> None:
+    """The program puts the lead so near that an ego which holds its speed drives into it before the trigger."""
+    stops_ahead = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (lead):
+- W
+- [t0, dec, t1, stop, t2, acc, t3]
+
+Constraints:
+gap(A0, A1, t0) == 15 m
+A0v(t0) == 14
+A1v(t0) == 14
+A1a(dec) == -6
+A1v(t1) == 0
+A1(t2) - A1(t1) == 3
+A1v(t3) == 5
+A0(t1) == A1(t2)
+"""
+    found = cause(orchestrate(Request(stops_ahead, ego="constant", takes=1)))
+    assert "the ego collides with nobody before the trigger" in found.text
+    assert "no plan was found" not in found.text
+
+
+def test_where_each_waits_for_the_other_it_is_said_that_the_ego_stood() -> None:
+    """The one on the road stands before the driveway until the ego has passed, and that one gives way to it."""
+    program = """
+Actor 0 (ego):
+- S, W
+- [t0, go, t1, go, t2]
+
+Actor 1 (hero):
+- W
+- [t0, go, t1, dec, t2, stop, t3, acc, t4]
+
+Constraints:
+A0(t1) == A1(t1)
+A0x(t1) == stop_line - 15
+A1x(t1) == conflict_point - 28
+A1v(t2) == 0
+A1x(t2) == conflict_point - 9
+A0x(t2) == conflict_point
+A0(t2) < A1(t3)
+A1v(t4) == 6
+"""
+    found = cause(orchestrate(Request(program, ego="idm", takes=1)))
+    assert found.text.startswith("The ego stood from ")

@@ -9,7 +9,8 @@ from situations import planner_of, scene_of
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan import planner as planning
-from scenewright.plan.pairs import Meeting, in_order, meetings_of, needed, passes_s
+from scenewright.plan.pairs import Meeting, PairRows, Way, in_order, meetings_of, needed, passes_s
+from scenewright.plan.preferences import Preferences
 from scenewright.plan.problem import Problem
 from scenewright.program.structure import read_structure
 from scenewright.program.types import EGO
@@ -171,3 +172,21 @@ def test_moments_between_two_are_midway(at_s: float) -> None:
     s_m = [float(motions[h].along(np.array([z[moment]]))[0][0]) for h in (meeting.first, meeting.second)]
     assert s_m[0] >= out_m
     assert s_m[1] <= in_m
+
+
+def test_what_is_owed_in_a_lane_ends_evenly_where_the_first_leaves_it() -> None:
+    """A row that was there in full and then was not refused every step of plans that ended just there."""
+    shared_m = ((0.0, 50.0), (0.0, 50.0))
+
+    def short_m(first_m: float) -> float:
+        stand = {hero: Way(Profile(chain(0.0, s_m, 0.0, [(9.0, 0.0, 0)]))) for hero, s_m in ((1, first_m), (2, 47.0))}
+        rows = PairRows(
+            [(Meeting(1, 2, None, shared_m), None)], stand, np.zeros(1), {}, Preferences(), np.zeros(0), 20.0
+        )
+        return max((float(short[0]) for _, short, *_ in rows._all()), default=0.0)
+
+    owed = np.array([short_m(float(first_m)) for first_m in np.arange(40.0, 53.0, 0.1)])
+    assert np.all(np.abs(np.diff(owed)) < 0.1001)
+    assert owed[0] > 5.0
+    assert short_m(50.2) < 0.0, "it has left"
+    assert short_m(49.8) == pytest.approx(0.2), "it has hardly to go on"

@@ -24,6 +24,73 @@ from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.study.benchmark import benchmark_rows, draw_row
 from stories import BRAKES_GAP, STOPS_AND_GOES, STORIES, YIELDS_DISTANCE
 
+STARTS_NEAR = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (lead):
+- W
+- [t0, go, t1, dec, t2]
+
+Constraints:
+gap(A0, A1, t0) == 8 m
+A0v(t0) == 13
+A1v(t0) == 8
+A0(t1) == A1(t1)
+gap(A0, A1, t1) == 20 m
+A1v(t2) == 0
+"""
+STANDS_AHEAD = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (lead):
+- W
+- [t0, stop, t1, acc, t2]
+
+Constraints:
+A0(t1) == A1(t1)
+gap(A0, A1, t1) == 25 m
+A1v(t2) == 8
+"""
+# Its trigger tells no distance, so the ego is foreseen as if alone: it would drive into who stops ahead.
+STOPS_AHEAD = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (lead):
+- W
+- [t0, dec, t1, stop, t2, acc, t3]
+
+Constraints:
+gap(A0, A1, t0) == 15 m
+A0v(t0) == 14
+A1v(t0) == 14
+A1a(dec) == -6
+A1v(t1) == 0
+A1(t2) - A1(t1) == 3
+A1v(t3) == 5
+A0(t1) == A1(t2)
+"""
+NEAR_ITS_END = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (lead):
+- W
+- [t0, go, t1, dec, t2]
+
+Constraints:
+A0(t1) == A1(t1)
+A0x(t1) == A0.route_end - 60
+gap(A0, A1, t1) == 30
+A1a(dec) == -1
+A1v(t2) == 0
+"""
 STEP_S = 0.005
 ROWS = [row for row in benchmark_rows() if row.id % 6 == 0]
 
@@ -273,3 +340,43 @@ def test_at_a_slower_pace_a_hero_comes_more_slowly_to_its_trigger(s_m: float, mp
         hero = planner.begin((0.0, s_m, mps, 0.0)).plan.profiles[HERO]
         speeds.append(hero.state(hero.knot_times_s["t1"])[1])
     assert speeds[1] < speeds[0] - 1.0
+
+
+def test_how_somebody_begins_is_not_given_up_for_what_is_to_come() -> None:
+    """From there the ego comes nearer than one likes; but the start is the most certain thing of all."""
+    _, attempt, _ = planned(STARTS_NEAR, (), "constant")
+    ego, lead = (attempt.plan.profiles[actor].state(0.0) for actor in (EGO, HERO))
+    assert lead[0] - ego[0] == pytest.approx(8.0, abs=0.05)
+    assert lead[1] == pytest.approx(8.0, abs=0.05)
+
+
+def test_who_is_to_stand_until_its_trigger_stands_and_the_ego_has_to_come() -> None:
+    """One that stands is not to drive at its trigger, and stands for as long as the other takes to come."""
+    _, attempt, _ = planned(STANDS_AHEAD, (), "idm")
+    lead = attempt.plan.profiles[HERO]
+    assert lead.state(0.0)[1] == pytest.approx(0.0, abs=0.01)
+    assert lead.knot_times_s["t1"] > 2.0
+
+
+@pytest.mark.parametrize("ego", ["idm", "constant"])
+def test_what_the_program_asks_for_is_not_given_up_for_room(ego: str) -> None:
+    """Whoever is told where and how it brakes does so, even if the ego is not foreseen to answer it."""
+    world, _, _ = begin(Request(STOPS_AHEAD, {}, ego=ego), Stages(None))
+    found = first_plan(world, world.predictor)
+    assert found is not None
+    assert not broken(world.scene, found[2].plan)
+
+
+def test_all_that_is_asked_is_planned_on_the_road_that_there_is() -> None:
+    """Braking so gently takes more than is left of the road at a usual speed."""
+    scene, attempt, _ = planned(NEAR_ITS_END, (), "constant")
+    lead = attempt.plan.profiles[HERO]
+    assert lead.state(lead.knot_times_s["t2"])[0] < scene.routes[HERO].landmarks["route_end"]
+    assert not broken(scene, attempt.plan)
+
+
+def test_a_speed_that_can_be_proven_to_be_had_is_planned() -> None:
+    """What is kept of the highest speed is no more than what may come between two nodes."""
+    asked = STANDS_AHEAD.replace("A1v(t2) == 8", "A1v(t2) == 17.9")
+    scene, attempt, _ = planned(asked, (), "constant")
+    assert not broken(scene, attempt.plan)

@@ -6,9 +6,11 @@ import math
 
 import pytest
 
+from scenewright.judge.tolerance import TIGHT
 from scenewright.orchestrate import Request, Stages, begin, orchestrate
 from scenewright.program.starts import HARD_MPSS
 from scenewright.program.types import EGO
+from scenewright.simulate import beginning
 from scenewright.simulate.beginning import first_plan, is_timed_by_ego
 from scenewright.simulate.ego_start import ego_starts
 from scenewright.simulate.world import World
@@ -143,4 +145,26 @@ def test_an_ego_that_would_brake_hard_begins_further_behind() -> None:
 
 
 def test_who_is_asked_to_begin_near_does() -> None:
-    assert at_once_mpss("headway(A0, A1, t0) == 0.3 s") > HARD_MPSS
+    asked = TAILS.format(asked="headway(A0, A1, t0) == 0.3 s")
+    result = orchestrate(Request(asked, ego="idm", takes=1, explain="nothing"))
+    assert result.verdict is not None
+    near = [condition for condition in result.verdict.conditions if condition.kind == "initial"]
+    assert [condition.required for condition in near] == [pytest.approx(0.3)]
+    assert all(condition.holds_at(TIGHT) for condition in (*near, result.verdict.condition("start")))
+
+
+def test_when_the_steps_are_spent_only_last_resorts_are_tried(monkeypatch: pytest.MonkeyPatch) -> None:
+    world, tried, plan_from = world_of(IN_TIME), [], beginning._plan_from
+
+    def noted(world, start, *how):  # type: ignore[no-untyped-def]
+        tried.append(start)
+        return plan_from(world, start, *how)
+
+    monkeypatch.setattr(beginning, "_plan_from", noted)
+    first_plan(world, world.predictor)
+    assert len(tried) > 2
+    assert not any(start.last_resort for start in tried)
+    tried.clear()
+    monkeypatch.setattr(beginning, "_MOST_STEPS", 0)
+    first_plan(world, world.predictor)
+    assert [start.last_resort for start in tried[1:]] == [True] * (len(tried) - 1)

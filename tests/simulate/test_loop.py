@@ -206,3 +206,20 @@ def test_a_run_goes_on_until_what_is_told_by_the_clock(tmp_path: Path) -> None:
     assert result.run is not None
     assert result.run.trace.actors["hero"].time_s[-1] >= 25.0
     assert result.status == "success"
+
+
+@pytest.mark.parametrize("at_s", [40, 95])
+def test_a_run_does_not_end_with_the_road_of_an_ego_that_nobody_waits_for(at_s: int) -> None:
+    """What the clock tells comes as late as can be proven at all, wherever the ego is by then."""
+    trigger = f"A1(t1) == {at_s} s\nA1x(t1) == stop_line - 15\nA1x(t2) == stop_line - 1\nA1v(t2) == 0\n"
+    result = orchestrate(Request(program("S, W", "t0, go, t1, dec, t2", trigger), ego="constant", takes=1))
+    assert result.status == "success"
+    assert result.run is not None
+    ego = result.run.trace.actors["ego"]
+    assert ego.s_m[ego.time_s < at_s][-1] > result.scene.landmarks_m[0]["route_end"]
+
+
+def test_a_run_ends_no_sooner_than_a_hero_is_at_the_very_end_of_its_road() -> None:
+    trigger = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 40\nA1x(t1) == conflict_point - 20\nA1x(t2) == route_end\n"
+    result = orchestrate(Request(program("E, N", "t0, go, t1, acc, t2", trigger), ego="constant", takes=1))
+    assert result.status == "success"

@@ -77,3 +77,14 @@ def test_others_are_shown_without_where_they_are_going() -> None:
     (other,) = seen(SCENE, {HERO: state})
     assert (other.s_m, other.route) == (None, None)
     assert (other.x_m, other.y_m, other.speed_mps, other.accel_mps2) == (state.x_m, state.y_m, 7.0, -1.0)
+
+
+def test_beyond_its_road_it_drives_straight_on_unasked() -> None:
+    policy = Does(-1.0)
+    ego = EgoVehicle(GuardedPolicy(policy, "does"), SCENE.routes[EGO], SCENE.road_map, seed=7)
+    end_m = SCENE.routes[EGO].path.length_m
+    ego.reset(end_m + 5.0, 8.0)
+    ego.advance(ego.decide(0.0, (), STEP_S), STEP_S)
+    assert not policy.shown
+    assert (ego.state.speed_mps, ego.state.accel_mps2) == (8.0, 0.0)
+    assert ego.state.s_m == pytest.approx(end_m + 5.0 + 8.0 * STEP_S)

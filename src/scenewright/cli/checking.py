@@ -71,6 +71,8 @@ def _check_one(asked: Asked, out: Path | None, solver: str, as_json: bool) -> in
         console.print(tables.facts(rows))
     if result.status == "success":
         console.print("\nThis can happen: there is a motion of everybody in which all of it does.")
+        for missed in _missed(result):
+            console.print(f"As a run that motion is judged a failure: {missed}", markup=False, highlight=False)
     if result.run_directory is not None:
         console.print(f"page  {result.run_directory / 'index.html'}", soft_wrap=True)
     tell_no_plan(console, result)
@@ -125,8 +127,16 @@ def _data(request: Request, result: Result, status: int) -> dict[str, object]:
 def _in_short(result: Result) -> list[str]:
     """Say in a few words what clashes, why it is undecided, or where the witness is."""
     if result.run_directory is not None:
-        return [str(result.run_directory)]
+        return [str(result.run_directory), *(f"judged a failure: {missed}" for missed in _missed(result))]
     found = result.feasibility
     if found is None or found.answer == "feasible":
         return []
     return [found.reason or ", ".join(clash.id for clash in found.clashes)]
+
+
+def _missed(result: Result) -> list[str]:
+    """Return what a run owes that the motion which shows that it can happen does not do, if it is judged."""
+    from scenewright.judge.tolerance import TIGHT
+
+    judged = result.verdict.conditions if result.verdict is not None else ()
+    return [str(condition.text) for condition in judged if not condition.holds_at(TIGHT)]

@@ -25,7 +25,7 @@ from scenewright.judge.verdict import Cause, CauseKind, Condition, Verdict
 from scenewright.plan.planner import GOOD
 from scenewright.program.structure import Role, actors_of
 from scenewright.program.types import EGO, Actor, Constraint, Program
-from scenewright.simulate.loop import ROUTE_END_M, Run
+from scenewright.simulate.loop import LONGEST_RUN_S, ROUTE_END_M, STANDS_MPS, Run
 from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
 from scenewright.translate.lines import in_words
@@ -78,7 +78,7 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
         return _cause("authority", Finding(f"{limit.text}, and {why}", {**otherwise.evidence, **limit.evidence}))
     if limit is not None:
         return _cause("authority", limit)
-    left = otherwise or _planned_so(world, run, hero, until_s, missed)
+    left = otherwise or _planned_so(world, run, hero, until_s, missed, does_all=not failed)
     if in_way is not None:
         left = Finding(f"{left.text}; {in_way}", {**left.evidence, "in_way": asdict(in_way)})
     return _cause("prediction" if otherwise else "plan", left)
@@ -136,8 +136,16 @@ def _begun_so(run: Run, condition: Condition) -> Finding:
     return Finding(f'no first plan was found that does all that was asked: it misses "{condition.text}"{off}', evidence)
 
 
-def _planned_so(world: World, run: Run, hero: Actor, until_s: float, missed: Sequence[Condition]) -> Finding:
-    """Return what is left: it was planned so, though nothing stood against it."""
+def _planned_so(
+    world: World, run: Run, hero: Actor, until_s: float, missed: Sequence[Condition], *, does_all: bool
+) -> Finding:
+    """Return what is left: it was planned so, though nothing stood against it.
+
+    Parameters
+    ----------
+    does_all
+        Whether all that the program asks for came about: what was missed is owed by any run.
+    """
     planned = [tick for tick in run.replans if tick.foreseen is not None and tick.time_s < until_s]
     last = planned[-1] if planned else run.replans[0]
     acts_s, end_s = max(run.last_plan.profiles[hero.id].knot_times_s.values()), run.trace.duration_s
@@ -148,13 +156,16 @@ def _planned_so(world: World, run: Run, hero: Actor, until_s: float, missed: Seq
             if run.trace.actors[actor.name].s_m[-1] >= world.scene.routes[actor.id].landmarks["route_end"] - ROUTE_END_M
         ]
         who = called(hero.name)
-        why = f"{at_end[0]} came to the end of its road" if at_end else "the run ended"
+        ego = run.trace.actors[world.scene.program.ego.name]
+        moved_s = float(ego.time_s[ego.speed_mps > STANDS_MPS].max(initial=0.0))
+        stood = f"the ego stood from {moved_s:.1f} s on, and the run ended" if moved_s < end_s else "the run ended"
+        why = f"{at_end[0]} came to the end of its road" if at_end and end_s < LONGEST_RUN_S else stood
         then = "it" if at_end[:1] == [who] else who
         return Finding(
             f"{why} at {end_s:.1f} s, before {then} was to have done all of it at {acts_s:.1f} s",
             {"hero": hero.name, "end_s": end_s, "planned_s": acts_s, "at_the_end_of_its_road": bool(at_end)},
         )
-    if last.tolerance <= GOOD:
+    if does_all or last.tolerance <= GOOD:
         return Finding(
             f"the last plan, of {last.time_s:.1f} s, does all that was asked of {called(hero.name)}, as far as it was "
             f'foreseen; what came of it misses "{missed[0].text}"',

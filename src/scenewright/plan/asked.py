@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 
 TIGHT = {"time": 0.1, "place": 0.5, "speed": 0.25, "rate": 0.25, "other": 1.0}
 _AROUND_M, _STEP_M = 2.0, 0.5  # between two nodes of a plan a car goes a few metres
-_OF_TOP, _OF_LATERAL = 0.95, 0.97  # between two nodes a speed may be a little higher than at both
+_OF_TOP, _OF_LATERAL = 0.99, 0.97  # between two nodes a speed may be a little higher than at both
 
 
 @dataclass(frozen=True, slots=True)

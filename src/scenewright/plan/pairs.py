@@ -264,11 +264,15 @@ class PairRows:
                     yield number, short_m, slopes, columns, self.wanted.clear_in_lane_m
 
     def _in_lane(self, meeting: Meeting, first: Along, second: Along) -> tuple[Array, Array, Columns]:
-        """Return what is missing between two in their common lane (m), wherever that is near."""
+        """Return what is missing between two in their common lane (m), or until the first has left it, if that is less.
+
+        Wherever that is near.
+        """
         assert meeting.lane_m is not None
         (since_m, until_m), (_, other_until_m) = meeting.lane_m
         (s, _, d_s), (other, _, d_other) = first, second
         short_m = self.wanted.clear_in_lane_m + VEHICLE_LENGTH_M - (s - meeting.offset_m - other)
-        near = (s >= since_m) & (s < until_m) & (other < other_until_m) & (short_m > -self.near_m)
+        d_other, short_m = d_other * (short_m < until_m - s)[:, None], np.minimum(short_m, until_m - s)
+        near = (s >= since_m) & (other < other_until_m) & (short_m > -self.near_m)
         columns = np.concatenate([self.ways[meeting.first].columns, self.ways[meeting.second].columns])
         return short_m[near], np.hstack([-d_s[near], d_other[near]]), columns

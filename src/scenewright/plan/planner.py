@@ -65,11 +65,10 @@ class Replan:
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """What a first plan came to."""
+    """What a first plan came to, and how many Newton steps it took in all."""
 
     plan: Plan
     missed: Missed
-    wall_s: float
     steps: int
 
     @property
@@ -130,6 +129,7 @@ class Planner:
     _others: Mapping[int, float] = field(init=False, default_factory=dict)
     _ego: Foresight = field(init=False)
     _meetings: tuple[Meeting, ...] = field(init=False, default=())
+    _steps: int = field(init=False, default=0)
     _joint_s: dict[int, float] = field(init=False, default_factory=dict)  # first planned, where both decide when
 
     def __post_init__(self, predictor: Predictor) -> None:
@@ -145,7 +145,7 @@ class Planner:
         self._ego.samples, self._times.ego_began = [ego], ego[1:3]
         self.ego_knots_s = {self.scene.program.ego.sketch.knots[0]: 0.0}
         prediction = self._ego.predictor.predict([ego])
-        joint = any(self._trigger(hero) is not None and not self._times.ego_decides(hero) for hero in self._heroes)
+        joint = any(h.id in self.structure.triggers and not self._times.ego_decides(h) for h in self._heroes)
         even, tries = partial(even_motions, self._asked, self._times, prediction), list[_Found]()
         meetings = meetings_of(self.scene)
         placed = bool(meetings) and not meet_later(self.scene.program, self.structure) and even(0.0, 1.0)[1]
@@ -172,12 +172,11 @@ class Planner:
         best = self._turned(best)
         self._keep(best)
         self._meetings = needed(best.meetings)
-        names = {hero.id: name for hero in self._heroes if (name := self._trigger(hero)) is not None}
-        self._joint_s = {hero: self.plan.profiles[hero].knot_times_s[name] for hero, name in names.items()}
+        self._joint_s = {h: self.plan.profiles[h].knot_times_s[self._name(h)] for h in self.structure.triggers}
         missed, wall_s = best.solution.missed, time.perf_counter() - started
         foreseen = self.plan.profiles[EGO]
         self.records = [Replan(0.0, _status(best.solution), "daqp", wall_s, missed.by, "", foreseen)]
-        return Attempt(self.plan, missed, wall_s, best.solution.steps)
+        return Attempt(self.plan, missed, self._steps)
 
     def _keep(self, found: _Found) -> None:
         self.plan, self._moments_s, self._others = found.plan, found.moments_s, found.others
@@ -243,7 +242,7 @@ class Planner:
         expected: dict[int, float] = {}
         planned: dict[int, float] = {}
         for hero in self._heroes:
-            if hero.id not in triggers and (name := self._trigger(hero)) is not None:
+            if hero.id not in triggers and (name := self.structure.trigger_knot(hero.id)) is not None:
                 instant = self._asked.knot(hero.id, name)
                 expected[instant] = planned[instant] = guesses[hero.id].knot_times_s.get(name, joint_s)
         for actor in self.scene.program.actors:
@@ -252,7 +251,7 @@ class Planner:
                 instant = self._asked.knot(actor.id, name)
                 if instant not in knots:
                     soonest_s = [at_s + self._asked.least_s[known, instant] for known, at_s in knots.items()]
-                    chained = self._trigger(actor) is None and actor.id in self._asked.adapts_until
+                    chained = self.structure.trigger_knot(actor.id) is None and actor.id in self._asked.adapts_until
                     usual_s = max([now + self._asked.wanted.lasts_s, *(soonest_s if chained else ())])
                     expected.setdefault(instant, told.get(name, usual_s))
                 now = knots.get(instant, expected.get(instant, now))
@@ -343,7 +342,7 @@ class Planner:
             drives[hero.id] = Drive(begin_s, first, profile)
             for number, name in enumerate(names):
                 (knots if number <= first else expected)[self._asked.knot(hero.id, name)] = profile.knot_times_s[name]
-            trigger = self._trigger(hero)
+            trigger = self.structure.trigger_knot(hero.id)
             if trigger is None or (instant := self._asked.knot(hero.id, trigger)) in knots:
                 continue
             if not self._times.ego_decides(hero):
@@ -393,6 +392,7 @@ class Planner:
 
     def _made(self, problem: Problem, solution: Solution, prediction: Profile) -> _Found:
         """Return the plan that values stand for, with what was driven before it."""
+        self._steps += solution.steps
         times = [moment.value(solution.z) for moment in problem.moments]
         profiles = {hero: drive.motion for hero, drive in problem.now.heroes.items()}
         for hero, shot in problem.shots(solution.z).items():
@@ -421,9 +421,6 @@ class Planner:
     def _enough(self) -> float:
         return _ENOUGH_EACH * (len(self.scene.program.heroes) - 1)
 
-    def _trigger(self, hero: Actor) -> str | None:
-        return self.structure.trigger_knot(hero.id)
-
     def _name(self, hero: int) -> str:
         return self.structure.trigger_knot(hero) or ""
 
@@ -439,7 +436,7 @@ class Planner:
         """Return from when on heroes are settled for long enough, whose triggers both decide."""
         wanted, found = self._asked.wanted, {}
         for hero in self._heroes:
-            name = self._trigger(hero)
+            name = self.structure.trigger_knot(hero.id)
             if name is None or name == hero.sketch.knots[-1]:
                 continue
             if (instant := self._asked.knot(hero.id, name)) not in joint:

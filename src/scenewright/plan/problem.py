@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scenewright.motion.profile import Profile
 from scenewright.plan.asked import TIGHT, Asked, number_of
 from scenewright.plan.pairs import AFTER_S, LOOK_S, Meeting, PairRows, Way, passes_s
-from scenewright.plan.rows import SOONEST_S, Columns, HeroRows, Rows
+from scenewright.plan.rows import FIRM, SOONEST_S, Columns, HeroRows, Rows
 from scenewright.plan.shooting import CREEPS_MPS, Leg, Moment, Shot, Start, shoot
 from scenewright.plan.situation import Situation
 from scenewright.program.types import EGO, Actor, PieceKind
@@ -71,12 +71,14 @@ class Problem:
         self.moments = [self._moment(instant) for instant in range(len(asked.times))]
         self._span: dict[int, range] = {}  # by hero: the unknowns that are its alone
         for hero in asked.scene.program.heroes:
-            if not self._is_settled(hero):
+            drive = now.heroes.get(hero.id)
+            if drive is None or drive.piece < len(hero.sketch.pieces):  # else it only carries out what it drives
                 first = len(self._guess)
                 self._lay_out(hero)
                 self._span[hero.id] = range(first, len(self._guess))
         self._others = self._rest()
         self._shot: tuple[Array, dict[int, Shot]] | None = None
+        self._begins = [k for start in self._starts.values() for k in (start.place, start.speed) if k is not None]
         self._moving = len(self._guess)  # of all unknowns that motions are by; moments between two come behind them
         self._own = {hero: self._owned(hero) for hero in self._legs}
         ends_s = [leg.last.value(self._guess) for legs in self._legs.values() for leg in legs]
@@ -111,13 +113,8 @@ class Problem:
         if instant in self.now.knots_s:
             return Moment(self.now.knots_s[instant])
         guess = self.now.expected_s.get(instant, self.now.time_s + 5.0)
-        soonest = self.now.time_s + SOONEST_S if self.now.heroes else 0.0
+        soonest = self.now.time_s + SOONEST_S if self.now.heroes else float(self.asked.least_s[:, instant].max())
         return Moment(0.0, self._new(guess, max(soonest, self.now.settled_s.get(instant, 0.0)), _LATEST_S, _STEP_S))
-
-    def _is_settled(self, hero: Actor) -> bool:
-        """Whether a hero only carries out what it drives."""
-        drive = self.now.heroes.get(hero.id)
-        return drive is not None and drive.piece >= len(hero.sketch.pieces)
 
     def _owned(self, hero: int) -> _Own:
         """Return what a hero's motion and rows depend on: all but what is other heroes' alone."""
@@ -371,10 +368,9 @@ class Problem:
                 late_s = max(late_s, tight_s * row.level)
                 continue
             by = max(by, abs(row.level) if row.equal else row.level)
-            if row.equal:
-                costs.add(row.level, row.slope, wanted.price)
-            else:
-                bounds.add(row.level, row.slope, wanted.price)
+            rows = costs if row.equal else bounds
+            of_start = np.count_nonzero(row.slope) == np.count_nonzero(row.slope[self._begins])
+            rows.add(row.level, row.slope, (FIRM if of_start else 1.0) * wanted.price)
         return Missed(by, late_s)
 
     def _slope(self, moment: Moment) -> Array:

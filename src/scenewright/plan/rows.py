@@ -25,7 +25,7 @@ Columns = NDArray[np.intp]
 SOONEST_S = 0.02  # how soon after now a knot may come
 _ANY = float("inf")
 _STILL_MPS = 0.1  # what is as bad as a tight tolerance for one that is to stand
-_FIRM = 20.0  # of a price: what no motion exceeds
+FIRM = 20.0  # of a price: what no motion exceeds, and how everybody begins
 _TIGHT_SPEED, _TIGHT_RATE, _TIGHT_LENGTH, _TIGHT_TIME = 0.25, 0.25, 0.5, 0.1
 _UNBOUNDED = 900  # bounds of laws beyond this are none
 _ROUNDING_S = 1e-6
@@ -137,9 +137,6 @@ class HeroRows:
                     usual = min(max(usual, float(narrowing.law.rate_low)), float(narrowing.law.rate_high))
         return usual
 
-    def _natural_mps(self) -> float:
-        return self.asked.wanted.natural_share * self.asked.limits[self.hero.id].natural_approach_speed_mps
-
     # -- limits -------------------------------------------------------------------------------------------------------
     def _limits(self) -> None:
         """Add what no motion exceeds: nobody drives backwards, or faster than road and bends allow."""
@@ -150,8 +147,12 @@ class HeroRows:
         natural = np.where(onto, limits.natural_speed_mps, limits.natural_approach_speed_mps)
         (most, slope), (comfortable, other) = caps.at(self.shot.s)
         v, d_s, d_v = self.shot.v[1:], self.shot.d_s[1:], self.shot.d_v[1:]
-        self.bounds.add_all(-v, -d_v, _FIRM * wanted.price)
-        self.bounds.add_all(v - most[1:], d_v - slope[1:, None] * d_s, _FIRM * wanted.price)
+        self.bounds.add_all(-v, -d_v, FIRM * wanted.price)
+        # Its last knot is on its road, unless the program asks for one at its end.
+        end_m = self.asked.scene.routes[self.hero.id].landmarks["route_end"] - VEHICLE_LENGTH_M
+        s_m, _, d_s_m, _ = self.shot.at_node(self.shot.first_node[-2])
+        self.bounds.add(s_m - end_m, d_s_m, wanted.price / _TIGHT_LENGTH, wanted.out_of_way_most)
+        self.bounds.add_all(v - most[1:], d_v - slope[1:, None] * d_s, FIRM * wanted.price)
         self.costs.beyond(v - comfortable[1:], d_v - other[1:, None] * d_s, wanted.lateral_weight)
         self.costs.beyond(v - natural, d_v, wanted.over_limit_weight)
 
@@ -181,16 +182,15 @@ class HeroRows:
         slope = self._unit((last.unknown, 1.0), (first.unknown, -1.0))
         if not np.any(slope):
             return
-        firm = _FIRM * wanted.price
+        firm = FIRM * wanted.price
         stands = leg.kind is PieceKind.STOP
         self.bounds.add((wanted.least_stand_s if stands else wanted.least_s) - lasts, -slope, firm)
         self.bounds.add((wanted.shortest_stand_s if stands else wanted.shortest_s) - lasts, -slope, wanted.price)
         if leg.first.unknown is None and leg.last.unknown is not None:
             self.bounds.add(self.now.time_s + SOONEST_S - last.value(z), -slope, firm)
-        if stands:
-            self.costs.add(lasts - wanted.stands_s, slope, wanted.stands_weight)
-        elif not stands_next and instants[1] != asked.trigger(self.hero.id):
-            self.costs.add(lasts - wanted.lasts_s, slope, wanted.lasts_weight)
+        if instants[1] != asked.trigger(self.hero.id) and (stands or not stands_next):
+            usual_s = wanted.stands_s if stands else wanted.lasts_s
+            self.costs.add(lasts - usual_s, slope, wanted.stands_weight if stands else wanted.lasts_weight)
 
     def _at_trigger(self) -> None:
         """Add that a hero drives at its trigger, is settled before it, and visibly begins what it is to do there."""
@@ -201,8 +201,9 @@ class HeroRows:
         begins = shot.legs[number]
         node, rate = shot.first_node[number], wanted.price / _TIGHT_RATE
         _, v, _, d_v = shot.at_node(node)
-        if node and begins.kind is not PieceKind.STOP:
-            self.costs.add(v - self._natural_mps(), d_v, wanted.trigger_speed_weight)
+        if node and PieceKind.STOP not in (begins.kind, shot.legs[number - 1].kind):
+            natural_mps = wanted.natural_share * self.asked.limits[self.hero.id].natural_approach_speed_mps
+            self.costs.add(v - natural_mps, d_v, wanted.trigger_speed_weight)
             self.bounds.add(wanted.slowest_mps - v, -d_v, wanted.slowest_price)
             self.bounds.add(wanted.moves_mps - v, -d_v, wanted.price / _TIGHT_SPEED)
         sense = _SENSE.get(begins.kind)
@@ -273,7 +274,7 @@ class HeroRows:
         ego_m, ego_mps, _ = self.now.ego(float(self.shot.time[node]))
         room_m = side * (s_m + offset_m - ego_m) - VEHICLE_LENGTH_M - self.asked.wanted.clear_of_ego_m
         slope = -side * (d_s - ego_mps * self.shot.d_time[node])
-        self.bounds.add(-room_m, slope, self.asked.wanted.price / _TIGHT_LENGTH)
+        self.bounds.add(-room_m, slope, self.asked.wanted.price / _TIGHT_LENGTH, self.asked.wanted.out_of_way_most)
 
     def _plainly(self, node: int) -> None:
         """Add that the distance changes plainly at the trigger: else it is as good as met for a long while."""

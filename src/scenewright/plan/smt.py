@@ -84,7 +84,7 @@ class SmtPlanner:
                 self._keep(question, answer, 0.0)
                 wall_s = time.perf_counter() - started
                 self.records = [Replan(0.0, "sat", "z3", wall_s, 0.0, "", self.plan.profiles[EGO])]
-                return Attempt(self.plan, Missed(), self.records[0].wall_s, 1)
+                return Attempt(self.plan, Missed(), 1)
         self.why = self._clash(question) if answer.kind == "refuted" else f"z3 gave up ({answer.kind})"
         return None
 

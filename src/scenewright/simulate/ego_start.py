@@ -54,12 +54,11 @@ def ego_starts(
 def _is_past_something(scene: Scene, conditions: tuple[LinearCondition, ...], start: EgoFirstState) -> bool:
     """Whether the ego would begin beyond a place, or nearer in time to one, that it is to come to later."""
     first = (EGO, scene.program.ego.sketch.knots[0])
-    for condition in conditions:
-        if set(condition.weights) == {EGO} and first not in condition.moments and condition.weights[EGO][0]:
-            ahead = math.copysign(1.0, -condition.weights[EGO][0])
-            if ahead * condition.value({EGO: (start.s_m, start.speed_mps)}) < 0.0:
-                return True
-    return False
+    return any(
+        c.value({EGO: (start.s_m, start.speed_mps)}) / c.weights[EGO][0] > 0.0
+        for c in conditions
+        if set(c.weights) == {EGO} and first not in c.moments and c.weights[EGO][0]
+    )
 
 
 def _possible_starts(
@@ -70,10 +69,14 @@ def _possible_starts(
     initial = [c for c in conditions if c.moments == {(EGO, first_knot)} and set(c.weights) == {EGO}]
     speed_given = next((c for c in initial if c.weights[EGO][0] == 0.0), None)
     place = next((c for c in initial if c.weights[EGO][0] != 0.0), None)
+
+    def driven(speed_mps: float) -> EgoFirstState:
+        """Return the state of one that drives on from there by itself."""
+        s_m = _position(scene, place, speed_mps, conditions)
+        return EgoFirstState(s_m, speed_mps, _first_acceleration(ego, s_m, speed_mps))
+
     if speed_given is not None:
-        speed = -speed_given.constant / speed_given.weights[EGO][1]
-        position = _position(scene, place, speed, conditions)
-        yield EgoFirstState(position, speed, _first_acceleration(ego, position, speed))
+        yield driven(-speed_given.constant / speed_given.weights[EGO][1])
         return
     guess = _position(scene, place, limits.natural_turn_speed_mps, conditions)
     preferred = ego.policy.preferred_speed_mps(ego.start_at(max(0.0, guess), limits.natural_approach_speed_mps))
@@ -90,9 +93,7 @@ def _possible_starts(
     if envelope is not None and envelope.holds_speed:
         return  # it has a speed of its own
     for share in _SLOWER_SHARES:
-        speed = max(share * steady.speed_mps, MOVING_MPS)
-        position = _position(scene, place, speed, conditions)
-        yield EgoFirstState(position, speed, _first_acceleration(ego, position, speed))
+        yield driven(max(share * steady.speed_mps, MOVING_MPS))
 
 
 def _position(

@@ -48,9 +48,10 @@ class EgoVehicle:
         self.policy.reset(self.start_at(s_m, speed_mps))
 
     def decide(self, time_s: float, others: tuple[VehicleState, ...], dt_s: float) -> float | EgoMotion:
-        """Ask the policy what it does in the next step; its acceleration is known from now on."""
-        now = self.state
-        action = self.policy.step(Observation(time_s, _seen("ego", now, now.s_m, self.route), others), dt_s)
+        """Ask the policy what it does in the next step, known from now on; beyond its road it drives straight on."""
+        now, length_m = self.state, self.route.path.length_m
+        seen_now = Observation(time_s, _seen("ego", now, now.s_m, self.route), others)
+        action = self.policy.step(seen_now, dt_s) if now.s_m < length_m else 0.0
         if isinstance(action, EgoMotion):
             accel_mpss = (action.speed_mps - now.speed_mps) / dt_s
         else:

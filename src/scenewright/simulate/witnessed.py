@@ -13,6 +13,7 @@ from itertools import combinations
 import numpy as np
 
 from scenewright.motion.profile import Profile, Segment
+from scenewright.plan.pairs import passes_s
 from scenewright.roads.bodies import CAR
 from scenewright.roads.grounding import Scene
 from scenewright.roads.routes import Route
@@ -33,7 +34,7 @@ def run_of_witness(scene: Scene, limits: Mapping[int, Limits], witness: Witness)
     profiles = dict(witness.profiles)
     for hero in scene.program.heroes:
         profiles[hero.id] = _driven_on(scene.routes[hero.id], profiles[hero.id], limits[hero.id], until_s)
-    ends_s = [_end_s(scene.routes[actor], profile) for actor, profile in profiles.items()]
+    ends_s = [passes_s(motion, scene.routes[actor].landmarks["route_end"]) for actor, motion in profiles.items()]
     ends_s += [profiles[hero.id].end_s for hero in scene.program.heroes]
     until_s = _apart_until(scene, profiles, witness.end_s, max(min(until_s, *ends_s), witness.end_s))
     time_s = DEFAULT_STEP_S * np.arange(int(np.ceil(until_s / DEFAULT_STEP_S - 1e-9)) + 1, dtype=np.float64)
@@ -76,12 +77,6 @@ def _apart_until(scene: Scene, profiles: Mapping[int, Profile], from_s: float, u
     touch = [np.flatnonzero(overlap(a, b, CAR, CAR)) for a, b in combinations(boxes.values(), 2)]
     first = min((int(found[0]) for found in touch if len(found)), default=None)
     return until_s if first is None else float(times[max(0, first - 2)])  # a trace ends up to a step later
-
-
-def _end_s(route: Route, profile: Profile) -> float:
-    """Return when a route has been driven to its end; for ever where that is not to happen."""
-    found = profile.time_at(route.landmarks["route_end"])
-    return np.inf if found is None else found
 
 
 def _trace(route: Route, profile: Profile, time_s: FloatArray) -> ActorTrace:

@@ -113,6 +113,8 @@ def test_nearly_everything_that_has_happened_is_shown_to_be_possible() -> None:
         ("not (A1v(t1) <= 50)", {"probe"}),
         ("A0v(A1(t2)) == 500", {"probe"}),
         ("A1x(dec) >= conflict_point + 10", {"probe", "c4"}),
+        ("A1x(t0) == stop_line - 900", {"probe", "where the routes begin and end"}),
+        ("A1x(t0) == stop_line + 900", {"probe", "where the routes begin and end"}),
     ],
 )
 def test_what_cannot_be_is_proven_whatever_form_it_has(constraint: str, core: set[str]) -> None:

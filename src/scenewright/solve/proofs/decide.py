@@ -43,7 +43,7 @@ _SHRINK_S = 0.5  # for each question whether a core does without one of its memb
 _RANGES = {
     "time": f"everything happens within {float(LONGEST_S):g} s of the start",
     "speed": "how fast anybody may be",
-    "place": "where the routes end",
+    "place": "where the routes begin and end",
 }
 _WIDER = 1000  # a range so much wider is none
 _PLAIN = 4  # so many guesses owe the manner; a motion that looks like nothing is possible, too
@@ -240,7 +240,8 @@ def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Na
     laws = needed(list(origins), by_law, until)
     clashing, ranges = resting_on(formulas, (*kept, *laws)), []
     for kind, words in _RANGES.items():
-        wider = [replace(each, high=_WIDER * each.high) if each.kind == kind else each for each in unknowns]
+        wide = (replace(each, low=-_WIDER * each.high, high=_WIDER * each.high) for each in unknowns)
+        wider = [new if old.kind == kind else old for old, new in zip(unknowns, wide, strict=True)]
         if refuter.ask(wider, clashing, 0.2).kind == "met":
             ranges.append(words)
     return (*kept, *laws, *ranges)
