@@ -46,8 +46,6 @@ _AGAIN_LED = 16
 _MOST_TURNS, _CLEAR_ENOUGH = 6, 0.02
 # A plan that misses no more than this (tight tolerances) does what was asked.
 GOOD = 0.2
-# A hero that was a little less than settled a moment ago was so from now on; how far back that is looked at (s).
-_NEARLY_MPSS, _LOOKED_AT_S, _LOOKED_BACK = 0.1, 0.05, 12
 
 
 @dataclass(frozen=True, slots=True)
@@ -269,16 +267,10 @@ class Planner:
             planned_s=planned,
             waits=frozenset(triggers),
             sure=self._ego.is_sure,
-            lanes=self._ego.lanes(guesses, 0.0, prediction, first=True),
+            lanes=self._ego.lanes(guesses, 0.0, prediction),
         )
 
     # -- one tick -----------------------------------------------------------------------------------------------------
-    @property
-    def is_alarmed(self) -> bool:
-        """Whether the ego has just changed its mind while a hero can still answer."""
-        now_s = self._ego.samples[-1][0]
-        return self._ego.has_jumped and any(self._open_piece(hero, now_s) is not None for hero in self._heroes)
-
     def observe(self, sample: EgoSample) -> None:
         """Take note of the ego's state after a step, and of the knots that it passed in it."""
         previous = self._ego.samples[-1]
@@ -369,10 +361,9 @@ class Planner:
             drives,
             others=self._others,
             planned_s=planned,
-            settled_s=self._settled_s(planned, time_s),
             waits=frozenset(triggers),
             sure=self._ego.is_sure,
-            lanes=self._ego.lanes(self.plan.profiles, time_s, prediction, first=False),
+            lanes=self._ego.lanes(self.plan.profiles, time_s, prediction),
         )
         return situation, moved_s
 
@@ -386,9 +377,7 @@ class Planner:
             return None
         s_m, speed_mps, _ = self.plan.profiles[hero.id].state(time_s)
         even = Profile(chain(time_s, s_m, speed_mps, [(1.0, 0.0, 0)]))
-        settled_s = self._settled_s({self._asked.knot(hero.id, self._name(hero.id)): 0.0}, time_s)
-        soonest_s = max([time_s + SHORTEST_LEAD_S, *settled_s.values()])
-        found = here[0].first_time({EGO: prediction, hero.id: even}, soonest_s)
+        found = here[0].first_time({EGO: prediction, hero.id: even}, time_s + SHORTEST_LEAD_S)
         return found if found is not None and found < planned_s else None
 
     def _made(self, problem: Problem, solution: Solution, prediction: Profile) -> _Found:
@@ -434,23 +423,6 @@ class Planner:
         found = self._times.ego_knots_s(time_s, prediction, self.ego_knots_s, triggers)
         instants = {self._asked.knot(EGO, name): at_s for name, at_s in found.items()}
         return {instant: at_s for instant, at_s in instants.items() if instant not in known}
-
-    def _settled_s(self, joint: Mapping[int, float], time_s: float) -> dict[int, float]:
-        """Return from when on heroes are settled for long enough, whose triggers both decide."""
-        wanted, found = self._asked.wanted, {}
-        for hero in self._heroes:
-            name = self._trigger(hero)
-            if name is None or name == hero.sketch.knots[-1]:
-                continue
-            if (instant := self._asked.knot(hero.id, name)) not in joint:
-                continue
-            sense = 1.0 if hero.sketch.pieces[hero.sketch.knot_index(name)] is PieceKind.ACC else -1.0
-            back = [time_s - _LOOKED_AT_S * k for k in range(_LOOKED_BACK) if time_s >= _LOOKED_AT_S * k]
-            rates = ((at_s, sense * self.plan.profiles[hero.id].state(at_s - 1e-6)[2]) for at_s in back)
-            pulled = [at_s for at_s, rate in rates if rate > wanted.settled_mpss + _NEARLY_MPSS]
-            if pulled:
-                found[instant] = pulled[0] + wanted.settled_s
-        return found
 
     def _open_piece(self, hero: Actor, time_s: float) -> int | None:
         """Return the piece from which on a hero is still solved for, or None once it only carries out.
