@@ -10,7 +10,7 @@ from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.protocol import EgoPolicy, EgoStart, Observation
 from scenewright.orchestrate import Mode, Request, Result, orchestrate
 from scenewright.plan.planner import Attempt, Planner
-from scenewright.plan.prediction import Predictor, RoadAware
+from scenewright.plan.prediction import Driver, Predictor
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.text import parse_program
 from scenewright.program.types import EGO
@@ -159,7 +159,7 @@ class Stage:
         self.limits: dict[int, Limits] = {i: limits_on(r, self.scene.road_map) for i, r in self.scene.routes.items()}
         self.conditions: tuple[LinearCondition, ...] = linear_conditions(self.scene, self.structure)
         self.ego = EgoVehicle(GuardedPolicy(policy, "ego"), self.scene.routes[EGO], self.scene.road_map, seed)
-        predictor = predictor or RoadAware.on(self.scene.routes[EGO])
+        predictor = predictor or Driver.on(self.scene.routes[EGO], self.limits[EGO].natural_approach_speed_mps)
         self.planner = Planner(self.scene, self.structure, self.limits, predictor, self.conditions)
         self.plans: list[Plan] = []
         self.first = (0.0, 0.0)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from scenewright.plan.asked import Asked
 from scenewright.plan.planner import Planner
-from scenewright.plan.prediction import RoadAware
+from scenewright.plan.prediction import Driver
 from scenewright.plan.problem import Problem
 from scenewright.program.structure import read_structure
 from scenewright.program.text import parse_program
@@ -38,7 +38,7 @@ def planner_of(scene: Scene) -> Planner:
     """Return a planner that has not begun."""
     structure = read_structure(scene.program)
     limits = {actor: limits_on(route, scene.road_map) for actor, route in scene.routes.items()}
-    predictor = RoadAware.on(scene.routes[EGO], limits[EGO].natural_approach_speed_mps)
+    predictor = Driver.on(scene.routes[EGO], limits[EGO].natural_approach_speed_mps)
     return Planner(scene, structure, limits, predictor, linear_conditions(scene, structure))
 
 

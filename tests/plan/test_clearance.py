@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scenarios import BRAKES, YIELDS, example, limits_of, read_structure
 from scenewright.plan.clearance import Clearance
 from scenewright.plan.planner import Planner
-from scenewright.plan.prediction import RoadAware
+from scenewright.plan.prediction import Driver
 from scenewright.program.text import parse_program
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene, ground
@@ -74,7 +74,7 @@ def test_who_only_crosses_need_not_keep_clear() -> None:
 def test_nobody_starts_or_drives_inside_the_other(ego_mps: float, slows_mpss: float) -> None:
     scene = BRAKES.scene()
     structure = read_structure(scene.program)
-    predictor = RoadAware.on(scene.routes[EGO], 13.9)
+    predictor = Driver.on(scene.routes[EGO], 13.9)
     planner = Planner(scene, structure, limits_of(scene), predictor, linear_conditions(scene, structure))
     attempt = planner.begin((0.0, 180.0, ego_mps, slows_mpss))
     assert attempt.is_good

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -248,8 +247,6 @@ def test_after_its_trigger_a_plan_stays_as_it_is() -> None:
     assert planner.tick(now_s).status == "frozen"
     assert planner.plan is kept
     assert planner.ego_knots_s["t1"] == trigger_s
-    driven_on(planner, now_s, now_s + 0.4, mpss=-6.0)
-    assert not planner.is_alarmed, "nobody can answer any more"
 
 
 @pytest.mark.parametrize("soon_s", [0.001, 0.01, 0.019])
@@ -261,17 +258,6 @@ def test_a_trigger_that_is_due_is_not_put_off_by_a_tick(soon_s: float) -> None:
     driven_on(planner, 0.0, round(trigger_s - soon_s, 2))
     assert planner.tick(trigger_s - soon_s).status == "frozen"
     assert planner.plan.profiles[HERO].knot_times_s["t1"] == trigger_s
-
-
-def test_a_change_of_mind_is_answered_as_soon_as_it_is_borne_out() -> None:
-    planner = planner_of(scene_of(YIELDS_DISTANCE))
-    planner.begin((0.0, 150.0, 9.0, 0.0))
-    driven_on(planner, 0.0, 1.0)
-    assert not planner.is_alarmed
-    driven_on(planner, 1.0, 1.02, mpss=-3.0)
-    assert not planner.is_alarmed
-    driven_on(planner, 1.02, 1.04, mpss=-3.0)
-    assert planner.is_alarmed
 
 
 def test_one_that_stands_goes_the_sooner_the_sooner_the_ego_comes() -> None:
@@ -301,32 +287,6 @@ class Known:
 
     def predict(self, history: object) -> Profile:
         return self.motion
-
-
-@pytest.mark.parametrize(
-    ("accel_mpss", "until_s", "settled_s"),
-    [
-        (-1.0, 5.0, 0.6),  # it is to brake at its trigger, and has just done so
-        (-1.0, 4.8, 0.4),
-        (-1.0, 3.0, None),
-        (-0.3, 5.0, None),  # not to be seen
-        (1.0, 5.0, None),  # nothing of what is to begin
-    ],
-)
-def test_a_trigger_that_both_decide_waits_until_the_hero_is_settled(
-    accel_mpss: float, until_s: float, settled_s: float | None
-) -> None:
-    planner = planner_of(scene_of(BRAKES_GAP))
-    planner.begin((0.0, 180.0, 9.0, 0.0))
-    moves = [(until_s - 1.0, 0.0, 0), (1.0, accel_mpss, 0), (60.0, 0.0, 0)]
-    past = Profile(chain(0.0, 100.0, 10.0, moves), planner.plan.profiles[HERO].knot_times_s)
-    planner.plan = replace(planner.plan, profiles={**planner.plan.profiles, HERO: past})
-    instant = planner._asked.knot(HERO, "t1")
-    found = planner._settled_s({instant: 6.0}, 5.0)
-    if settled_s is None:
-        assert found == {}
-    else:
-        assert found[instant] == pytest.approx(5.0 + settled_s, abs=0.051)
 
 
 @pytest.mark.parametrize(("s_m", "mps"), [(100.0, 9.0), (150.0, 6.0), (180.0, 9.0)])

@@ -32,17 +32,15 @@ class Answer:
     ----------
     motion, trigger_s
         Of the hero, with which the ego was foreseen; when its trigger was to come.
-    per_metre
-        By how much the ego is further on (m) and faster (m/s) for each metre by which the hero is further on.
-    per_mps
-        Likewise for each metre a second by which the hero is faster all along, from the same place on; None where it
-        is further on only by being ever faster from now on, as `per_metre` then says.
+    further, faster
+        By how much the ego is further on (m) and faster (m/s) for each metre by which the hero is further on, as it is
+        by being ever faster from now on.
     """
 
     motion: Profile
     trigger_s: float
-    per_metre: tuple[float, float]
-    per_mps: tuple[float, float] | None = None
+    further: float
+    faster: float
 
     def then(self, time_s: float) -> tuple[float, float, float]:
         """Return the hero's state with which the ego was foreseen, had its trigger not come."""
@@ -90,8 +88,6 @@ class Situation:
         First guesses of what is neither a moment nor a state nor a rate, by its number.
     planned_s
         When triggers are to come of which both decide when they do.
-    settled_s
-        From when on a hero, as it has driven, is settled for long enough for such a trigger.
     waits
         Heroes of whose trigger the ego decides when it comes.
     sure
@@ -106,7 +102,6 @@ class Situation:
     guesses: Mapping[int, Profile] = field(default_factory=dict)
     others: Mapping[int, float] = field(default_factory=dict)
     planned_s: Mapping[int, float] = field(default_factory=dict)
-    settled_s: Mapping[int, float] = field(default_factory=dict)
     waits: frozenset[int] = frozenset()
     sure: bool = False
     lanes: Lanes = field(default_factory=Lanes)
@@ -130,18 +125,15 @@ class SeenAndForeseen:
 
 
 @dataclass(frozen=True, slots=True)
-class Otherwise:
-    """A motion that is otherwise from a time on: so much further on (m), faster (m/s), ever faster (m/s^2)."""
+class EverFaster:
+    """A motion that is ever faster from a time on than another: by so much a second (m/s^2)."""
 
     motion: Profile
     from_s: float
-    further_m: float = 0.0
-    faster_mps: float = 0.0
-    ever_faster_mpss: float = 0.0
+    by_mpss: float
 
     def state(self, time_s: float) -> tuple[float, float, float]:
         """Return place (m), speed (m/s) and acceleration (m/s^2) at a time."""
         s_m, speed_mps, accel = self.motion.state(time_s)
-        since, more = max(0.0, time_s - self.from_s), self.ever_faster_mpss
-        further_m = self.further_m + (self.faster_mps + 0.5 * more * since) * since
-        return s_m + further_m, speed_mps + self.faster_mps + more * since, accel + more
+        since = max(0.0, time_s - self.from_s)
+        return s_m + 0.5 * self.by_mpss * since**2, speed_mps + self.by_mpss * since, accel + self.by_mpss

@@ -64,11 +64,6 @@ class SmtPlanner:
         self._motions, self._solver = OneRate(self.scene, self.limits, self.ego), Z3(MOST_WORK)
 
     @property
-    def is_alarmed(self) -> bool:
-        """Return that nothing alarms it: it is asked at every tick."""
-        return False
-
-    @property
     def refused(self) -> str:
         """Name the constraints that no solver takes, with what is wrong with them; nothing where there are none."""
         return "; ".join(f"{self._words([each.origin])} ({each.refused})" for each in self._motions.refused)

@@ -9,8 +9,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from scenewright.motion.profile import Profile
 from scenewright.program.structure import Structure, actors_of, knots_of
 from scenewright.program.types import EGO, Actor, Program
@@ -21,11 +19,9 @@ from scenewright.solve.arrival import TIGHT_LENGTH_M, LinearCondition, tight_of
 SHORTEST_LEAD_S = 0.02
 # What is further off than this (s) is not foreseen: to know that it is will do; at first, that it comes at all.
 _LATEST_S, _FAR_S = 12.0, 40.0
-# How soon a trigger was to come (s) that the ego may have met between two ticks; how late it would come again.
-_DUE_S, _AGAIN_S, _STILL_GOOD = 0.12, 0.2, 0.8
-# An ego that hardly gets to its side (in tight tolerances) before it slows down is as good as there; by how much later
-# (s) it would have to be there for that to matter.
-_AS_GOOD, _MUCH_LATER_S, _LOOKED_AT_S = 0.7, 1.0, 0.05
+# How soon a trigger was to come (s) that the ego may have met between two ticks; how late it would come again; how far
+# off (in tight tolerances) the ego is then at most.
+_DUE_S, _AGAIN_S, _AS_GOOD = 0.12, 0.2, 0.8
 # Who does not get nearer to its place than this before it stands is there.
 _STANDS_MPS, _STANDS_THERE_M = 0.02, 0.9 * TIGHT_LENGTH_M
 
@@ -81,29 +77,12 @@ class TriggerTimes:
         if planned_s is None:
             return arrival_s
         due_s = max(planned_s, time_s + SHORTEST_LEAD_S)
-        if (
-            arrival_s > due_s + _AGAIN_S
-            and planned_s < time_s + _DUE_S
-            and _miss(side, prediction, due_s) <= _STILL_GOOD
-        ):
+        if planned_s < time_s + _DUE_S and arrival_s > due_s + _AGAIN_S and _miss(side, prediction, due_s) <= _AS_GOOD:
             return due_s  # it was there between two ticks, a moment sooner than foreseen
         stands = _standing(side, time_s, prediction, arrival_s)
         if stands is not None:
             return min(max(planned_s, stands[0]), stands[1])
-        arrival_s = min(arrival_s, max(time_s + _LATEST_S, planned_s))
-        return (
-            self._as_good_s(side, time_s, prediction, planned_s) if arrival_s > planned_s + _MUCH_LATER_S else arrival_s
-        )
-
-    def _as_good_s(self, side: LinearCondition, time_s: float, prediction: Profile, planned_s: float) -> float:
-        """Return when the ego is as good as at its side near a planned instant, else when it is there, much later."""
-        soonest_s = max(time_s + SHORTEST_LEAD_S, planned_s - _MUCH_LATER_S)
-        tries = np.arange(soonest_s, planned_s + _MUCH_LATER_S, _LOOKED_AT_S)
-        misses = [_miss(side, prediction, float(at_s)) for at_s in tries]
-        best = int(np.argmin(misses)) if misses else 0
-        if misses and misses[best] <= _AS_GOOD:
-            return float(tries[best])
-        return min(self._ego_arrival_s(side, time_s, prediction), time_s + _LATEST_S)
+        return min(arrival_s, max(time_s + _LATEST_S, planned_s))
 
     def _ego_arrival_s(self, condition: LinearCondition, time_s: float, prediction: Profile) -> float:
         """Return when the ego will be at its side: at once where it is past it, late where that is not in sight."""

@@ -30,10 +30,6 @@ class HeroDriver(Protocol):
     def records(self) -> list[Replan]:
         """What each tick came to."""
 
-    @property
-    def is_alarmed(self) -> bool:
-        """Whether what the ego did last should not wait for the next tick: it is then called at once."""
-
     def tick(self, time_s: float) -> Replan:
         """Solve again where that is needed; called at the re-solve rate of the run, but not at its very beginning."""
 

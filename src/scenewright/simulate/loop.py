@@ -94,7 +94,7 @@ def simulate(
         now = simulator.observe()
     try:
         while True:
-            if steps_a_tick and step and (step % steps_a_tick == 0 or heroes.is_alarmed):
+            if steps_a_tick and step and step % steps_a_tick == 0:
                 heroes.tick(now.time_s)
                 if progress is not None:
                     progress(now.time_s)

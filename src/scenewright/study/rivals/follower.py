@@ -93,11 +93,6 @@ class FollowingHeroes:
         """What every re-solve came to."""
         return self._planner.records
 
-    @property
-    def is_alarmed(self) -> bool:
-        """Return that nothing alarms it: this method keeps its own time."""
-        return False
-
     def tick(self, time_s: float) -> Replan:
         """Return the last record: this method keeps its own time."""
         return self.records[-1]

@@ -43,11 +43,6 @@ class ScriptedHeroes:
         self._structure = structure
         self._motions = {hero: _waiting(script) for hero, script in scripts.items()}
 
-    @property
-    def is_alarmed(self) -> bool:
-        """Return that nothing alarms it: nothing is solved again."""
-        return False
-
     def tick(self, time_s: float) -> Replan:
         """Record that nothing is solved again: all was fixed before the run."""
         record = Replan(time_s, "fixed", "", 0.0, 0.0, "the script is carried out")
